@@ -334,7 +334,7 @@ struct FrameConstants {
     uint cut_column;  // the last post before the meridian where the flat Earth is cut; no_column: none
     uint page_count;
     uint first_page;    // of a frame's several grids: triangle ids go on from one to the next
-    uint grids_beside;  // other grids that the frame draws
+    uint other_grids;   // other grids that the frame draws
     uint sample_index;  // samples of a pixel are drawn one after the other
     uint sample_count;
     uint has_means;      // 1: pages have PageMeans

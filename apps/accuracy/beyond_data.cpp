@@ -17,24 +17,16 @@ namespace {
 
 constexpr std::size_t most_names = 12;
 
-KnownGround known_ground(const View& view, const Region& region) {
+KnownGround known_ground(const View& view, const RegionGrid& grid) {
     std::vector<DegreeCell> missing;
-    for (const std::string& name : region.missing_cells) {
+    for (const std::string& name : grid.missing_cells) {
         if (const auto box = parse_tile_range(name); box.ok())
             missing.push_back(degree_cell_at(box->south_deg + 0.5, box->west_deg + 0.5));
     }
     std::optional<DegreeBox> part;
     if (const auto& box = view.region.box)
         part = DegreeBox{box->west_deg, box->south_deg, box->east_deg, box->north_deg};
-    return KnownGround(region.field, missing, region.outside > 0, part);
-}
-
-UnseenGround unseen_over(const View& view, const Region& region, const TrueSurface& surface,
-                         const Sight& sight, double ceiling_m) {
-    const Camera camera = true_camera(view, region);
-    return unseen_ground(
-        unseen_picture(surface, known_ground(view, region), sight, camera, ceiling_m, thread_count()), camera,
-        ceiling_m);
+    return KnownGround(grid.field, missing, grid.outside > 0, part);
 }
 
 std::string name_of(const DegreeCell& cell) {
@@ -77,28 +69,23 @@ Result<double> unseen_ceiling(const std::optional<double>& option_m) {
     return refused("--unseen-ceiling", text, between_words(limits.low, limits.high));
 }
 
-Result<UnseenGround> unseen_in(const View& view, const Region& region, const TrueScene& truth,
-                               double ceiling_m) {
-    if (!region.beside.empty()) return unseen_in(view, region, ceiling_m);
-    UnseenGround unseen = unseen_over(view, region, truth.surface(), truth.sight(), ceiling_m);
-    unseen.all_in_view = is_whole_in_view(view, region);
-    ORO_CHECK(region.field.health());
-    return unseen;
-}
-
-Result<UnseenGround> unseen_in(const View& view, const Region& whole, double ceiling_m) {
+Result<UnseenGround> unseen_in(const View& view, const Region& region, double ceiling_m) {
     const Geodetic& eye = view.camera.eye;
-    const Region& region = widest_at(whole, eye.lat_deg, eye.lon_deg);
+    const RegionGrid& grid = widest_at(region, eye.lat_deg, eye.lon_deg);
     std::optional<HeightField> lifted;
-    if (!region.geoid_left_out.N_m.empty()) {
-        lifted = region.field;
-        lifted->undulation = region.geoid_left_out;
-        lifted->N_of_posts_m = region.N_of_posts_left_out_m;
+    if (!grid.geoid_left_out.N_m.empty()) {
+        lifted = grid.field;
+        lifted->undulation = grid.geoid_left_out;
+        lifted->N_of_posts_m = grid.N_of_posts_left_out_m;
     }
-    const TrueSurface surface(lifted ? *lifted : region.field, view.exaggeration, thread_count());
-    UnseenGround unseen = unseen_over(view, region, surface, true_sight(view, region), ceiling_m);
-    unseen.all_in_view = is_whole_in_view(view, whole);
-    ORO_CHECK(whole.health());
+    const TrueSurface surface(lifted ? *lifted : grid.field, view.exaggeration, thread_count());
+    const Camera camera = true_camera(view, region);
+    UnseenGround unseen =
+        unseen_ground(unseen_picture(surface, known_ground(view, grid), true_sight(view, region), camera,
+                                     ceiling_m, thread_count()),
+                      camera, ceiling_m);
+    unseen.all_in_view = is_whole_in_view(view, region);
+    ORO_CHECK(region.health());
     return unseen;
 }
 

@@ -15,11 +15,8 @@ namespace oro {
 Result<double> unseen_ceiling(const std::optional<double>& option_m);
 
 // From the truth's eye through the truth's air, over what the region holds: of several grids the one that
-// reaches farthest around the eye. Errors: a baked region that
-// cannot be read (posts are read where they are asked for).
-Result<UnseenGround> unseen_in(const View& view, const Region& region, const TrueScene& truth,
-                               double ceiling_m);
-// The same without a true scene at hand: posts of a baked region stay in their file.
+// reaches farthest around the eye. Posts of a baked region stay in their file, and are read where they are
+// asked for. Errors: a baked region that cannot be read.
 Result<UnseenGround> unseen_in(const View& view, const Region& region, double ceiling_m);
 
 // "640 of 640 columns look beyond the data (missing: N46E010): ground there, up to 9,000 m, could be up to

@@ -71,7 +71,7 @@ Result<std::optional<MeshForecasts>> mesh_forecasts(const View& view, const Regi
     ORO_TRY(forecasts.blocks, forecast_blocks(pages, view.camera, view.tau_px));
     const HorizonOccluder& occluder = pages.facts().shape.occluder;
     ORO_TRY(const std::unique_ptr<RegionClusters> clusters,
-            clusters_of_region(region, occluder, most_read_at_once));
+            clusters_of_region(region.grids.front(), occluder, most_read_at_once));
     ORO_TRY(forecasts.clusters, forecast_clusters(*clusters, view, occluder));
     return std::optional(forecasts);
 }

@@ -19,11 +19,11 @@ Result<void> check_clusters(const Region& region) {
         return Error{ErrorKind::usage, "--mesh clusters",
                      what + ": bake it without, or a part of it (--bbox)"};
     };
-    if (!region.beside.empty())
-        return refused("takes one grid of posts, and here are " + std::to_string(1 + region.beside.size()));
-    if (region.field.grid.net)
+    if (region.grids.size() > 1)
+        return refused("takes one grid of posts, and here are " + std::to_string(region.grids.size()));
+    const PostGrid& grid = region.grids.front().field.grid;
+    if (grid.net)
         return refused("takes posts on latitudes and longitudes, and these lie in a CRS of their own");
-    const PostGrid& grid = region.field.grid;
     const std::size_t most = grid.goes_round() ? most_posts_in_one_go : most_clustered_posts;
     if (grid.post_count() > most)
         return refused("takes regions of up to " + grouped(most) + " posts" +
@@ -36,20 +36,20 @@ namespace {
 
 using Told = std::function<void(double, const char*)>;
 
-Result<void> build(const Region& region, const std::string& path, std::uint64_t fingerprint,
+Result<void> build(const HeightField& field, const std::string& path, std::uint64_t fingerprint,
                    const Told& told) {
-    if (region.field.grid.post_count() > most_posts_in_one_go) {
+    if (field.grid.post_count() > most_posts_in_one_go) {
         WindowedBake how;
         how.path = path;
         how.fingerprint = fingerprint;
         how.overwrite = true;
         how.threads = thread_count();
         how.progress = [&](double share) { told(share, "building clusters"); };
-        return bake_in_windows(region.field, how);
+        return bake_in_windows(field, how);
     }
-    const DrawnHeights heights = drawn_heights(region.field, 1.0, thread_count());
-    const GridSurface surface(heights, {.goes_round = region.field.grid.goes_round()});
-    const GridBounds bounds(region.field.grid, heights.highest_steps);
+    const DrawnHeights heights = drawn_heights(field, 1.0, thread_count());
+    const GridSurface surface(heights, {.goes_round = field.grid.goes_round()});
+    const GridBounds bounds(field.grid, heights.highest_steps);
     const ClusterGraph graph = build_cluster_graph(surface, bounds, {.threads = thread_count()});
     return write_cluster_graph(path, graph, {heights.rows, heights.columns}, fingerprint, true,
                                thread_count());
@@ -57,7 +57,7 @@ Result<void> build(const Region& region, const std::string& path, std::uint64_t 
 
 }  // namespace
 
-Result<ClusterBakeReport> bake_clusters(const Region& region, const BakeOptions& how,
+Result<ClusterBakeReport> bake_clusters(const HeightField& field, const BakeOptions& how,
                                         const std::function<void(double, const char*)>& told) {
     const std::string clusters_path = path_of_clusters(how.path);
     ORO_TRY(const BakeHold hold, BakeHold::take(how.path, how.overwrite));
@@ -71,7 +71,7 @@ Result<ClusterBakeReport> bake_clusters(const Region& region, const BakeOptions&
         ORO_TRY(const RegionFile file, RegionFile::open(grid.path));
         report.region = {file.order().count(), file.order().count(), file.outline().triangles};
     } else {
-        ORO_TRY(report.region, bake_region(region.field, grid, [&](double share) {
+        ORO_TRY(report.region, bake_region(field, grid, [&](double share) {
                     told(share, "baking");
                     return true;
                 }));
@@ -79,7 +79,7 @@ Result<ClusterBakeReport> bake_clusters(const Region& region, const BakeOptions&
     const auto building = Clock::now();
     told(0.0, "building clusters");
     if (!are_baked_clusters(clusters_path, how.fingerprint))
-        ORO_CHECK(build(region, clusters_path, how.fingerprint, told));
+        ORO_CHECK(build(field, clusters_path, how.fingerprint, told));
     report.build_s = seconds_since(building);
     {
         ORO_TRY(const ClusterFile file, ClusterFile::open(clusters_path));

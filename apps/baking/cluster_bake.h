@@ -29,7 +29,7 @@ Result<void> check_clusters(const Region& region);
 
 // Bakes the region as bake_region() does, then its graph, and puts both into how.path. What is done already
 // of a bake that was broken off is not done again. told: how far it is, 0..1, and what is being done.
-Result<ClusterBakeReport> bake_clusters(const Region& region, const BakeOptions& how,
+Result<ClusterBakeReport> bake_clusters(const HeightField& field, const BakeOptions& how,
                                         const std::function<void(double, const char*)>& told);
 
 }  // namespace oro

@@ -97,8 +97,8 @@ Result<void> print_errors(const std::vector<std::string>& paths) {
     RegionRequest request;
     request.paths = paths;
     ORO_TRY(const Region region, open_region(request));
-    const DiagonalErrors errors = measured(region.field);
-    ORO_CHECK(region.field.health());
+    const DiagonalErrors errors = measured(region.grids.front().field);
+    ORO_CHECK(region.grids.front().field.health());
     if (errors.cells == 0.0)
         return Error{ErrorKind::no_data, paths.front(),
                      "has no cell whose 16 posts around and middle have heights"};

@@ -140,19 +140,21 @@ void tell(const BakingOptions& options, const BakeResult& baked) {
 
 // Reads the posts of what is baked already, to be baked anew.
 Result<void> take_into_memory(Region& region) {
-    if (!region.file) return {};
-    ORO_TRY(region.field, field_in_memory(*region.file));
-    region.posts_print = posts_print(region.field);
+    for (RegionGrid& grid : region.grids) {
+        if (!grid.file) continue;
+        ORO_TRY(grid.field, field_in_memory(*grid.file));
+        grid.posts_print = posts_print(grid.field);
+    }
     return {};
 }
 
 // What one grid is baked with, to `path`.
-Result<BakeOptions> options_for(const Region& region, const std::string& path, bool overwrite) {
+Result<BakeOptions> options_for(const RegionGrid& grid, const std::string& path, bool overwrite) {
     BakeOptions how;
     how.path = path;
     how.overwrite = overwrite;
-    how.fingerprint = fingerprint_of(region.field);
-    how.description = region_description(region);
+    how.fingerprint = fingerprint_of(grid.field);
+    how.description = region_description(grid);
     how.threads = thread_count();
     // Not to find out when the file is opened.
     ORO_CHECK(region_from_description(how.description, path));
@@ -166,32 +168,32 @@ void add(BakeReport& sum, const BakeReport& part) {
 }
 
 // One grid of several into a file of its own, which is there when a bake was broken off after it.
-Result<BakeReport> bake_grid(const Region& region, const BakeOptions& how, const BakeProgress& progress) {
+Result<BakeReport> bake_grid(const RegionGrid& grid, const BakeOptions& how, const BakeProgress& progress) {
     ORO_CHECK(check_path_of_part(how.path));
     if (is_baked_grid(how.path, how.fingerprint, how.description)) {
         ORO_TRY(const RegionFile file, RegionFile::open(how.path));
         return BakeReport{file.order().count(), file.order().count(), file.outline().triangles};
     }
-    return bake_region(region.field, how, progress);
+    return bake_region(grid.field, how, progress);
 }
 
 // Each grid by itself, then all of them into one file.
 Result<BakeReport> bake_grids(const Region& region, const BakingOptions& options, ProgressBar& bar) {
-    const std::vector<const Region*> grids = all_grids(region);
+    const std::vector<RegionGrid>& grids = region.grids;
     BakeReport report;
     ORO_TRY(const BakeHold hold, BakeHold::take(options.out, options.overwrite));
     std::vector<ContainerPart> parts;
     for (std::size_t i = 0; i < grids.size(); ++i) {
-        ORO_TRY(const BakeOptions how, options_for(*grids[i], path_of_grid(options.out, i), true));
+        ORO_TRY(const BakeOptions how, options_for(grids[i], path_of_grid(options.out, i), true));
         const std::string what =
             "baking grid " + std::to_string(i + 1) + " of " + std::to_string(grids.size());
-        ORO_TRY(const BakeReport baked, bake_grid(*grids[i], how, [&](double share) {
+        ORO_TRY(const BakeReport baked, bake_grid(grids[i], how, [&](double share) {
                     bar.show(share, what);
                     return true;
                 }));
         add(report, baked);
         // Ranks without gaps: a file whose posts are all void had one, and is left out.
-        const auto before = [&](const Region* other) { return other->rank < grids[i]->rank; };
+        const auto before = [&](const RegionGrid& other) { return other.rank < grids[i].rank; };
         parts.push_back({how.path, static_cast<std::uint32_t>(std::ranges::count_if(grids, before))});
     }
     ORO_CHECK(join_parts(options.out, options.overwrite, parts));
@@ -200,14 +202,15 @@ Result<BakeReport> bake_grids(const Region& region, const BakingOptions& options
 
 Result<BakeReport> bake_all(const Region& region, const BakingOptions& options, ProgressBar& bar,
                             std::optional<ClusterBakeReport>& clusters) {
-    if (!region.beside.empty()) return bake_grids(region, options, bar);
-    ORO_TRY(const BakeOptions how, options_for(region, options.out, options.overwrite));
+    if (region.grids.size() > 1) return bake_grids(region, options, bar);
+    const RegionGrid& grid = region.grids.front();
+    ORO_TRY(const BakeOptions how, options_for(grid, options.out, options.overwrite));
     if (options.mesh == "clusters") {
-        ORO_TRY(clusters,
-                bake_clusters(region, how, [&](double share, const char* what) { bar.show(share, what); }));
+        ORO_TRY(clusters, bake_clusters(grid.field, how,
+                                        [&](double share, const char* what) { bar.show(share, what); }));
         return clusters->region;
     }
-    return bake_region(region.field, how, [&](double share) {
+    return bake_region(grid.field, how, [&](double share) {
         bar.show(share, "baking");
         return true;
     });
@@ -219,7 +222,7 @@ Result<void> end_reading(const BakingOptions& options, const Region& region) {
     ORO_CHECK(check_files_unchanged());
     std::vector<std::string> written = files_of_bake(options.out);
     written.push_back(path_of_clusters(options.out));
-    for (std::size_t i = 0; i <= region.beside.size(); ++i)
+    for (std::size_t i = 0; i < region.grids.size(); ++i)
         for (const std::string& file : files_of_bake(path_of_grid(options.out, i))) written.push_back(file);
     ORO_CHECK(spare_inputs(written, {files_of_ground(options.region.paths, region)}));
     forget_files_read();
@@ -240,7 +243,6 @@ Result<void> run_bake(const BakingOptions& options) {
             }));
     if (options.mesh == "clusters") ORO_CHECK(check_clusters(region));
     ORO_CHECK(take_into_memory(region));
-    for (Region& other : region.beside) ORO_CHECK(take_into_memory(other));
     ORO_CHECK(end_reading(options, region));
     baked.read_s = seconds_since(reading);
     bar.clear();
@@ -250,8 +252,8 @@ Result<void> run_bake(const BakingOptions& options) {
     ORO_TRY(baked.report, bake_all(region, options, bar, baked.clusters));
     baked.build_s = seconds_since(building);
     bar.clear();
-    for (const Region* const grid : all_grids(region)) baked.posts += grid->field.grid.post_count();
-    baked.grids = 1 + region.beside.size();
+    for (const RegionGrid& grid : region.grids) baked.posts += grid.field.grid.post_count();
+    baked.grids = region.grids.size();
     std::error_code fault;
     baked.bytes = fs::file_size(options.out, fault);
     if (fault)

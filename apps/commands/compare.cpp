@@ -47,7 +47,7 @@ nlohmann::ordered_json compare_json(const CompareOptions& options, const View& v
     json["pixels"] = nullptr;
     if (pixels) json["pixels"] = pixels_json(*pixels);
     json["error"] = verification_json(verification);
-    json["error"]["resampling"] = resampling_json(region_resampling(region));
+    json["error"]["resampling"] = resampling_json(region_resampling(region.grids.front()));
     json["unseen"] = unseen_json(unseen);
     json["light"] = light_json(view.model.air, true_camera(view, region).eye.h_m);
     json["notes"] = all_notes(region);
@@ -111,12 +111,11 @@ Result<void> run_compare(const CompareOptions& options) {
     if (!options.out.empty())
         ORO_CHECK(
             spare_inputs({options.out}, {files_of_picture(view, region), files_of_view(options.view_file)}));
-    ORO_TRY(const Style style, load_style(view, region.field));
+    ORO_TRY(const Style style, load_style(view, region.grids.front().field));
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     ORO_TRY(const RegionCuts cuts, cut_regions(region));
-    ORO_TRY(std::unique_ptr<RegionPages> pages,
-            region_pages(region, cuts.grids.front(), view.exaggeration,
-                         [&](double share) { bar.show(share, "measuring levels"); }));
+    ORO_TRY(GridPages pages, pages_of_grids(region, cuts, view.exaggeration,
+                                            [&](double share) { bar.show(share, "measuring levels"); }));
     ORO_TRY(const bool clusters, draws_clusters(region, view));
     ORO_TRY(RegionScene whole,
             scene_of_region(*gpu, region, cuts, std::move(pages),
@@ -133,7 +132,7 @@ Result<void> run_compare(const CompareOptions& options) {
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region));
     bar.show(0.0, "comparing");
     ORO_TRY(const Verification verification, verify_view(view, *truth, *gpu, scene, path, style.frame));
-    ORO_TRY(const UnseenGround unseen, unseen_in(view, region, *truth, ceiling_m));
+    ORO_TRY(const UnseenGround unseen, unseen_in(view, region, ceiling_m));
     if (verification.errors.ground.drawn == 0) {
         ORO_TRY(const std::string nothing, nothing_in_view(view, region, options.view_file));
         say(options.quiet, "note: " + nothing);
@@ -145,7 +144,7 @@ Result<void> run_compare(const CompareOptions& options) {
     if (pixels && !options.quiet && is_drawn_one(*pixels)) std::fputs(pixels_text(*pixels).c_str(), stderr);
     // What was asked for: as a table, or with -q as JSON alone.
     if (!options.quiet || !options.json)
-        std::fputs((verification_text(verification, view, unseen) + resampling_line(region) +
+        std::fputs((verification_text(verification, view, unseen) + resampling_line(region.grids.front()) +
                     light_line(view, region))
                        .c_str(),
                    stderr);

@@ -1,5 +1,6 @@
 // orograph info: what the sources of a region are, and what is missing.
 #include <cstdio>
+#include <span>
 
 #include "apps/commands/commands.h"
 #include "apps/commands/info_text.h"
@@ -65,24 +66,17 @@ Error without_region(const InfoOptions& options, const FileListing& listing, Err
     return fault;
 }
 
-nlohmann::ordered_json regions_apart_json(const Region& region) {
-    nlohmann::ordered_json regions = nlohmann::ordered_json::array();
-    for (const Region& other : region.beside)
-        regions.push_back(json_object("sources", sources_json(other.sources), "region", region_json(other)));
-    return regions;
-}
-
 Result<FileListing> listing_of(const RegionRequest& request, ProgressBar& bar) {
     if (baked_path(request.paths)) return FileListing{};
     return list_files(request, {cache_folder().string(), program_print()},
                       [&](double share, const std::string& what) { bar.show(share, "reading " + what); });
 }
 
-std::string checked_words(const Region& region) {
-    if (!region.file) return "every post was read, as always without a whole .oro";
+std::string checked_words(const RegionGrid& grid) {
+    if (!grid.file) return "every post was read, as always without a whole .oro";
     const std::string words = "every page was read, and is as it was written";
-    if (!region.clusters) return words;
-    return words + "; so " + counted(region.clusters->outline().groups, "group", "groups") + " of clusters";
+    if (!grid.clusters) return words;
+    return words + "; so " + counted(grid.clusters->outline().groups, "group", "groups") + " of clusters";
 }
 
 }  // namespace
@@ -102,26 +96,31 @@ Result<void> run_info(const InfoOptions& options) {
     if (!opened) return without_region(options, listing, opened.error());
     Region region = std::move(*opened);
     // All of them are listed below.
-    std::erase_if(region.notes, [](const std::string& note) { return note.starts_with(passed_over); });
+    std::erase_if(region.grids.front().notes,
+                  [](const std::string& note) { return note.starts_with(passed_over); });
     // Of tiles, and of a part of a baked region, all posts are in memory by now.
-    for (const Region* const grid : all_grids(region))
-        if (options.check && grid->file) ORO_CHECK(grid->file->verify());
-    if (options.check && region.clusters) ORO_CHECK(check_clusters_of_region(region));
+    for (const RegionGrid& grid : region.grids) {
+        if (options.check && grid.file) ORO_CHECK(grid.file->verify());
+        if (options.check && grid.clusters) ORO_CHECK(check_clusters_of_region(grid));
+    }
+    const RegionGrid& first = region.grids.front();
     if (options.json) {
         nlohmann::ordered_json json = json_object(
-            "sources", sources_json(region.sources), "region", region_json(region), "file", file_json(region),
-            "checked", options.check || !region.file, "passed_over", files_json(listing.files, false));
-        if (!region.beside.empty()) json["apart"] = regions_apart_json(region);
+            "sources", sources_json(first.sources), "region", region_json(first), "file", file_json(first),
+            "checked", options.check || !first.file, "passed_over", files_json(listing.files, false));
+        for (const RegionGrid& other : std::span(region.grids).subspan(1))
+            json["apart"].push_back(
+                json_object("sources", sources_json(other.sources), "region", region_json(other)));
         std::printf("%s\n", json_text(json, true).c_str());
         return {};
     }
-    if (!region.beside.empty())
+    if (region.grids.size() > 1)
         std::printf("%zu grids of posts, drawn together; where several have ground, %s is drawn\n\n",
-                    1 + region.beside.size(), request.listed_first ? "the one named first" : "the finest");
-    std::printf("%s", info_text(region).c_str());
-    for (const Region& other : region.beside) std::printf("\n%s", info_text(other).c_str());
+                    region.grids.size(), request.listed_first ? "the one named first" : "the finest");
+    for (const RegionGrid& grid : region.grids)
+        std::printf("%s%s", &grid == &first ? "" : "\n", info_text(grid).c_str());
     std::printf("%s", unread_files_text(listing).c_str());
-    if (options.check) std::printf("check: %s\n", one_line(checked_words(region)).c_str());
+    if (options.check) std::printf("check: %s\n", one_line(checked_words(first)).c_str());
     return {};
 }
 

@@ -209,7 +209,7 @@ std::string files_text(const std::vector<SourceReport>& sources, Posts posts) {
     return text;
 }
 
-std::string region_voids(const Region& region) {
+std::string region_voids(const RegionGrid& region) {
     std::string text = region.void_posts() == 0 ? "none" : grouped(region.void_posts());
     if (region.filled > 0) text += " left, " + grouped(region.filled) + " filled from their neighbours";
     if (!region.tells_voids_apart)
@@ -222,14 +222,14 @@ std::string region_voids(const Region& region) {
     return text;
 }
 
-std::string outside_text(const Region& region) {
+std::string outside_text(const RegionGrid& region) {
     if (!region.tells_voids_apart) return "not told apart from void posts in this baked region";
     if (region.outside == 0) return "none";
     return counted(region.outside, "post", "posts") + " of the region's box, beyond the edges of the " +
            (region.sources.size() == 1 ? "raster" : "rasters");
 }
 
-std::string missing_text(const Region& region) {
+std::string missing_text(const RegionGrid& region) {
     if (region.missing_cells.empty()) return "none";
     std::string text = counted(region.missing_cells.size(), "tile", "tiles") +
                        " (cells of a degree without a file), " + counted(region.in_missing, "post", "posts") +
@@ -298,7 +298,7 @@ std::string baked_text(const RegionFile& file, const ClusterFile* clusters) {
 
 }  // namespace
 
-std::string info_text(const Region& region) {
+std::string info_text(const RegionGrid& region) {
     const PostGrid& grid = region.field.grid;
     const HeightRange range = height_range(region.field);
     std::string text = region.file ? baked_text(*region.file, region.clusters.get()) : "";

@@ -135,8 +135,8 @@ ordered_json plan_json(const Budget& budget, const View& view, const AccuracyCho
 
 PlanEye eye_of(const View& view, const Region& region) {
     const Geodetic& eye = view.camera.eye;
-    PlanEye place{eye.h_m - region.field.undulation.at_m(eye.lat_deg, eye.lon_deg), {}};
-    const auto ground = ground_h_m(region.field, eye.lat_deg, eye.lon_deg, view.exaggeration);
+    PlanEye place{eye.h_m - region.grids.front().field.undulation.at_m(eye.lat_deg, eye.lon_deg), {}};
+    const auto ground = ground_h_m(region.grids.front().field, eye.lat_deg, eye.lon_deg, view.exaggeration);
     if (ground) place.above_ground_m = eye.h_m - *ground;
     return place;
 }
@@ -179,14 +179,14 @@ Result<void> run_plan(const PlanOptions& options) {
     say_notes(region, options.quiet);
     ORO_TRY(const auto summit, asked_summit(options.view, region, view.exaggeration));
     say_summit(summit, options.quiet);
-    for (const Region* const grid : all_grids(region))
-        if (const std::string sentence = resampling_sentence(*grid); !sentence.empty())
+    for (const RegionGrid& grid : region.grids)
+        if (const std::string sentence = resampling_sentence(grid); !sentence.empty())
             say(options.quiet, "note: " + sentence);
     const PagesOfGrids of_grids = pointers_to(pages);
     ORO_TRY(const Budget budget, plan_view(view, region, truth->ground(), of_grids, tolerance_px));
     ORO_TRY(const AccuracyChoice choice,
             choose_accuracy(view, region, truth->ground(), of_grids, tolerance_px));
-    ORO_TRY(const UnseenGround unseen, unseen_in(view, region, *truth, ceiling_m));
+    ORO_TRY(const UnseenGround unseen, unseen_in(view, region, ceiling_m));
     ORO_TRY(const std::optional<MeshForecasts> meshes, mesh_forecasts(view, region, *pages.front()));
     if (options.json) {
         ordered_json json = plan_json(budget, view, choice, unseen, meshes);

@@ -105,7 +105,7 @@ Result<void> look_over_terrain(const SunOptions& options, SunReport& report) {
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region));
     bar.show(1.0, "looking for the sun");
     const Geodetic& eye = view.camera.eye;
-    const Region& around = widest_at(region, eye.lat_deg, eye.lon_deg);
+    const RegionGrid& around = widest_at(region, eye.lat_deg, eye.lon_deg);
     const double N_m = around.field.undulation.at_m(eye.lat_deg, eye.lon_deg);
     const SunOverTerrain sun(truth->ground(), eye, view.model.air, N_m);
     const auto from_utc_s = static_cast<double>(report.light_from_utc_s);

@@ -185,12 +185,12 @@ Result<void> run_trade(const TradeOptions& options) {
     if (!view.has_geoid)
         return refused("--view", options.view_file,
                        "was drawn with --geoid none; trade needs one that was not");
-    ORO_TRY(const Style style, load_style(view, region.field));
+    ORO_TRY(const Style style, load_style(view, region.grids.front().field));
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
     Trade trade(view, region, *gpu, path, style.frame, options.repeats, options.memory);
     ORO_CHECK(trade.prepare());
-    if (const std::string note = note_of_means(style.frame, trade.pages()[0]); !note.empty())
+    if (const std::string note = note_of_means(style.frame, trade.pages()); !note.empty())
         say(options.quiet, note);
     const std::vector<Camera> cameras = cameras_of(options, view, region, trade.ground());
     TradeReport report;

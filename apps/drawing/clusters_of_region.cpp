@@ -11,7 +11,7 @@ namespace oro {
 
 namespace {
 
-Result<HeightField> posts_of(const Region& region, std::size_t most_read_at_once) {
+Result<HeightField> posts_of(const RegionGrid& region, std::size_t most_read_at_once) {
     constexpr std::size_t kept_bytes = std::size_t{64} << 20U;
     if (region.field.grid.post_count() > most_read_at_once) return field_of_file(region.file, kept_bytes);
     return field_in_memory(*region.file);
@@ -19,7 +19,7 @@ Result<HeightField> posts_of(const Region& region, std::size_t most_read_at_once
 
 }  // namespace
 
-Result<std::unique_ptr<RegionClusters>> clusters_of_region(const Region& region,
+Result<std::unique_ptr<RegionClusters>> clusters_of_region(const RegionGrid& region,
                                                            const HorizonOccluder& occluder,
                                                            std::size_t most_read_at_once) {
     ORO_TRY(const HeightField field, posts_of(region, most_read_at_once));
@@ -30,7 +30,7 @@ Result<std::unique_ptr<RegionClusters>> clusters_of_region(const Region& region,
     return clusters;
 }
 
-Result<void> check_clusters_of_region(const Region& region, std::size_t most_read_at_once) {
+Result<void> check_clusters_of_region(const RegionGrid& region, std::size_t most_read_at_once) {
     ORO_TRY(HeightField field, posts_of(region, most_read_at_once));
     const DrawnHeights heights = drawn_heights(field, 1.0, thread_count());
     ORO_CHECK(field.health());

@@ -1,6 +1,7 @@
 #include "apps/drawing/drape.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,18 +28,18 @@ struct OverGrid {
 // Over which grids there are some. A file that lies beside all of them is named, unless `quiet`.
 Result<std::vector<OverGrid>> over_grids(const View& view, const Scene& scene, bool quiet) {
     std::vector<OverGrid> over;
-    std::vector<std::string> beside_all;
-    for (std::size_t grid = 0; grid < scene.grids(); ++grid) {
+    std::optional<std::vector<std::string>> beside_all;
+    for (std::size_t grid = 0; grid < scene.grids().size(); ++grid) {
         std::vector<std::string> beside;
         ORO_TRY(std::unique_ptr<GroundImage> images,
-                images_over(scene.pages_of(grid).facts().grid, view.images, beside));
-        if (grid == 0) beside_all = beside;
-        std::erase_if(beside_all, [&](const std::string& file) {
+                images_over(scene.grids()[grid].pages().facts().grid, view.images, beside));
+        if (!beside_all) beside_all = beside;
+        std::erase_if(*beside_all, [&](const std::string& file) {
             return std::ranges::find(beside, file) == beside.end();
         });
         if (beside.size() < view.images.size()) over.push_back({grid, std::move(images)});
     }
-    for (const std::string& file : beside_all)
+    for (const std::string& file : *beside_all)
         say(quiet, "note: " + file + ": lies beside the elevation data");
     return over;
 }

@@ -25,8 +25,9 @@ GridAxis every(const GridAxis& axis, int step) {
 
 bool measures_long(const Region& region) {
     // Of posts on a net, and of several grids, nothing coarser is made: their levels are waited for.
-    return region.beside.empty() && !region.file && !region.field.posts && !region.field.grid.net &&
-           region.field.grid.post_count() > 4 * posts_in_a_moment;
+    const RegionGrid& first = region.grids.front();
+    return region.grids.size() == 1 && !first.file && !first.field.posts && !first.field.grid.net &&
+           first.field.grid.post_count() > 4 * posts_in_a_moment;
 }
 
 int coarse_step(const HeightField& field) {
@@ -50,8 +51,9 @@ HeightField coarse_field(const HeightField& field) {
 
 FinerLevels::FinerLevels(const Region& region, double exaggeration) {
     const auto measure = [this, &region, exaggeration] {
-        return region_pages(
-            region, exaggeration, [this](double share) { share_ = share; }, stop_.get_token());
+        return grid_pages(
+            region.grids.front(), {}, exaggeration, [this](double share) { share_ = share; },
+            stop_.get_token());
     };
     try {
         pages_ = std::async(std::launch::async, measure);

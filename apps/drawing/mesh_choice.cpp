@@ -7,14 +7,15 @@ namespace {
 
 // Why there are none; "" where there are some.
 std::string without_clusters(const Region& region, const View& view) {
-    if (!region.beside.empty()) return "the region has several grids, and clusters are of one";
-    if (!region.file || !region.clusters)
+    if (region.grids.size() > 1) return "the region has several grids, and clusters are of one";
+    const RegionGrid& grid = region.grids.front();
+    if (!grid.file || !grid.clusters)
         return "the region has no clusters: bake it with --mesh clusters, and draw the whole .oro file";
     if (view.exaggeration != 1.0) return "clusters are of heights without exaggeration";
     if (view.model.earth != Earth::ellipsoid) return "clusters are drawn on the ellipsoid";
     if (view.show == Show::overdraw)
         return "--show " + std::string(name_of(*view.show)) + " tells of blocks, not of clusters";
-    if (region.field.undulation.N_m.size() != region.file->outline().undulation.N_m.size())
+    if (grid.field.undulation.N_m.size() != grid.file->outline().undulation.N_m.size())
         return "clusters are of heights with the geoid";
     return "";
 }

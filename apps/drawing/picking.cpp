@@ -20,8 +20,8 @@ Result<std::optional<SeenPlace>> place_seen(const View& view, const RegionGround
     SeenPlace place;
     place.lat_deg = hit->point.lat_deg;
     place.lon_deg = hit->point.lon_deg;
-    const Region& region = ground.region(hit->grid);
-    const double N_m = region.field.undulation.at_m(place.lat_deg, place.lon_deg);
+    const RegionGrid& grid = ground.grid(hit->grid);
+    const double N_m = grid.field.undulation.at_m(place.lat_deg, place.lon_deg);
     place.H_m = (hit->point.h_m - N_m) / view.exaggeration;
     place.h_m = place.H_m + N_m;
     const GeodesicPath path =
@@ -31,7 +31,7 @@ Result<std::optional<SeenPlace>> place_seen(const View& view, const RegionGround
     place.seen_distance_m = hit->distance_m;
     place.row = hit->row;
     place.column = hit->column;
-    if (const SourceReport* const source = source_at(region, place.lat_deg, place.lon_deg))
+    if (const SourceReport* const source = source_at(grid, place.lat_deg, place.lon_deg))
         place.source = source->path;
     return std::optional(place);
 }

@@ -16,40 +16,26 @@
 namespace oro {
 namespace {
 
-// A baked region's levels are those of its own heights; exaggerated ones, and those that its geoid was taken
+// A baked grid's levels are those of its own heights; exaggerated ones, and those that its geoid was taken
 // from, need levels of their own, and to measure these, all posts in memory.
-Result<std::unique_ptr<RegionPages>> pages_of(const Region& region, double exaggeration,
+Result<std::unique_ptr<RegionPages>> pages_of(const RegionGrid& grid, double exaggeration,
                                               const RenderProgress& progress, const std::stop_token& stop) {
-    if (!region.file) return pages_in_memory(region.field, exaggeration, thread_count(), progress, stop);
-    const bool own_geoid = region.field.undulation.N_m.size() == region.file->outline().undulation.N_m.size();
-    if (own_geoid && exaggeration == 1.0) return pages_of_file(region.file);
-    ORO_TRY(HeightField field, field_in_memory(*region.file));
+    if (!grid.file) return pages_in_memory(grid.field, exaggeration, thread_count(), progress, stop);
+    const bool own_geoid = grid.field.undulation.N_m.size() == grid.file->outline().undulation.N_m.size();
+    if (own_geoid && exaggeration == 1.0) return pages_of_file(grid.file);
+    ORO_TRY(HeightField field, field_in_memory(*grid.file));
     if (!own_geoid) {
-        field.undulation = region.field.undulation;
-        field.N_of_posts_m = region.field.N_of_posts_m;
+        field.undulation = grid.field.undulation;
+        field.N_of_posts_m = grid.field.N_of_posts_m;
     }
     return pages_in_memory(field, exaggeration, thread_count(), progress);
 }
 
-}  // namespace
-
-Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, double exaggeration,
-                                                  const RenderProgress& progress,
-                                                  const std::stop_token& stop) {
-    ORO_TRY(std::unique_ptr<RegionPages> pages, pages_of(region, exaggeration, progress, stop));
-    if (!pages) return Error{ErrorKind::failed, "levels", "nobody waits for them any more"};
-    if (pages->facts().triangles == 0)
-        return Error{ErrorKind::no_data, "region", "no triangle has a height at each corner"};
-    return pages;
-}
-
-Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, const CutOut& cut,
-                                                  double exaggeration, const RenderProgress& progress) {
-    if (std::ranges::find(cut.left_out, 1) == cut.left_out.end())
-        return region_pages(region, exaggeration, progress);
-    HeightField rest = region.field;
-    if (region.file) {
-        ORO_TRY(const HeightField posts, field_in_memory(*region.file));
+Result<std::unique_ptr<RegionPages>> pages_of_rest(const RegionGrid& grid, const CutOut& cut,
+                                                   double exaggeration, const RenderProgress& progress) {
+    HeightField rest = grid.field;
+    if (grid.file) {
+        ORO_TRY(const HeightField posts, field_in_memory(*grid.file));
         rest.H_m = posts.H_m;
         rest.posts = nullptr;
         rest.range.reset();
@@ -57,18 +43,8 @@ Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, const Cu
     }
     for (std::size_t post = 0; post < cut.left_out.size(); ++post)
         if (cut.left_out[post] != 0) rest.H_m[post] = void_height_m;
-    std::unique_ptr<RegionPages> pages = pages_in_memory(rest, exaggeration, thread_count(), progress);
-    return pages;
+    return pages_in_memory(rest, exaggeration, thread_count(), progress);
 }
-
-Result<Scene> create_scene(const Gpu& gpu, const Region& region, double exaggeration,
-                           const MemoryOptions& memory, const RenderProgress& progress, HeightStorage heights,
-                           bool means) {
-    ORO_TRY(std::unique_ptr<RegionPages> pages, region_pages(region, exaggeration, progress));
-    return create_scene(gpu, std::move(pages), memory, heights, means);
-}
-
-namespace {
 
 std::uint64_t bytes_of(const std::optional<int>& mb) {
     return static_cast<std::uint64_t>(mb.value_or(0)) * 1000000U;
@@ -76,21 +52,25 @@ std::uint64_t bytes_of(const std::optional<int>& mb) {
 
 }  // namespace
 
-Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const MemoryOptions& memory,
-                           HeightStorage heights, bool means) {
-    SceneMemory own;
-    own.gpu = bytes_of(memory.gpu_memory_mb);
-    own.main = bytes_of(memory.memory_mb);
-    return Scene::create(gpu, std::move(pages), own, heights, means);
+Result<std::unique_ptr<RegionPages>> grid_pages(const RegionGrid& grid, const CutOut& cut,
+                                                double exaggeration, const RenderProgress& progress,
+                                                const std::stop_token& stop) {
+    if (std::ranges::find(cut.left_out, 1) != cut.left_out.end())
+        return pages_of_rest(grid, cut, exaggeration, progress);
+    ORO_TRY(std::unique_ptr<RegionPages> pages, pages_of(grid, exaggeration, progress, stop));
+    if (!pages) return Error{ErrorKind::failed, "levels", "nobody waits for them any more"};
+    if (pages->facts().triangles == 0)
+        return Error{ErrorKind::no_data, "region", "no triangle has a height at each corner"};
+    return pages;
 }
 
 Result<GridPages> pages_of_grids(const Region& region, const RegionCuts& cuts, double exaggeration,
                                  const RenderProgress& progress) {
     GridPages pages;
-    for (const Region* const grid : all_grids(region)) {
+    for (const RegionGrid& grid : region.grids) {
         const std::size_t number = pages.size();
-        ORO_TRY(std::unique_ptr<RegionPages> more, region_pages(*grid, cuts.grids[number], exaggeration,
-                                                                number == 0 ? progress : RenderProgress{}));
+        ORO_TRY(std::unique_ptr<RegionPages> more, grid_pages(grid, cuts.grids[number], exaggeration,
+                                                              number == 0 ? progress : RenderProgress{}));
         pages.push_back(std::move(more));
     }
     return pages;
@@ -105,10 +85,10 @@ PagesOfGrids pointers_to(const GridPages& pages) {
 namespace {
 
 // What takes the place of a scene's nodes. bytes: on the GPU.
-Result<void> add_clusters(const Gpu& gpu, const Region& region, std::uint64_t bytes, std::uint64_t main_bytes,
-                          const std::optional<int>& level, Scene& scene) {
+Result<void> add_clusters(const Gpu& gpu, const RegionGrid& grid, std::uint64_t bytes,
+                          std::uint64_t main_bytes, const std::optional<int>& level, Scene& scene) {
     ORO_TRY(std::unique_ptr<RegionClusters> clusters,
-            clusters_of_region(region, scene.pages().facts().shape.occluder));
+            clusters_of_region(grid, scene.grids().front().pages().facts().shape.occluder));
     ORO_TRY(ClusterScene made, ClusterScene::create(gpu, std::move(clusters), bytes, main_bytes));
     if (level) made.keep_to_level(static_cast<std::uint32_t>(*level));
     scene.draw_clusters(std::move(made));
@@ -120,12 +100,13 @@ Result<std::uint64_t> draw_between(const Gpu& gpu, const Region& region, const R
                                    double exaggeration, Scene& scene) {
     const Seam seam = seam_between(region, cuts, exaggeration);
     if (seam.empty()) return std::uint64_t{0};
+    const HeightField& field = region.grids.front().field;
     ORO_TRY(std::unique_ptr<RegionPages> pages,
-            seam_pages(seam, region.field.undulation, region_shape(region.field, exaggeration)));
+            seam_pages(seam, field.undulation, region_shape(field, exaggeration)));
     const std::uint64_t triangles = pages->facts().triangles;
     // Small beside the rest, which it takes nothing from.
-    ORO_TRY(Scene between, create_scene(gpu, std::move(pages), MemoryOptions{}));
-    scene.draw_beside(std::move(between));
+    ORO_TRY(Scene between, Scene::create(gpu, std::move(pages)));
+    scene.add(std::move(between));
     return triangles;
 }
 
@@ -146,12 +127,12 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
         triangles += one->facts().triangles;
         ORO_TRY(Scene made, Scene::create(gpu, std::move(one), memory, request.heights, request.means));
         if (scene)
-            scene->draw_beside(std::move(made));
+            scene->add(std::move(made));
         else
             scene.emplace(std::move(made));
     }
     if (request.clusters)
-        ORO_CHECK(add_clusters(gpu, region, bytes, memory.main, request.mesh_level, *scene));
+        ORO_CHECK(add_clusters(gpu, region.grids.front(), bytes, memory.main, request.mesh_level, *scene));
     if (pages.size() > 1) {
         ORO_TRY(const std::uint64_t between, draw_between(gpu, region, cuts, request.exaggeration, *scene));
         triangles += between;
@@ -159,34 +140,29 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
     return RegionScene{std::move(*scene), triangles};
 }
 
-Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
-                                    std::unique_ptr<RegionPages> pages, const SceneRequest& request) {
-    GridPages all;
-    all.push_back(std::move(pages));
-    for (std::size_t i = 0; i < region.beside.size(); ++i) {
-        ORO_TRY(std::unique_ptr<RegionPages> more,
-                region_pages(region.beside[i], cuts.grids[i + 1], request.exaggeration));
-        all.push_back(std::move(more));
-    }
-    return scene_of_region(gpu, region, cuts, std::move(all), request);
-}
-
-Error lacks_gpu_memory(Scene& scene, const std::string& what) {
-    const auto& clusters = scene.clusters();
+Error lacks_gpu_memory(const Scene& scene, const std::string& what) {
+    const GridScene& largest = *std::ranges::max_element(
+        scene.grids(), {}, [](const GridScene& grid) { return grid.store().capacity(); });
+    const auto& clusters = largest.clusters();
     const bool of_clusters = clusters && clusters->most_without_room() > 0;
     return {ErrorKind::failed, "--gpu-memory",
             "the GPU may hold " +
                 (of_clusters ? std::to_string(clusters->store().capacity()) + " clusters"
-                             : std::to_string(scene.store().capacity()) + " pages of terrain") +
+                             : std::to_string(largest.store().capacity()) + " pages of terrain") +
                 "; " + what + " needs more (a larger --tau needs fewer" +
                 (clusters ? "; --mesh grid leaves all of the memory to blocks" : "") + ")"};
 }
 
-std::string note_of_means(const gpu::FrameStyle& style, const RegionPages& pages) {
-    if (!asks_for_means(style) || pages.knows_means()) return "";
-    return "note: the region has " + grouped(pages.facts().grid.post_count()) +
-           " posts, too many to colour pixels by the mean of the ground that they cover: each has the colour "
-           "of the ground in its middle";
+std::string note_of_means(const gpu::FrameStyle& style, const PagesOfGrids& grids) {
+    if (!asks_for_means(style)) return "";
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+        if (grids[i].is_seam() || grids[i].knows_means()) continue;
+        return std::string("note: ") + (grids.size() == 1 ? "the region" : "a grid of the region") + " has " +
+               grouped(grids[i].facts().grid.post_count()) +
+               " posts, too many to colour pixels by the mean of the ground that they cover: each has the "
+               "colour of the ground in its middle";
+    }
+    return "";
 }
 
 }  // namespace oro

@@ -13,20 +13,13 @@
 
 namespace oro {
 
-// Pages of a region with levels for that exaggeration. stop: as pages_in_memory(). Errors: damage in a baked
-// region; nothing to draw in it (no_data); stopped.
-Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, double exaggeration,
-                                                  const RenderProgress& progress = {},
-                                                  const std::stop_token& stop = {});
-// Makes them ready for a GPU. Errors: out of device memory. heights: how they are kept there. means: as
-// Scene::create().
-Result<Scene> create_scene(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const MemoryOptions& memory,
-                           HeightStorage heights = HeightStorage::f32, bool means = false);
-// The same of a region with a part cut out (geo/together).
-Result<std::unique_ptr<RegionPages>> region_pages(const Region& region, const CutOut& cut,
-                                                  double exaggeration, const RenderProgress& progress = {});
-// Pages of all grids of a region (all_grids()): of what those that are the ground leave of each. progress: of
-// the first.
+// Pages of a grid, with levels for that exaggeration, of what those that are the ground leave of it. stop: as
+// pages_in_memory(). Errors: damage in a baked region; nothing to draw in a grid that nothing is cut out of
+// (no_data); stopped.
+Result<std::unique_ptr<RegionPages>> grid_pages(const RegionGrid& grid, const CutOut& cut,
+                                                double exaggeration, const RenderProgress& progress = {},
+                                                const std::stop_token& stop = {});
+// Those of all grids of a region. progress: of the first.
 using GridPages = std::vector<std::unique_ptr<RegionPages>>;
 Result<GridPages> pages_of_grids(const Region& region, const RegionCuts& cuts, double exaggeration,
                                  const RenderProgress& progress = {});
@@ -39,30 +32,21 @@ struct RegionScene {
 };
 struct SceneRequest {
     double exaggeration{1.0};
-    MemoryOptions memory;
+    MemoryOptions memory{};
     HeightStorage heights{HeightStorage::f32};
     bool means{};
     bool clusters{};                  // drawn by the region's clusters (draws_clusters())
     std::optional<int> mesh_level{};  // those of one level of the graph (View)
 };
-// pages: of all grids (pages_of_grids()); or of the region's own alone (region_pages()), then those of others
-// are made. cuts: of all of them (cut_regions()).
+// pages: of all grids (pages_of_grids()). cuts: of all of them (cut_regions()). Errors: out of device memory.
 Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
                                     GridPages pages, const SceneRequest& request);
-Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
-                                    std::unique_ptr<RegionPages> pages, const SceneRequest& request);
 
 // What is said where a scene's GPU memory is too small for what a picture shows. what: "this view".
-Error lacks_gpu_memory(Scene& scene, const std::string& what);
+Error lacks_gpu_memory(const Scene& scene, const std::string& what);
 
-// What to tell of a style that asks for means of the ground over pages that have none, being of too many
-// posts: each pixel then has the colour of the ground in its middle. "" where nothing of that is so.
-std::string note_of_means(const gpu::FrameStyle& style, const RegionPages& pages);
-
-// Builds the levels of a region and makes it ready for a GPU. Errors: nothing to draw in it (no_data), out of
-// device memory. heights: how they are kept on the GPU.
-Result<Scene> create_scene(const Gpu& gpu, const Region& region, double exaggeration,
-                           const MemoryOptions& memory, const RenderProgress& progress = {},
-                           HeightStorage heights = HeightStorage::f32, bool means = false);
+// What to tell of a style that asks for means of the ground over grids of which one has none, being of too
+// many posts: each of its pixels then has the colour of the ground in its middle. "" where all have them.
+std::string note_of_means(const gpu::FrameStyle& style, const PagesOfGrids& grids);
 
 }  // namespace oro

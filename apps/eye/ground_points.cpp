@@ -134,20 +134,20 @@ void find_middle(const std::vector<Ecef>& points, GroundPoints& ground) {
 
 std::vector<Ecef> rim_points(const Region& region, double exaggeration) {
     std::vector<Ecef> rim;
-    for (const Region* const one : all_grids(region))
-        add_rim_points(one->field, whole_part(one->field.grid), exaggeration, rim);
+    for (const RegionGrid& one : region.grids)
+        add_rim_points(one.field, whole_part(one.field.grid), exaggeration, rim);
     return rim;
 }
 
 GroundPoints ground_points(const Region& region, double exaggeration, const PlaceCell* cell) {
     GroundPoints ground;
     std::vector<Ecef> rim;
-    for (const Region* const one : all_grids(region)) {
-        const PostGrid& grid = one->field.grid;
+    for (const RegionGrid& one : region.grids) {
+        const PostGrid& grid = one.field.grid;
         const PostsInCell part = cell ? part_in(grid, *cell) : whole_part(grid);
         if (cell ? !has_surface(grid, part) : part.rows() <= 0 || part.columns() <= 0) continue;
-        add_inner_points(one->field, part, exaggeration, ground.all);
-        add_rim_points(one->field, part, exaggeration, rim);
+        add_inner_points(one.field, part, exaggeration, ground.all);
+        add_rim_points(one.field, part, exaggeration, rim);
     }
     if (rim.empty()) return ground;
     find_middle(ground.all.empty() ? rim : ground.all, ground);

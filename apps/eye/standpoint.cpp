@@ -42,33 +42,25 @@ double rad_from(const PostGrid& grid, double lat_deg, double lon_deg) {
     return std::acos(std::clamp(glm::dot(there, here), -1.0, 1.0));
 }
 
-const Region& region_at(const Region& region, double lat_deg, double lon_deg) {
-    const Region* there = nullptr;
-    const auto look_at = [&](const Region& one, bool has) {
-        if (has && (there == nullptr || one.rank < there->rank)) there = &one;
-    };
-    const auto has_ground = [&](const Region& one) {
-        return one.field.surface_H_m(lat_deg, lon_deg).has_value();
-    };
-    look_at(region, has_ground(region));
-    for (const Region& other : region.beside) look_at(other, has_ground(other));
+const RegionGrid& grid_at(const Region& region, double lat_deg, double lon_deg) {
+    const RegionGrid* there = nullptr;
+    for (const RegionGrid& grid : region.grids)
+        if ((there == nullptr || grid.rank < there->rank) && grid.field.surface_H_m(lat_deg, lon_deg))
+            there = &grid;
     if (there != nullptr) return *there;
-    const Region* nearest = &region;
-    for (const Region& other : region.beside)
-        if (rad_from(other.field.grid, lat_deg, lon_deg) < rad_from(nearest->field.grid, lat_deg, lon_deg))
-            nearest = &other;
-    return *nearest;
+    return *std::ranges::min_element(region.grids, {}, [&](const RegionGrid& grid) {
+        return rad_from(grid.field.grid, lat_deg, lon_deg);
+    });
 }
 
-const Region& widest_at(const Region& region, double lat_deg, double lon_deg) {
-    const auto area = [](const Region& one) {
+const RegionGrid& widest_at(const Region& region, double lat_deg, double lon_deg) {
+    const auto area = [](const RegionGrid& one) {
         const PostGrid& grid = one.field.grid;
         return (grid.rows() - 1.0) * grid.row_step_rad() * (grid.columns() - 1.0) * grid.column_step_rad();
     };
-    const Region* widest = &region_at(region, lat_deg, lon_deg);
-    for (const Region& other : region.beside)
-        if (holds(other.field.grid, lat_deg, lon_deg) && area(other) > area(*widest)) widest = &other;
-    if (holds(region.field.grid, lat_deg, lon_deg) && area(region) > area(*widest)) widest = &region;
+    const RegionGrid* widest = &grid_at(region, lat_deg, lon_deg);
+    for (const RegionGrid& grid : region.grids)
+        if (holds(grid.field.grid, lat_deg, lon_deg) && area(grid) > area(*widest)) widest = &grid;
     return *widest;
 }
 

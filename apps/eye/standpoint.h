@@ -47,10 +47,10 @@ Result<Standpoint> stand(const Standing& standing, const HeightField& field, dou
 // that is no place, two heights (usage); no ground to stand on (no_data), which names the data's box.
 Result<Geodetic> standpoint(const Standing& standing, const HeightField& field, double exaggeration = 1.0);
 
-// Of regions that lie apart, the one that has ground at a place; the first where none has.
-const Region& region_at(const Region& region, double lat_deg, double lon_deg);
+// The grid that is the ground at a place; the nearest where none has any.
+const RegionGrid& grid_at(const Region& region, double lat_deg, double lon_deg);
 // The one of a region's grids that reaches farthest around a place, of those that it is in.
-const Region& widest_at(const Region& region, double lat_deg, double lon_deg);
+const RegionGrid& widest_at(const Region& region, double lat_deg, double lon_deg);
 
 // A place of an option. Errors (usage) name the option.
 Result<Place> place_at(const char* option, const std::string& text);

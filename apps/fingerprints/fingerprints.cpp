@@ -24,36 +24,30 @@ std::uint64_t both(std::uint64_t one, std::uint64_t other) {
     return xxh64(std::as_bytes(std::span(prints)));
 }
 
-// Of regions that lie apart, what is told of each region becomes one.
-void add_print(const Region& region, Fingerprints& prints) {
-    prints.grid = both(prints.grid, grid_print(region.field.grid));
-    if (prints.posts && region.posts_print) prints.posts = both(*prints.posts, *region.posts_print);
-    prints.undulation = both(prints.undulation, region.geoid_print);
-}
-
 }  // namespace
 
+// Of several grids, what is told of each becomes one.
 Fingerprints prints_of(const Region& region) {
+    const RegionGrid& first = region.grids.front();
     Fingerprints prints;
     prints.program = program_print();
-    prints.grid = grid_print(region.field.grid);
-    prints.posts = region.posts_print;
-    prints.resampling = region_resampling(region);
-    prints.geoid = region.geoid;
-    prints.undulation = region.geoid_print;
-    std::vector<const Region*> regions{&region};
-    for (const Region& other : region.beside) {
-        add_print(other, prints);
-        regions.push_back(&other);
+    prints.grid = grid_print(first.field.grid);
+    prints.posts = first.posts_print;
+    prints.resampling = region_resampling(first);
+    prints.geoid = first.geoid;
+    prints.undulation = first.geoid_print;
+    std::size_t sources = first.sources.size();
+    for (const RegionGrid& other : std::span(region.grids).subspan(1)) {
+        prints.grid = both(prints.grid, grid_print(other.field.grid));
+        if (prints.posts && other.posts_print) prints.posts = both(*prints.posts, *other.posts_print);
+        prints.undulation = both(prints.undulation, other.geoid_print);
+        sources += other.sources.size();
     }
-    std::size_t sources = 0;
-    for (const Region* one : regions) sources += one->sources.size();
     if (sources > most_sources_with_prints) return prints;
-    for (const Region* one : regions) {
-        for (const SourceReport& source : one->sources)
+    for (const RegionGrid& grid : region.grids)
+        for (const SourceReport& source : grid.sources)
             prints.sources.push_back(
                 {std::filesystem::path(source.path).filename().string(), source.posts_print});
-    }
     return prints;
 }
 

@@ -21,7 +21,7 @@ Tags common_tags(const std::string& picture, const View& view, const Region& reg
                                        "," + all_digits(attitude.roll_deg)},
         {"FOV_DEG", all_digits(view.camera.vertical_fov_deg)},
         {"TAU_PX", all_digits(view.tau_px)},
-        {"GEOID", region.geoid},
+        {"GEOID", region.grids.front().geoid},
         {"VALUES_ARE", "of the middle of each pixel; NaN where it shows no ground"},
         {"SOFTWARE", "orograph " OROGRAPH_VERSION}};
 }
@@ -30,8 +30,8 @@ Tags common_tags(const std::string& picture, const View& view, const Region& reg
 Tags source_tags(const View& view, const Region& region) {
     Tags tags;
     if (!view.tells_paths) return tags;
-    for (const Region* const grid : all_grids(region)) {
-        for (const SourceReport& source : grid->sources)
+    for (const RegionGrid& grid : region.grids) {
+        for (const SourceReport& source : grid.sources)
             tags.emplace_back("SOURCE_" + std::to_string(tags.size()),
                               std::filesystem::path(source.path).filename().string());
     }

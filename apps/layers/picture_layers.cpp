@@ -59,29 +59,29 @@ PictureLayers empty_layers(std::size_t pixels) {
 }
 
 float number_of_source(const RegionGround& ground, std::size_t grid, const Geodetic& point) {
-    const Region& region = ground.region(grid);
-    const SourceReport* const source = source_at(region, point.lat_deg, point.lon_deg);
+    const RegionGrid& of = ground.grid(grid);
+    const SourceReport* const source = source_at(of, point.lat_deg, point.lon_deg);
     if (!source) return none;
     std::size_t before = 0;
-    for (std::size_t other = 0; other < grid; ++other) before += ground.region(other).sources.size();
-    return static_cast<float>(before) + static_cast<float>(source - region.sources.data());
+    for (std::size_t other = 0; other < grid; ++other) before += ground.grid(other).sources.size();
+    return static_cast<float>(before) + static_cast<float>(source - of.sources.data());
 }
 
 // All that is told of a place, into a pixel.
 void put(const ShownPlace& place, const View& view, const RegionGround& ground, const SunOverPlaces& sun,
          std::size_t pixel, PictureLayers& layers) {
-    const Region& region = ground.region(place.grid);
+    const RegionGrid& grid = ground.grid(place.grid);
     const Geodetic& point = place.point;
-    const double N_m = region.field.undulation.at_m(point.lat_deg, point.lon_deg);
+    const double N_m = grid.field.undulation.at_m(point.lat_deg, point.lon_deg);
     const double H_m = (point.h_m - N_m) / view.exaggeration;
     layers.longitude_deg[pixel] = point.lon_deg;
     layers.latitude_deg[pixel] = point.lat_deg;
     layers.H_m[pixel] = static_cast<float>(H_m);
     // Where the view goes without a geoid, the ellipsoid is still as far below it.
     layers.h_m[pixel] =
-        static_cast<float>(H_m + N_m + region.geoid_left_out.at_m(point.lat_deg, point.lon_deg));
+        static_cast<float>(H_m + N_m + grid.geoid_left_out.at_m(point.lat_deg, point.lon_deg));
     layers.distance_m[pixel] = static_cast<float>(place.distance_m);
-    if (const auto slope_deg = horn_slope_deg(region.field, place.row, place.column))
+    if (const auto slope_deg = horn_slope_deg(grid.field, place.row, place.column))
         layers.slope_deg[pixel] = static_cast<float>(*slope_deg);
     layers.source[pixel] = number_of_source(ground, place.grid, point);
     layers.shadow[pixel] = sun.share_at(place);

@@ -22,7 +22,7 @@ struct PictureLayers {
     std::vector<float> h_m;         // the same above the ellipsoid
     std::vector<float> distance_m;  // along the sight line, to where the view has the place
     std::vector<float> slope_deg;   // horn_slope_deg()
-    std::vector<float> source;      // number among the sources of all grids (all_grids()), from 0
+    std::vector<float> source;      // number among the sources of all grids, from 0
     std::vector<float>
         shadow;  // share of the sun's light that comes past the terrain: 0 in shadow, 1 without
     std::uint64_t ground_px{};

@@ -40,7 +40,7 @@ ColourKey key_of_show(Show show, bool clusters, const Region& region, int every)
     key.shape = KeyShape::names;
     if (show == Show::levels && clusters) {
         key.title = "Levels of the cluster graph: 0 has every triangle";
-        const std::size_t levels = 1 + region.clusters->outline().levels.size();
+        const std::size_t levels = 1 + region.grids.front().clusters->outline().levels.size();
         for (std::size_t level = 0; level < levels; ++level)
             key.names.push_back(
                 {coded(colour_of_level(static_cast<gpu::uint>(level))), std::to_string(level)});
@@ -50,8 +50,8 @@ ColourKey key_of_show(Show show, bool clusters, const Region& region, int every)
                      {coded(colour_of_round(false)), "the last: what those left open"}};
     } else if (show == Show::levels) {
         key.title = "Levels: one post of so many, along rows and columns";
-        int levels = level_count(region.field.grid);
-        for (const Region& other : region.beside) levels = std::max(levels, level_count(other.field.grid));
+        int levels = 1;
+        for (const RegionGrid& grid : region.grids) levels = std::max(levels, level_count(grid.field.grid));
         for (int level = 0; level < levels; ++level)
             key.names.push_back({coded(colour_of_level(static_cast<gpu::uint>(level))),
                                  std::to_string(static_cast<std::int64_t>(every) << level)});
@@ -120,7 +120,7 @@ ColourKey colour_key(const View& view, const Region& region, const Style& style,
         const double snow_m = snow_line_m(frame.cover, view.camera.eye.lat_deg);
         for (gpu::TintStop& stop : key.stops) stop.at += static_cast<float>(snow_m);
     }
-    const HeightRange range = height_range(region.field);
+    const HeightRange range = height_range(region.grids.front().field);
     key.low = static_cast<double>(range.lowest_m);
     key.high = std::max(key.low + 1.0, static_cast<double>(range.highest_m));
     add_ticks(key, round_length(std::max(1.0, (key.high - key.low) / 2.5)));

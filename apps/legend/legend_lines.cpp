@@ -41,10 +41,10 @@ std::string height_text(double H_m) {
 std::string eye_line(const View& view, const Region& region) {
     const Camera& camera = view.camera;
     const Geodetic& eye = camera.eye;
-    const double H_m = eye.h_m - region.field.undulation.at_m(eye.lat_deg, eye.lon_deg);
+    const double H_m = eye.h_m - region.grids.front().field.undulation.at_m(eye.lat_deg, eye.lon_deg);
     std::string line =
         "Eye: " + place_text(eye.lat_deg, eye.lon_deg) + ", " + height_text(H_m) + " above sea level";
-    const auto ground_m = ground_h_m(region.field, eye.lat_deg, eye.lon_deg, view.exaggeration);
+    const auto ground_m = ground_h_m(region.grids.front().field, eye.lat_deg, eye.lon_deg, view.exaggeration);
     if (ground_m && eye.h_m >= *ground_m)
         line += ", " + height_text(eye.h_m - *ground_m) + " above the ground";
     const Attitude& attitude = camera.attitude;
@@ -84,17 +84,19 @@ std::string sun_line(const Style& style) {
 std::string data_line(const View& view, const Region& region) {
     if (const std::string asked = attribution_of(region); !asked.empty())
         return "Heights: " + one_line(asked);
+    std::vector<const SourceReport*> sources;
+    for (const RegionGrid& grid : region.grids)
+        for (const SourceReport& source : grid.sources) sources.push_back(&source);
     std::string names;
     constexpr std::size_t most = 4;
-    for (std::size_t i = 0; i < region.sources.size() && view.tells_paths; ++i) {
+    for (std::size_t i = 0; i < sources.size() && view.tells_paths; ++i) {
         if (i == most) {
-            names += " and " + counted(region.sources.size() - most, "file more", "files more");
+            names += " and " + counted(sources.size() - most, "file more", "files more");
             break;
         }
-        names += (names.empty() ? "" : ", ") +
-                 one_line(std::filesystem::path(region.sources[i].path).filename().string());
+        names += (i == 0 ? "" : ", ") + one_line(std::filesystem::path(sources[i]->path).filename().string());
     }
-    return "Heights: " + (names.empty() ? counted(region.sources.size(), "file", "files") : names);
+    return "Heights: " + (names.empty() ? counted(sources.size(), "file", "files") : names);
 }
 
 }  // namespace

@@ -62,11 +62,11 @@ Result<void> make_map(View& view, const ShotOptions& options, const Region& regi
     MapRequest request{options.crs, options.resolution, {}};
     if (options.view.size) request.size_px = {{view.camera.width_px, view.camera.height_px}};
     std::vector<const PostGrid*> grids;
-    for (const Region* const one : all_grids(region)) grids.push_back(&one->field.grid);
+    for (const RegionGrid& one : region.grids) grids.push_back(&one.field.grid);
     ORO_TRY(view.map, map_frame(request, grids));
     const MapFrame& map = *view.map;
     ORO_TRY(MapPlaces places, MapPlaces::of(map));
-    const PostGrid& grid = region.field.grid;
+    const PostGrid& grid = region.grids.front().field.grid;
     const auto middle = places.at(0.5 * map.width_px, 0.5 * map.height_px)
                             .value_or(MapPlace{0.5 * (grid.north_deg() + grid.south_deg()),
                                                0.5 * (grid.west_deg() + grid.east_deg())});

@@ -11,14 +11,12 @@ namespace fs = std::filesystem;
 
 FilesToSpare files_of_ground(const std::vector<std::string>& paths, const Region& region) {
     FilesToSpare ground{paths, "which the elevation data are in"};
-    const auto add = [&](const Region& grid) {
+    for (const RegionGrid& grid : region.grids) {
         for (const SourceReport& source : grid.sources) {
             ground.files.push_back(source.path);
             ground.files.insert(ground.files.end(), source.files.begin(), source.files.end());
         }
-    };
-    add(region);
-    for (const Region& other : region.beside) add(other);
+    }
     return ground;
 }
 

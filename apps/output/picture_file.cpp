@@ -26,9 +26,9 @@ Geotags geotags_of(const View& view, const Region& region, const std::optional<S
     tags.lat_deg = camera.eye.lat_deg;
     tags.lon_deg = camera.eye.lon_deg;
     tags.h_m = camera.eye.h_m;
-    tags.N_m = region.field.undulation.at_m(tags.lat_deg, tags.lon_deg);
+    tags.N_m = region.grids.front().field.undulation.at_m(tags.lat_deg, tags.lon_deg);
     tags.H_m = tags.h_m - tags.N_m;
-    tags.geoid = region.geoid;
+    tags.geoid = region.grids.front().geoid;
     tags.heading_deg = camera.attitude.heading_deg;
     tags.pitch_deg = camera.attitude.pitch_deg;
     tags.roll_deg = camera.attitude.roll_deg;

@@ -34,7 +34,7 @@ std::string angle_words(double deg, int decimals, char positive, char negative) 
 // "Finsteraarhorn, 46.53722° N, 8.12611° E, 4276 m above sea level"
 std::string eye_words(const View& view, const Region& region, const std::string& standpoint) {
     const Geodetic& eye = view.camera.eye;
-    const double H_m = eye.h_m - region.field.undulation.at_m(eye.lat_deg, eye.lon_deg);
+    const double H_m = eye.h_m - region.grids.front().field.undulation.at_m(eye.lat_deg, eye.lon_deg);
     char height[80];
     std::snprintf(height, sizeof height, ", %ld m above sea level", std::lround(H_m));
     return standpoint + (standpoint.empty() ? "" : ", ") + angle_words(eye.lat_deg, 5, 'N', 'S') + ", " +

@@ -1,7 +1,9 @@
 #include "apps/report/region_json.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <system_error>
@@ -62,7 +64,7 @@ ordered_json sources_json(const std::vector<SourceReport>& sources) {
     return all;
 }
 
-ordered_json region_json(const Region& region) {
+ordered_json region_json(const RegionGrid& region) {
     const PostGrid& grid = region.field.grid;
     const HeightRange range = height_range(region.field);
     ordered_json json = ordered_json::object();
@@ -127,7 +129,7 @@ std::uint64_t bytes_of_file(const RegionFile& file) {
     return fault ? file.bytes() : bytes;
 }
 
-ordered_json file_json(const Region& region) {
+ordered_json file_json(const RegionGrid& region) {
     if (!region.file) return nullptr;
     const RegionFile& file = *region.file;
     ordered_json json = ordered_json::object();
@@ -146,7 +148,7 @@ ordered_json file_json(const Region& region) {
     return json;
 }
 
-std::string note_of_voids(const Region& region) {
+std::string note_of_voids(const RegionGrid& region) {
     std::string note;
     const auto add = [&](std::uint64_t posts, const char* one, const char* many, const std::string& what) {
         if (posts > 0) note += (note.empty() ? "" : "; ") + counted(posts, one, many) + what;
@@ -164,7 +166,7 @@ std::string note_of_voids(const Region& region) {
     return note;
 }
 
-std::string note_of_assumed_heights(const Region& region) {
+std::string note_of_assumed_heights(const RegionGrid& region) {
     std::string first;
     std::size_t count = 0;
     for (const SourceReport& source : region.sources) {
@@ -179,7 +181,7 @@ std::string note_of_assumed_heights(const Region& region) {
            "are, when files are read)";
 }
 
-std::vector<std::string> own_notes(const Region& region) {
+std::vector<std::string> own_notes(const RegionGrid& region) {
     std::vector<std::string> notes = region.notes;
     if (std::string assumed = note_of_assumed_heights(region); !assumed.empty())
         notes.push_back(std::move(assumed));
@@ -187,10 +189,11 @@ std::vector<std::string> own_notes(const Region& region) {
 }
 
 std::vector<std::string> all_notes(const Region& region) {
-    std::vector<std::string> notes = own_notes(region);
-    if (std::string holes = note_of_voids(region); !holes.empty()) notes.push_back(std::move(holes));
-    for (const Region& other : region.beside)
-        for (std::string& note : all_notes(other)) notes.push_back(std::move(note));
+    std::vector<std::string> notes;
+    for (const RegionGrid& grid : region.grids) {
+        std::ranges::move(own_notes(grid), std::back_inserter(notes));
+        if (std::string holes = note_of_voids(grid); !holes.empty()) notes.push_back(std::move(holes));
+    }
     return notes;
 }
 
@@ -201,15 +204,13 @@ void say_notes(const Region& region, bool quiet) {
 std::string attribution_of(const Region& region) {
     std::set<std::string> seen;
     std::string all;
-    std::vector<const SourceReport*> sources;
-    for (const SourceReport& source : region.sources) sources.push_back(&source);
-    for (const Region& other : region.beside)
-        for (const SourceReport& source : other.sources) sources.push_back(&source);
-    for (const SourceReport* source : sources) {
-        // Once more: a region may have been baked when such text was kept as it was.
-        const std::string attribution = foreign_text(source->attribution);
-        if (attribution.empty() || !seen.insert(attribution).second) continue;
-        all += (all.empty() ? "" : "; ") + attribution;
+    for (const RegionGrid& grid : region.grids) {
+        for (const SourceReport& source : grid.sources) {
+            // Once more: a region may have been baked when such text was kept as it was.
+            const std::string attribution = foreign_text(source.attribution);
+            if (attribution.empty() || !seen.insert(attribution).second) continue;
+            all += (all.empty() ? "" : "; ") + attribution;
+        }
     }
     return all;
 }

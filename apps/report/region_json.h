@@ -14,23 +14,24 @@ namespace oro {
 nlohmann::ordered_json sources_json(const std::vector<SourceReport>& sources);
 // Null for nothing.
 nlohmann::ordered_json resampling_json(const std::optional<RegionResampling>& found);
-nlohmann::ordered_json region_json(const Region& region);
+// One of a region's grids.
+nlohmann::ordered_json region_json(const RegionGrid& grid);
 // How far apart the posts of a file in a projected CRS are as the CRS counts it, the mean of both ways;
 // nothing of one in degrees, nor of a baked region's, of which it is not known.
 std::optional<double> projected_spacing_m(const SourceReport& source);
 // The size of all of the file that a baked grid is in, with other grids and clusters.
 std::uint64_t bytes_of_file(const RegionFile& file);
-// The file of a baked region that is one whole; null for all others.
-nlohmann::ordered_json file_json(const Region& region);
+// The file of a baked grid that is one whole; null for all others.
+nlohmann::ordered_json file_json(const RegionGrid& grid);
 
-// A line about the region's posts without a height, by why, if it has any.
-std::string note_of_voids(const Region& region);
+// A line about a grid's posts without a height, by why, if it has any.
+std::string note_of_voids(const RegionGrid& grid);
 // A line about files whose vertical datum is assumed, because neither they nor their names nor the request
-// say it; "" for none. Of this grid alone.
-std::string note_of_assumed_heights(const Region& region);
-// The region's notes and that one; of this grid alone.
-std::vector<std::string> own_notes(const Region& region);
-// All of these, of all its grids.
+// say it; "" for none.
+std::string note_of_assumed_heights(const RegionGrid& grid);
+// The grid's notes and that one.
+std::vector<std::string> own_notes(const RegionGrid& grid);
+// All of these, of all grids of a region.
 std::vector<std::string> all_notes(const Region& region);
 // The same on standard error, unless quiet.
 void say_notes(const Region& region, bool quiet);

@@ -53,7 +53,7 @@ std::string resampling_words(const Resampling& found) {
            size_text(found.rms_m) + " m RMS, of " + posts_text(found.compared, found.posts);
 }
 
-std::string resampling_sentence(const Region& region) {
+std::string resampling_sentence(const RegionGrid& region) {
     const auto all = region_resampling(region);
     if (!all) return "";
     std::string text = "heights of " + counted(all->files, "file are", "files are") + " resampled: ";
@@ -71,7 +71,7 @@ std::string resampling_sentence(const Region& region) {
     return highest ? text + "; its highest post: " + post_words(*highest) : text;
 }
 
-std::string resampling_line(const Region& region) {
+std::string resampling_line(const RegionGrid& region) {
     const std::string sentence = resampling_sentence(region);
     return sentence.empty() ? "" : "Resampled: " + sentence + ". What is measured here begins after that.\n";
 }

@@ -15,11 +15,11 @@ namespace oro {
 namespace {
 
 // What sources are known to promise: half the interval that holds 90 % of height errors.
-std::optional<double> stated_le90_m(const Region& region) {
+std::optional<double> stated_le90_m(const RegionGrid& grid) {
     // Source: T. Farr et al., The Shuttle Radar Topography Mission, Reviews of Geophysics 45, 2007, section
     // 5: absolute height error at most 16 m (90 %).
     constexpr double srtm_le90_m = 16.0;
-    for (const SourceReport& source : region.sources) {
+    for (const SourceReport& source : grid.sources) {
         if (source.format != SourceFormat::raster) return srtm_le90_m;
     }
     return std::nullopt;
@@ -29,8 +29,8 @@ std::optional<double> stated_le90_m(const Region& region) {
 std::vector<HeightsOff> resampled_of(const Region& region) {
     std::vector<HeightsOff> off;
     bool any = false;
-    for (const Region* const grid : all_grids(region)) {
-        const auto resampled = region_resampling(*grid);
+    for (const RegionGrid& grid : region.grids) {
+        const auto resampled = region_resampling(grid);
         any |= resampled.has_value();
         off.push_back(resampled ? HeightsOff{resampled->worst_m, resampled->rms_m} : HeightsOff{});
     }
@@ -107,10 +107,10 @@ Result<TrueWorld> true_world(const View& view, const Region& region, const Pages
     TrueWorld world;
     if (view.model.air.k != 0.0) world.air = view.model.air;
     world.grids.clear();
-    for (const Region* const grid : all_grids(region)) {
+    for (const RegionGrid& grid : region.grids) {
         ORO_TRY(const HeightQuantization sixteen,
                 height_quantization(pages[world.grids.size()], HeightStorage::i16));
-        world.grids.push_back({stated_le90_m(*grid), sixteen});
+        world.grids.push_back({stated_le90_m(grid), sixteen});
     }
     return world;
 }

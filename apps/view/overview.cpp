@@ -52,8 +52,8 @@ bool is_whole_in_view(const View& view, const Region& region) {
         return std::ranges::all_of(
             points, [&](const Ecef& point) { return is_in_frame(camera, view_from_ecef, eye_m, point); });
     };
-    for (const Region* const grid : all_grids(region))
-        if (!shows(corner_points(grid->field, view.exaggeration))) return false;
+    for (const RegionGrid& grid : region.grids)
+        if (!shows(corner_points(grid.field, view.exaggeration))) return false;
     const std::vector<Ecef> rim = rim_points(region, view.exaggeration);
     return !rim.empty() && shows(rim);
 }

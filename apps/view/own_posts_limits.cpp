@@ -1,5 +1,6 @@
 #include "apps/view/own_posts_limits.h"
 
+#include <algorithm>
 #include <string>
 
 #include "apps/command_line/refusals.h"
@@ -7,8 +8,9 @@
 namespace oro {
 
 Result<void> check_own_posts(const View& view, const Region& region) {
-    for (const Region& other : region.beside) ORO_CHECK(check_own_posts(view, other));
-    if (!region.field.grid.net) return {};
+    const auto on_net = std::ranges::find_if(
+        region.grids, [](const RegionGrid& grid) { return grid.field.grid.net != nullptr; });
+    if (on_net == region.grids.end()) return {};
     const char* const option = view.model.earth != Earth::ellipsoid          ? "--earth"
                                : view.model.precision != Precision::relative ? "--precision"
                                                                              : nullptr;
@@ -17,7 +19,7 @@ Result<void> check_own_posts(const View& view, const Region& region) {
         option, "",
         std::string("needs posts on latitudes and longitudes, and these lie where their own CRS has "
                     "them: ") +
-            (region.file ? "bake their files with --resample" : "add --resample"));
+            (on_net->file ? "bake their files with --resample" : "add --resample"));
 }
 
 }  // namespace oro

@@ -17,13 +17,14 @@ double spacing_m(const PostGrid& grid) {
 }
 
 const HeightField& field_at(const Region& region, double lat_deg, double lon_deg) {
-    return region_at(region, lat_deg, lon_deg).field;
+    return grid_at(region, lat_deg, lon_deg).field;
 }
 
 Error no_ground(const Place& place, const Region& region, const std::string& name, const char* where) {
     return {ErrorKind::no_data, name,
             std::string("no elevation data ") + where +
-                where_data_are(region.field.grid, place.lat_deg, place.lon_deg)};
+                where_data_are(field_at(region, place.lat_deg, place.lon_deg).grid, place.lat_deg,
+                               place.lon_deg)};
 }
 
 Error nothing_sees(const AskedLine& asked, const std::string& name) {

@@ -7,7 +7,7 @@ namespace oro {
 Camera true_camera(const View& view, const Region& region) {
     Camera camera = view.camera;
     // An empty field is N = 0.
-    camera.eye.h_m += region.geoid_left_out.at_m(camera.eye.lat_deg, camera.eye.lon_deg);
+    camera.eye.h_m += region.grids.front().geoid_left_out.at_m(camera.eye.lat_deg, camera.eye.lon_deg);
     return camera;
 }
 

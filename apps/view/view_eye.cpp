@@ -18,7 +18,7 @@ Result<Standpoint> standpoint_of(const ViewOptions& options, const Place& place,
                                  double exaggeration) {
     Standing standing{"--at", *options.at, "--above", options.above_m, 2.0, options.altitude_m};
     standing.on_summit = options.on_summit;
-    return stand(standing, region_at(region, place.lat_deg, place.lon_deg).field, exaggeration);
+    return stand(standing, grid_at(region, place.lat_deg, place.lon_deg).field, exaggeration);
 }
 
 Result<void> stand_at(View& view, const ViewOptions& options, const Place& place, const Region& region) {
@@ -47,12 +47,12 @@ Result<void> show_place(View& view, const ViewOptions& options, const Place& pla
 
 Result<void> turn_to(View& view, const std::string& text, const Region& region) {
     ORO_TRY(const Place place, place_at("--look-at", text));
-    const std::optional<double> ground = ground_h_m(region_at(region, place.lat_deg, place.lon_deg).field,
-                                                    place.lat_deg, place.lon_deg, view.exaggeration);
+    const HeightField& field = grid_at(region, place.lat_deg, place.lon_deg).field;
+    const std::optional<double> ground = ground_h_m(field, place.lat_deg, place.lon_deg, view.exaggeration);
     if (!ground && !place.height_m)
         return Error{ErrorKind::no_data, "--look-at " + place_name(place.lat_deg, place.lon_deg),
                      "no elevation data there; give a heading and pitch, or geo:LAT,LON,HEIGHT" +
-                         where_data_are(region.field.grid, place.lat_deg, place.lon_deg)};
+                         where_data_are(field.grid, place.lat_deg, place.lon_deg)};
     const double h_m = place.height_m.value_or(ground.value_or(0.0));
     const double roll_deg = view.camera.attitude.roll_deg;
     view.camera.attitude = attitude_towards(view.camera.eye, {place.lat_deg, place.lon_deg, h_m});
@@ -100,7 +100,7 @@ Result<std::optional<MovedToSummit>> wall_near(const ViewOptions& options, const
 
 Result<std::string> nothing_in_view(const View& view, const Region& region, const std::string& view_file) {
     const Geodetic& eye = view.camera.eye;
-    const PostGrid& grid = region_at(region, eye.lat_deg, eye.lon_deg).field.grid;
+    const PostGrid& grid = grid_at(region, eye.lat_deg, eye.lon_deg).field.grid;
     const std::string what = "nothing of the region is in view";
     if (holds(grid, eye.lat_deg, eye.lon_deg)) return what + ": the eye is over the data and looks past them";
     return Error{ErrorKind::no_data, view_file.empty() ? "" : "--view " + view_file,

@@ -13,32 +13,27 @@
 namespace oro {
 
 void leave_geoid_out(Region& region) {
-    region.geoid_left_out = std::move(region.field.undulation);
-    region.field.undulation = {};
-    region.N_of_posts_left_out_m = std::move(region.field.N_of_posts_m);
-    region.field.N_of_posts_m.clear();
-    region.geoid = "none";
-    for (Region& other : region.beside) leave_geoid_out(other);
+    for (RegionGrid& grid : region.grids) {
+        grid.geoid_left_out = std::exchange(grid.field.undulation, {});
+        grid.N_of_posts_left_out_m = std::exchange(grid.field.N_of_posts_m, {});
+        grid.geoid = "none";
+    }
 }
 
 bool keeps_own_posts(const Region& region) {
-    return region.field.grid.net != nullptr || std::ranges::any_of(region.beside, keeps_own_posts);
+    return std::ranges::any_of(region.grids,
+                               [](const RegionGrid& grid) { return grid.field.grid.net != nullptr; });
 }
 
 namespace {
 
-// Of several grids, the first is the one whose ground the eye is over, or else the nearest: what is told of
-// ground around the eye is told of that, and what a style asks of the ground.
-void begin_with_region_at(const Geodetic& eye, Region& region) {
-    const Region& there = region_at(region, eye.lat_deg, eye.lon_deg);
-    if (&there == &region) return;
-    const auto number = static_cast<std::size_t>(&there - region.beside.data());
-    std::vector<Region> others = std::exchange(region.beside, {});
-    Region first = std::move(others[number]);
-    first.notes = std::exchange(region.notes, {});
-    others[number] = std::move(region);
-    first.beside = std::move(others);
-    region = std::move(first);
+// The first grid is the one whose ground the eye is over, or else the nearest: what is told of ground around
+// the eye is told of that, and what a style asks of the ground. The first has the notes on all.
+void begin_with_grid_at(const Geodetic& eye, Region& region) {
+    std::vector<std::string> notes = std::move(region.grids.front().notes);
+    const auto number = &grid_at(region, eye.lat_deg, eye.lon_deg) - region.grids.data();
+    std::swap(region.grids.front(), region.grids[static_cast<std::size_t>(number)]);
+    region.grids.front().notes = std::move(notes);
 }
 
 // Where the data that a view names are gone: what to do about it.
@@ -143,9 +138,9 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         if (!opened) return with_way_out(opened.error(), view, region_options);
         region = std::move(*opened);
         view.own_posts = keeps_own_posts(region);
-        view.several_grids = !region.beside.empty();
+        view.several_grids = region.grids.size() > 1;
         view.prints = prints_of(region);
-        begin_with_region_at(view.camera.eye, region);
+        begin_with_grid_at(view.camera.eye, region);
         ORO_CHECK(check_own_posts(view, region));
         if (!view.has_geoid) leave_geoid_out(region);
         // Those that somebody names instead are others on purpose.
@@ -159,16 +154,16 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     take_usual_sun(view);
     ORO_TRY(region, open_region(view.region, progress));
     view.own_posts = keeps_own_posts(region);
-    view.several_grids = !region.beside.empty();
+    view.several_grids = region.grids.size() > 1;
     view.prints = prints_of(region);
     ORO_CHECK(check_own_posts(view, region));
     ORO_CHECK(open_files(view));
     if (!view.has_geoid) leave_geoid_out(region);
     const Result<void> placed = place_eye(view, view_options, region);
-    begin_with_region_at(view.camera.eye, region);
+    begin_with_grid_at(view.camera.eye, region);
     if (placed.ok()) aim_sun(view.sun, view.camera.eye);
     // Ground that could not be read is no ground to stand on, but that is not why there is none.
-    ORO_CHECK(region.field.health());
+    ORO_CHECK(region.grids.front().field.health());
     return placed;
 }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double usual_above_m = 2.0;
 
 const HeightField& field_under(const Region& region, const Geodetic& place) {
-    return region_at(region, place.lat_deg, place.lon_deg).field;
+    return grid_at(region, place.lat_deg, place.lon_deg).field;
 }
 
 // The same line of sight, turned as the user asked for.

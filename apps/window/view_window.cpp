@@ -53,9 +53,8 @@ struct Viewer {
     bool asking_place{false};
     std::string place_text{};
     std::string shown_title{};
-    std::string message{};             // shown in the title until the eye moves
-    std::vector<PageIndex> missing{};  // what the last frame should have had, of the region's own grid
-    bool is_missing{};                 // ... or of any
+    std::string message{};                         // shown in the title until the eye moves
+    bool is_missing{};                             // something that the last frame should have had
     std::unique_ptr<const RegionGround> ground{};  // made when it is first asked, for all questions after
     std::unique_ptr<FinerLevels> finer{};          // the levels that the view asks for, until they are here
     std::unique_ptr<Scene> coming{};               // of them, until what a picture needs is on the GPU
@@ -84,7 +83,7 @@ void say_waited(const Viewer& viewer, const char* what) {
 // The finest grid below the eye.
 const HeightField& field_below(const Viewer& viewer) {
     const Geodetic& eye = viewer.view.camera.eye;
-    return region_at(viewer.region, eye.lat_deg, eye.lon_deg).field;
+    return grid_at(viewer.region, eye.lat_deg, eye.lon_deg).field;
 }
 
 Result<const RegionGround*> ground_of(Viewer& viewer) {
@@ -188,20 +187,22 @@ bool is_coarse(const Viewer& viewer) {
 
 // The measured levels become a scene that is not shown yet; waits for them where they are not ready.
 Result<void> begin_finer_scene(Viewer& viewer) {
-    ORO_TRY(std::unique_ptr<RegionPages> pages, viewer.finer->wait());
+    GridPages pages(1);
+    ORO_TRY(pages.front(), viewer.finer->wait());
     viewer.finer.reset();
-    ORO_TRY(Scene scene,
-            create_scene(viewer.gpu, std::move(pages), memory_of_pages(viewer.view, viewer.options.memory),
-                         viewer.view.heights, asks_for_means(viewer.style.frame)));
-    ORO_CHECK(lay_images(viewer.view, viewer.options.memory, viewer.gpu, scene, true));
-    viewer.coming = std::make_unique<Scene>(std::move(scene));
+    const View& view = viewer.view;
+    ORO_TRY(RegionScene whole,
+            scene_of_region(viewer.gpu, viewer.region, viewer.cuts, std::move(pages),
+                            {view.exaggeration, memory_of_pages(view, viewer.options.memory), view.heights,
+                             asks_for_means(viewer.style.frame)}));
+    ORO_CHECK(lay_images(view, viewer.options.memory, viewer.gpu, whole.scene, true));
+    viewer.coming = std::make_unique<Scene>(std::move(whole.scene));
     viewer.coming_since = Clock::now();
     return {};
 }
 
 void show_finer_scene(Viewer& viewer) {
     viewer.scene = std::move(viewer.coming);
-    viewer.missing.clear();
     viewer.is_missing = false;
 }
 
@@ -217,11 +218,12 @@ Result<bool> bring_finer_scene(Viewer& viewer) {
     Scene& scene = *viewer.coming;
     const Camera& camera = viewer.view.camera;
     scene.hold_for(viewer.style.frame);
-    ORO_TRY(const FramePlan plan, scene.plan(camera, whole_of(camera),
-                                             std::max(first_tau_px, viewer.view.tau_px), viewer.view.model));
+    ORO_TRY(const FramePlan plan,
+            scene.plan(
+                {camera, whole_of(camera), std::max(first_tau_px, viewer.view.tau_px), viewer.view.model}));
     // Where the GPU has no room for all of it, it never is whole.
     if (!plan.is_settled() && seconds_since(viewer.coming_since) < longest_s) {
-        const Result<bool> advanced = scene.advance(plan.missing);
+        const Result<bool> advanced = scene.advance();
         return advanced.ok() ? Result<bool>(false) : advanced;
     }
     show_finer_scene(viewer);
@@ -262,7 +264,7 @@ Result<void> take_picture(Viewer& viewer) {
     const PictureFiles files = picture_files(free_picture_name(viewer.view.time_utc_s));
     const Camera& camera = viewer.view.camera;
     ORO_TRY(const auto middle, seen_at(viewer, {0.5 * camera.width_px, 0.5 * camera.height_px}));
-    ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.field));
+    ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.grids.front().field));
     ORO_TRY(const RegionGround* const ground, ground_of(viewer));
     viewer.view.legend = has_own_legend(viewer.view);
     ORO_TRY(const auto strip, strip_of(viewer.view, viewer.region, viewer.style, middle));
@@ -352,15 +354,15 @@ Result<void> write_over(Viewer& viewer, const FrameReport& drawn) {
 }
 
 bool has_ground(const FramePlan& plan) {
-    return !plan.pages.empty() || std::ranges::any_of(plan.beside, has_ground);
+    return std::ranges::any_of(plan.grids, [](const GridPlan& grid) { return !grid.pages.empty(); });
 }
 
 // Whether ground is in view of which nothing is there yet. A grid beside others that have some is waited for
 // a little while: nothing says then that its ground is not void.
 bool lacks_ground(Viewer& viewer, const FramePlan& plan) {
     constexpr double longest_s = 2.0;
-    const auto lacks = [](const FramePlan& one) { return one.pages_wanted > 0 && one.pages.empty(); };
-    if (!lacks(plan) && std::ranges::none_of(plan.beside, lacks)) return false;
+    const auto lacks = [](const GridPlan& grid) { return grid.pages_wanted > 0 && grid.pages.empty(); };
+    if (std::ranges::none_of(plan.grids, lacks)) return false;
     if (!viewer.waits_for_ground) viewer.waiting_since = Clock::now();
     return !has_ground(plan) || seconds_since(viewer.waiting_since) < longest_s;
 }
@@ -410,8 +412,7 @@ Result<FramePlan> plan_now(Viewer& viewer) {
     const Camera& camera = viewer.view.camera;
     viewer.scene->hold_for(viewer.style.frame);
     ORO_TRY(FramePlan plan,
-            viewer.scene->plan(camera, whole_of(camera), viewer.view.tau_px, viewer.view.model));
-    viewer.missing = plan.missing;
+            viewer.scene->plan({camera, whole_of(camera), viewer.view.tau_px, viewer.view.model}));
     viewer.is_missing = !plan.is_settled();
     viewer.waits_for_ground = lacks_ground(viewer, plan);
     if (viewer.is_shown || plan.wants_pages()) return plan;
@@ -429,7 +430,7 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
     if (extent.width == 0 || extent.height == 0) return {};
     ORO_CHECK(take_size(viewer, extent, changed));
     if (viewer.is_missing) {
-        ORO_TRY(const bool better, viewer.scene->advance(viewer.missing));
+        ORO_TRY(const bool better, viewer.scene->advance());
         changed = changed || better;
     }
     changed = comes_to_rest(viewer) || changed;
@@ -444,13 +445,13 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
         return show_again(viewer);
     }
     const bool is_settled = plan.is_settled();
-    ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.field,
+    ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.grids.front().field,
                           viewer.follows_eye ? Eye::moves : Eye::rests));
     ORO_TRY(const FrameReport drawn,
             viewer.renderer.draw(std::move(plan), viewer.style.frame, 0, 1, viewer.scene->drapes()));
     viewer.scene->saw(drawn.sights);
     ORO_CHECK(write_over(viewer, drawn));
-    const int every = is_coarse(viewer) ? coarse_step(viewer.region.field) : 1;
+    const int every = is_coarse(viewer) ? coarse_step(viewer.region.grids.front().field) : 1;
     ORO_CHECK(viewer.legend.lay_over(viewer.view, viewer.region, viewer.style, every, viewer.renderer));
     viewer.has_picture = true;
     viewer.loading_px = {};
@@ -523,14 +524,14 @@ Result<void> run_view(const WindowOptions& options) {
         options, [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view,
         region));
     ORO_TRY(RegionCuts cuts, cut_regions(region));
-    ORO_TRY(const Style style, load_style(view, region.field));
+    ORO_TRY(const Style style, load_style(view, region.grids.front().field));
     GpuOptions gpu_options = gpu_options_from_environment();
     gpu_options.instance_extensions = extensions;
     gpu_options.presents = true;
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options));
     ORO_CHECK(check_window_size(view.camera, gpu->report()));
     const bool coarse_first = measures_long(region);
-    ORO_TRY(std::unique_ptr<RegionPages> pages,
+    ORO_TRY(GridPages pages,
             first_pages(region, cuts, view, [&](double share) { bar.show(share, "measuring levels"); }));
     ORO_TRY(const bool clusters, draws_clusters(region, view));
     ORO_TRY(RegionScene whole,

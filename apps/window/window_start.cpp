@@ -25,7 +25,7 @@ Result<void> open_flight(const WindowOptions& options, const Progress& progress,
     if (!options.view.tau_px && !options.view.accuracy && options.view_file.empty()) view.tau_px = 0.5;
     const Geodetic& eye = view.camera.eye;
     view.camera =
-        above_ground(view.camera, region_at(region, eye.lat_deg, eye.lon_deg).field, view.exaggeration);
+        above_ground(view.camera, grid_at(region, eye.lat_deg, eye.lon_deg).field, view.exaggeration);
     ORO_CHECK(region.health());
     ORO_CHECK(check_files_unchanged());
     // A window stays open while people work on: what it shows is what was there when it was opened.
@@ -43,10 +43,13 @@ std::string free_picture_name(std::int64_t time_utc_s) {
     }
 }
 
-Result<std::unique_ptr<RegionPages>> first_pages(const Region& region, const RegionCuts& cuts,
-                                                 const View& view, const RenderProgress& progress) {
-    if (!measures_long(region)) return region_pages(region, cuts.grids.front(), view.exaggeration, progress);
-    return pages_in_memory(coarse_field(region.field), view.exaggeration, thread_count());
+Result<GridPages> first_pages(const Region& region, const RegionCuts& cuts, const View& view,
+                              const RenderProgress& progress) {
+    if (!measures_long(region)) return pages_of_grids(region, cuts, view.exaggeration, progress);
+    GridPages coarse;
+    coarse.push_back(
+        pages_in_memory(coarse_field(region.grids.front().field), view.exaggeration, thread_count()));
+    return coarse;
 }
 
 Result<void> check_window_size(const Camera& camera, const DeviceReport& device) {

@@ -15,8 +15,8 @@ namespace oro {
 Result<void> open_flight(const WindowOptions& options, const Progress& progress, View& view, Region& region);
 
 // All levels of a region, or where measuring them takes long, those of every n-th post. cuts: of all grids.
-Result<std::unique_ptr<RegionPages>> first_pages(const Region& region, const RegionCuts& cuts,
-                                                 const View& view, const RenderProgress& progress);
+Result<GridPages> first_pages(const Region& region, const RegionCuts& cuts, const View& view,
+                              const RenderProgress& progress);
 
 // A window is drawn in one piece, where a picture has tiles. Errors (usage): it is too large for that.
 Result<void> check_window_size(const Camera& camera, const DeviceReport& device);

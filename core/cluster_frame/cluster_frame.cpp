@@ -14,7 +14,7 @@ namespace {
 // The pages of a plan by where they are.
 class PagesOfPlan {
   public:
-    explicit PagesOfPlan(const FramePlan& plan) {
+    explicit PagesOfPlan(const GridPlan& plan) {
         for (std::size_t i = 0; i < plan.page_indices.size(); ++i) {
             const PageIndex& index = plan.page_indices[i];
             numbers_[{index.level, index.row, index.column}] = static_cast<std::uint32_t>(i);
@@ -45,7 +45,7 @@ class PagesOfPlan {
 }  // namespace
 
 void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> clusters, const ClusterOffer& offer,
-                   const Camera& camera, FramePlan& plan) {
+                   const Camera& camera, GridPlan& plan) {
     plan.clusters.on = true;
     const PagesOfPlan pages(plan);
     std::vector<FrameTables::Span> rows, columns;

@@ -22,11 +22,11 @@ struct ResidentCluster {
     glm::mat3 half_axes_m;
 };
 
-// plan: of plan_frame() for the same eye and model, on the ellipsoid. Each cluster begins to be shaded from
+// plan: of plan_grid() for the same eye and model, on the ellipsoid. Each cluster begins to be shaded from
 // the finest page of the plan that covers all of it; one that none covers cannot be seen, and is left out.
 // Adds the terms of all rows and columns of the region that a cluster reaches over.
 // clusters: those of the offer, in its order.
 void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> clusters, const ClusterOffer& offer,
-                   const Camera& camera, FramePlan& plan);
+                   const Camera& camera, GridPlan& plan);
 
 }  // namespace oro

@@ -158,7 +158,7 @@ void CastMap::cast_from(int row, int column) {
 }
 
 // From a place beside the grid. Where a line is over the ground its straight way through space tells.
-void CastMap::cast_from_beside(const CastReceiver& receiver) {
+void CastMap::cast_from_other_grid(const CastReceiver& receiver) {
     const Geodetic at = geodetic_from_ecef(receiver.centre);
     const glm::dvec3 sun = glm::transpose(ecef_from_enu(at.lat_deg, at.lon_deg)) * sun_ecef_;
     const double half_rad = receiver.radius_m / mean_radius_m;

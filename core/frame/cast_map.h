@@ -38,7 +38,7 @@ class CastMap {
     void receive(const Patch& patch, double error_per_slope_m, double lowest_m);
     void cast();
     // The same of ground that is another grid's: where lines from there pass over this one.
-    void cast_from_beside(const CastReceiver& receiver);
+    void cast_from_other_grid(const CastReceiver& receiver);
     // Whether any line passes over the region.
     [[nodiscard]] bool any() const { return any_; }
     // What lines need of the terrain in these cells; infinite where none passes.

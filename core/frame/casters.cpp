@@ -30,8 +30,8 @@ class CasterChoice {
     // A page and what a map of lines needs below it.
     Result<void> want(const CastMap& map, const PageIndex& index);
     // Pages beside those of a plan; theirs above are among them.
-    Result<void> want_around(const FramePlan& plan);
-    void list(FramePlan& plan) const;
+    Result<void> want_around(const GridPlan& plan);
+    void list(GridPlan& plan) const;
 
   private:
     const RegionPages& pages_;
@@ -40,7 +40,7 @@ class CasterChoice {
     std::vector<std::pair<PageIndex, std::uint64_t>> wanted_;
 };
 
-Result<void> CasterChoice::want_around(const FramePlan& plan) {
+Result<void> CasterChoice::want_around(const GridPlan& plan) {
     for (const PageIndex& page : plan.page_indices) {
         const PageLayout layout = pages_.layout(page.level);
         for (int row = std::max(0, page.row - 1); row <= std::min(layout.rows - 1, page.row + 1); ++row)
@@ -75,7 +75,7 @@ Result<void> CasterChoice::want(const CastMap& map, const PageIndex& index) {
     return {};
 }
 
-void CasterChoice::list(FramePlan& plan) const {
+void CasterChoice::list(GridPlan& plan) const {
     CasterPlan& casters = plan.casters;
     std::vector<PageIndex> low(static_cast<std::size_t>(pages_.levels()),
                                {std::numeric_limits<int>::max(), std::numeric_limits<int>::max(), 0});
@@ -121,7 +121,7 @@ void CasterChoice::list(FramePlan& plan) const {
 }
 
 // What casters may be off for each metre from the eye.
-double error_per_metre(const FramePlan& plan) {
+double error_per_metre(const GridPlan& plan) {
     return caster_error_px / static_cast<double>(plan.constants.pixels_per_tangent);
 }
 
@@ -131,7 +131,7 @@ struct SeenQuarter {
     CastReceiver ground;
 };
 Result<void> look_for_quarters(const RegionPages& pages, const Camera& camera, const Tile& tile,
-                               const FramePlan& plan, const std::function<void(const SeenQuarter&)>& found) {
+                               const GridPlan& plan, const std::function<void(const SeenQuarter&)>& found) {
     const double error_per_m = error_per_metre(plan);
     const glm::dmat3 view_from_ecef = camera.view_from_ecef();
     const glm::dvec3 eye = camera.eye_ecef().m;
@@ -208,7 +208,7 @@ Result<double> region_top_m(const RegionPages& pages) {
 
 // The ground of a seam lies along the rims of grids, a few of their posts wide.
 Result<std::vector<CastReceiver>> cast_receivers(const RegionPages& pages, const Camera& camera,
-                                                 const Tile& tile, const FramePlan& plan) {
+                                                 const Tile& tile, const GridPlan& plan) {
     constexpr double rim_posts = 3.0;
     std::vector<CastReceiver> all;
     if (pages.is_seam()) return all;
@@ -223,7 +223,7 @@ Result<std::vector<CastReceiver>> cast_receivers(const RegionPages& pages, const
 Result<void> plan_casters(const RegionPages& pages,
                           const std::function<std::uint64_t(const PageIndex&)>& residency,
                           const Camera& camera, const Tile& tile, const CastRequest& request, double top_m,
-                          FramePlan& plan, std::span<const CastReceiver> beside) {
+                          GridPlan& plan, std::span<const CastReceiver> others) {
     const int top = pages.levels() - 1;
     if (pages.layout(top).count() == 0) return {};
     CasterChoice choice(pages, residency);
@@ -235,7 +235,7 @@ Result<void> plan_casters(const RegionPages& pages,
                         quarter.ground.error_per_slope_m, quarter.ground.lowest_m);
         }));
         map.cast();
-        for (const CastReceiver& receiver : beside) map.cast_from_beside(receiver);
+        for (const CastReceiver& receiver : others) map.cast_from_other_grid(receiver);
         for_shadows = !plan.pages.empty() || map.any();
         if (for_shadows) ORO_CHECK(choice.want(map, {0, 0, top}));
     }

@@ -15,7 +15,7 @@
 
 namespace oro {
 
-struct FramePlan;
+struct GridPlan;
 
 // What a style asks of the terrain around its ground.
 struct CastRequest {
@@ -44,16 +44,16 @@ Result<double> region_top_m(const RegionPages& pages);
 // The ground that a plan of these pages shows, for plan_casters() of other grids of the frame. Errors: a
 // page's record that cannot be read.
 Result<std::vector<CastReceiver>> cast_receivers(const RegionPages& pages, const Camera& camera,
-                                                 const Tile& tile, const FramePlan& plan);
+                                                 const Tile& tile, const GridPlan& plan);
 
 // Chooses the pages of all levels that are needed around a plan's own. For shadows those that a line from any
 // place of the plan's pages towards the sun may pass below the top of, no coarser than `caster_error_px` asks
 // for; light is parallel and straight. For the sky's openness those beside the plan's. Adds what is not on
-// the GPU to plan.missing. residency: as for plan_frame(). beside: ground of other grids that is seen in the
+// the GPU to plan.missing. residency: as for plan_grid(). others: ground of other grids that is seen in the
 // frame; a plan without pages of its own may cast on that alone. Errors: a page's record that cannot be read.
 Result<void> plan_casters(const RegionPages& pages,
                           const std::function<std::uint64_t(const PageIndex&)>& residency,
                           const Camera& camera, const Tile& tile, const CastRequest& request, double top_m,
-                          FramePlan& plan, std::span<const CastReceiver> beside = {});
+                          GridPlan& plan, std::span<const CastReceiver> others = {});
 
 }  // namespace oro

@@ -54,8 +54,8 @@ class PageChoice {
 
     Result<void> choose();
     void ask_what_shows(const IsHidden& is_hidden);
-    void number_pages(FramePlan& plan);
-    void list_pages(FrameTables& tables, FramePlan& plan) const;
+    void number_pages(GridPlan& plan);
+    void list_pages(FrameTables& tables, GridPlan& plan) const;
 
   private:
     WantedLevel& level(int number) { return levels_[static_cast<std::size_t>(number)]; }
@@ -229,7 +229,7 @@ void PageChoice::ask_what_shows(const IsHidden& is_hidden) {
     }
 }
 
-void PageChoice::number_pages(FramePlan& plan) {
+void PageChoice::number_pages(GridPlan& plan) {
     std::vector<WantedPage*> open;
     std::vector<const WantedPage*> missing;
     for (WantedLevel& wanted : levels_) {
@@ -339,7 +339,7 @@ gpu::FramePage PageChoice::frame_page(const WantedPage& page) const {
     return frame;
 }
 
-void PageChoice::list_pages(FrameTables& tables, FramePlan& plan) const {
+void PageChoice::list_pages(FrameTables& tables, GridPlan& plan) const {
     for (const PageIndex& index : plan.page_indices) {
         gpu::FramePage frame = frame_page(level(index.level).at({index.row, index.column}));
         tables.place(index, frame);
@@ -349,15 +349,15 @@ void PageChoice::list_pages(FrameTables& tables, FramePlan& plan) const {
 
 }  // namespace
 
-Result<FramePlan> plan_frame(const RegionPages& pages, const Residency& residency, const Camera& camera,
-                             const Tile& tile, double tau_px, const WorldModel& model,
-                             const HeightQuantization& coding, double shading_spacing_px,
-                             const IsHidden& is_hidden) {
+Result<GridPlan> plan_grid(const RegionPages& pages, const Residency& residency, const FrameView& view,
+                           const HeightQuantization& coding, double shading_spacing_px,
+                           const IsHidden& is_hidden) {
+    const auto& [camera, tile, tau_px, model] = view;
     const ModelView model_view(camera, model, coding);
     PageChoice choice(pages, residency, camera, tile, tau_px, shading_spacing_px, model_view);
     ORO_CHECK(choice.choose());
     choice.ask_what_shows(is_hidden);
-    FramePlan plan;
+    GridPlan plan;
     choice.number_pages(plan);
     if (plan.page_indices.size() > gpu::pages_max)
         return Error{ErrorKind::failed, "frame",

@@ -18,8 +18,19 @@
 
 namespace oro {
 
-// One frame of one tile, ready for the GPU but for the addresses of its buffers and the style.
-struct FramePlan {
+// Where a frame is seen from and how finely: the same for all that it draws.
+struct FrameView {
+    Camera camera;
+    Tile tile;           // of the camera's picture
+    double tau_px{1.0};  // 0: full resolution
+    WorldModel model{};  // what of the world is drawn
+    // Of the tile.
+    [[nodiscard]] std::uint32_t width_px() const { return static_cast<std::uint32_t>(tile.width_px); }
+    [[nodiscard]] std::uint32_t height_px() const { return static_cast<std::uint32_t>(tile.height_px); }
+};
+
+// What a frame draws of one grid, ready for the GPU but for the addresses of its buffers and the style.
+struct GridPlan {
     gpu::FrameConstants constants{};
     std::vector<gpu::FramePage> pages;  // nearest first; parents of drawn pages, too
     std::vector<PageIndex> page_indices;
@@ -39,24 +50,27 @@ struct FramePlan {
     bool wants_sights{};   // the frame tells which of its nodes or clusters show (core/frame/seen_ground.h)
     // Of whose heights the pages' blocks are: one number, one set of heights. 0: nobody says so.
     std::uint64_t heights{};
-    // Other grids in the same frame: plans of their own, for the same eye and tile.
-    std::vector<FramePlan> beside;
+};
+
+// One frame: the grids that it draws, at least one. Which of them comes first makes no difference to what is
+// seen.
+struct FramePlan {
+    FrameView view;
+    std::vector<GridPlan> grids;
     // Whether nothing is missing, of any grid.
     [[nodiscard]] bool is_settled() const {
-        return missing.empty() && clusters.missing == 0 &&
-               std::ranges::all_of(beside, [](const FramePlan& other) { return other.missing.empty(); });
+        return std::ranges::all_of(
+            grids, [](const GridPlan& grid) { return grid.missing.empty() && grid.clusters.missing == 0; });
     }
     // Whether nothing is missing that might show, of any grid.
     [[nodiscard]] bool shows_all() const {
-        return missing.size() == missing_hidden && clusters.missing == 0 &&
-               std::ranges::all_of(beside, [](const FramePlan& other) {
-                   return other.missing.size() == other.missing_hidden;
-               });
+        return std::ranges::all_of(grids, [](const GridPlan& grid) {
+            return grid.missing.size() == grid.missing_hidden && grid.clusters.missing == 0;
+        });
     }
     // Whether any page of any grid may be in view.
     [[nodiscard]] bool wants_pages() const {
-        return pages_wanted > 0 ||
-               std::ranges::any_of(beside, [](const FramePlan& other) { return other.pages_wanted > 0; });
+        return std::ranges::any_of(grids, [](const GridPlan& grid) { return grid.pages_wanted > 0; });
     }
 };
 
@@ -66,17 +80,16 @@ using Residency = std::function<std::uint64_t(const PageIndex& page)>;
 // Whether other ground is known to hide all of a page (core/frame/seen_ground.h).
 using IsHidden = std::function<bool(const PageIndex& page)>;
 
-// Chooses the pages of a frame, from the top down: of those that can be seen (conservative: none that can is
-// left out) each whose parent is not good enough for tau_px pixels everywhere, or has its posts too far apart
-// to shade slopes from (more than shading_spacing_px). Between neighbours that are there the levels differ by
-// at most one, whatever is missing. model: what of the world is drawn; on another Earth than WGS84 tau_px is
-// kept as well as that Earth agrees with it. coding: of the heights on the GPU. is_hidden: asked of each of
-// them; it changes nothing but the order of those that are missing. Errors: a page's record that cannot be
-// read; more pages than triangle ids can number.
-Result<FramePlan> plan_frame(const RegionPages& pages, const Residency& residency, const Camera& camera,
-                             const Tile& tile, double tau_px, const WorldModel& model = {},
-                             const HeightQuantization& coding = {},
-                             double shading_spacing_px = gpu::shading_spacing_px,
-                             const IsHidden& is_hidden = {});
+// Chooses the pages of one grid for a frame, from the top down: of those that can be seen (conservative: none
+// that can is left out) each whose parent is not good enough for the view's tau everywhere, or has its posts
+// too far apart to shade slopes from (more than shading_spacing_px). Between neighbours that are there the
+// levels differ by at most one, whatever is missing. On another Earth than WGS84 tau is kept as well as that
+// Earth agrees with it. coding: of the heights on the GPU. is_hidden: asked of each of them; it changes
+// nothing but the order of those that are missing. Errors: a page's record that cannot be read; more pages
+// than triangle ids can number.
+Result<GridPlan> plan_grid(const RegionPages& pages, const Residency& residency, const FrameView& view,
+                           const HeightQuantization& coding = {},
+                           double shading_spacing_px = gpu::shading_spacing_px,
+                           const IsHidden& is_hidden = {});
 
 }  // namespace oro

@@ -121,9 +121,7 @@ Distance GroundMeter::from_surface(const glm::dvec2& point_px, const DrawnPoint&
     const glm::dvec3 drawn_ecef = sight_.eye.m + sight_.refraction.true_m(drawn_m);
     const Geodetic drawn = geodetic_from_ecef({drawn_ecef});
     // Over no ground of any: over where the point's own grid ends.
-    const std::size_t below =
-        ground_.grids() == 1 ? 0 : ground_.grid_at(drawn.lat_deg, drawn.lon_deg).value_or(point.grid);
-    const TrueSurface& surface = ground_.surface(below);
+    const TrueSurface& surface = ground_.surface(ground_.grid_at(drawn.lat_deg, drawn.lon_deg, point.grid));
     const PostGrid& grid = surface.field().grid;
     auto [row, column] = grid.post_at(drawn.lat_deg, drawn.lon_deg);
     Distance nearest = displacement;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace oro {
 namespace {
@@ -118,9 +119,9 @@ void Crossings::search(const std::array<Step, 3>& piece, const std::array<double
     }
 }
 
-}  // namespace
-
-std::vector<double> edge_crossings(const TrueSurface& surface, const Way& way, double from_m, double to_m) {
+// Adds those of one grid, in order.
+void add_crossings(const TrueSurface& surface, const Way& way, double from_m, double to_m,
+                   std::vector<double>& all) {
     Crossings crossings(surface, way);
     // So short that a way turns to one side only in it.
     constexpr double longest_m = 5000.0;
@@ -131,17 +132,15 @@ std::vector<double> edge_crossings(const TrueSurface& surface, const Way& way, d
         crossings.walk(from, to, 0);
         from = to;
     }
-    return crossings.take();
+    std::ranges::copy(crossings.take(), std::back_inserter(all));
 }
 
+}  // namespace
+
 std::vector<double> edge_crossings(const TrueGround& ground, const Way& way, double from_m, double to_m) {
-    if (ground.grids() == 1) return edge_crossings(ground.surface(0), way, from_m, to_m);
     std::vector<double> all;
-    for (std::size_t grid = 0; grid < ground.grids(); ++grid) {
-        const std::vector<double> its = edge_crossings(ground.surface(grid), way, from_m, to_m);
-        all.insert(all.end(), its.begin(), its.end());
-    }
-    std::ranges::sort(all);
+    for (std::size_t grid = 0; grid < ground.grids(); ++grid)
+        add_crossings(ground.surface(grid), way, from_m, to_m, all);
     const auto grid_at = [&](double along_m) {
         const Geodetic place = way(along_m);
         return ground.grid_at(place.lat_deg, place.lon_deg);
@@ -149,7 +148,8 @@ std::vector<double> edge_crossings(const TrueGround& ground, const Way& way, dou
     std::vector<double> stops;
     for (const double along_m : all) {
         const double before_m = along_m - beside_rim_m, after_m = along_m + beside_rim_m;
-        const bool at_rim = before_m > from_m && after_m < to_m && grid_at(before_m) != grid_at(after_m);
+        const bool at_rim = ground.grids() > 1 && before_m > from_m && after_m < to_m &&
+                            grid_at(before_m) != grid_at(after_m);
         if (at_rim) {
             stops.push_back(before_m);
             stops.push_back(after_m);

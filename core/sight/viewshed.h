@@ -51,29 +51,27 @@ struct ViewshedRequest {
 // Told how far it is, 0..1; from any thread, one at a time.
 using ViewshedProgress = std::function<void(double share)>;
 
-// Whether a target is seen is what Lookout::sees() says of it, for all posts. missed_by_m is that of edges
+// What is seen at the posts of one of the ground's grids: a target stands on what is the ground at the post's
+// place, whichever grid that is. Whether it is seen is what Lookout::sees() says of it, for all posts. The
+// answer does not depend on `threads`.
+//
+// Where no other grid comes within the radius, posts are swept; where one does, each post takes a line of
+// sight, and a hidden one some thirty, and missed_by_m is as exact as Lookout. Of a sweep it is that of edges
 // that are straight but for the ellipsoid's curvature: off by less than a millimetre, on posts of 3 seconds,
 // times how much farther away the target is than what hides it. (Measured: 0.12 m 2 m over hills, out to 12
-// km; 0.305 m over real mountains. There is no bound.) The answer does not depend on `threads`. Takes 70
-// bytes for each post of the window.
+// km; 0.305 m over real mountains. There is no bound.) A sweep takes 70 bytes for each post of the window.
 //
-// How: in the plane that is level at the eye all sight lines are straight, and posts are the corners of a net
-// of triangles. Posts are taken by their distance. For narrow ranges of azimuth those edges of the net are
-// kept that may be the highest seen so far anywhere in the range; so what hides a target are the few edges of
-// its own range that are nearer, and those just before it, found by walking from triangle to triangle. What
-// lies within the error of taking edges for straight is asked of the oracle.
-Viewshed viewshed(const TrueSurface& surface, const ViewshedRequest& request,
+// The sweep: in the plane that is level at the eye all sight lines are straight, and posts are the corners of
+// a net of triangles. Posts are taken by their distance. For narrow ranges of azimuth those edges of the net
+// are kept that may be the highest seen so far anywhere in the range; so what hides a target are the few
+// edges of its own range that are nearer, and those just before it, found by walking from triangle to
+// triangle. What lies within the error of taking edges for straight is asked of the oracle.
+Viewshed viewshed(const TrueGround& ground, std::size_t grid, const ViewshedRequest& request,
                   const ViewshedProgress& progress = {});
 
 // The grid whose posts cover most of the circles around the eyes; of several that cover as much, that which
 // is the ground in most of it. By 1,536 places a circle. Nothing: none has ground there.
 std::optional<std::size_t> grid_of_most(const TrueGround& ground, const std::vector<Geodetic>& eyes,
                                         double radius_m);
-
-// The same over the ground of several grids, at the posts of one of them: a target stands on what is the
-// ground at the post's place, whichever grid that is. As exact as Lookout. Where other grids come within the
-// radius, each post takes a line of sight, and a hidden one some thirty.
-Viewshed viewshed_of_grids(const TrueGround& ground, std::size_t grid, const ViewshedRequest& request,
-                           const ViewshedProgress& progress = {});
 
 }  // namespace oro

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <optional>
 
 #include "core/base/parallel.h"
@@ -26,8 +27,8 @@ class BehindEdges {
             const double step_m = step_cells * wgs84_a_m * surface.field().grid.row_step_rad();
             const bool has_any = surface.levels() > 0;
             const double h_m = has_any ? surface.layer({surface.levels() - 1, 0, 0}).highest_h_m : 0.0;
-            step_m_ = grid == 0 ? step_m : std::min(step_m_, step_m);
-            highest_h_m_ = grid == 0 ? h_m : std::max(highest_h_m_, h_m);
+            step_m_ = std::min(step_m_, step_m);
+            highest_h_m_ = std::max(highest_h_m_, h_m);
         }
     }
 
@@ -53,10 +54,8 @@ class BehindEdges {
 
     // The ground straight above or below a place.
     [[nodiscard]] std::optional<ViewSample> ground_at(const Geodetic& place, const ViewSample& near) const {
-        const auto number = ground_.grids() == 1 ? std::optional<std::size_t>(0)
-                                                 : ground_.grid_at(place.lat_deg, place.lon_deg);
-        if (!number) return std::nullopt;
-        const TrueSurface& surface = ground_.surface(*number);
+        const std::size_t number = ground_.grid_at(place.lat_deg, place.lon_deg, 0);
+        const TrueSurface& surface = ground_.surface(number);
         const PostGrid& grid = surface.field().grid;
         const auto [row, column] = grid.post_at(place.lat_deg, place.lon_deg);
         const auto h_m = surface.h_at_m(row, column);
@@ -84,7 +83,7 @@ class BehindEdges {
                           row - whole_row >= column - whole_column,
                           false,
                           std::max(away_px, seen_no_more),
-                          *number};
+                          number};
     }
 
     const TrueGround& ground_;
@@ -92,8 +91,8 @@ class BehindEdges {
     glm::dmat3 view_from_ecef_;
     double pixels_per_tangent_;
     double reach_m_;
-    double step_m_{};
-    double highest_h_m_{0.0};
+    double step_m_{std::numeric_limits<double>::infinity()};
+    double highest_h_m_{-std::numeric_limits<double>::infinity()};
 };
 
 }  // namespace
@@ -103,10 +102,8 @@ double picture_reach_m(const TrueGround& ground, const Sight& sight, double eye_
     if (sight.earth != Earth::flat) return reach_m;
     // Beyond, sight lines through air that bends them take minutes.
     constexpr double most_of_the_plane_m = 7.0e6;
-    const PostGrid& first = ground.surface(0).field().grid;
-    double north_deg = first.north_deg(), south_deg = first.south_deg(), east_deg = first.east_deg(),
-           west_deg = first.west_deg();
-    for (std::size_t i = 1; i < ground.grids(); ++i) {
+    double north_deg = -90.0, south_deg = 90.0, east_deg = -1000.0, west_deg = 1000.0;
+    for (std::size_t i = 0; i < ground.grids(); ++i) {
         const PostGrid& grid = ground.surface(i).field().grid;
         north_deg = std::max(north_deg, grid.north_deg());
         south_deg = std::min(south_deg, grid.south_deg());

@@ -40,8 +40,7 @@ std::optional<double> TrueGround::h_m(double lat_deg, double lon_deg) const {
 }
 
 double TrueGround::N_m(double lat_deg, double lon_deg) const {
-    const std::size_t grid = grids_.size() == 1 ? 0 : grid_at(lat_deg, lon_deg).value_or(0);
-    return surface(grid).field().undulation.at_m(lat_deg, lon_deg);
+    return surface(grid_at(lat_deg, lon_deg, 0)).field().undulation.at_m(lat_deg, lon_deg);
 }
 
 Result<void> TrueGround::health() const {

@@ -38,6 +38,10 @@ class TrueGround {
 
     // Which grid is the ground at a place; nothing where there is none.
     [[nodiscard]] std::optional<std::size_t> grid_at(double lat_deg, double lon_deg) const;
+    // That grid, or `otherwise` where there is none. One that is alone is given without a look.
+    [[nodiscard]] std::size_t grid_at(double lat_deg, double lon_deg, std::size_t otherwise) const {
+        return grids_.size() == 1 ? 0 : grid_at(lat_deg, lon_deg).value_or(otherwise);
+    }
     // Whether none of a smaller rank has ground there.
     [[nodiscard]] bool shows(std::size_t grid, double lat_deg, double lon_deg) const;
     // Height above the ellipsoid, as TrueSurface::h_m. On a step that of the smaller rank.

@@ -14,10 +14,10 @@ double worst_m(const SourceReport& source) {
 
 }  // namespace
 
-std::optional<RegionResampling> region_resampling(const Region& region) {
+std::optional<RegionResampling> region_resampling(const RegionGrid& grid) {
     RegionResampling sum;
     double squares_m2 = 0.0;
-    for (const SourceReport& source : region.sources) {
+    for (const SourceReport& source : grid.sources) {
         if (!source.placement || source.placement->fit == Fit::same_posts) continue;
         ++sum.files;
         if (!source.resampling) {
@@ -35,9 +35,9 @@ std::optional<RegionResampling> region_resampling(const Region& region) {
     return sum;
 }
 
-const SourceReport* worst_resampled(const Region& region) {
+const SourceReport* worst_resampled(const RegionGrid& grid) {
     const SourceReport* worst = nullptr;
-    for (const SourceReport& source : region.sources) {
+    for (const SourceReport& source : grid.sources) {
         if (!source.resampling || !source.resampling->worst) continue;
         if (worst == nullptr || worst_m(source) > worst_m(*worst)) worst = &source;
     }

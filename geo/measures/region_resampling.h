@@ -1,4 +1,4 @@
-// What a region lost by resampling, of all its sources together.
+// What a grid lost by resampling, of all its sources together.
 #pragma once
 
 #include <cstdint>
@@ -17,10 +17,10 @@ struct RegionResampling {
     bool operator==(const RegionResampling&) const = default;
 };
 
-// Nothing where the region's posts are its sources' own.
-[[nodiscard]] std::optional<RegionResampling> region_resampling(const Region& region);
+// Nothing where the grid's posts are its sources' own.
+[[nodiscard]] std::optional<RegionResampling> region_resampling(const RegionGrid& grid);
 
-// The source with the post that is farthest off; null where none was compared. Points into the region.
-[[nodiscard]] const SourceReport* worst_resampled(const Region& region);
+// The source with the post that is farthest off; null where none was compared. Points into the grid.
+[[nodiscard]] const SourceReport* worst_resampled(const RegionGrid& grid);
 
 }  // namespace oro

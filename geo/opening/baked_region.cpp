@@ -189,7 +189,7 @@ bool touches(const std::string& cell, const PostGrid& grid) {
     return meets(source, {grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg()});
 }
 
-Result<void> cut_out(Region& region, const RegionFile& file, const BoundingBox& box,
+Result<void> cut_out(RegionGrid& region, const RegionFile& file, const BoundingBox& box,
                      const Progress& progress) {
     ORO_TRY(const Cut part, cut_of(file, box));
     const PostGrid& cut = part.grid;
@@ -236,11 +236,11 @@ std::optional<std::string> baked_path(const std::vector<std::string>& paths) {
 
 namespace {
 
-// The region that one region file holds, whole or cut to the request's box.
-Result<Region> region_in(std::shared_ptr<const RegionFile> file, const RegionRequest& request,
-                         const Progress& progress) {
+// The grid that one region file holds, whole or cut to the request's box.
+Result<RegionGrid> grid_in(std::shared_ptr<const RegionFile> file, const RegionRequest& request,
+                           const Progress& progress) {
     const std::string path = file->path();
-    ORO_TRY(Region region, region_from_description(file->outline().description, path));
+    ORO_TRY(RegionGrid region, region_from_description(file->outline().description, path));
     if (region.voids != file->outline().voids)
         return Error{ErrorKind::failed, path,
                      "its description tells of " + std::to_string(region.voids) +
@@ -275,25 +275,22 @@ Result<Region> open_baked_region(const std::string& path, const RegionRequest& r
         return Error{ErrorKind::usage, path,
                      "holds " + std::to_string(grids.size()) +
                          " grids of posts, and this takes one: bake the files with --resample"};
-    std::vector<Region> regions;
+    Region region;
     std::optional<Error> none;
     for (const BakedGrid& grid : grids) {
-        Result<Region> region = region_in(grid.region, request, progress);
-        if (!region && region.error().kind == ErrorKind::no_data && request.box) {
-            if (!none) none = region.error();
+        Result<RegionGrid> made = grid_in(grid.region, request, progress);
+        if (!made && made.error().kind == ErrorKind::no_data && request.box) {
+            if (!none) none = made.error();
             continue;
         }
-        if (!region) return region.error();
-        if (region->file) region->clusters = grid.clusters;
-        region->rank = static_cast<int>(grid.rank);
-        regions.push_back(std::move(*region));
+        if (!made) return made.error();
+        if (made->file) made->clusters = grid.clusters;
+        made->rank = static_cast<int>(grid.rank);
+        region.grids.push_back(std::move(*made));
     }
-    if (regions.empty()) return *none;
-    Region first = std::move(regions.front());
-    regions.erase(regions.begin());
-    first.beside = std::move(regions);
+    if (region.grids.empty()) return *none;
     if (progress) progress(1.0, "region read");
-    return first;
+    return region;
 }
 
 }  // namespace oro

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "core/base/files_read.h"
 #include "geo/datum/vertical_datum.h"
@@ -94,7 +95,7 @@ Result<void> check_last_rows(std::span<const Source> sources) {
 }
 
 // The last step: counts the posts without a height, and why.
-void describe_voids(std::span<const Source> sources, const JoinedSurface& surface, Region& region) {
+void describe_voids(std::span<const Source> sources, const JoinedSurface& surface, RegionGrid& region) {
     if (region.field.grid.net) {
         for (std::size_t post = 0; post < region.field.H_m.size(); ++post)
             region.outside += is_void(region.field.H_m[post]) && !surface.covered(post) ? 1U : 0U;
@@ -108,7 +109,7 @@ void describe_voids(std::span<const Source> sources, const JoinedSurface& surfac
 }
 
 // Of a region whose posts all lack a height: why.
-std::string all_without_height(const Region& region) {
+std::string all_without_height(const RegionGrid& region) {
     std::string why;
     for (const auto& [posts, words] : {std::pair{region.void_posts(), "void in their file"},
                                        {region.outside, "outside the raster"},
@@ -118,31 +119,31 @@ std::string all_without_height(const Region& region) {
 }
 
 // Chooses the grid of some sources, lays them into it, and describes what has become of them.
-Result<Region> region_of(std::vector<Source> sources, const RegionExtent& extent,
-                         const RegionRequest& request, std::vector<std::string> notes,
-                         const Progress& progress) {
-    Region region;
-    region.notes = std::move(notes);
+Result<RegionGrid> grid_of(std::vector<Source> sources, const RegionExtent& extent,
+                           const RegionRequest& request, std::vector<std::string> notes,
+                           const Progress& progress) {
+    RegionGrid made;
+    made.notes = std::move(notes);
     ORO_TRY(const GeoidOfRegion geoid, GeoidOfRegion::open(request.strict_datum));
-    ORO_TRY(const std::optional<OwnPosts> own, own_posts_of(sources, request, region.notes));
+    ORO_TRY(const std::optional<OwnPosts> own, own_posts_of(sources, request, made.notes));
     Result<PostGrid> chosen = own ? Result<PostGrid>(own->grid) : region_grid(sources, extent);
     ORO_TRY(const PostGrid grid, std::move(chosen));
     const BoundingBox posts{grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg()};
-    region.field.grid = grid;
-    if (own) region.posts_crs = own->crs;
-    ORO_TRY(region.field.undulation, geoid.undulation(posts));
-    region.geoid = geoid.name();
-    add_note(region.notes, geoid.note());
-    ORO_CHECK(find_horizontal_datums(sources, request.strict_datum, region.notes));
-    add_doubts(request, sources, grid, region.notes);
+    made.field.grid = grid;
+    if (own) made.posts_crs = own->crs;
+    ORO_TRY(made.field.undulation, geoid.undulation(posts));
+    made.geoid = geoid.name();
+    add_note(made.notes, geoid.note());
+    ORO_CHECK(find_horizontal_datums(sources, request.strict_datum, made.notes));
+    add_doubts(request, sources, grid, made.notes);
     ORO_CHECK(check_last_rows(sources));
 
     JoinedSurface surface(grid);
     std::vector<MeasuredSource> measured;
-    const LayingFor to{grid, region.field.undulation, geoid, request.strict_datum};
+    const LayingFor to{grid, made.field.undulation, geoid, request.strict_datum};
     if (own) {
         ORO_CHECK(lay_own_posts(sources, {*own, to.undulation, geoid, to.strict_datum}, surface,
-                                region.field.N_of_posts_m, region.notes, progress));
+                                made.field.N_of_posts_m, made.notes, progress));
         for (std::size_t i = 0; i < sources.size(); ++i) {
             SourceReport& report = sources[i].report;
             const OwnPart& part = own->parts[i];
@@ -150,44 +151,39 @@ Result<Region> region_of(std::vector<Source> sources, const RegionExtent& extent
                                      part.column, report.rows, report.columns};
         }
     } else {
-        ORO_TRY(measured, lay_sources(sources, to, surface, region.notes, progress));
+        ORO_TRY(measured, lay_sources(sources, to, surface, made.notes, progress));
     }
     surface.finish();
     if (request.fill_voids) {
         if (progress) progress(0.95, "filling voids");
-        ORO_TRY(region.filled, fill_voids(surface, grid));
-        region.void_method = VoidMethod::filled;
+        ORO_TRY(made.filled, fill_voids(surface, grid));
+        made.void_method = VoidMethod::filled;
     }
     for (MeasuredSource& one : measured) sources[one.source].report.resampling = one.error.finish();
-    region.seams = surface.seams();
-    add_note(region.notes, note_of_contradictions(sources));
-    region.field.H_m = std::move(surface.heights());
+    made.seams = surface.seams();
+    add_note(made.notes, note_of_contradictions(sources));
+    made.field.H_m = std::move(surface.heights());
 
-    region.voids = static_cast<std::uint64_t>(std::ranges::count_if(region.field.H_m, is_void));
-    describe_voids(sources, surface, region);
-    note_values(sources, region.notes);
-    if (region.voids == region.field.H_m.size())
+    made.voids = static_cast<std::uint64_t>(std::ranges::count_if(made.field.H_m, is_void));
+    describe_voids(sources, surface, made);
+    note_values(sources, made.notes);
+    if (made.voids == made.field.H_m.size())
         return Error{ErrorKind::no_data, list_of(request.paths),
-                     "no height in " + bounding_box_text(posts) + ": " + all_without_height(region) +
+                     "no height in " + bounding_box_text(posts) + ": " + all_without_height(made) +
                          why_no_height(sources)};
-    region.posts_print = posts_print(region.field);
-    region.geoid_print = undulation_print(region.field.undulation);
-    for (Source& source : sources) region.sources.push_back(std::move(source.report));
-    return region;
+    made.posts_print = posts_print(made.field);
+    made.geoid_print = undulation_print(made.field.undulation);
+    for (Source& source : sources) made.sources.push_back(std::move(source.report));
+    return made;
 }
 
-// One region of several that lie apart: that of most posts, the others beside it.
-Region joined(std::vector<Region> regions) {
+// That of most posts comes first, and has the notes on all.
+void put_largest_first(std::vector<RegionGrid>& grids) {
     const auto largest = std::ranges::max_element(
-        regions, {}, [](const Region& region) { return region.field.grid.post_count(); });
-    Region first = std::move(*largest);
-    regions.erase(largest);
-    for (Region& other : regions) {
-        for (const std::string& note : other.notes) add_note(first.notes, note);
-        other.notes.clear();
-    }
-    first.beside = std::move(regions);
-    return first;
+        grids, {}, [](const RegionGrid& grid) { return grid.field.grid.post_count(); });
+    std::rotate(grids.begin(), largest, largest + 1);
+    for (RegionGrid& other : std::span(grids).subspan(1))
+        for (const std::string& note : std::exchange(other.notes, {})) add_note(grids.front().notes, note);
 }
 
 // Which of the groups wins where several have ground: as their first files are listed, where that counts;
@@ -210,7 +206,7 @@ std::vector<std::size_t> ranks_of(const std::vector<std::vector<Source>>& groups
     return ranks;
 }
 
-// Looks at the sources, and reads them as one region, or as several that lie apart.
+// Looks at the sources, and reads them as one grid, or as several.
 Result<Region> read_region(const RegionRequest& request, const Progress& progress) {
     if (request.paths.empty()) return Error{ErrorKind::no_data, "", "no path to elevation data was given"};
     ORO_TRY(RegionSources found, look_at_sources(request, progress));
@@ -225,36 +221,38 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
         groups = grids_of_sources(std::move(found.sources), request);
     else
         groups.push_back(std::move(found.sources));
-    std::vector<Region> regions;
+    Region region;
     const std::vector<std::size_t> rank_of = ranks_of(groups);
     std::vector<Error> empty;
     for (std::size_t number = 0; number < groups.size(); ++number) {
         std::vector<Source>& group = groups[number];
         const auto own = groups.size() == 1 ? extent : region_extent(group, request.box);
         if (!own) continue;  // on a line or a point
-        const double before = static_cast<double>(regions.size()) / static_cast<double>(groups.size());
+        const double before = static_cast<double>(region.grids.size()) / static_cast<double>(groups.size());
         const Progress part = [&](double share, const std::string& what) {
             if (progress) progress(before + share / static_cast<double>(groups.size()), what);
         };
-        Result<Region> opened = region_of(std::move(group), *own, request,
-                                          regions.empty() ? found.notes : std::vector<std::string>(), part);
+        Result<RegionGrid> opened =
+            grid_of(std::move(group), *own, request,
+                    region.grids.empty() ? found.notes : std::vector<std::string>(), part);
         if (!opened && groups.size() > 1 && opened.error().kind == ErrorKind::no_data) {
             // The others have ground.
             empty.push_back(opened.error());
             continue;
         }
-        ORO_TRY(Region region, std::move(opened));
-        region.rank = static_cast<int>(rank_of[number]);
-        regions.push_back(std::move(region));
+        ORO_TRY(RegionGrid grid, std::move(opened));
+        grid.rank = static_cast<int>(rank_of[number]);
+        region.grids.push_back(std::move(grid));
     }
-    if (regions.empty() && !empty.empty()) return empty.front();
-    if (regions.empty())
+    if (region.grids.empty() && !empty.empty()) return empty.front();
+    if (region.grids.empty())
         return Error{ErrorKind::no_data, list_of(request.paths), "no file's posts cover an area"};
     if (progress) progress(1.0, "region read");
-    Region region = joined(std::move(regions));
-    for (const Error& error : empty) add_note(region.notes, "left out: " + error.what);
-    add_note(region.notes, note_of_contradicting_grids(region));
-    if (request.feather_m > 0.0 && !region.beside.empty()) ORO_CHECK(feather(region, request.feather_m));
+    put_largest_first(region.grids);
+    std::vector<std::string>& notes = region.grids.front().notes;
+    for (const Error& error : empty) add_note(notes, "left out: " + error.what);
+    add_note(notes, note_of_contradicting_grids(region));
+    if (request.feather_m > 0.0 && region.grids.size() > 1) ORO_CHECK(feather(region, request.feather_m));
     return region;
 }
 

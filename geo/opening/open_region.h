@@ -14,7 +14,7 @@ namespace oro {
 //     request.paths = {"jacksboro.tif"};
 //     request.box = BoundingBox{-84.3, 36.5, -84.2, 36.6};  // west, south, east, north
 //     ORO_TRY(const Region region, open_region(request));
-//     const float H_m = region.field.H_at_post_m(0, 0);  // the north-west post, above the geoid
+//     const float H_m = region.grids[0].field.H_at_post_m(0, 0);  // the north-west post, above the geoid
 // Errors: a path that is not there or unreadable, a source that is
 // damaged (file, place, value, reason), no data in the region (ErrorKind::no_data), a datum that cannot be
 // honoured with strict_datum, a baked region beside other paths or with an option that was decided when it

@@ -26,10 +26,10 @@ bool holds(const SourceReport& source, double lat_deg, double lon_deg, double be
 }
 
 // The same by the posts themselves, where it is known which they are.
-bool holds_place(const Region& region, const SourceReport& source, double lat_deg, double lon_deg,
+bool holds_place(const RegionGrid& grid, const SourceReport& source, double lat_deg, double lon_deg,
                  double beyond) {
     if (!source.part) return holds(source, lat_deg, lon_deg, beyond);
-    const PostNumber post = region.field.grid.post_at(lat_deg, lon_deg);
+    const PostNumber post = grid.field.grid.post_at(lat_deg, lon_deg);
     const double down = post.row - source.part->row, right = post.column - source.part->column;
     const double slack = std::max(beyond, 1e-6);
     return down >= -slack && down <= source.part->rows - 1 + slack && right >= -slack &&
@@ -38,13 +38,13 @@ bool holds_place(const Region& region, const SourceReport& source, double lat_de
 
 }  // namespace
 
-const SourceReport* source_at(const Region& region, double lat_deg, double lon_deg) {
+const SourceReport* source_at(const RegionGrid& grid, double lat_deg, double lon_deg) {
     constexpr double half_a_cell = 0.5 + 1e-6;
     for (const double beyond : {0.0, half_a_cell}) {
         std::vector<const SourceReport*> around;
         std::vector<Precedence> ranks;
-        for (const SourceReport& source : region.sources) {
-            if (!holds_place(region, source, lat_deg, lon_deg, beyond)) continue;
+        for (const SourceReport& source : grid.sources) {
+            if (!holds_place(grid, source, lat_deg, lon_deg, beyond)) continue;
             around.push_back(&source);
             ranks.push_back(precedence_of(source));
         }

@@ -3,8 +3,7 @@
 namespace oro {
 
 Result<void> Region::health() const {
-    ORO_CHECK(field.health());
-    for (const Region& other : beside) ORO_CHECK(other.field.health());
+    for (const RegionGrid& grid : grids) ORO_CHECK(grid.field.health());
     return {};
 }
 

@@ -1,4 +1,4 @@
-// A region: the height field that its sources make together, what is known of it, and the grids beside it.
+// A region: the grids of posts that its sources make, and what is known of each.
 #pragma once
 
 #include <array>
@@ -25,27 +25,28 @@ struct Feathered {
     double rms_m{};         // of all of them
 };
 
-// Where the posts of a region on a net lie in the CRS of their sources: x = m[0] + m[1] column + m[2] row,
+// Where the posts of a grid on a net lie in the CRS of their sources: x = m[0] + m[1] column + m[2] row,
 // y = m[3] + m[4] column + m[5] row.
 struct PostsCrs {
     std::string wkt;
     std::array<double, 6> crs_from_post{};
 };
 
-struct Region {
+// One grid of a region: the height field that some sources make together.
+struct RegionGrid {
     HeightField field;
     std::optional<PostsCrs> posts_crs;  // of a grid on a net
-    // The baked region that the field is, whole; null when it comes from other sources or is a part of one.
+    // The baked grid that the field is, whole; null when it comes from other sources or is a part of one.
     std::shared_ptr<const RegionFile> file;
     std::shared_ptr<const ClusterFile> clusters;  // of `file`, where it was baked with them
-    std::vector<SourceReport> sources;            // those that the region uses
+    std::vector<SourceReport> sources;            // those that the grid uses
     SeamReport seams;
     std::string geoid;               // "EGM96 (egm96_15.gtx)": what N in the field is
     UndulationField geoid_left_out;  // N that the field had, where a view goes without it
     std::vector<float> N_of_posts_left_out_m;
     std::vector<std::string>
-        missing_cells;           // whole-degree cells of the region without any source, e.g. "N45E008"
-    std::uint64_t voids{};       // posts of the region without a height, for whatever reason; of these:
+        missing_cells;           // whole-degree cells of the grid without any source, e.g. "N45E008"
+    std::uint64_t voids{};       // posts of the grid without a height, for whatever reason; of these:
     std::uint64_t outside{};     // beyond the rims of all sources, in cells that one touches
     std::uint64_t in_missing{};  // in missing_cells
     std::uint64_t filled{};      // void posts filled
@@ -60,14 +61,17 @@ struct Region {
     // Void in the source that covers them: what --fill-voids is for.
     [[nodiscard]] std::uint64_t void_posts() const { return voids - outside - in_missing; }
     std::vector<std::string> notes;  // what a user must know, one line each (a geoid that stands in, ...)
-    // Regions of other files, that lie far from this one's, or over it or beside it with posts of their own;
-    // only where RegionRequest.grids_apart. None of them has any in turn; this is the one of most posts, and
-    // the notes are those of all.
-    std::vector<Region> beside;
     // Where several have ground for a place, that with the smallest rank is the ground (geo/together): the
     // finest, or the one named first.
     int rank{};
-    std::optional<Feathered> feathered;  // of this grid
+    std::optional<Feathered> feathered;
+};
+
+// What a request opens: grids that lie over each other, next to each other or far apart; one where their
+// posts are those of one lattice. The first is the one of most posts, until a view puts that under its eye
+// first; it has the notes on all.
+struct Region {
+    std::vector<RegionGrid> grids;
     // Of all grids. Errors: posts that could not be read, and so counted as void.
     [[nodiscard]] Result<void> health() const;
 };

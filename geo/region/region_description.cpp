@@ -252,12 +252,12 @@ json parsed(const std::string& text) {
     return json::parse(text);
 }
 
-Region region_of(const Field& field) {
+RegionGrid region_of(const Field& field) {
     const std::uint64_t format = field["orograph_region"].count();
     if (format != description_format)
         throw Fault{"its format is " + std::to_string(format) + ", this program reads " +
                     std::to_string(description_format)};
-    Region region;
+    RegionGrid region;
     for (const Field& source : field["sources"].elements()) region.sources.push_back(source_of(source));
     region.seams = seams_of(field["seams"]);
     region.geoid = field["geoid"].text();
@@ -279,7 +279,7 @@ Region region_of(const Field& field) {
 
 }  // namespace
 
-std::string region_description(const Region& region) {
+std::string region_description(const RegionGrid& region) {
     ordered_json all = ordered_json::object();
     all["orograph_region"] = description_format;
     all["sources"] = ordered_json::array();
@@ -301,7 +301,7 @@ std::string region_description(const Region& region) {
     return all.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-Result<Region> region_from_description(const std::string& text, const std::string& where) {
+Result<RegionGrid> region_from_description(const std::string& text, const std::string& where) {
     const auto refused = [&](const std::string& reason) {
         return Error{ErrorKind::failed, where, "its description cannot be read: " + reason};
     };

@@ -30,8 +30,8 @@ struct RegionRequest {
     // their heights refer to (a vertical CRS, or one of ellipsoidal heights: "EPSG:5728", "EPSG:4979"). ""
     // for nothing told.
     std::string source_crs, source_vertical;
-    // Whoever asks can do with several grids: files that lie far apart (lying_apart.h) are then a region
-    // each. Otherwise one grid holds them all, with what lies between.
+    // Files that lie far apart (lying_apart.h), or whose posts are not each other's, become a grid
+    // each. Otherwise one grid holds them all, with what lies between, as views of one grid had it.
     bool grids_apart{false};
 };
 

@@ -64,12 +64,12 @@ bool boxes_meet(const PostGrid& one, const PostGrid& other) {
     return false;
 }
 
-std::string name_of(const Region& region) {
-    if (region.sources.empty()) return "a grid";
-    const std::string first = region.sources.front().path;
-    return region.sources.size() == 1
+std::string name_of(const RegionGrid& grid) {
+    if (grid.sources.empty()) return "a grid";
+    const std::string first = grid.sources.front().path;
+    return grid.sources.size() == 1
                ? first
-               : first + " and " + std::to_string(region.sources.size() - 1) + " files of its grid";
+               : first + " and " + std::to_string(grid.sources.size() - 1) + " files of its grid";
 }
 
 }  // namespace
@@ -78,13 +78,13 @@ std::string note_of_contradicting_grids(const Region& region) {
     constexpr std::size_t most_grids = 64;
     constexpr double like_spacing = 4.0;
     constexpr int least_places = 16;
-    const std::vector<const Region*> grids = all_grids(region);
+    const std::vector<RegionGrid>& grids = region.grids;
     if (grids.size() < 2 || grids.size() > most_grids) return "";
     std::string pairs;
     for (std::size_t i = 0; i < grids.size(); ++i) {
         for (std::size_t k = i + 1; k < grids.size(); ++k) {
-            const Region* finer = grids[i];
-            const Region* coarser = grids[k];
+            const RegionGrid* finer = &grids[i];
+            const RegionGrid* coarser = &grids[k];
             if (finer->field.grid.row_step_rad() > coarser->field.grid.row_step_rad())
                 std::swap(finer, coarser);
             const PostGrid& fine = finer->field.grid;

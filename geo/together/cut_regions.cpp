@@ -86,13 +86,13 @@ SeamCloser closer_between(const std::array<SeamCorner, 2>& one, const std::array
 // The corners of one grid's cut as they are drawn.
 class SeamBuilder {
   public:
-    SeamBuilder(const std::vector<const Region*>& grids, const RegionCuts& cuts, std::size_t one,
+    SeamBuilder(const std::vector<RegionGrid>& grids, const RegionCuts& cuts, std::size_t one,
                 double exaggeration)
         : cut_(cuts.grids[one]) {
-        posts_.emplace_back(grids[one]->field, cut_, exaggeration);
+        posts_.emplace_back(grids[one].field, cut_, exaggeration);
         for (std::size_t i = 0; i < grids.size(); ++i)
-            if (grids[i]->rank < grids[one]->rank)
-                posts_.emplace_back(grids[i]->field, cuts.grids[i], exaggeration);
+            if (grids[i].rank < grids[one].rank)
+                posts_.emplace_back(grids[i].field, cuts.grids[i], exaggeration);
     }
     void add(Seam& seam);
 
@@ -162,11 +162,11 @@ void SeamBuilder::add(Seam& seam) {
 }
 
 // What joins grids, and what closes its sides to them.
-void add_bridges(const std::vector<const Region*>& grids, const RegionCuts& cuts, double exaggeration,
+void add_bridges(const std::vector<RegionGrid>& grids, const RegionCuts& cuts, double exaggeration,
                  Seam& seam) {
     std::vector<DrawnPosts> posts;
     for (std::size_t i = 0; i < grids.size(); ++i)
-        posts.emplace_back(grids[i]->field, cuts.grids[i], exaggeration);
+        posts.emplace_back(grids[i].field, cuts.grids[i], exaggeration);
     const auto corner = [&](const BridgePost& post) { return posts[post.grid].at(post.post); };
     using Key = std::tuple<std::size_t, int, int>;
     const auto key = [](const BridgePost& post) { return Key{post.grid, post.post.row, post.post.column}; };
@@ -187,30 +187,24 @@ void add_bridges(const std::vector<const Region*>& grids, const RegionCuts& cuts
 
 }  // namespace
 
-std::vector<const Region*> all_grids(const Region& region) {
-    std::vector<const Region*> grids{&region};
-    for (const Region& other : region.beside) grids.push_back(&other);
-    return grids;
-}
-
-std::vector<const Region*> finer_than(const Region& region, const Region& one) {
-    std::vector<const Region*> finer;
-    for (const Region* other : all_grids(region))
-        if (other->rank < one.rank) finer.push_back(other);
+std::vector<const RegionGrid*> finer_than(const Region& region, const RegionGrid& one) {
+    std::vector<const RegionGrid*> finer;
+    for (const RegionGrid& other : region.grids)
+        if (other.rank < one.rank) finer.push_back(&other);
     return finer;
 }
 
-Result<CutOut> cut_of(const Region& region, const Region& one) {
+Result<CutOut> cut_of(const Region& region, const RegionGrid& one) {
     std::vector<const HeightField*> finer;
-    for (const Region* other : finer_than(region, one)) finer.push_back(&other->field);
+    for (const RegionGrid* other : finer_than(region, one)) finer.push_back(&other->field);
     if (finer.empty()) return CutOut{};
     return cut_out(one.field, finer);
 }
 
 Result<RegionCuts> cut_regions(const Region& region) {
     RegionCuts cuts;
-    for (const Region* one : all_grids(region)) {
-        ORO_TRY(CutOut cut, cut_of(region, *one));
+    for (const RegionGrid& one : region.grids) {
+        ORO_TRY(CutOut cut, cut_of(region, one));
         cuts.grids.push_back(std::move(cut));
     }
     ORO_TRY(cuts.bridges, gap_bridges(region));
@@ -219,9 +213,9 @@ Result<RegionCuts> cut_regions(const Region& region) {
 
 Seam seam_between(const Region& region, const RegionCuts& cuts, double exaggeration) {
     Seam seam;
-    const std::vector<const Region*> grids = all_grids(region);
-    for (std::size_t i = 0; i < grids.size(); ++i) SeamBuilder(grids, cuts, i, exaggeration).add(seam);
-    add_bridges(grids, cuts, exaggeration, seam);
+    for (std::size_t i = 0; i < region.grids.size(); ++i)
+        SeamBuilder(region.grids, cuts, i, exaggeration).add(seam);
+    add_bridges(region.grids, cuts, exaggeration, seam);
     return seam;
 }
 

@@ -10,19 +10,16 @@
 
 namespace oro {
 
-// The grids of a region: its own, then those beside it.
-std::vector<const Region*> all_grids(const Region& region);
-
 // Those that cut a part out of one of them, in the order that CutOut counts them from 1.
-std::vector<const Region*> finer_than(const Region& region, const Region& one);
+std::vector<const RegionGrid*> finer_than(const Region& region, const RegionGrid& one);
 
 // What those cut out of it; empty where there are none. Errors: as cut_out().
-Result<CutOut> cut_of(const Region& region, const Region& one);
+Result<CutOut> cut_of(const Region& region, const RegionGrid& one);
 
 // What makes the grids of a region one surface.
 struct RegionCuts {
-    std::vector<CutOut> grids;       // what is cut out of each (all_grids()) by those with a smaller rank
-    std::vector<GapBridge> bridges;  // ... and what joins those that lie beside each other
+    std::vector<CutOut> grids;       // what is cut out of each by those with a smaller rank
+    std::vector<GapBridge> bridges;  // ... and what joins those that lie next to each other
 };
 // Errors: as cut_out() and gap_bridges().
 Result<RegionCuts> cut_regions(const Region& region);

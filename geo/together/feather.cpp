@@ -59,7 +59,7 @@ std::vector<float> rim_distances_m(const HeightField& field, double width_m) {
 
 // A grid, and which of its posts finer ones cover: cells beside those are split as they are drawn.
 struct GridBelow {
-    Region* grid;
+    RegionGrid* grid;
     std::vector<char> left_out;
 };
 
@@ -72,18 +72,18 @@ std::optional<double> H_below_m(std::span<const GridBelow> below, const PostPlac
     return std::nullopt;
 }
 
-void feather_grid(Region& region, std::span<const GridBelow> below, double width_m) {
-    const PostGrid& grid = region.field.grid;
-    const std::vector<float> distances = rim_distances_m(region.field, width_m);
+void feather_grid(RegionGrid& of, std::span<const GridBelow> below, double width_m) {
+    const PostGrid& grid = of.field.grid;
+    const std::vector<float> distances = rim_distances_m(of.field, width_m);
     Feathered told{width_m, 0, 0.0, 0.0};
-    std::vector<float> changed = region.field.H_m;
+    std::vector<float> changed = of.field.H_m;
     double squares = 0.0;
     for (int row = 0; row < grid.rows(); ++row) {
         for (int column = 0; column < grid.columns(); ++column) {
             const std::size_t post =
                 static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns()) +
                 static_cast<std::size_t>(column);
-            if (std::isinf(distances[post]) || is_void(region.field.H_m[post])) continue;
+            if (std::isinf(distances[post]) || is_void(of.field.H_m[post])) continue;
             const auto H_m = H_below_m(below, grid.place_at(row, column));
             if (!H_m) continue;
             const double share = static_cast<double>(distances[post]) / width_m,
@@ -96,17 +96,17 @@ void feather_grid(Region& region, std::span<const GridBelow> below, double width
             squares += by_m * by_m;
         }
     }
-    region.field.H_m = std::move(changed);
+    of.field.H_m = std::move(changed);
     if (told.posts == 0) return;
     told.rms_m = std::sqrt(squares / static_cast<double>(told.posts));
-    region.feathered = told;
+    of.feathered = told;
     char note[200];
     std::snprintf(
         note, sizeof note,
         "--feather: %llu posts within %g m of a rim go over to the heights below, changed by up to %.2f m "
         "(RMS %.2f m)",
         static_cast<unsigned long long>(told.posts), width_m, told.most_m, told.rms_m);
-    region.notes.emplace_back(note);
+    of.notes.emplace_back(note);
 }
 
 }  // namespace
@@ -114,8 +114,8 @@ void feather_grid(Region& region, std::span<const GridBelow> below, double width
 // The coarsest first: what lies below a grid is then as it is drawn. Heights change, and where there are any
 // does not: so neither does what is cut out.
 Result<void> feather(Region& region, double width_m) {
-    std::vector<GridBelow> grids{{&region, {}}};
-    for (Region& other : region.beside) grids.push_back({&other, {}});
+    std::vector<GridBelow> grids;
+    for (RegionGrid& grid : region.grids) grids.push_back({&grid, {}});
     std::ranges::stable_sort(grids, {}, [](const GridBelow& one) { return one.grid->rank; });
     for (GridBelow& one : grids) {
         ORO_TRY(CutOut cut, cut_of(region, *one.grid));

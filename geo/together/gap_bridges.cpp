@@ -67,17 +67,17 @@ std::vector<RimPost> rim_beside(const std::vector<RimEdge>& rim, const PostGrid&
     return posts;
 }
 
-bool has_ground(const std::vector<const Region*>& grids, const glm::dvec3& normal) {
+bool has_ground(const std::vector<RegionGrid>& grids, const glm::dvec3& normal) {
     const PostPlace place = place_of_normal(normal);
-    return std::ranges::any_of(grids, [&](const Region* grid) {
-        return grid->field.surface_H_m(place.lat_deg, place.lon_deg).has_value();
+    return std::ranges::any_of(grids, [&](const RegionGrid& grid) {
+        return grid.field.surface_H_m(place.lat_deg, place.lon_deg).has_value();
     });
 }
 
 // The triangles between two rims, of those that GEOS makes of their posts: corners of both, sides from one to
 // the other no longer than a gap may be wide, and no ground below.
-Result<void> join(const std::vector<const Region*>& grids, const std::vector<RimPost>& posts,
-                  double widest_rad, std::vector<GapBridge>& bridges) {
+Result<void> join(const std::vector<RegionGrid>& grids, const std::vector<RimPost>& posts, double widest_rad,
+                  std::vector<GapBridge>& bridges) {
     if (posts.size() < 3) return {};
     glm::dvec3 middle(0.0);
     for (const RimPost& post : posts) middle += post.normal;
@@ -118,15 +118,15 @@ Result<void> join(const std::vector<const Region*>& grids, const std::vector<Rim
 
 Result<std::vector<GapBridge>> gap_bridges(const Region& region) {
     std::vector<GapBridge> bridges;
-    const std::vector<const Region*> grids = all_grids(region);
+    const std::vector<RegionGrid>& grids = region.grids;
     std::vector<std::optional<std::vector<RimEdge>>> rims(grids.size());
     const auto rim_of = [&](std::size_t number) -> const std::vector<RimEdge>& {
-        if (!rims[number]) rims[number] = coverage_rim(grids[number]->field);
+        if (!rims[number]) rims[number] = coverage_rim(grids[number].field);
         return *rims[number];
     };
     for (std::size_t i = 0; i < grids.size(); ++i) {
         for (std::size_t j = i + 1; j < grids.size(); ++j) {
-            const PostGrid &one = grids[i]->field.grid, &other = grids[j]->field.grid;
+            const PostGrid &one = grids[i].field.grid, &other = grids[j].field.grid;
             // Across a cell, with its diagonal.
             const double widest_rad =
                 std::hypot(widest_gap_posts, 1.0) * std::max(spacing_rad(one), spacing_rad(other));

@@ -1,4 +1,4 @@
-// Ground between grids that lie beside each other with a gap of about a post.
+// Ground between grids that lie next to each other with a gap of about a post.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace oro {
 
-// A post of one of a region's grids, as all_grids() numbers them.
+// A post of one of a region's grids, by the grid's number.
 struct BridgePost {
     std::size_t grid{};
     GridPost post{};

@@ -72,18 +72,17 @@ void add_steps(const CutOut& cut, const std::vector<const TrueSurface*>& surface
 
 Result<std::unique_ptr<const RegionGround>> RegionGround::of(const Region& region, const RegionCuts& cuts,
                                                              double exaggeration, GroundHeights heights) {
-    std::unique_ptr<RegionGround> made(new RegionGround);
-    made->regions_ = all_grids(region);
+    std::unique_ptr<RegionGround> made(new RegionGround(region));
     std::vector<TrueGround::Grid> grids;
-    for (const Region* const one : made->regions_) {
-        const HeightField* field = &one->field;
-        if (heights == GroundHeights::true_ones && one->file) {
-            ORO_TRY(HeightField in_memory, field_in_memory(*one->file));
+    for (const RegionGrid& one : region.grids) {
+        const HeightField* field = &one.field;
+        if (heights == GroundHeights::true_ones && one.file) {
+            ORO_TRY(HeightField in_memory, field_in_memory(*one.file));
             field = &made->fields_.emplace_back(std::move(in_memory));
-        } else if (heights == GroundHeights::true_ones && !one->geoid_left_out.N_m.empty()) {
-            HeightField& lifted = made->fields_.emplace_back(one->field);
-            lifted.undulation = one->geoid_left_out;
-            lifted.N_of_posts_m = one->N_of_posts_left_out_m;
+        } else if (heights == GroundHeights::true_ones && !one.geoid_left_out.N_m.empty()) {
+            HeightField& lifted = made->fields_.emplace_back(one.field);
+            lifted.undulation = one.geoid_left_out;
+            lifted.N_of_posts_m = one.N_of_posts_left_out_m;
             field = &lifted;
         }
         // Cells beside what is cut out are split as they are drawn, without it.
@@ -93,14 +92,13 @@ Result<std::unique_ptr<const RegionGround>> RegionGround::of(const Region& regio
             std::ranges::find(cuts.grids[number].left_out, 1) != cuts.grids[number].left_out.end())
             left_out = &made->left_out_.emplace_back(cuts.grids[number].left_out);
         grids.push_back(
-            {&made->surfaces_.emplace_back(*field, exaggeration, thread_count(), left_out), one->rank});
+            {&made->surfaces_.emplace_back(*field, exaggeration, thread_count(), left_out), one.rank});
     }
     auto pieces = std::make_shared<std::vector<GroundPiece>>();
     for (std::size_t i = 0; i < cuts.grids.size(); ++i) {
         std::vector<const TrueSurface*> surfaces{grids[i].surface};
-        for (const Region* const finer : finer_than(region, *made->regions_[i]))
-            for (std::size_t j = 0; j < grids.size(); ++j)
-                if (made->regions_[j] == finer) surfaces.push_back(grids[j].surface);
+        for (const RegionGrid* const finer : finer_than(region, region.grids[i]))
+            surfaces.push_back(grids[static_cast<std::size_t>(finer - region.grids.data())].surface);
         add_steps(cuts.grids[i], surfaces, *pieces);
     }
     for (const GapBridge& bridge : cuts.bridges) {
@@ -117,14 +115,8 @@ Result<std::unique_ptr<const RegionGround>> RegionGround::of(const Region& regio
 
 Result<std::unique_ptr<const RegionGround>> RegionGround::of(const Region& region, double exaggeration,
                                                              GroundHeights heights) {
-    if (region.beside.empty()) return of(region, {}, exaggeration, heights);
     ORO_TRY(const RegionCuts cuts, cut_regions(region));
     return of(region, cuts, exaggeration, heights);
-}
-
-const Region& RegionGround::region_at(double lat_deg, double lon_deg) const {
-    if (regions_.size() == 1) return *regions_.front();
-    return *regions_[ground_->grid_at(lat_deg, lon_deg).value_or(0)];
 }
 
 }  // namespace oro

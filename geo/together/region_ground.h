@@ -14,11 +14,11 @@ namespace oro {
 // Above which surface a view has its heights: its own, or WGS84 though it goes without a geoid.
 enum class GroundHeights { as_pictured, true_ones };
 
-// Holds on to the region, which outlives it. Its ground numbers the grids as all_grids() does.
+// Holds on to the region, which outlives it. Its ground numbers the grids as the region does.
 class RegionGround {
   public:
-    // cuts: cut_regions(); empty for a region of one grid. Reads every post once where they are in
-    // memory; of a baked region with GroundHeights::true_ones into memory. Errors: damage in it.
+    // cuts: cut_regions(). Reads every post once where they are in memory; of a baked region with
+    // GroundHeights::true_ones into memory. Errors: damage in it.
     static Result<std::unique_ptr<const RegionGround>> of(const Region& region, const RegionCuts& cuts,
                                                           double exaggeration,
                                                           GroundHeights heights = GroundHeights::as_pictured);
@@ -29,15 +29,16 @@ class RegionGround {
     RegionGround& operator=(const RegionGround&) = delete;
 
     [[nodiscard]] const TrueGround& ground() const { return *ground_; }
-    // Which region one of the ground's grids is.
-    [[nodiscard]] const Region& region(std::size_t grid) const { return *regions_[grid]; }
-    // The region that is the ground at a place, or else the first.
-    [[nodiscard]] const Region& region_at(double lat_deg, double lon_deg) const;
+    [[nodiscard]] const RegionGrid& grid(std::size_t number) const { return region_->grids[number]; }
+    // The grid that is the ground at a place, or else the first.
+    [[nodiscard]] const RegionGrid& grid_at(double lat_deg, double lon_deg) const {
+        return grid(ground_->grid_at(lat_deg, lon_deg, 0));
+    }
 
   private:
-    RegionGround() = default;
-    std::vector<const Region*> regions_;
-    std::deque<HeightField> fields_;          // where they are not the regions' own
+    explicit RegionGround(const Region& region) : region_(&region) {}
+    const Region* region_;
+    std::deque<HeightField> fields_;          // where they are not the grids' own
     std::deque<std::vector<char>> left_out_;  // of grids that are cut
     std::deque<TrueSurface> surfaces_;
     std::optional<TrueGround> ground_;

@@ -40,7 +40,7 @@ Result<ClusterScene> ClusterScene::create(const Gpu& gpu, std::unique_ptr<Region
     return ClusterScene(std::move(clusters), std::move(store), most_on_the_way(main_bytes));
 }
 
-Result<void> ClusterScene::add_to(FramePlan& plan, const Camera& camera, const Tile& tile, double tau_px,
+Result<void> ClusterScene::add_to(GridPlan& plan, const Camera& camera, const Tile& tile, double tau_px,
                                   const WorldModel& model, const HorizonOccluder& occluder,
                                   const HeightQuantization& coding) {
     const ClusterView view(camera, tile, tau_px, model, occluder, coding, level_);
@@ -69,7 +69,7 @@ Result<void> ClusterScene::add_to(FramePlan& plan, const Camera& camera, const T
     return {};
 }
 
-Result<void> ClusterScene::add_what_is_here(FramePlan& plan, const Camera& camera, const Tile& tile,
+Result<void> ClusterScene::add_what_is_here(GridPlan& plan, const Camera& camera, const Tile& tile,
                                             double tau_px, const WorldModel& model,
                                             const HorizonOccluder& occluder,
                                             const HeightQuantization& coding) {
@@ -173,7 +173,7 @@ Result<bool> ClusterScene::advance() {
 }
 
 Result<void> ClusterScene::draw(const ClusterChoice& choice, const ClusterOffer& offer, const Camera& camera,
-                                FramePlan& plan) {
+                                GridPlan& plan) {
     std::vector<ResidentCluster> resident;
     resident.reserve(offer.clusters.size());
     for (const OfferedCluster& offered : offer.clusters) {

@@ -29,16 +29,16 @@ class ClusterScene {
     // alone.
     void keep_to_level(std::uint32_t level) { level_ = level; }
 
-    // Puts the cut for an eye into the plan of its pages (plan_frame). Where it takes more than the GPU may
+    // Puts the cut for an eye into the plan of its pages (plan_grid). Where it takes more than the GPU may
     // hold, it is a coarser one that does not, and the plan says so. model: on the ellipsoid. Errors: damage;
     // the device.
     //
     // This one waits for what of the cut is not on the GPU;
-    Result<void> add_to(FramePlan& plan, const Camera& camera, const Tile& tile, double tau_px,
+    Result<void> add_to(GridPlan& plan, const Camera& camera, const Tile& tile, double tau_px,
                         const WorldModel& model, const HorizonOccluder& occluder,
                         const HeightQuantization& coding);
     // ... this one takes the finest cut of what is there, and lets the background read the rest.
-    Result<void> add_what_is_here(FramePlan& plan, const Camera& camera, const Tile& tile, double tau_px,
+    Result<void> add_what_is_here(GridPlan& plan, const Camera& camera, const Tile& tile, double tau_px,
                                   const WorldModel& model, const HorizonOccluder& occluder,
                                   const HeightQuantization& coding);
     // What a frame of such a plan has shown: from the next plan on what is hidden is read last, and gives way
@@ -64,7 +64,7 @@ class ClusterScene {
     ClusterScene(std::unique_ptr<RegionClusters> clusters, ClusterStore store, std::size_t most_on_the_way);
     [[nodiscard]] bool is_here(std::uint32_t cluster) const;
     Result<void> draw(const ClusterChoice& choice, const ClusterOffer& offer, const Camera& camera,
-                      FramePlan& plan);
+                      GridPlan& plan);
     Result<StreamedChoice> choose_here();
     void want(const StreamedChoice& choice);
     Result<void> send(ClusterStream::Ready ready);

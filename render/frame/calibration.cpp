@@ -82,8 +82,8 @@ Result<Terrain> made_terrain(const Gpu& gpu, const FrameSize& size) {
                                        {most_pages * sizeof(gpu::PageBlock), 0}));
     const Camera camera = eye_over(field.grid, size);
     ORO_TRY(FramePlan plan,
-            scene.settled_plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}}, 0.0));
-    assert(plan.missing.empty());
+            scene.settled_plan({camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}}, 0.0}));
+    assert(plan.is_settled());
     return Terrain{std::move(scene), std::move(plan)};
 }
 

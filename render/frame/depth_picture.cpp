@@ -76,7 +76,7 @@ Result<SettledFrame> DepthPainter::draw_sample(Scene& scene, const Camera& camer
                                                const DepthPictureOptions& options, const Tile& tile,
                                                DepthPicture& picture, std::vector<float>& depths) {
     ORO_TRY(SettledFrame frame,
-            draw_settled(scene, *renderer_, camera, tile, options.tau_px, options.model, style));
+            draw_settled(scene, *renderer_, {camera, tile, options.tau_px, options.model}, style));
     picture.settled = picture.settled && frame.settled;
     ORO_TRY(const std::vector<float> drawn,
             renderer_->read_depths(static_cast<std::uint32_t>(tile.width_px),

@@ -131,7 +131,7 @@ Result<void> FrameRenderer::add_triangles(std::uint32_t grid, std::uint32_t firs
     for (std::size_t i = 0; i < shown.size(); ++i) {
         gpu::DrawnTriangle triangle;
         std::memcpy(&triangle, words.data() + i * words_each, sizeof(triangle));
-        if (grid == 0 || triangle.rows[0] != gpu::no_triangle) shown[i] = {triangle, grid};
+        if (triangle.rows[0] != gpu::no_triangle) shown[i] = {triangle, grid};
     }
     return {};
 }
@@ -139,7 +139,10 @@ Result<void> FrameRenderer::add_triangles(std::uint32_t grid, std::uint32_t firs
 Result<std::vector<ShownTriangle>> FrameRenderer::read_triangles(std::uint32_t first_row,
                                                                  std::uint32_t rows) {
     assert(options_.keep_triangles && first_row % triangle_rows() == 0 && rows <= triangle_rows());
-    std::vector<ShownTriangle> shown(std::size_t{rows} * last_width_px_);
+    ShownTriangle background{};
+    std::ranges::fill(background.triangle.rows, gpu::no_triangle);
+    std::ranges::fill(background.triangle.columns, gpu::no_triangle);
+    std::vector<ShownTriangle> shown(std::size_t{rows} * last_width_px_, background);
     for (std::uint32_t grid = 0; grid < last_grids_.size(); ++grid)
         if (last_grids_[grid] != 0) ORO_CHECK(add_triangles(grid, first_row, rows, shown));
     return shown;

@@ -28,13 +28,11 @@ Result<OwnedQueryPool> create_timestamps(const Gpu& gpu) {
 
 // Ids of triangles go on from one grid to the next.
 Result<void> number_pages(FramePlan& plan) {
-    const auto beside = static_cast<gpu::uint>(plan.beside.size());
-    plan.constants.grids_beside = beside;
-    std::size_t first = plan.pages.size();
-    for (FramePlan& other : plan.beside) {
-        other.constants.first_page = static_cast<gpu::uint>(first);
-        other.constants.grids_beside = beside;
-        first += other.pages.size();
+    std::size_t first = 0;
+    for (GridPlan& grid : plan.grids) {
+        grid.constants.first_page = static_cast<gpu::uint>(first);
+        grid.constants.other_grids = static_cast<gpu::uint>(plan.grids.size() - 1);
+        first += grid.pages.size();
     }
     if (first > gpu::pages_max)
         return Error{ErrorKind::failed, "picture",
@@ -55,8 +53,8 @@ PipelineWants wants_of(const FrameRendererOptions& options, bool packed_heights)
             options.split};
 }
 
-bool has_packed_heights(const FramePlan& plan) {
-    return plan.constants.height_bits == gpu::height_bits_packed;
+bool has_packed_heights(const GridPlan& grid) {
+    return grid.constants.height_bits == gpu::height_bits_packed;
 }
 
 }  // namespace
@@ -133,7 +131,7 @@ Result<void> FrameRenderer::create_sets() {
 
 // Those for the way in which the frame's heights are kept.
 Result<void> FrameRenderer::choose_pipelines(const FramePlan& plan) {
-    const bool packed = has_packed_heights(plan) || std::ranges::any_of(plan.beside, has_packed_heights);
+    const bool packed = std::ranges::any_of(plan.grids, has_packed_heights);
     if (packed == pipelines_->packed_heights) return {};
     ORO_TRY(pipelines_, shared_pipelines(*gpu_, options_.path, wants_of(options_, packed)));
     return create_sets();
@@ -142,11 +140,12 @@ Result<void> FrameRenderer::choose_pipelines(const FramePlan& plan) {
 // Room for all that a frame's grids share.
 Result<void> FrameRenderer::reserve(const FramePlan& plan) {
     // Meshlets of so many pages are listed, or clusters.
-    std::size_t most_pages = std::max(
-        {plan.pages.size(), std::size_t{64}, plan.clusters.drawn.size() / gpu::meshlets_per_page + 1});
-    for (const FramePlan& other : plan.beside) most_pages = std::max(most_pages, other.pages.size());
-    if (compute_) ORO_CHECK(compute_->reserve(most_pages, Occlusion::most_rounds * (1 + plan.beside.size())));
-    while (grids_.size() < 1 + plan.beside.size()) {
+    std::size_t most_pages = 64;
+    for (const GridPlan& grid : plan.grids)
+        most_pages = std::max(
+            {most_pages, grid.pages.size(), grid.clusters.drawn.size() / gpu::meshlets_per_page + 1});
+    if (compute_) ORO_CHECK(compute_->reserve(most_pages, Occlusion::most_rounds * plan.grids.size()));
+    while (grids_.size() < plan.grids.size()) {
         GridFrame& grid = grids_.emplace_back();
         ORO_CHECK(grid.create_set(
             *gpu_, *pipelines_, {ids_.view.get(), sum_.view.get(), picture_.view.get(), depth_.view.get()}));
@@ -174,8 +173,8 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
                                   VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
                               MemoryKind::device, "triangles"));
     }
-    const VkDeviceSize positions =
-        std::max<std::size_t>(plan.pages.size(), 64) * gpu::page_posts * gpu::page_posts * sizeof(gpu::vec3);
+    const VkDeviceSize positions = std::max<std::size_t>(plan.grids.front().pages.size(), 64) *
+                                   gpu::page_posts * gpu::page_posts * sizeof(gpu::vec3);
     if (options_.record_positions && recorded_.size < positions) {
         ORO_TRY(recorded_,
                 create_buffer(*gpu_, positions,
@@ -186,7 +185,7 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
 }
 
 // All that the programs of the frame's grid of that number read of it.
-Result<void> FrameRenderer::upload(std::size_t number, FramePlan& plan, const FrameAsked& asked) {
+Result<void> FrameRenderer::upload(std::size_t number, GridPlan& plan, const FrameAsked& asked) {
     GridFrame& grid = grids_[number];
     gpu::FrameConstants& constants = plan.constants;
     occlusion_->address(constants);
@@ -236,11 +235,10 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
         vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), number);
     };
     vkCmdResetQueryPool(commands, timestamps_.get(), 0, timestamp_count);
-    record_upload(commands, 1 + plan.beside.size());
+    record_upload(commands, plan.grids.size());
     stamp(0);
     record_clear(commands, plan);
-    for (std::size_t i = 0; i <= plan.beside.size(); ++i)
-        record_choice(commands, grids_[i], i == 0 ? plan : plan.beside[i - 1]);
+    for (std::size_t i = 0; i < plan.grids.size(); ++i) record_choice(commands, grids_[i], plan.grids[i]);
     stamp(1);
     record_rounds(commands, plan);
     stamp(2);
@@ -257,7 +255,7 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
                    VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_HOST_READ_BIT);
     const VkBufferCopy copy{0, 0, sizeof(gpu::FrameCounts)};
     vkCmdCopyBuffer(commands, counts_.handle.get(), counts_read_.handle.get(), 1, &copy);
-    for (std::size_t i = 0; i <= plan.beside.size(); ++i) grids_[i].record_sights(commands);
+    for (std::size_t i = 0; i < plan.grids.size(); ++i) grids_[i].record_sights(commands);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                    VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
 }
@@ -265,8 +263,8 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
 Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& style,
                                         std::uint32_t sample_index, std::uint32_t sample_count,
                                         std::vector<DrapeStore*> drapes) {
-    assert(plan.constants.width_px <= options_.extent.width &&
-           plan.constants.height_px <= options_.extent.height);
+    assert(!plan.grids.empty());
+    assert(plan.view.width_px() <= options_.extent.width && plan.view.height_px() <= options_.extent.height);
     assert(sample_count == 1 ||
            (options_.several_samples && !options_.smooth_edges && options_.show == gpu::show_colours));
     ORO_CHECK(number_pages(plan));
@@ -277,24 +275,23 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
         for (GridFrame& grid : grids_) grid.forget();
     ORO_CHECK(shared_shares_.reserve(*gpu_, plan, style));
     const FrameAsked asked{style, sample_index, sample_count, drapes};
-    ORO_CHECK(upload(0, plan, asked));
-    for (std::size_t i = 0; i < plan.beside.size(); ++i) ORO_CHECK(upload(i + 1, plan.beside[i], asked));
-    last_width_px_ = plan.constants.width_px;
-    last_grids_.assign(1, 1);
-    for (const FramePlan& other : plan.beside) last_grids_.push_back(other.pages.empty() ? 0 : 1);
+    last_width_px_ = plan.view.width_px();
+    last_grids_.clear();
+    for (std::size_t i = 0; i < plan.grids.size(); ++i) {
+        ORO_CHECK(upload(i, plan.grids[i], asked));
+        last_grids_.push_back(plan.grids[i].pages.empty() ? 0 : 1);
+    }
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) { record(commands, plan); }));
     FrameReport report;
     std::memcpy(&report.counts, counts_read_.mapped, sizeof(report.counts));
     remember(plan);
-    report.pages = plan.pages.size();
-    if (plan.wants_sights && occlusion_->is_on()) {
-        report.sights.push_back(grids_[0].sights_of(plan));
-        for (std::size_t i = 0; i < plan.beside.size(); ++i)
-            report.sights.push_back(grids_[i + 1].sights_of(plan.beside[i]));
+    for (std::size_t i = 0; i < plan.grids.size(); ++i) {
+        const GridPlan& grid = plan.grids[i];
+        report.pages += grid.pages.size();
+        if (occlusion_->is_on()) report.sights.push_back(grids_[i].sights_of(grid));
+        report.counts.meshlets_beyond_frustum += static_cast<gpu::uint>(grid.clusters.beyond_frustum);
+        report.counts.meshlets_beyond_horizon += static_cast<gpu::uint>(grid.clusters.beyond_horizon);
     }
-    report.counts.meshlets_beyond_frustum += static_cast<gpu::uint>(plan.clusters.beyond_frustum);
-    report.counts.meshlets_beyond_horizon += static_cast<gpu::uint>(plan.clusters.beyond_horizon);
-    for (const FramePlan& other : plan.beside) report.pages += other.pages.size();
     if (report.counts.triangles_not_clipped > 0)
         return Error{ErrorKind::failed, "picture",
                      std::to_string(report.counts.triangles_not_clipped) +

@@ -120,7 +120,7 @@ class FrameRenderer {
         std::uint32_t sample_index, sample_count;
         std::span<DrapeStore* const> drapes;
     };
-    Result<void> upload(std::size_t number, FramePlan& plan, const FrameAsked& asked);
+    Result<void> upload(std::size_t number, GridPlan& plan, const FrameAsked& asked);
     Result<void> add_triangles(std::uint32_t grid, std::uint32_t first_row, std::uint32_t rows,
                                std::vector<ShownTriangle>& shown);
     Result<std::vector<std::uint32_t>> read_words(const Buffer& buffer, VkDeviceSize first,
@@ -128,7 +128,7 @@ class FrameRenderer {
     void record(VkCommandBuffer commands, const FramePlan& plan);
     void record_upload(VkCommandBuffer commands, std::size_t grids) const;
     void record_clear(VkCommandBuffer commands, const FramePlan& plan) const;
-    void record_choice(VkCommandBuffer commands, const GridFrame& grid, const FramePlan& plan) const;
+    void record_choice(VkCommandBuffer commands, const GridFrame& grid, const GridPlan& plan) const;
     void record_rounds(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_round(VkCommandBuffer commands, const FramePlan& plan, std::size_t number) const;
     void record_pyramid(VkCommandBuffer commands, const FramePlan& plan) const;
@@ -146,8 +146,8 @@ class FrameRenderer {
     void record_show(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_ids_alone(VkCommandBuffer commands) const;
     void record_wants(VkCommandBuffer commands, const FramePlan& plan) const;
-    Result<void> ask_again(const GridFrame& grid, const FramePlan& plan, std::uint32_t seed);
-    Result<bool> bring_images(const GridFrame& grid, const FramePlan& plan);
+    Result<void> ask_again(const GridFrame& grid, const GridPlan& plan, std::uint32_t seed);
+    Result<bool> bring_images(const GridFrame& grid, const GridPlan& plan);
     Result<bool> shade_with_images(const FramePlan& plan);
     Result<std::vector<std::byte>> read_image(const Image& image, VkImageAspectFlags aspect,
                                               ImageUse last_use, std::uint32_t width, std::uint32_t height);
@@ -156,7 +156,7 @@ class FrameRenderer {
     FrameRendererOptions options_;
     std::shared_ptr<Pipelines> pipelines_;
     VkPipeline edges_{VK_NULL_HANDLE};  // of the frame
-    std::vector<GridFrame> grids_;      // the plan's, then those beside it
+    std::vector<GridFrame> grids_;      // those of the plan, and as many more as earlier ones had
     std::optional<ComputeRaster> compute_;
     std::optional<Occlusion> occlusion_;
     AirTables air_;

@@ -16,7 +16,7 @@ void FrameRenderer::push(VkCommandBuffer commands, const gpu::FrameRound& round)
 // Of the compute path: its own buffer, while levels are chosen.
 void FrameRenderer::record_clear(VkCommandBuffer commands, const FramePlan& plan) const {
     if (!compute_) return;
-    grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+    grids_.front().bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
     gpu::FrameRound round{};
     round.lists = compute_->lists();
     push(commands, round);
@@ -25,7 +25,7 @@ void FrameRenderer::record_clear(VkCommandBuffer commands, const FramePlan& plan
 
 // Levels: which nodes of which pages, for whichever way of drawing follows.
 void FrameRenderer::record_choice(VkCommandBuffer commands, const GridFrame& grid,
-                                  const FramePlan& plan) const {
+                                  const GridPlan& plan) const {
     if (plan.clusters.on) return;  // the first round makes their cut
     grid.bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
     const auto count = static_cast<std::uint32_t>(plan.pages.size());
@@ -81,26 +81,26 @@ void FrameRenderer::record_raster(VkCommandBuffer commands, const FramePlan& pla
     depth.clearValue.depthStencil = {0.0F, 0};
     VkRenderingInfo rendering{};
     rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-    rendering.renderArea.extent = {plan.constants.width_px, plan.constants.height_px};
+    rendering.renderArea.extent = {plan.view.width_px(), plan.view.height_px()};
     rendering.layerCount = 1;
     rendering.colorAttachmentCount = 1;
     rendering.pColorAttachments = &colour;
     rendering.pDepthAttachment = &depth;
     vkCmdBeginRendering(commands, &rendering);
     const VkViewport viewport{
-        0.0F, 0.0F, static_cast<float>(plan.constants.width_px), static_cast<float>(plan.constants.height_px),
+        0.0F, 0.0F, static_cast<float>(plan.view.width_px()), static_cast<float>(plan.view.height_px()),
         0.0F, 1.0F};
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &rendering.renderArea);
     gpu::FrameRound round = occlusion_->rounds()[number];
     push(commands, round);
-    for (std::size_t i = 0; i <= plan.beside.size(); ++i) record_meshes(commands, i, false);
+    for (std::size_t i = 0; i < plan.grids.size(); ++i) record_meshes(commands, i, false);
     if (!first && occlusion_->may_tie()) {
         // The same once more, from the highest id down: where it is as near as what is there, the lower id
         // wins.
         round.backwards = 1;
         push(commands, round);
-        for (std::size_t i = plan.beside.size() + 1; i-- > 0;) record_meshes(commands, i, true);
+        for (std::size_t i = plan.grids.size(); i-- > 0;) record_meshes(commands, i, true);
     }
     vkCmdEndRendering(commands);
     // Counts and recorded positions.
@@ -117,7 +117,7 @@ void FrameRenderer::record_pyramid(VkCommandBuffer commands, const FramePlan& pl
         image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, as_colour, shader_read);
         image_barrier(commands, depth_.handle.get(), VK_IMAGE_ASPECT_DEPTH_BIT, as_depth, depth_read);
     }
-    grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+    grids_.front().bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
     occlusion_->record_pyramid(commands, *pipelines_, plan);
 }
 
@@ -140,9 +140,9 @@ void FrameRenderer::record_round_choice(VkCommandBuffer commands, const GridFram
 // A round of one grid after the other: what is drawn of it is chosen, and by the compute path drawn at once.
 void FrameRenderer::record_round(VkCommandBuffer commands, const FramePlan& plan, std::size_t number) const {
     gpu::FrameRound round = occlusion_->rounds()[number];
-    const std::size_t grids = 1 + plan.beside.size();
+    const std::size_t grids = plan.grids.size();
     for (std::size_t i = 0; i < grids; ++i) {
-        const ClusterPlan& clusters = (i == 0 ? plan : plan.beside[i - 1]).clusters;
+        const ClusterPlan& clusters = plan.grids[i].clusters;
         grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
         round.lists_round = 0;
         round.lists = static_cast<gpu::uint>(number * grids + i);
@@ -176,16 +176,15 @@ void FrameRenderer::record_rounds(VkCommandBuffer commands, const FramePlan& pla
 
 // Whether it is known what the last frame saw of any grid.
 bool FrameRenderer::remembers(const FramePlan& plan) const {
-    for (std::size_t i = 0; i <= plan.beside.size(); ++i)
-        if (grids_[i].remembers(i == 0 ? plan : plan.beside[i - 1])) return true;
+    for (std::size_t i = 0; i < plan.grids.size(); ++i)
+        if (grids_[i].remembers(plan.grids[i])) return true;
     return false;
 }
 
 void FrameRenderer::remember(const FramePlan& plan) {
     if (!occlusion_->is_on()) return;
-    grids_[0].remember(plan);
-    for (std::size_t i = 0; i < plan.beside.size(); ++i) grids_[i + 1].remember(plan.beside[i]);
-    for (std::size_t i = 1 + plan.beside.size(); i < grids_.size(); ++i) grids_[i].forget();
+    for (std::size_t i = 0; i < plan.grids.size(); ++i) grids_[i].remember(plan.grids[i]);
+    for (std::size_t i = plan.grids.size(); i < grids_.size(); ++i) grids_[i].forget();
 }
 
 }  // namespace oro

@@ -58,7 +58,7 @@ Result<void> FrameRenderer::choose_shading(GridFrame& grid, gpu::FrameConstants&
 // What each pixel sees of the sun: past the terrain of all grids, where there are several.
 void FrameRenderer::record_casters(VkCommandBuffer commands, const FramePlan& plan) {
     const auto each = [&](const auto& record_grid) {
-        for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
+        for (std::size_t i = 0; i < plan.grids.size(); ++i) {
             if (!grids_[i].casters.any()) continue;
             grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
             record_grid(grids_[i].casters);
@@ -72,10 +72,10 @@ void FrameRenderer::record_casters(VkCommandBuffer commands, const FramePlan& pl
 
 void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan) {
     const bool in_parts =
-        std::any_of(grids_.begin(), grids_.begin() + static_cast<std::ptrdiff_t>(1 + plan.beside.size()),
+        std::any_of(grids_.begin(), grids_.begin() + static_cast<std::ptrdiff_t>(plan.grids.size()),
                     [](const GridFrame& grid) { return grid.shade_parts != VK_NULL_HANDLE; });
     if (in_parts) vkCmdFillBuffer(commands, tiles_in_parts_.handle.get(), 0, VK_WHOLE_SIZE, 0);
-    grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+    grids_.front().bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
     air_.record(commands, *pipelines_);
     image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT,
                   has_images(plan) ? shader_read
@@ -83,7 +83,7 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
                                    : as_colour,
                   shader_read);
     record_casters(commands, plan);
-    const bool first = plan.constants.sample_index == 0;
+    const bool first = plan.grids.front().constants.sample_index == 0;
     image_barrier(commands, sum_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, first ? unused : shader_write,
                   shader_write);
     image_barrier(commands, picture_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, unused, shader_write);
@@ -100,26 +100,26 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
                            VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
         grid.bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-        vkCmdDispatch(commands, tiles_of(plan.constants.width_px), tiles_of(plan.constants.height_px), 1);
+        vkCmdDispatch(commands, tiles_of(plan.view.width_px()), tiles_of(plan.view.height_px()), 1);
         before = true;
     };
-    for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
+    for (std::size_t i = 0; i < plan.grids.size(); ++i) {
         pass(grids_[i], grids_[i].shade);
         pass(grids_[i], grids_[i].shade_parts);
     }
-    for (std::size_t i = 0; options_.smooth_edges && i <= plan.beside.size(); ++i) pass(grids_[i], edges_);
+    for (std::size_t i = 0; options_.smooth_edges && i < plan.grids.size(); ++i) pass(grids_[i], edges_);
     if (options_.show != gpu::show_colours) record_show(commands, plan);
 }
 
 // What draws each pixel, over its colours.
 void FrameRenderer::record_show(VkCommandBuffer commands, const FramePlan& plan) const {
-    for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
+    for (std::size_t i = 0; i < plan.grids.size(); ++i) {
         memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                        VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
         grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->show.get());
-        vkCmdDispatch(commands, tiles_of(plan.constants.width_px), tiles_of(plan.constants.height_px), 1);
+        vkCmdDispatch(commands, tiles_of(plan.view.width_px()), tiles_of(plan.view.height_px()), 1);
     }
 }
 
@@ -131,15 +131,15 @@ void FrameRenderer::record_ids_alone(VkCommandBuffer commands) const {
 
 void FrameRenderer::record_wants(VkCommandBuffer commands, const FramePlan& plan) const {
     record_ids_alone(commands);
-    for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
+    for (std::size_t i = 0; i < plan.grids.size(); ++i) {
         if (!grids_[i].drape.is_on()) continue;
         grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
-        grids_[i].drape.record(commands, *pipelines_, plan.constants);
+        grids_[i].drape.record(commands, *pipelines_, plan.grids[i].constants);
     }
 }
 
 // The same question again. Another seed: two tiles of one hash have others now.
-Result<void> FrameRenderer::ask_again(const GridFrame& grid, const FramePlan& plan, std::uint32_t seed) {
+Result<void> FrameRenderer::ask_again(const GridFrame& grid, const GridPlan& plan, std::uint32_t seed) {
     return commands_.run(*gpu_, [&](VkCommandBuffer commands) {
         constexpr VkDeviceSize at =
             offsetof(gpu::FrameConstants, drape) + offsetof(gpu::DrapeTable, wanted_seed);
@@ -154,12 +154,12 @@ Result<void> FrameRenderer::ask_again(const GridFrame& grid, const FramePlan& pl
 
 // Whether images lie over one of its grids.
 bool FrameRenderer::has_images(const FramePlan& plan) const {
-    return std::any_of(grids_.begin(), grids_.begin() + 1 + static_cast<std::ptrdiff_t>(plan.beside.size()),
+    return std::any_of(grids_.begin(), grids_.begin() + static_cast<std::ptrdiff_t>(plan.grids.size()),
                        [](const GridFrame& grid) { return grid.drape.is_on(); });
 }
 
 // Brings the tiles that a grid is coloured from: all of them, unless there is no room or nobody waits.
-Result<bool> FrameRenderer::bring_images(const GridFrame& grid, const FramePlan& plan) {
+Result<bool> FrameRenderer::bring_images(const GridFrame& grid, const GridPlan& plan) {
     constexpr std::uint32_t most_tries = 64;
     DrapeStore& store = grid.drape.store();
     store.begin_frame();
@@ -175,13 +175,13 @@ Result<bool> FrameRenderer::bring_images(const GridFrame& grid, const FramePlan&
 // True where the images are as fine as the frame asks for.
 Result<bool> FrameRenderer::shade_with_images(const FramePlan& plan) {
     bool settled = true;
-    for (std::size_t i = 0; i <= plan.beside.size(); ++i) {
+    for (std::size_t i = 0; i < plan.grids.size(); ++i) {
         if (!grids_[i].drape.is_on()) continue;
-        ORO_TRY(const bool here, bring_images(grids_[i], plan));
+        ORO_TRY(const bool here, bring_images(grids_[i], plan.grids[i]));
         settled = settled && here;
     }
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
-        grids_[0].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+        grids_.front().bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
         vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 4);
         record_shade(commands, plan);
         vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 5);

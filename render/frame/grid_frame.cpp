@@ -29,7 +29,7 @@ struct DataLayout {
     VkDeviceSize boxes;     // of clusters
     VkDeviceSize size;
 };
-DataLayout layout_of(const FramePlan& plan) {
+DataLayout layout_of(const GridPlan& plan) {
     const auto aligned = [](VkDeviceSize size) { return (size + 15) / 16 * 16; };
     DataLayout layout{};
     layout.rows = aligned(pages_offset + plan.pages.size() * sizeof(gpu::FramePage));
@@ -102,7 +102,7 @@ void GridFrame::bind_constants(const Gpu& gpu) const {
     vkUpdateDescriptorSets(gpu.device(), 1, &write, 0, nullptr);
 }
 
-Result<void> GridFrame::reserve(const Gpu& gpu, const FramePlan& plan) {
+Result<void> GridFrame::reserve(const Gpu& gpu, const GridPlan& plan) {
     const DataLayout layout = layout_of(plan);
     if (staging_.size < layout.size) {
         const VkDeviceSize size = std::max(layout.size, 2 * staging_.size);
@@ -132,7 +132,7 @@ Result<void> GridFrame::reserve(const Gpu& gpu, const FramePlan& plan) {
     return plan.constants.occlusion != 0 ? reserve_seen(gpu, plan.pages.size()) : Result<void>();
 }
 
-Result<void> GridFrame::reserve_clusters(const Gpu& gpu, const FramePlan& plan) {
+Result<void> GridFrame::reserve_clusters(const Gpu& gpu, const GridPlan& plan) {
     const VkDeviceSize bytes =
         sizeof(gpu::uint) * std::max<VkDeviceSize>(plan.clusters.drawn.size(), gpu::clusters_per_choice);
     if (cluster_states_.size >= bytes) return {};
@@ -144,7 +144,7 @@ Result<void> GridFrame::reserve_clusters(const Gpu& gpu, const FramePlan& plan) 
     return {};
 }
 
-Result<void> GridFrame::reserve_sights(const Gpu& gpu, const FramePlan& plan) {
+Result<void> GridFrame::reserve_sights(const Gpu& gpu, const GridPlan& plan) {
     const bool wanted = plan.wants_sights && plan.constants.occlusion != 0;
     const std::size_t words =
         plan.clusters.on ? plan.clusters.drawn.size() : gpu::sight_words * plan.pages.size();
@@ -169,7 +169,7 @@ void GridFrame::record_sights(VkCommandBuffer commands) const {
     vkCmdCopyBuffer(commands, told.handle.get(), sights_read_.handle.get(), 1, &copy);
 }
 
-FrameSights GridFrame::sights_of(const FramePlan& plan) const {
+FrameSights GridFrame::sights_of(const GridPlan& plan) const {
     FrameSights sights;
     if (sights_size_ == 0) return sights;
     if (plan.clusters.on)
@@ -195,7 +195,7 @@ Result<void> GridFrame::reserve_seen(const Gpu& gpu, std::size_t pages) {
     return {};
 }
 
-void GridFrame::remember(const FramePlan& plan) {
+void GridFrame::remember(const GridPlan& plan) {
     forget();
     if (plan.clusters.on)
         clusters_before_ = ++clusters_turn_;
@@ -204,7 +204,7 @@ void GridFrame::remember(const FramePlan& plan) {
 }
 
 // FrameConstants::page_before.
-std::vector<gpu::uint> GridFrame::numbers_before(const FramePlan& plan) const {
+std::vector<gpu::uint> GridFrame::numbers_before(const GridPlan& plan) const {
     std::vector<gpu::uint> numbers(plan.pages.size(), gpu::no_page);
     const auto key = [](const PageIndex& page) { return std::tuple(page.level, page.row, page.column); };
     std::map<std::tuple<int, int, int>, gpu::uint> places;
@@ -216,7 +216,7 @@ std::vector<gpu::uint> GridFrame::numbers_before(const FramePlan& plan) const {
     return numbers;
 }
 
-void GridFrame::address(FramePlan& plan) const {
+void GridFrame::address(GridPlan& plan) const {
     const DataLayout layout = layout_of(plan);
     gpu::FrameConstants& constants = plan.constants;
     constants.pages = address_words(data_.address + pages_offset);
@@ -255,7 +255,7 @@ void GridFrame::address(FramePlan& plan) const {
         sights_size_ > 0 && !plan.clusters.on ? address_words(sights_.address) : gpu::uvec2(0U);
 }
 
-void GridFrame::fill(const FramePlan& plan) {
+void GridFrame::fill(const GridPlan& plan) {
     const DataLayout layout = layout_of(plan);
     size_ = layout.size;
     const auto copy = [&](VkDeviceSize at, const auto& values) {

@@ -21,27 +21,27 @@ class GridFrame {
     Result<void> create_set(const Gpu& gpu, const Pipelines& pipelines,
                             const std::array<VkImageView, 4>& images);
     // Room for the pages of a plan, on both sides, and for what is chosen of them.
-    Result<void> reserve(const Gpu& gpu, const FramePlan& plan);
+    Result<void> reserve(const Gpu& gpu, const GridPlan& plan);
     // Where all that lies, into the plan's constants.
-    void address(FramePlan& plan) const;
+    void address(GridPlan& plan) const;
     // Puts a plan, whose constants are whole, where record_upload() sends it from.
-    void fill(const FramePlan& plan);
+    void fill(const GridPlan& plan);
     void record_upload(VkCommandBuffer commands) const;
     // What the frame's nodes or clusters have shown goes to where sights_of() reads it, once the frame is
     // done.
     void record_sights(VkCommandBuffer commands) const;
     // Nothing of a frame that was drawn at once.
-    [[nodiscard]] FrameSights sights_of(const FramePlan& plan) const;
+    [[nodiscard]] FrameSights sights_of(const GridPlan& plan) const;
     void bind(VkCommandBuffer commands, const Pipelines& pipelines, VkPipelineBindPoint point) const;
 
     // The frame was drawn in rounds: the next such one knows which of its nodes or clusters were seen. Or
     // nobody knows.
-    void remember(const FramePlan& plan);
+    void remember(const GridPlan& plan);
     void forget() {
         before_.clear();
         clusters_before_ = 0;
     }
-    [[nodiscard]] bool remembers(const FramePlan& plan) const {
+    [[nodiscard]] bool remembers(const GridPlan& plan) const {
         return plan.clusters.on ? clusters_before_ > 0 : !before_.empty();
     }
 
@@ -59,9 +59,9 @@ class GridFrame {
   private:
     void bind_constants(const Gpu& gpu) const;
     Result<void> reserve_seen(const Gpu& gpu, std::size_t pages);
-    Result<void> reserve_clusters(const Gpu& gpu, const FramePlan& plan);
-    Result<void> reserve_sights(const Gpu& gpu, const FramePlan& plan);
-    [[nodiscard]] std::vector<gpu::uint> numbers_before(const FramePlan& plan) const;
+    Result<void> reserve_clusters(const Gpu& gpu, const GridPlan& plan);
+    Result<void> reserve_sights(const Gpu& gpu, const GridPlan& plan);
+    [[nodiscard]] std::vector<gpu::uint> numbers_before(const GridPlan& plan) const;
 
     OwnedDescriptorPool pool_;
     VkDescriptorSet set_{VK_NULL_HANDLE};

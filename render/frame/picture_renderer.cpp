@@ -10,8 +10,8 @@ namespace oro {
 namespace {
 
 constexpr int preferred_tile_px = 4096;
-// Around a tile of a picture of one sample: an edge depends on the next pixel (shaders/shade/edges.comp). Light
-// depends on the shadows in the next pixel (shaders/cast/cast_on.glsl), and those on shadows 3 px away
+// Around a tile of a picture of one sample: an edge depends on the next pixel (shaders/shade/edges.comp).
+// Light depends on the shadows in the next pixel (shaders/cast/cast_on.glsl), and those on shadows 3 px away
 // (shaders/cast/shares.comp). Multiples of 4, so that shadows are looked for in the same pixels first.
 int margin_of(const gpu::FrameStyle& style) {
     constexpr int edges_px = 4, shadows_px = 8;
@@ -41,12 +41,13 @@ Result<TileSamples> draw_samples(Scene& scene, const Camera& camera, const gpu::
     PictureReport& report = samples.report;
     for (int i = 0; i < options.samples; ++i) {
         tile.sample_px = sample_place(i, options.samples);
-        ORO_TRY(FramePlan plan, scene.settled_plan(camera, tile, options.tau_px, options.model));
+        ORO_TRY(FramePlan plan, scene.settled_plan({camera, tile, options.tau_px, options.model}));
         const bool whole = plan.is_settled();
         report.settled = report.settled && plan.shows_all();
-        if (i == 0) {
-            report.pages_beyond_frustum = plan.pages_beyond_frustum;
-            report.pages_beyond_horizon = plan.pages_beyond_horizon;
+        for (const GridPlan& grid : plan.grids) {
+            if (i > 0) break;
+            report.pages_beyond_frustum += grid.pages_beyond_frustum;
+            report.pages_beyond_horizon += grid.pages_beyond_horizon;
         }
         ORO_TRY(const FrameReport drawn,
                 renderer.draw(std::move(plan), style, static_cast<std::uint32_t>(i),

@@ -4,11 +4,10 @@
 
 namespace oro {
 
-Result<SettledFrame> draw_settled(Scene& scene, FrameRenderer& renderer, const Camera& camera,
-                                  const Tile& tile, double tau_px, const WorldModel& model,
+Result<SettledFrame> draw_settled(Scene& scene, FrameRenderer& renderer, const FrameView& view,
                                   const gpu::FrameStyle& style) {
     for (int frame = 1;; ++frame) {
-        ORO_TRY(FramePlan plan, scene.settled_plan(camera, tile, tau_px, model));
+        ORO_TRY(FramePlan plan, scene.settled_plan(view));
         const bool whole = plan.is_settled(), shows_all = plan.shows_all();
         const std::uint64_t page_bytes = scene.block_bytes(plan);
         ORO_TRY(FrameReport report, renderer.draw(std::move(plan), style));

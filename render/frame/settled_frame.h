@@ -19,8 +19,7 @@ struct SettledFrame {
 
 // Draws one sample of a tile with all that tau asks for. Where the GPU cannot hold that, it draws again until
 // no frame tells anything new of what shows: then all of that is there, or does not fit.
-Result<SettledFrame> draw_settled(Scene& scene, FrameRenderer& renderer, const Camera& camera,
-                                  const Tile& tile, double tau_px, const WorldModel& model,
+Result<SettledFrame> draw_settled(Scene& scene, FrameRenderer& renderer, const FrameView& view,
                                   const gpu::FrameStyle& style);
 
 }  // namespace oro

@@ -64,8 +64,7 @@ Result<void> shown_triangles(const Gpu& gpu, Scene& scene, const Camera& camera,
                             std::min(tile_width, camera.width_px - x),
                             std::min(tile_height, camera.height_px - y),
                             {0.5, 0.5}};
-            ORO_CHECK(draw_settled(scene, renderer, camera, tile, options.tau_px, options.model,
-                                   gpu::FrameStyle{}));
+            ORO_CHECK(draw_settled(scene, renderer, {camera, tile, options.tau_px, options.model}, {}));
             for (int first = 0; first < tile.height_px; first += rows_at_once) {
                 const int count = std::min(rows_at_once, tile.height_px - first);
                 ORO_TRY(const std::vector<ShownTriangle> triangles,

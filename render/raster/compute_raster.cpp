@@ -65,7 +65,7 @@ void ComputeRaster::address(gpu::FrameConstants& constants) const {
 
 void ComputeRaster::record_clear(VkCommandBuffer commands, const Pipelines& pipelines,
                                  const FramePlan& plan) const {
-    const gpu::uint pixels = plan.constants.width_px * plan.constants.height_px;
+    const gpu::uint pixels = plan.view.width_px() * plan.view.height_px();
     const gpu::uint groups = (pixels + gpu::clear_group_px - 1) / gpu::clear_group_px;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.raster_clear.get());
     vkCmdDispatch(commands, std::min(groups, gpu::groups_per_row),

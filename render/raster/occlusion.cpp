@@ -45,7 +45,7 @@ Result<void> Occlusion::resize(const Gpu& gpu, RasterPath path, VkExtent2D exten
 
 // Whether most of what a frame shows was in the last one, too. A wrong answer costs time, and nothing else.
 bool Occlusion::shows_much_of(const FramePlan& plan) const {
-    const gpu::FrameConstants& now = plan.constants;
+    const gpu::FrameConstants& now = plan.grids.front().constants;  // of the view, which is that of all
     if (last_.page_count == 0 || now.width_px != last_.width_px || now.height_px != last_.height_px ||
         now.first_x_px != last_.first_x_px || now.first_y_px != last_.first_y_px)
         return false;
@@ -67,11 +67,14 @@ void Occlusion::begin(const FramePlan& plan, bool remembers) {
     may_tie_ = uses_last_frame_ = false;
     if (use_ == OcclusionUse::off) return;
     // What clusters take says nothing of nodes, and the other way round.
-    if (plan.clusters.on != was_of_clusters_) last_ = {};
-    was_of_clusters_ = plan.clusters.on;
+    const bool of_clusters =
+        std::ranges::any_of(plan.grids, [](const GridPlan& grid) { return grid.clusters.on; });
+    if (of_clusters != was_of_clusters_) last_ = {};
+    was_of_clusters_ = of_clusters;
     const bool much = shows_much_of(plan);
-    last_ = plan.constants;
-    for (const FramePlan& other : plan.beside) last_.page_count += other.constants.page_count;
+    last_ = plan.grids.front().constants;
+    last_.page_count = 0;
+    for (const GridPlan& grid : plan.grids) last_.page_count += grid.constants.page_count;
     if (last_.page_count == 0) return;  // nothing hides anything
     // Other views begin with occlusion: where a view is seen once, that is what it costs least with by the
     // mesh path.
@@ -86,7 +89,7 @@ void Occlusion::begin(const FramePlan& plan, bool remembers) {
                    round_of(0, gpu::round_shares, true)};
     }
     // Pages and clusters have numbers from the nearest on: rounds from near to far draw ids in their order.
-    may_tie_ = uses_last_frame_ || !plan.beside.empty();
+    may_tie_ = uses_last_frame_ || plan.grids.size() > 1;
     for (gpu::FrameRound& round : rounds_) round.nearest = nearest_ ? 1U : 0U;
 }
 
@@ -100,8 +103,8 @@ void Occlusion::record_pyramid(VkCommandBuffer commands, const Pipelines& pipeli
                                const FramePlan& plan) const {
     constexpr std::uint32_t side_px = 1U << gpu::pyramid_coarsest;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.pyramid.get());
-    vkCmdDispatch(commands, (plan.constants.width_px + side_px - 1) / side_px,
-                  (plan.constants.height_px + side_px - 1) / side_px, 1);
+    vkCmdDispatch(commands, (plan.view.width_px() + side_px - 1) / side_px,
+                  (plan.view.height_px() + side_px - 1) / side_px, 1);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                    VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);

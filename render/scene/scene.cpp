@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <cstring>
 #include <iterator>
 
@@ -42,14 +43,14 @@ std::shared_ptr<PageBudget> page_budget(const Gpu& gpu, std::uint64_t bytes) {
     return std::make_shared<PageBudget>(gpu_bytes(gpu, bytes));
 }
 
-Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const SceneMemory& memory,
-                            HeightStorage heights, bool means) {
+Result<GridScene> GridScene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages,
+                                    const SceneMemory& memory, HeightStorage heights, bool means) {
     const PageParts parts{means && pages->knows_means(), pages->facts().grid.net != nullptr};
     ORO_TRY(const HeightQuantization coding, height_quantization(*pages, heights));
     ORO_TRY(
         PageStore store,
         PageStore::create(gpu, memory.shared ? memory.shared : page_budget(gpu, memory.gpu), coding, parts));
-    Scene scene(std::move(pages), std::move(store));
+    GridScene scene(std::move(pages), std::move(store));
     static std::atomic<std::uint64_t> scenes{0};
     scene.number_ = ++scenes;
     const std::uint64_t under_way = main_bytes(memory.main) / memory.shares;
@@ -63,102 +64,30 @@ Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, 
     return scene;
 }
 
-void Scene::cast(const CastRequest& request) {
-    // What lies between grids casts nothing: they do.
-    if (!pages_->is_seam()) cast_ = request;
-    for (Scene& other : beside_) other.cast(request);
-}
-
-void Scene::hold_means(double spacing_px) {
-    if (spacing_px != asked_means_px_) means_spacing_px_ = asked_means_px_ = spacing_px;
-    for (Scene& other : beside_) other.hold_means(spacing_px);
-}
-
-void Scene::hold_for(const gpu::FrameStyle& style) {
-    cast(cast_request(style));
-    hold_means(means_spacing_px(style));
-}
-
-std::vector<DrapeStore*> Scene::drapes() const {
-    std::vector<DrapeStore*> all{drape_.get()};
-    for (const Scene& other : beside_) all.push_back(other.drape_.get());
-    return all;
-}
-
-std::size_t Scene::image_tiles_max() const {
-    std::size_t tiles = 0;
-    for (const DrapeStore* const drape : drapes()) tiles += drape == nullptr ? 0 : drape->capacity();
-    return tiles;
-}
-
-Result<FramePlan> Scene::plan(const Camera& camera, const Tile& tile, double tau_px,
-                              const WorldModel& model) {
-    const std::vector<Scene*> scenes = all();
-    std::vector<FramePlan> plans;
-    for (Scene* const scene : scenes) {
-        ORO_TRY(FramePlan begun, scene->begun_plan(camera, tile, tau_px, model, Clusters::that_are_here));
-        plans.push_back(std::move(begun));
-    }
-    ORO_CHECK(tell_receivers(camera, tile, plans));
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-        ORO_CHECK(scenes[i]->end_plan(camera, tile, plans[i]));
-        if (i > 0) scenes[i]->missed_ = plans[i].missing;
-    }
-    return joined(std::move(plans));
-}
-
-FramePlan Scene::joined(std::vector<FramePlan> plans) {
-    FramePlan plan = std::move(plans.front());
-    plan.beside.assign(std::make_move_iterator(plans.begin() + 1), std::make_move_iterator(plans.end()));
-    return plan;
-}
-
-// Ground that another grid draws is ground that a grid's terrain may darken.
-Result<void> Scene::tell_receivers(const Camera& camera, const Tile& tile,
-                                   const std::vector<FramePlan>& plans) {
-    if (beside_.empty()) return {};
-    const std::vector<Scene*> scenes = all();
-    for (Scene* const scene : scenes) scene->shown_beside_.clear();
-    if (!cast_.sun_enu) return {};
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-        ORO_TRY(const std::vector<CastReceiver> shown,
-                cast_receivers(*scenes[i]->pages_, camera, tile, plans[i]));
-        for (std::size_t j = 0; j < scenes.size(); ++j)
-            if (j != i)
-                scenes[j]->shown_beside_.insert(scenes[j]->shown_beside_.end(), shown.begin(), shown.end());
-    }
-    return {};
-}
-
-bool Scene::is_hidden(const PageIndex& page) const {
+bool GridScene::is_hidden(const PageIndex& page) const {
     return hidden_.contains({page.level, page.row, page.column});
 }
 
-bool Scene::saw(std::span<const FrameSights> sights) {
-    bool is_new = false;
-    const std::vector<Scene*> scenes = all();
-    for (std::size_t i = 0; i < std::min(sights.size(), scenes.size()); ++i)
-        is_new = scenes[i]->seen_.add(sights[i]) || is_new;
-    if (clusters_) clusters_->saw(sights.empty() ? FrameSights() : sights.front());
-    return is_new;
+bool GridScene::saw(const FrameSights& sights) {
+    if (clusters_) clusters_->saw(sights);
+    return seen_.add(sights);
 }
 
 // Where the last frame's pages filled the GPU and more of them show, those that do not show are planned
 // without: what comes next may take their place.
-Result<FramePlan> Scene::plan_of_pages(const Camera& camera, const Tile& tile, double tau_px,
-                                       const WorldModel& model) {
+Result<GridPlan> GridScene::plan_of_pages(const FrameView& view) {
     const double spacing_px = store_.means_before() > 0 ? means_spacing_px_ : gpu::shading_spacing_px;
     const auto planned = [&](const Residency& residency) {
         store_.begin_frame();
-        return plan_frame(*pages_, residency, camera, tile, tau_px, model, store_.coding(), spacing_px,
-                          [&](const PageIndex& page) { return seen_.is_hidden(page); });
+        return plan_grid(*pages_, residency, view, store_.coding(), spacing_px,
+                         [&](const PageIndex& page) { return seen_.is_hidden(page); });
     };
-    ORO_TRY(FramePlan plan, planned([&](const PageIndex& page) { return store_.address(page); }));
+    ORO_TRY(GridPlan plan, planned([&](const PageIndex& page) { return store_.address(page); }));
     if (store_.means_before() > 0 && spacing_px < gpu::means_spacing_px &&
         (full_ || plan.pages.size() + plan.missing.size() > store_.capacity())) {
         means_spacing_px_ = gpu::means_spacing_px;
         full_ = false;
-        return plan_of_pages(camera, tile, tau_px, model);
+        return plan_of_pages(view);
     }
     can_give_way_ = plan.missing.size() > plan.missing_hidden && !plan.hidden.empty();
     if (!std::exchange(full_, false) || !can_give_way_) return plan;
@@ -174,7 +103,7 @@ Result<FramePlan> Scene::plan_of_pages(const Camera& camera, const Tile& tile, d
 }
 
 // What casters need shows by what they cast: it comes before what is hidden.
-Result<void> Scene::add_casters(const Camera& camera, const Tile& tile, FramePlan& plan) {
+Result<void> GridScene::add_casters(const FrameView& view, GridPlan& plan) {
     if (!top_m_) {
         ORO_TRY(top_m_, region_top_m(*pages_));
     }
@@ -182,8 +111,8 @@ Result<void> Scene::add_casters(const Camera& camera, const Tile& tile, FramePla
     const std::vector<PageIndex> hidden(first_hidden, plan.missing.end());
     plan.missing.erase(first_hidden, plan.missing.end());
     ORO_CHECK(plan_casters(
-        *pages_, [&](const PageIndex& page) { return store_.address(page); }, camera, tile, cast_, *top_m_,
-        plan, shown_beside_));
+        *pages_, [&](const PageIndex& page) { return store_.address(page); }, view.camera, view.tile, cast_,
+        *top_m_, plan, receivers_));
     plan.missing_hidden = 0;
     std::set<std::tuple<int, int, int>> wanted;
     for (const PageIndex& page : plan.missing) wanted.insert({page.level, page.row, page.column});
@@ -195,35 +124,33 @@ Result<void> Scene::add_casters(const Camera& camera, const Tile& tile, FramePla
     return {};
 }
 
-Result<void> Scene::add_clusters(const Camera& camera, const Tile& tile, double tau_px,
-                                 const WorldModel& model, Clusters clusters, FramePlan& plan) {
+Result<void> GridScene::add_clusters(const FrameView& view, Clusters clusters, GridPlan& plan) {
+    const auto& [camera, tile, tau_px, model] = view;
     // A plan with no page shows nothing.
-    if (!clusters_ || !beside_.empty() || model.earth != Earth::ellipsoid || plan.pages.empty()) return {};
+    if (!clusters_ || model.earth != Earth::ellipsoid || plan.pages.empty()) return {};
     const HorizonOccluder& occluder = pages_->facts().shape.occluder;
     if (clusters == Clusters::waited_for)
         return clusters_->add_to(plan, camera, tile, tau_px, model, occluder, store_.coding());
     return clusters_->add_what_is_here(plan, camera, tile, tau_px, model, occluder, store_.coding());
 }
 
-Result<FramePlan> Scene::own_plan(const Camera& camera, const Tile& tile, double tau_px,
-                                  const WorldModel& model, Clusters clusters) {
-    ORO_TRY(FramePlan plan, begun_plan(camera, tile, tau_px, model, clusters));
-    ORO_CHECK(end_plan(camera, tile, plan));
+Result<GridPlan> GridScene::plan(const FrameView& view, Clusters clusters) {
+    ORO_TRY(GridPlan plan, begun_plan(view, clusters));
+    ORO_CHECK(end_plan(view, plan));
     return plan;
 }
 
-// Without what casts shadows.
-Result<FramePlan> Scene::begun_plan(const Camera& camera, const Tile& tile, double tau_px,
-                                    const WorldModel& model, Clusters clusters) {
-    ORO_TRY(FramePlan plan, plan_of_pages(camera, tile, tau_px, model));
+Result<GridPlan> GridScene::begun_plan(const FrameView& view, Clusters clusters) {
+    ORO_TRY(GridPlan plan, plan_of_pages(view));
     for (const PageIndex& page : plan.hidden) store_.note_hidden(page);
-    ORO_CHECK(add_clusters(camera, tile, tau_px, model, clusters, plan));
+    ORO_CHECK(add_clusters(view, clusters, plan));
     return plan;
 }
 
-Result<void> Scene::end_plan(const Camera& camera, const Tile& tile, FramePlan& plan) {
-    if (cast_.any()) ORO_CHECK(add_casters(camera, tile, plan));
+Result<void> GridScene::end_plan(const FrameView& view, GridPlan& plan) {
+    if (cast_.any()) ORO_CHECK(add_casters(view, plan));
     full_for_hidden_ = false;
+    missed_ = plan.missing;
     hidden_.clear();
     for (const PageIndex& page : std::span(plan.missing).last(plan.missing_hidden))
         hidden_.insert({page.level, page.row, page.column});
@@ -241,7 +168,7 @@ Result<void> Scene::end_plan(const Camera& camera, const Tile& tile, FramePlan& 
     return {};
 }
 
-Result<Scene::Sent> Scene::send_ready(bool wait) {
+Result<GridScene::Sent> GridScene::send_ready(bool wait) {
     ORO_TRY(std::vector<LoadedPage> ready, stream_->take(wait));
     for (LoadedPage& page : ready) page.is_hidden = is_hidden(page.index);
     std::ranges::stable_partition(ready, [](const LoadedPage& page) { return !page.is_hidden; });
@@ -251,112 +178,49 @@ Result<Scene::Sent> Scene::send_ready(bool wait) {
     return sent;
 }
 
-std::vector<PageIndex> Scene::shown_of(std::span<const PageIndex> missing) const {
+std::vector<PageIndex> GridScene::shown_of(std::span<const PageIndex> missing) const {
     std::vector<PageIndex> shown;
     std::ranges::copy_if(missing, std::back_inserter(shown),
                          [&](const PageIndex& page) { return !is_hidden(page); });
     return shown;
 }
 
-Result<bool> Scene::advance(std::span<const PageIndex> missing) {
+Result<bool> GridScene::advance() {
     bool better = false;
-    for (Scene& other : beside_) {
-        ORO_TRY(const bool more, other.advance(other.missed_));
-        better = better || more;
-    }
     if (clusters_) {
-        ORO_TRY(const bool more, clusters_->advance());
-        better = better || more;
+        ORO_TRY(better, clusters_->advance());
     }
     if (full_) return better;
     if (full_for_hidden_)
-        stream_->want(shown_of(missing));
+        stream_->want(shown_of(missed_));
     else
-        stream_->want(missing);
+        stream_->want(missed_);
     ORO_TRY(const Sent sent, send_ready(false));
     full_for_hidden_ = full_for_hidden_ || sent.hidden_left;
     full_ = sent.shown_left;
     if (full_) stream_->want({});
-    // For the next frame: what none of this one's grids uses.
-    if (!beside_.empty() && std::ranges::any_of(all(), [](const Scene* scene) { return scene->full_; }))
-        make_room();
     return better || sent.count > 0 || (full_ && can_give_way_);
 }
 
-// Where any grid's memory is full, what the others hold of it may be what earlier frames left.
-void Scene::forget_frames() {
-    const std::vector<Scene*> scenes = all();
-    const bool full = std::ranges::any_of(scenes, [](const Scene* one) { return !one->store_.has_room(); });
-    for (Scene* const one : scenes) {
-        one->seen_ = SeenGround(*one->pages_);
-        one->hidden_.clear();
-        one->missed_.clear();
-        one->shown_beside_.clear();
-        one->full_ = one->full_for_hidden_ = one->can_give_way_ = false;
-        one->means_spacing_px_ = one->asked_means_px_;
-        one->stream_->want({});
-        if (!full) continue;
-        one->store_.forget_pages();
-        one->store_.begin_frame();
-        one->store_.release_unused();
+void GridScene::forget_frames(bool gives_back) {
+    seen_ = SeenGround(*pages_);
+    hidden_.clear();
+    missed_.clear();
+    receivers_.clear();
+    full_ = full_for_hidden_ = can_give_way_ = false;
+    means_spacing_px_ = asked_means_px_;
+    stream_->want({});
+    if (gives_back) {
+        store_.forget_pages();
+        store_.begin_frame();
+        store_.release_unused();
     }
     if (clusters_) clusters_->forget_frames();
 }
 
-std::uint64_t Scene::block_bytes(const FramePlan& plan) {
-    std::uint64_t bytes = 0;
-    for (const PageIndex& page : plan.page_indices) bytes += store_.block_bytes(page);
-    for (std::size_t i = 0; i < std::min(beside_.size(), plan.beside.size()); ++i)
-        bytes += beside_[i].block_bytes(plan.beside[i]);
-    return bytes;
-}
-
-std::vector<Scene*> Scene::all() {
-    std::vector<Scene*> scenes{this};
-    for (Scene& other : beside_) scenes.push_back(&other);
-    return scenes;
-}
-
-bool Scene::make_room() {
-    bool any = false;
-    for (Scene* const scene : all()) any = scene->store_.release_unused() || any;
-    return any;
-}
-
-Result<FramePlan> Scene::settled_plan(const Camera& camera, const Tile& tile, double tau_px,
-                                      const WorldModel& model) {
-    ORO_CHECK(tell_receivers(camera, tile, std::vector<FramePlan>(grids())));
-    ORO_TRY(std::vector<FramePlan> plans, settled_plans(camera, tile, tau_px, model));
-    if (!beside_.empty() && cast_.sun_enu) {
-        // What each of them shows is known: what the others need to cast on that comes, too.
-        ORO_CHECK(tell_receivers(camera, tile, plans));
-        ORO_TRY(plans, settled_plans(camera, tile, tau_px, model));
-    }
-    return joined(std::move(plans));
-}
-
-Result<std::vector<FramePlan>> Scene::settled_plans(const Camera& camera, const Tile& tile, double tau_px,
-                                                    const WorldModel& model) {
-    std::vector<FramePlan> plans;
-    for (Scene* const scene : all()) {
-        ORO_TRY(FramePlan plan, scene->own_settled_plan(camera, tile, tau_px, model));
-        if (!plan.missing.empty() && !beside_.empty()) {
-            // Others may hold what earlier frames used. What this frame uses of theirs they say by a plan.
-            for (Scene* const other : all())
-                if (other != scene)
-                    ORO_CHECK(other->own_plan(camera, tile, tau_px, model, Clusters::waited_for));
-            if (make_room()) {
-                ORO_TRY(plan, scene->own_settled_plan(camera, tile, tau_px, model));
-            }
-        }
-        plans.push_back(std::move(plan));
-    }
-    return plans;
-}
-
 // Pages become ready in any order, so no more are asked for than there is room for. Where they differ in size
 // there may be room for others then.
-Result<bool> Scene::bring(std::span<const PageIndex> all_pages) {
+Result<bool> GridScene::bring(std::span<const PageIndex> all_pages) {
     while (!all_pages.empty()) {
         const std::span<const PageIndex> pages = all_pages.first(std::min(all_pages.size(), store_.room()));
         stream_->want(pages);
@@ -375,10 +239,9 @@ Result<bool> Scene::bring(std::span<const PageIndex> all_pages) {
     return true;
 }
 
-Result<FramePlan> Scene::own_settled_plan(const Camera& camera, const Tile& tile, double tau_px,
-                                          const WorldModel& model) {
+Result<GridPlan> GridScene::settled_plan(const FrameView& view) {
     for (bool begun_anew = false;;) {
-        ORO_TRY(FramePlan frame, own_plan(camera, tile, tau_px, model, Clusters::waited_for));
+        ORO_TRY(GridPlan frame, plan(view, Clusters::waited_for));
         if (frame.missing.empty()) return frame;
         ORO_TRY(bool fits, bring(shown_of(frame.missing)));
         if (!fits && can_give_way_) {
@@ -393,8 +256,158 @@ Result<FramePlan> Scene::own_settled_plan(const Camera& camera, const Tile& tile
             store_.forget_pages();
             continue;
         }
-        if (!fits) return own_plan(camera, tile, tau_px, model, Clusters::waited_for);
+        if (!fits) return plan(view, Clusters::waited_for);
     }
+}
+
+Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const SceneMemory& memory,
+                            HeightStorage heights, bool means) {
+    ORO_TRY(GridScene grid, GridScene::create(gpu, std::move(pages), memory, heights, means));
+    Scene scene;
+    scene.grids_.push_back(std::move(grid));
+    return scene;
+}
+
+void Scene::add(Scene other) {
+    assert(!grids_.front().clusters_ && !other.grids_.front().clusters_);
+    std::ranges::move(other.grids_, std::back_inserter(grids_));
+}
+
+void Scene::draw_clusters(ClusterScene clusters) {
+    assert(grids_.size() == 1);
+    grids_.front().clusters_.emplace(std::move(clusters));
+}
+
+void Scene::cast(const CastRequest& request) {
+    cast_ = request;
+    // What lies between grids casts nothing: they do.
+    for (GridScene& grid : grids_)
+        if (!grid.pages_->is_seam()) grid.cast_ = request;
+}
+
+void Scene::hold_means(double spacing_px) {
+    for (GridScene& grid : grids_)
+        if (spacing_px != grid.asked_means_px_) grid.means_spacing_px_ = grid.asked_means_px_ = spacing_px;
+}
+
+void Scene::hold_for(const gpu::FrameStyle& style) {
+    cast(cast_request(style));
+    hold_means(means_spacing_px(style));
+}
+
+std::vector<DrapeStore*> Scene::drapes() const {
+    std::vector<DrapeStore*> all;
+    for (const GridScene& grid : grids_) all.push_back(grid.drape());
+    return all;
+}
+
+PagesOfGrids Scene::pages() const {
+    std::vector<const RegionPages*> all;
+    for (const GridScene& grid : grids_) all.push_back(grid.pages_.get());
+    return PagesOfGrids(std::move(all));
+}
+
+std::size_t Scene::image_tiles_max() const {
+    std::size_t tiles = 0;
+    for (const DrapeStore* const drape : drapes()) tiles += drape == nullptr ? 0 : drape->capacity();
+    return tiles;
+}
+
+double Scene::height_step_m() const {
+    double step_m = 0.0;
+    for (const GridScene& grid : grids_) step_m = std::max(step_m, grid.store_.coding().step_m());
+    return step_m;
+}
+
+std::uint64_t Scene::block_bytes(const FramePlan& plan) {
+    std::uint64_t bytes = 0;
+    for (std::size_t i = 0; i < grids_.size(); ++i)
+        for (const PageIndex& page : plan.grids[i].page_indices) bytes += grids_[i].store_.block_bytes(page);
+    return bytes;
+}
+
+// Ground that another grid draws is ground that a grid's terrain may darken.
+Result<void> Scene::tell_receivers(const FrameView& view, std::span<const GridPlan> plans) {
+    for (GridScene& grid : grids_) grid.receivers_.clear();
+    if (!cast_.sun_enu || grids_.size() == 1) return {};
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        ORO_TRY(const std::vector<CastReceiver> shown,
+                cast_receivers(*grids_[i].pages_, view.camera, view.tile, plans[i]));
+        for (std::size_t j = 0; j < grids_.size(); ++j)
+            if (j != i) std::ranges::copy(shown, std::back_inserter(grids_[j].receivers_));
+    }
+    return {};
+}
+
+Result<FramePlan> Scene::plan(const FrameView& view) {
+    FramePlan plan{view, {}};
+    for (GridScene& grid : grids_) {
+        ORO_TRY(GridPlan begun, grid.begun_plan(view, GridScene::Clusters::that_are_here));
+        plan.grids.push_back(std::move(begun));
+    }
+    ORO_CHECK(tell_receivers(view, plan.grids));
+    for (std::size_t i = 0; i < grids_.size(); ++i) ORO_CHECK(grids_[i].end_plan(view, plan.grids[i]));
+    return plan;
+}
+
+bool Scene::saw(std::span<const FrameSights> sights) {
+    bool is_new = false;
+    for (std::size_t i = 0; i < grids_.size(); ++i)
+        is_new = grids_[i].saw(i < sights.size() ? sights[i] : FrameSights()) || is_new;
+    return is_new;
+}
+
+// A grid that is full takes the place of what it has itself; where there are several, the others may hold
+// what none of this frame's uses: that is for the next.
+Result<bool> Scene::advance() {
+    bool better = false;
+    for (GridScene& grid : grids_) {
+        ORO_TRY(const bool more, grid.advance());
+        better = better || more;
+    }
+    if (grids_.size() > 1 && std::ranges::any_of(grids_, &GridScene::full_)) make_room();
+    return better;
+}
+
+// Where any grid's memory is full, what the others hold of it may be what earlier frames left.
+void Scene::forget_frames() {
+    const bool full =
+        std::ranges::any_of(grids_, [](const GridScene& grid) { return !grid.store_.has_room(); });
+    for (GridScene& grid : grids_) grid.forget_frames(full);
+}
+
+bool Scene::make_room() {
+    bool any = false;
+    for (GridScene& grid : grids_) any = grid.store_.release_unused() || any;
+    return any;
+}
+
+Result<FramePlan> Scene::settled_plan(const FrameView& view) {
+    ORO_CHECK(tell_receivers(view, {}));
+    ORO_TRY(std::vector<GridPlan> plans, settled_plans(view));
+    if (grids_.size() > 1 && cast_.sun_enu) {
+        // What each of them shows is known: what the others need to cast on that comes, too.
+        ORO_CHECK(tell_receivers(view, plans));
+        ORO_TRY(plans, settled_plans(view));
+    }
+    return FramePlan{view, std::move(plans)};
+}
+
+Result<std::vector<GridPlan>> Scene::settled_plans(const FrameView& view) {
+    std::vector<GridPlan> plans;
+    for (GridScene& grid : grids_) {
+        ORO_TRY(GridPlan plan, grid.settled_plan(view));
+        if (!plan.missing.empty() && grids_.size() > 1) {
+            // Others may hold what earlier frames used. What this frame uses of theirs they say by a plan.
+            for (GridScene& other : grids_)
+                if (&other != &grid) ORO_CHECK(other.plan(view, GridScene::Clusters::waited_for));
+            if (make_room()) {
+                ORO_TRY(plan, grid.settled_plan(view));
+            }
+        }
+        plans.push_back(std::move(plan));
+    }
+    return plans;
 }
 
 }  // namespace oro

@@ -39,79 +39,24 @@ std::uint64_t main_bytes(std::uint64_t bytes);
 // gpu_bytes() to be shared.
 std::shared_ptr<PageBudget> page_budget(const Gpu& gpu, std::uint64_t bytes);
 
-// Keeps on the GPU what a camera needs of a region, as fine as tau asks for, within a budget of memory.
-//     ORO_TRY(Scene scene, Scene::create(*gpu, pages_in_memory(region.field, 1.0, thread_count())));
-//     ORO_TRY(FramePlan plan, scene.settled_plan(camera, {0, 0, 320, 240, {0.5, 0.5}}, 1.0));  // tau 1 px
-class Scene {
+// One grid that is being drawn: its pages, and those of them that are on the GPU.
+class GridScene {
   public:
-    // heights: how they are kept on the GPU. means: for styles whose pixels are means of the ground. Errors:
-    // out of memory; a file that cannot be read.
-    static Result<Scene> create(const Gpu& gpu, std::unique_ptr<RegionPages> pages,
-                                const SceneMemory& memory = {}, HeightStorage heights = HeightStorage::f32,
-                                bool means = false);
-
-    // Another grid that its frames draw, too: a region of its own, with its own pages, memory and streaming.
-    // What the rest of this class tells is of the first grid alone, where it does not say which.
-    void draw_beside(Scene other) { beside_.push_back(std::move(other)); }
-
-    // From the next plan on its ground is drawn by clusters, on the ellipsoid; pages are there for shading.
-    // Not for scenes that draw others beside.
-    void draw_clusters(ClusterScene clusters) { clusters_.emplace(std::move(clusters)); }
-    [[nodiscard]] const std::optional<ClusterScene>& clusters() const { return clusters_; }
-
-    // From the next plan on it also holds what a style needs of the terrain around (core/frame/casters.h):
-    // for shadows of all its grids, on the ground of all. How open the sky is each grid's own terrain tells.
-    void cast(const CastRequest& request);
-    // ... and squares of means that are at most so large on the screen (core/lod/ground_means.h), where it
-    // has any; once the GPU has no room for them, as large as other styles take.
-    void hold_means(double spacing_px);
-    // Both, as a style asks for them.
-    void hold_for(const gpu::FrameStyle& style);
-    // What a frame draws with the pages and clusters that are on the GPU now.
-    Result<FramePlan> plan(const Camera& camera, const Tile& tile, double tau_px,
-                           const WorldModel& model = {});
-    // Lets the background read what a plan misses (those beside it and clusters know what theirs missed), and
-    // sends what is ready: true when the next plan may be better. Does not wait for what is not ready; asks
-    // for no pages once the frame's own fill the GPU. Errors: what cannot be read, the device.
-    Result<bool> advance(std::span<const PageIndex> missing);
-    // What a frame of this scene has shown (FrameReport::sights): from the next plan on ground that is hidden
-    // comes last, and where the GPU is full gives way to what shows. True where that is news.
-    bool saw(std::span<const FrameSights> sights);
-    // The next frame is as the first one: what frames have shown is forgotten, and what they left on the GPU
-    // is let go of where it could take the room of what comes. Not between a plan and the frame that draws
-    // it.
-    void forget_frames();
-    // A plan once all that tau asks for is there: waits for it. Where a frame needs more than the GPU may
-    // hold, `missing` names the rest; drawing it, saw() and another plan may bring what of that shows. Of
-    // clusters it tells how many there is no room for.
-    Result<FramePlan> settled_plan(const Camera& camera, const Tile& tile, double tau_px,
-                                   const WorldModel& model = {});
-
-    // Its grids, numbered as they came, and the pages of each.
-    [[nodiscard]] std::size_t grids() const { return 1 + beside_.size(); }
-    [[nodiscard]] const RegionPages& pages_of(std::size_t grid) const {
-        return grid == 0 ? *pages_ : beside_[grid - 1].pages();
-    }
-    // Images over the ground of a grid; null: none.
-    void set_drape(std::unique_ptr<DrapeStore> drape, std::size_t grid = 0) {
-        (grid == 0 ? drape_ : beside_[grid - 1].drape_) = std::move(drape);
-    }
-    [[nodiscard]] DrapeStore* drape() const { return drape_.get(); }
-    // Of all grids: what a frame is drawn with.
-    [[nodiscard]] std::vector<DrapeStore*> drapes() const;
-    // Tiles of images that the GPU may hold for all of them.
-    [[nodiscard]] std::size_t image_tiles_max() const;
+    // As Scene::create().
+    static Result<GridScene> create(const Gpu& gpu, std::unique_ptr<RegionPages> pages,
+                                    const SceneMemory& memory, HeightStorage heights, bool means);
 
     [[nodiscard]] const RegionPages& pages() const { return *pages_; }
     [[nodiscard]] PageStore& store() { return store_; }
-    [[nodiscard]] std::uint64_t bytes_sent() const { return store_.bytes_sent(); }
-    // What the pages of a plan of all its grids take on the GPU, without means and places, bytes.
-    [[nodiscard]] std::uint64_t block_bytes(const FramePlan& plan);
-    // From one height that the GPU can keep to the next; posts are at most half of it from their own.
-    [[nodiscard]] double height_step_m() const { return store_.coding().step_m(); }
+    [[nodiscard]] const PageStore& store() const { return store_; }
+    // Images over its ground; null: none.
+    [[nodiscard]] DrapeStore* drape() const { return drape_.get(); }
+    // What draws its ground in place of its pages' nodes.
+    [[nodiscard]] const std::optional<ClusterScene>& clusters() const { return clusters_; }
 
   private:
-    Scene(std::unique_ptr<RegionPages> pages, PageStore store)
+    friend class Scene;
+    GridScene(std::unique_ptr<RegionPages> pages, PageStore store)
         : pages_(std::move(pages)), store_(std::move(store)), seen_(*pages_) {}
     // Number of pages that there was room for, of those that were ready; whether it was short for hidden ones
     // alone, or for those that show.
@@ -122,51 +67,113 @@ class Scene {
     Result<Sent> send_ready(bool wait);
     // Waits for all of them: false where there was no room.
     Result<bool> bring(std::span<const PageIndex> pages);
-    Result<FramePlan> plan_of_pages(const Camera& camera, const Tile& tile, double tau_px,
-                                    const WorldModel& model);
-    Result<void> add_casters(const Camera& camera, const Tile& tile, FramePlan& plan);
+    Result<GridPlan> plan_of_pages(const FrameView& view);
+    Result<void> add_casters(const FrameView& view, GridPlan& plan);
     // Those of missing pages that may show.
     [[nodiscard]] std::vector<PageIndex> shown_of(std::span<const PageIndex> missing) const;
     [[nodiscard]] bool is_hidden(const PageIndex& page) const;
     enum class Clusters { that_are_here, waited_for };
-    Result<FramePlan> own_plan(const Camera& camera, const Tile& tile, double tau_px, const WorldModel& model,
-                               Clusters clusters);
-    Result<void> add_clusters(const Camera& camera, const Tile& tile, double tau_px, const WorldModel& model,
-                              Clusters clusters, FramePlan& plan);
-    Result<FramePlan> begun_plan(const Camera& camera, const Tile& tile, double tau_px,
-                                 const WorldModel& model, Clusters clusters);
-    Result<void> end_plan(const Camera& camera, const Tile& tile, FramePlan& plan);
-    Result<FramePlan> own_settled_plan(const Camera& camera, const Tile& tile, double tau_px,
-                                       const WorldModel& model);
-    // Of all(), in their order.
-    Result<std::vector<FramePlan>> settled_plans(const Camera& camera, const Tile& tile, double tau_px,
-                                                 const WorldModel& model);
-    static FramePlan joined(std::vector<FramePlan> plans);
-    // To each grid what the plans of the others show.
-    Result<void> tell_receivers(const Camera& camera, const Tile& tile, const std::vector<FramePlan>& plans);
-    // This and those beside it.
-    std::vector<Scene*> all();
-    // Lets go of what the grids' frames do not use: true where there is more room now.
-    bool make_room();
+    Result<void> add_clusters(const FrameView& view, Clusters clusters, GridPlan& plan);
+    // A plan without what casts shadows, then with that; and both.
+    Result<GridPlan> begun_plan(const FrameView& view, Clusters clusters);
+    Result<void> end_plan(const FrameView& view, GridPlan& plan);
+    Result<GridPlan> plan(const FrameView& view, Clusters clusters);
+    Result<GridPlan> settled_plan(const FrameView& view);
+    Result<bool> advance();
+    bool saw(const FrameSights& sights);
+    // gives_back: memory of pages, too.
+    void forget_frames(bool gives_back);
 
     std::unique_ptr<RegionPages> pages_;
     std::unique_ptr<PageStream> stream_;
     PageStore store_;
     std::unique_ptr<DrapeStore> drape_;
     Buffer undulation_;
-    std::uint64_t number_{};  // FramePlan::heights
+    std::uint64_t number_{};  // GridPlan::heights
     SeenGround seen_;
-    std::set<std::tuple<int, int, int>> hidden_;  // of what the last plan misses
+    std::vector<PageIndex> missed_;               // by the last plan
+    std::set<std::tuple<int, int, int>> hidden_;  // of those
     bool full_{false};                            // of the last frame's pages
     bool full_for_hidden_{false};                 // at least for those
     bool can_give_way_{false};                    // hidden pages of the last plan could, for missing ones
     CastRequest cast_;
     double asked_means_px_{gpu::means_spacing_px}, means_spacing_px_{gpu::means_spacing_px};
-    std::vector<CastReceiver> shown_beside_;  // by other grids of the frame
-    std::optional<double> top_m_;             // of the region, once it was asked for
+    std::vector<CastReceiver> receivers_;  // shown by other grids of the frame
+    std::optional<double> top_m_;          // of the region, once it was asked for
     std::optional<ClusterScene> clusters_;
-    std::vector<Scene> beside_;
-    std::vector<PageIndex> missed_;  // by its last plan, where it is one of those beside another
+};
+
+// Keeps on the GPU what a camera needs of a region's grids, as fine as tau asks for, within a budget of
+// memory.
+//     ORO_TRY(Scene scene, Scene::create(*gpu, pages_in_memory(region.field, 1.0, thread_count())));
+//     ORO_TRY(FramePlan plan, scene.settled_plan({camera, {0, 0, 320, 240, {0.5, 0.5}}, 1.0}));  // tau 1 px
+class Scene {
+  public:
+    // A scene of one grid. heights: how they are kept on the GPU. means: for styles whose pixels are means of
+    // the ground. Errors: out of memory; a file that cannot be read.
+    static Result<Scene> create(const Gpu& gpu, std::unique_ptr<RegionPages> pages,
+                                const SceneMemory& memory = {}, HeightStorage heights = HeightStorage::f32,
+                                bool means = false);
+    // Puts the grids of another scene behind its own, each with its own pages, memory and streaming.
+    void add(Scene other);
+
+    // From the next plan on its ground is drawn by clusters, on the ellipsoid; pages are there for shading.
+    // The scene has one grid: triangle ids are numbered by the clusters of one.
+    void draw_clusters(ClusterScene clusters);
+
+    // From the next plan on it also holds what a style needs of the terrain around (core/frame/casters.h):
+    // for shadows of all its grids, on the ground of all. How open the sky is each grid's own terrain tells.
+    void cast(const CastRequest& request);
+    // ... and squares of means that are at most so large on the screen (core/lod/ground_means.h), where it
+    // has any; once the GPU has no room for them, as large as other styles take.
+    void hold_means(double spacing_px);
+    // Both, as a style asks for them.
+    void hold_for(const gpu::FrameStyle& style);
+    // What a frame draws with the pages and clusters that are on the GPU now.
+    Result<FramePlan> plan(const FrameView& view);
+    // Lets the background read what the last plan misses, and sends what is ready: true when the next plan
+    // may be better. Does not wait for what is not ready; asks for no pages of a grid once the frame's own
+    // fill the GPU. Errors: what cannot be read, the device.
+    Result<bool> advance();
+    // What a frame of this scene has shown (FrameReport::sights): from the next plan on ground that is hidden
+    // comes last, and where the GPU is full gives way to what shows. True where that is news.
+    bool saw(std::span<const FrameSights> sights);
+    // The next frame is as the first one: what frames have shown is forgotten, and what they left on the GPU
+    // is let go of where it could take the room of what comes. Not between a plan and the frame that draws
+    // it.
+    void forget_frames();
+    // A plan once all that tau asks for is there: waits for it. Where a frame needs more than the GPU may
+    // hold, `missing` names the rest; drawing it, saw() and another plan may bring what of that shows. Of
+    // clusters it tells how many there is no room for.
+    Result<FramePlan> settled_plan(const FrameView& view);
+
+    // Its grids, in the order of FramePlan::grids.
+    [[nodiscard]] std::span<GridScene> grids() { return grids_; }
+    [[nodiscard]] std::span<const GridScene> grids() const { return grids_; }
+    [[nodiscard]] PagesOfGrids pages() const;
+    // Images over the ground of a grid.
+    void set_drape(std::unique_ptr<DrapeStore> drape, std::size_t grid) {
+        grids_[grid].drape_ = std::move(drape);
+    }
+    // Of all grids: what a frame is drawn with.
+    [[nodiscard]] std::vector<DrapeStore*> drapes() const;
+    // Tiles of images that the GPU may hold for all of them.
+    [[nodiscard]] std::size_t image_tiles_max() const;
+    // What the pages of a plan take on the GPU, without means and places, bytes.
+    [[nodiscard]] std::uint64_t block_bytes(const FramePlan& plan);
+    // From one height that the GPU can keep to the next, of the grid where that is most; posts are at most
+    // half of it from their own.
+    [[nodiscard]] double height_step_m() const;
+
+  private:
+    Result<std::vector<GridPlan>> settled_plans(const FrameView& view);
+    // To each grid what the plans of the others show.
+    Result<void> tell_receivers(const FrameView& view, std::span<const GridPlan> plans);
+    // Lets go of what the grids' frames do not use: true where there is more room now.
+    bool make_room();
+
+    std::vector<GridScene> grids_;
+    CastRequest cast_;
 };
 
 }  // namespace oro

@@ -100,17 +100,16 @@ void dispatch_over_pixels(VkCommandBuffer commands, const OwnedPipeline& pipelin
 }  // namespace
 
 Result<void> SharedShares::reserve(const Gpu& gpu, const FramePlan& plan, const gpu::FrameStyle& style) {
-    const auto casts = [](const FramePlan& one) { return one.casters.for_shadows; };
-    is_on_ = style.shadows != 0 && !plan.beside.empty() &&
-             (casts(plan) || std::ranges::any_of(plan.beside, casts));
+    is_on_ = style.shadows != 0 && plan.grids.size() > 1 &&
+             std::ranges::any_of(plan.grids, [](const GridPlan& grid) { return grid.casters.for_shadows; });
     if (!is_on_) return {};
-    const VkDeviceSize pixels = VkDeviceSize{plan.constants.width_px} * plan.constants.height_px;
+    const VkExtent2D extent{plan.view.width_px(), plan.view.height_px()};
+    const VkDeviceSize pixels = VkDeviceSize{extent.width} * extent.height;
     if (shares_.size >= pixels * sizeof(float)) return {};
     ORO_TRY(places_, create_buffer(gpu, pixels * sizeof(gpu::CastPlace), on_device, MemoryKind::device,
                                    "places in shadow"));
-    ORO_TRY(of_one_grid_,
-            create_buffer(gpu, bytes_of_shares({plan.constants.width_px, plan.constants.height_px}),
-                          on_device, MemoryKind::device, "sun shares of one grid"));
+    ORO_TRY(of_one_grid_, create_buffer(gpu, bytes_of_shares(extent), on_device, MemoryKind::device,
+                                        "sun shares of one grid"));
     ORO_TRY(shares_, create_buffer(gpu, pixels * sizeof(float), on_device, MemoryKind::device,
                                    "sun shares of all grids"));
     return {};
@@ -122,7 +121,7 @@ void SharedShares::record_clear(VkCommandBuffer commands) const {
     wait(commands, VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
 }
 
-Result<void> CasterBuffers::reserve(const Gpu& gpu, const FramePlan& frame,
+Result<void> CasterBuffers::reserve(const Gpu& gpu, const GridPlan& frame,
                                     const gpu::FrameConstants& constants) {
     const CasterPlan& plan = frame.casters;
     const auto grow = [&](Buffer& buffer, VkDeviceSize bytes, const char* name) -> Result<void> {
@@ -155,7 +154,7 @@ Result<void> CasterBuffers::reserve(const Gpu& gpu, const FramePlan& frame,
 // What nodes and openness follow from: the casters as they are sent, then whose heights they are and of which
 // pages, and where the sun is over them. Heights stay where they are, and the same place holds others only as
 // another page.
-void CasterBuffers::describe(const FramePlan& frame, const gpu::FrameCasters& casters,
+void CasterBuffers::describe(const GridPlan& frame, const gpu::FrameCasters& casters,
                              const gpu::FrameConstants& constants) {
     const CasterPlan& plan = frame.casters;
     const CasterLayout layout = layout_of(plan);
@@ -185,7 +184,7 @@ void CasterBuffers::describe(const FramePlan& frame, const gpu::FrameCasters& ca
 }
 
 Result<void> CasterBuffers::prepare(const Gpu& gpu, const ShareOptions& how, Pipelines& pipelines,
-                                    const FramePlan& frame, const SharedShares& shared,
+                                    const GridPlan& frame, const SharedShares& shared,
                                     gpu::FrameConstants& constants) {
     const CasterPlan& plan = frame.casters;
     const gpu::FrameStyle& style = constants.style;

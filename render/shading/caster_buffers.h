@@ -38,7 +38,7 @@ class CasterBuffers {
     // Room for a plan's casters, and their place into the frame's constants; the pipelines on first use.
     // Nothing happens for a style without shadows and openness, and for a plan without casters unless others
     // of the frame may take the sun from its ground.
-    Result<void> prepare(const Gpu& gpu, const ShareOptions& how, Pipelines& pipelines, const FramePlan& plan,
+    Result<void> prepare(const Gpu& gpu, const ShareOptions& how, Pipelines& pipelines, const GridPlan& plan,
                          const SharedShares& shared, gpu::FrameConstants& constants);
     // Sends them, and finds out how high they reach and how much of the sky they leave, unless all that is as
     // it was in the frame before. The frame's set is bound for all that is recorded, its ids can be read.
@@ -55,8 +55,8 @@ class CasterBuffers {
     [[nodiscard]] bool opens() const { return opens_; }
 
   private:
-    Result<void> reserve(const Gpu& gpu, const FramePlan& plan, const gpu::FrameConstants& constants);
-    void describe(const FramePlan& plan, const gpu::FrameCasters& casters,
+    Result<void> reserve(const Gpu& gpu, const GridPlan& plan, const gpu::FrameConstants& constants);
+    void describe(const GridPlan& plan, const gpu::FrameCasters& casters,
                   const gpu::FrameConstants& constants);
 
     Buffer staging_;  // gpu::FrameCasters, then pages, then the table

@@ -41,7 +41,7 @@ uint triangle_id(uint frame_page, uint meshlet, uint triangle) {
 uint triangle_of_id(uint id) { return id - 1u - FRAME.first_page * (meshlets_per_page * meshlet_triangles); }
 // Whether an id is a triangle of this grid.
 bool is_of_grid(uint id) {
-    return id != 0u && (FRAME.grids_beside == 0u || triangle_of_id(id) < FRAME.page_count * (meshlets_per_page * meshlet_triangles));
+    return id != 0u && (FRAME.other_grids == 0u || triangle_of_id(id) < FRAME.page_count * (meshlets_per_page * meshlet_triangles));
 }
 // Whether a pixel is left to another grid of the frame: what shows no ground at all is the first's to colour.
 bool is_left_to_others(uint id) { return id == 0u ? FRAME.first_page != 0u : !is_of_grid(id); }

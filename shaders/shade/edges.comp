@@ -100,7 +100,7 @@ void main() {
     int above = pairs_across + within_square.x * (side_px + 1) + within_square.y;
     vec4 shares = vec4(shares_of_pairs[before + 1].x, shares_of_pairs[before].y, shares_of_pairs[above + 1].x, shares_of_pairs[above].y);
     // Without an edge it is as it was shaded.
-    if (shares == vec4(0.0) || !within(pixel) || (FRAME.grids_beside != 0u && is_left_to_others(id_at(pixel)))) return;
+    if (shares == vec4(0.0) || !within(pixel) || (FRAME.other_grids != 0u && is_left_to_others(id_at(pixel)))) return;
     vec4 own = imageLoad(shaded, pixel), colour = own;
     // A slanting edge is seen beside and above: it counts once.
     float beside = shares.x + shares.y, above_below = shares.z + shares.w, all = max(max(beside, above_below), 1.0);

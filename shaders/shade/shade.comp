@@ -81,7 +81,7 @@ bool shade(ivec2 pixel) {
     vec2 clip = (vec2(pixel) + 0.5) * 2.0 / vec2(FRAME.width_px, FRAME.height_px) - 1.0;
     vec3 ray = vec3((clip - FRAME.projection_shift) / FRAME.projection_scale, -1.0);
     uint id = id_in(pixel);
-    if (FRAME.grids_beside != 0u && is_left_to_others(id)) return true;
+    if (FRAME.other_grids != 0u && is_left_to_others(id)) return true;
     float depth = 0.0;
     vec3 colour;
 #ifdef IN_AIR

@@ -39,7 +39,7 @@ void main() {
     if (pixel.x >= int(FRAME.width_px) || pixel.y >= int(FRAME.height_px)) return;
     uint id = from_compute ? id_of(VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)])
                            : imageLoad(ids, pixel).x;
-    if (FRAME.grids_beside != 0u && is_left_to_others(id)) return;
+    if (FRAME.other_grids != 0u && is_left_to_others(id)) return;
     if (id == 0u) {
         imageStore(picture, pixel, vec4(0.0));
         return;

@@ -14,12 +14,12 @@ namespace {
 
 // Hills over `posts` x `posts` posts of 3 seconds.
 Region hills(int posts) {
-    Region region;
-    region.field.grid.lat = {1200.0, 47.0, 0, -1, posts};
-    region.field.grid.lon = {1200.0, 8.0, 0, 1, posts};
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field.grid.lat = {1200.0, 47.0, 0, -1, posts};
+    region.grids[0].field.grid.lon = {1200.0, 8.0, 0, 1, posts};
     for (int row = 0; row < posts; ++row) {
         for (int column = 0; column < posts; ++column)
-            region.field.H_m.push_back(static_cast<float>(500 + (row * 7 + column * 3) % 200));
+            region.grids[0].field.H_m.push_back(static_cast<float>(500 + (row * 7 + column * 3) % 200));
     }
     return region;
 }
@@ -27,14 +27,14 @@ Region hills(int posts) {
 TEST(CoarseField, HasEveryNthPostWhereItIs) {
     const Region region = hills(2100);
     ASSERT_TRUE(measures_long(region));
-    const HeightField coarse = coarse_field(region.field);
+    const HeightField coarse = coarse_field(region.grids[0].field);
     EXPECT_LE(coarse.grid.post_count(), 1'000'000U);
     const int step = 4;  // 2100^2 / 4^2 is the first below a million
     ASSERT_EQ(coarse.grid.rows(), 2099 / step + 1);
     for (const int row : {0, 1, 77, coarse.grid.rows() - 1}) {
-        EXPECT_NEAR(coarse.grid.lat.at_deg(row), region.field.grid.lat.at_deg(row * step), 1e-12);
-        EXPECT_NEAR(coarse.grid.lon.at_deg(row), region.field.grid.lon.at_deg(row * step), 1e-12);
-        EXPECT_EQ(coarse.H_at_post_m(row, 5), region.field.H_at_post_m(row * step, 5 * step));
+        EXPECT_NEAR(coarse.grid.lat.at_deg(row), region.grids[0].field.grid.lat.at_deg(row * step), 1e-12);
+        EXPECT_NEAR(coarse.grid.lon.at_deg(row), region.grids[0].field.grid.lon.at_deg(row * step), 1e-12);
+        EXPECT_EQ(coarse.H_at_post_m(row, 5), region.grids[0].field.H_at_post_m(row * step, 5 * step));
     }
     EXPECT_FALSE(measures_long(hills(400)));
 }
@@ -44,7 +44,7 @@ TEST(FinerLevels, AreThoseOfTheRegion) {
     FinerLevels finer(region, 2.0);
     auto measured = finer.wait();
     ASSERT_TRUE(measured.ok()) << measured.error().line();
-    const auto pages = region_pages(region, 2.0);
+    const auto pages = grid_pages(region.grids[0], {}, 2.0);
     ASSERT_TRUE(pages.ok());
     ASSERT_EQ((*measured)->levels(), (*pages)->levels());
     EXPECT_EQ((*measured)->facts().triangles, (*pages)->facts().triangles);

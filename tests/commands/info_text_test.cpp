@@ -25,8 +25,8 @@ SourceReport tile(const std::string& path) {
     return source;
 }
 
-Region region_of(std::vector<SourceReport> sources) {
-    Region region;
+RegionGrid region_of(std::vector<SourceReport> sources) {
+    RegionGrid region;
     region.field.grid.lat = {1.0, 0.0, 47, -1, 2};
     region.field.grid.lon = {1.0, 0.0, 8, +1, 2};
     region.field.H_m = {190.0F, 4142.0F, 200.0F, 300.0F};
@@ -97,7 +97,7 @@ TEST(InfoText, ManyFilesAreALineEachAfterWhatTheyShare) {
     other.voids = 1500;
     other.implausible = 2;
     other.seams = {40, 1, 2.5};
-    Region region = region_of({tile("a/N46E008.hgt"), other});
+    RegionGrid region = region_of({tile("a/N46E008.hgt"), other});
     region.seams = {1201, 12, 3.5};
     region.missing_cells = {"N46E009"};
     region.in_missing = 1;
@@ -159,7 +159,7 @@ TEST(InfoText, OfAProjectedFileTheSpacingIsTheCrssOwn) {
 TEST(InfoText, FilledPostsAndPlacementsAreTold) {
     SourceReport coarse = tile("c.tif");
     coarse.placement = Placement{Fit::every_kth_post, 0.0012, 3, 2};
-    Region region = region_of({coarse});
+    RegionGrid region = region_of({coarse});
     region.void_method = VoidMethod::filled;
     region.filled = 12;
     expect_words(
@@ -220,7 +220,7 @@ TEST(InfoText, ResamplingIsToldInMetresWithItsPlace) {
 
 // A part of a baked region, and an old one, do not tell; nothing is offered then.
 TEST(InfoText, VoidsThatAreNotToldApartAreNotOfferedToBeFilled) {
-    Region region = region_of({tile("a.hgt")});
+    RegionGrid region = region_of({tile("a.hgt")});
     region.voids = 12;
     region.tells_voids_apart = false;
     const std::string text = info_text(region);

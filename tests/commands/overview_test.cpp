@@ -62,8 +62,8 @@ View seen(const HeightField& field, const ViewOptions& options, int width_px, in
     view.camera.width_px = width_px;
     view.camera.height_px = height_px;
     if (options.vertical_fov_deg) view.camera.vertical_fov_deg = *options.vertical_fov_deg;
-    Region region;
-    region.field = field;
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = field;
     const Result<void> placed = see_whole_region(view, options, region);
     EXPECT_TRUE(placed.ok()) << placed.error().line();
     return view;
@@ -165,8 +165,8 @@ TEST(Overview, RefusesAnEyeBeyondWhatAViewHolds) {
     view.camera.width_px = view.camera.height_px = 100;
     ViewOptions options;
     options.vertical_fov_deg = view.camera.vertical_fov_deg = 0.05;
-    Region region;
-    region.field = hills(90, -180, 0.5, 91, 181, 8000);
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = hills(90, -180, 0.5, 91, 181, 8000);
     const Result<void> placed = see_whole_region(view, options, region);
     ASSERT_FALSE(placed.ok());
     EXPECT_EQ(placed.error().kind, ErrorKind::usage);

@@ -11,16 +11,16 @@ namespace {
 
 // H = 100 m, N = 50 m, from 46 to 47 N and 8 to 9 E, a post each 0.1 degree.
 Region flat_region() {
-    Region region;
-    region.field = test::made_field(47.0, 8.0, 10.0, 11, 11, [](double, double) { return 100.0F; });
-    region.field.undulation.lat = {1.0, 47.0, 0, -1, 2};
-    region.field.undulation.lon = {1.0, 8.0, 0, +1, 2};
-    region.field.undulation.N_m = {50.0F, 50.0F, 50.0F, 50.0F};
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::made_field(47.0, 8.0, 10.0, 11, 11, [](double, double) { return 100.0F; });
+    region.grids[0].field.undulation.lat = {1.0, 47.0, 0, -1, 2};
+    region.grids[0].field.undulation.lon = {1.0, 8.0, 0, +1, 2};
+    region.grids[0].field.undulation.N_m = {50.0F, 50.0F, 50.0F, 50.0F};
     SourceReport source;
     source.path = "folder/flat.tif";
     source.lat_spacing_deg = source.lon_spacing_deg = 0.1;
     source.box = {8.0, 46.0, 9.0, 47.0};
-    region.sources = {source};
+    region.grids[0].sources = {source};
     return region;
 }
 
@@ -94,7 +94,7 @@ TEST(Picking, BendsLightAsThePictureDoes) {
     view.model.air = {0.13};
     const auto bent = seen_in_middle(view, region);
     ASSERT_TRUE(straight && bent);
-    const TrueSurface surface(region.field, 1.0, 1);
+    const TrueSurface surface(region.grids[0].field, 1.0, 1);
     const auto hit = first_hit(surface, sight_from(view.camera.eye, {0.13}),
                                view.camera.ecef_direction_at({50.5, 50.5}), 1e6);
     ASSERT_TRUE(hit);
@@ -131,9 +131,9 @@ class UnreadablePosts : public PostSource {
 
 TEST(Picking, GroundThatCannotBeReadIsNotNothing) {
     Region region = flat_region();
-    region.field.H_m.clear();
-    region.field.posts = std::make_shared<UnreadablePosts>();
-    region.field.range = HeightRange{100.0F, 100.0F, 0};
+    region.grids[0].field.H_m.clear();
+    region.grids[0].field.posts = std::make_shared<UnreadablePosts>();
+    region.grids[0].field.range = HeightRange{100.0F, 100.0F, 0};
     const auto ground = RegionGround::of(region, 1.0).value();
     const auto middle = place_in_middle(view_from(1150.0, {0.0, -90.0, 0.0}), *ground);
     ASSERT_FALSE(middle.ok());

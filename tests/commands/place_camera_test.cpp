@@ -26,8 +26,8 @@ Camera wide() {
 }
 
 Region region_of(HeightField field) {
-    Region region;
-    region.field = std::move(field);
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = std::move(field);
     return region;
 }
 
@@ -61,7 +61,7 @@ TEST(CameraShowing, FramesACellAsAnOverviewOfItAlone) {
     glm::dvec2 low(9.0), high(-9.0);
     for (int row = 0; row < 121; ++row) {
         for (int column = 120; column < 241; ++column) {
-            const glm::dvec2 at = on_picture(camera, post_ecef(both.field, row, column, 1.0).m);
+            const glm::dvec2 at = on_picture(camera, post_ecef(both.grids[0].field, row, column, 1.0).m);
             low = glm::min(low, at);
             high = glm::max(high, at);
         }
@@ -105,7 +105,7 @@ Region northern_face() {
 
 TEST(CameraShowing, LooksAtAPlaceFromASideThatSeesIt) {
     const Region face = northern_face();
-    const Geodetic place{46.5, 8.0, *ground_h_m(face.field, 46.5, 8.0)};
+    const Geodetic place{46.5, 8.0, *ground_h_m(face.grids[0].field, 46.5, 8.0)};
     const Camera camera = shown(face, "46.5,8.0");
     EXPECT_LT(glm::length(on_picture(camera, ecef_from_geodetic(place).m)), 1e-9) << "in the middle";
     // From 20 degrees up and the south the crest hides it; from the east it does not.
@@ -113,7 +113,7 @@ TEST(CameraShowing, LooksAtAPlaceFromASideThatSeesIt) {
     EXPECT_GT(camera.attitude.heading_deg, 80.0);
     EXPECT_LT(camera.attitude.heading_deg, 280.0);
     const auto ground = [&](double lat_deg, double lon_deg) {
-        return ground_h_m(face.field, lat_deg, lon_deg);
+        return ground_h_m(face.grids[0].field, lat_deg, lon_deg);
     };
     EXPECT_TRUE(is_line_free(camera.eye, place, 10.0, ground));
     // 40 posts of 92.8 m around it, 5 % of margin: 3,711 m / sin(atan(0.9 tan 22.5 degrees)).
@@ -166,9 +166,10 @@ TEST(CameraShowing, LooksOverGroundBesideTheEdgeOfTheData) {
     EXPECT_GT(camera.eye.lat_deg, 46.408333);
     EXPECT_NEAR(camera.attitude.pitch_deg, -20.0, 0.2);
     const Geodetic place{46.408333, 8.05, 500.0};
-    EXPECT_GT(foreground_share(
-                  camera, place,
-                  [&](double lat_deg, double lon_deg) { return ground_h_m(plain.field, lat_deg, lon_deg); }),
+    EXPECT_GT(foreground_share(camera, place,
+                               [&](double lat_deg, double lon_deg) {
+                                   return ground_h_m(plain.grids[0].field, lat_deg, lon_deg);
+                               }),
               0.88);
 }
 
@@ -251,7 +252,7 @@ TEST(Jumps, GoThereStandAndComeBackToTheLastBit) {
     ASSERT_TRUE(standing);
     EXPECT_EQ(standing->eye.lat_deg, 46.5);
     EXPECT_EQ(standing->eye.lon_deg, 8.5);
-    EXPECT_NEAR(standing->eye.h_m, *ground_h_m(region.field, 46.5, 8.5) + 2.0, 1e-9);
+    EXPECT_NEAR(standing->eye.h_m, *ground_h_m(region.grids[0].field, 46.5, 8.5) + 2.0, 1e-9);
     EXPECT_EQ(standing->attitude.pitch_deg, 0.0);
     Camera resized = *standing;
     resized.width_px = 333;

@@ -130,12 +130,12 @@ class Drape : public test::GpuTest {
         EXPECT_TRUE(over.ok() && beside.empty());
         auto store = DrapeStore::create(*gpu_, std::move(over).value(), {opacity, 1.0F}, bytes);
         EXPECT_TRUE(store.ok()) << store.error().line();
-        drawn.scene().set_drape(std::make_unique<DrapeStore>(std::move(store).value()));
+        drawn.scene().set_drape(std::make_unique<DrapeStore>(std::move(store).value()), 0);
         return drawn;
     }
 
     Picture draw(test::DrawnScene& drawn, const Camera& camera, const gpu::FrameStyle& style) {
-        auto plan = drawn.scene().settled_plan(camera, test::whole_picture(camera), 1.0);
+        auto plan = drawn.scene().settled_plan({camera, test::whole_picture(camera), 1.0});
         EXPECT_TRUE(plan.ok());
         auto report = drawn.renderer().draw(std::move(plan).value(), style, 0, 1, drawn.scene().drapes());
         EXPECT_TRUE(report.ok()) << report.error().line();
@@ -376,8 +376,8 @@ TEST_F(Drape, KeepsToItsMemoryAndSaysWhereThatIsTooLittle) {
         const Picture free = draw(all, camera, flat_style()), bound = draw(few, camera, flat_style());
         EXPECT_TRUE(bound.report.images_settled) << view;
         EXPECT_EQ(free.rgba, bound.rgba) << view;
-        EXPECT_LE(few.scene().drape()->bytes(), 40 * tile_bytes);
-        most = std::max(most, all.scene().drape()->size());
+        EXPECT_LE(few.scene().grids()[0].drape()->bytes(), 40 * tile_bytes);
+        most = std::max(most, all.scene().grids()[0].drape()->size());
         EXPECT_FALSE(draw(one, camera, flat_style()).report.images_settled) << view;
     }
     EXPECT_GT(most, 40U) << "nothing had to make room";

@@ -52,11 +52,12 @@ void scan(const gpu::PageBlock& block) {
 }
 
 void scan(const FramePlan& plan) {
-    for (const gpu::FramePage& page : plan.pages) scan_part(page, 0, offsetof(gpu::FramePage, block));
-    scan_all(std::span<const gpu::RowTerms>(plan.row_terms));
-    scan_all(std::span<const gpu::ColumnTerms>(plan.column_terms));
+    for (const gpu::FramePage& page : plan.grids[0].pages)
+        scan_part(page, 0, offsetof(gpu::FramePage, block));
+    scan_all(std::span<const gpu::RowTerms>(plan.grids[0].row_terms));
+    scan_all(std::span<const gpu::ColumnTerms>(plan.grids[0].column_terms));
     using Constants = gpu::FrameConstants;
-    const Constants& frame = plan.constants;
+    const Constants& frame = plan.grids[0].constants;
     scan_part(frame, 0, offsetof(Constants, reference_steps));
     scan_part(frame, offsetof(Constants, projection_scale), offsetof(Constants, placing));
     scan_part(frame, offsetof(Constants, view_from_ecef), offsetof(Constants, height_bits));

@@ -121,7 +121,7 @@ TEST_F(ExtremeMeasures, AboveRealSlopes) {
         request.box = *parse_tile_range(ground.tiles);
         auto region = open_region(request);
         ASSERT_TRUE(region.ok()) << region.error().line();
-        Stage stage(*gpu_, std::move(region->field));
+        Stage stage(*gpu_, std::move(region->grids[0].field));
         const auto look = [&](const Camera& camera) {
             const PictureErrors errors = stage.measure(camera, RasterPath::compute).errors;
             expect_within_slack(camera, errors);

@@ -122,7 +122,7 @@ class Jitter : public Extremes {
             camera.eye.h_m += step * 0.000529;
             FramePlan plan =
                 stage.plan(camera, {0, 0, 16, 1080, {0.5, 0.5}}, 0.0, {Earth::ellipsoid, {}, precision});
-            for (gpu::FramePage& page : plan.pages) page.cull = 0;
+            for (gpu::FramePage& page : plan.grids[0].pages) page.cull = 0;
             EXPECT_TRUE(renderer->draw(std::move(plan), {}).ok());
             add(camera, renderer->recorded(std::size_t{129} * posts), before, noise);
         }

@@ -100,7 +100,7 @@ TEST_F(ExtremePlaces, PostsAtThePole) {
         camera.vertical_fov_deg = 110.0;
         camera.width_px = camera.height_px = 64;
         FramePlan plan = stage.plan(camera, {0, 0, 64, 64, {0.5, 0.5}}, 0.0);
-        for (gpu::FramePage& page : plan.pages) page.cull = 0;
+        for (gpu::FramePage& page : plan.grids[0].pages) page.cull = 0;
         FrameRendererOptions options;
         options.extent = {64, 64};
         options.record_positions = true;
@@ -113,11 +113,11 @@ TEST_F(ExtremePlaces, PostsAtThePole) {
         std::optional<gpu::vec3> at_pole;
         double worst_m = 0.0, apart_m = 0.0;
         std::uint64_t posts = 0, pole_posts = 0;
-        for (std::size_t page = 0; page < plan.pages.size(); ++page) {
-            if (plan.page_indices[page].level != 0) continue;
+        for (std::size_t page = 0; page < plan.grids[0].pages.size(); ++page) {
+            if (plan.grids[0].page_indices[page].level != 0) continue;
             for (int i = 0; i < 129 * 129; ++i) {
-                const int row = plan.page_indices[page].row * 128 + i / 129;
-                const int column = plan.page_indices[page].column * 128 + i % 129;
+                const int row = plan.grids[0].page_indices[page].row * 128 + i / 129;
+                const int column = plan.grids[0].page_indices[page].column * 128 + i % 129;
                 if (row >= field.grid.rows() || column >= field.grid.columns()) continue;
                 const double lat_deg = field.grid.lat.at_deg(row);
                 const double from_pole_m = (90.0 - std::abs(lat_deg)) * 111694.0;

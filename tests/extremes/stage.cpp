@@ -96,9 +96,9 @@ FrameRenderer& Stage::renderer(RasterPath path, const Camera& camera) {
 }
 
 FramePlan Stage::plan(const Camera& camera, const Tile& tile, double tau_px, const WorldModel& model) {
-    auto made = scene_->settled_plan(camera, tile, tau_px, model);
+    auto made = scene_->settled_plan({camera, tile, tau_px, model});
     EXPECT_TRUE(made.ok()) << made.error().line();
-    EXPECT_TRUE(made->missing.empty());
+    EXPECT_TRUE(made->grids[0].missing.empty());
     scan(*made);
     return std::move(made).value();
 }

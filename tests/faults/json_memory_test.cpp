@@ -106,14 +106,14 @@ oro::View a_view() {
 }
 
 oro::Region a_region() {
-    oro::Region region;
-    region.geoid = "EGM96 (egm96_15.gtx), read by PROJ";
-    region.missing_cells = {"N45E008", "N45E009"};
-    region.notes = {"a note that is longer than what a string has room for itself"};
+    oro::Region region{std::vector<oro::RegionGrid>(1)};
+    region.grids[0].geoid = "EGM96 (egm96_15.gtx), read by PROJ";
+    region.grids[0].missing_cells = {"N45E008", "N45E009"};
+    region.grids[0].notes = {"a note that is longer than what a string has room for itself"};
     oro::SourceReport source;
     source.path = "tiles of somewhere/N46E008.SRTMGL3.hgt";
     source.vertical_datum.name = "EPSG:5773 EGM96 height, as its CRS says";
-    region.sources = {source, source};
+    region.grids[0].sources = {source, source};
     return region;
 }
 
@@ -126,8 +126,8 @@ TEST(JsonWithoutMemory, OfViews) {
 
 TEST(JsonWithoutMemory, OfRegions) {
     const oro::Region region = a_region();
-    expect_no_fall("sources", [&] { return oro::sources_json(region.sources).dump(); });
-    expect_no_fall("a region's seams and notes", [&] { return oro::region_description(region); });
+    expect_no_fall("sources", [&] { return oro::sources_json(region.grids[0].sources).dump(); });
+    expect_no_fall("a region's seams and notes", [&] { return oro::region_description(region.grids[0]); });
 }
 
 TEST(JsonWithoutMemory, OfMeasurements) {

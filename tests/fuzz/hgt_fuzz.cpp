@@ -30,7 +30,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto region = oro::open_region(request);
     std::filesystem::remove_all(place);
     if (region.ok()) {
-        for (const float height : region->field.H_m)
+        for (const float height : region->grids[0].field.H_m)
             if (!oro::is_void(height) && !(height >= -12000.0F && height <= 9000.0F)) std::abort();
         return 0;
     }

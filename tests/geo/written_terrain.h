@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "geo/files/raster_library.h"
-#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
+#include "tests/support/open_grid.h"
 
 namespace oro::test {
 
@@ -130,8 +130,8 @@ inline RegionRequest resampled_from(std::vector<std::string> paths) {
 }
 
 // The region, or a test failure with the reason.
-inline std::optional<Region> opened(const RegionRequest& request, std::string* reason = nullptr) {
-    auto region = open_region(request);
+inline std::optional<RegionGrid> opened(const RegionRequest& request, std::string* reason = nullptr) {
+    auto region = test::open_grid(request);
     if (region) return std::move(region).value();
     if (reason) *reason = region.error().line();
     return std::nullopt;

@@ -43,12 +43,12 @@ Result<Terrain> terrain_of(const fs::path& file) {
     request.paths = {file.string()};
     auto region = open_region(request);
     if (!region.ok()) return region.error();
-    Terrain terrain{0, region->notes.size() + region->missing_cells.size(), region->voids};
-    if (!region->file) {
-        terrain.sum = sum_of(region->field);
+    Terrain terrain{0, region->grids[0].notes.size() + region->grids[0].missing_cells.size(), region->grids[0].voids};
+    if (!region->grids[0].file) {
+        terrain.sum = sum_of(region->grids[0].field);
         return terrain;
     }
-    const auto field = field_in_memory(*region->file);
+    const auto field = field_in_memory(*region->grids[0].file);
     if (!field.ok()) return field.error();
     terrain.sum = sum_of(*field);
     return terrain;

@@ -7,13 +7,13 @@
 #include <cstdio>
 #include <glm/geometric.hpp>
 
-#include "apps/drawing/region_scene.h"
 #include "apps/layers/picture_layers.h"
 #include "core/base/parallel.h"
 #include "core/terrain/horn_slope.h"
 #include "core/truth/oracle.h"
 #include "core/truth/view_set.h"
 #include "tests/styles/drawn_style.h"
+#include "tests/support/drawn/region_scene.h"
 #include "tests/support/real_views.h"
 #include "tests/support/rough_terrain.h"
 
@@ -115,11 +115,11 @@ class LayersOfPictures : public test::GpuTest {
     }
 
     void look_over(const char* name, Region region, std::uint64_t seed, int views, const Air& air) {
-        auto scene = create_scene(*gpu_, region, 1.0, {});
+        auto scene = test::create_scene(*gpu_, region);
         ASSERT_TRUE(scene.ok()) << scene.error().line();
-        const TrueSurface surface(region.field, 1.0, thread_count());
+        const TrueSurface surface(region.grids[0].field, 1.0, thread_count());
         // And level ones, whose skylines and ridges have edges.
-        std::vector<Camera> cameras = made_cameras(seed, region.field, views, width_px, height_px);
+        std::vector<Camera> cameras = made_cameras(seed, region.grids[0].field, views, width_px, height_px);
         for (const double heading_deg : {25.0, 205.0}) {
             Camera level = cameras.front();
             level.attitude = {heading_deg, -3.0, 4.0};
@@ -173,8 +173,8 @@ class LayersOfPictures : public test::GpuTest {
 };
 
 TEST_F(LayersOfPictures, OfMadeTerrainAreTheOracles) {
-    Region region;
-    region.field = test::rough_field(47.0, 8.0, 500, 600);
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::rough_field(47.0, 8.0, 500, 600);
     look_over("made terrain", region, 503, 4, {});
     look_over("made terrain, standard air", std::move(region), 504, 2, standard_air);
     judge(503);
@@ -196,9 +196,9 @@ TEST_F(LayersOfPictures, OfRealTerrainAreTheOracles) {
 
 // With detail left out the place is on what is drawn: on its own ray, and as near to the truth as tau says.
 TEST_F(LayersOfPictures, OfCoarserPicturesLieOnTheirRays) {
-    Region region;
-    region.field = test::rough_field(47.0, 8.0, 500, 600);
-    auto scene = create_scene(*gpu_, region, 1.0, {});
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::rough_field(47.0, 8.0, 500, 600);
+    auto scene = test::create_scene(*gpu_, region);
     ASSERT_TRUE(scene.ok());
     View view;
     view.camera = {{46.9, 8.2, 9000.0}, {30.0, -15.0, 0.0}, 45.0, width_px, height_px};

@@ -9,11 +9,11 @@
 #include <cstdio>
 #include <fstream>
 
-#include "apps/drawing/region_scene.h"
 #include "apps/maps/ortho_map.h"
 #include "core/base/parallel.h"
 #include "core/lod/ground_means.h"
 #include "tests/styles/drawn_style.h"
+#include "tests/support/drawn/region_scene.h"
 
 namespace oro {
 namespace {
@@ -119,14 +119,13 @@ class OrthoMaps : public test::GpuTest {
         const Result<void> made = make_map(view, options, region);
         if (!made.ok()) ADD_FAILURE() << made.error().line();
         if (!made.ok()) return map;
-        const auto style = load_style(view, region.field);
+        const auto style = load_style(view, region.grids[0].field);
         if (!style.ok()) ADD_FAILURE() << style.error().line();
         if (!style.ok()) return map;
-        auto scene =
-            create_scene(*gpu_, region, 1.0, {}, {}, HeightStorage::f32, asks_for_means(style->frame));
+        auto scene = test::create_scene(*gpu_, region, {.means = asks_for_means(style->frame)});
         if (!scene.ok()) ADD_FAILURE() << scene.error().line();
         if (!scene.ok()) return map;
-        const TrueSurface surface(region.field, 1.0, thread_count());
+        const TrueSurface surface(region.grids[0].field, 1.0, thread_count());
         const auto report = draw_map(*gpu_, *scene, view, surface, *style, RasterPath::compute,
                                      [&](std::span<const std::uint8_t> row) {
                                          map.rgba.insert(map.rgba.end(), row.begin(), row.end());

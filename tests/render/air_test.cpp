@@ -65,7 +65,7 @@ class AirTables : public test::GpuTest {
         camera.width_px = camera.height_px = 16;
         camera.eye = {46.85, 8.15, eye_h_m};
         const test::DrawnFrame frame = scene_->draw(camera, 1.0, lit_style(sun_elevation_deg));
-        radius_m_ = static_cast<double>(frame.plan.constants.earth_radius_m);
+        radius_m_ = static_cast<double>(frame.plan.grids[0].constants.earth_radius_m);
         auto air = scene_->renderer().read_air();
         EXPECT_TRUE(air.ok());
         return std::move(air).value();
@@ -185,7 +185,8 @@ TEST_F(AirTables, PixelsOfTheSkyAreWhatBruteForceGives) {
             const auto rgba = scene_->renderer().read_picture(side_px, side_px);
             ASSERT_TRUE(air.ok() && rgba.ok());
             if (!reference)
-                reference.emplace(clear_air(), static_cast<double>(frame.plan.constants.earth_radius_m));
+                reference.emplace(clear_air(),
+                                  static_cast<double>(frame.plan.grids[0].constants.earth_radius_m));
             const double exposure = (*air)[3 * std::size_t{gpu::air_exposure_at}], sun = sun_deg * pi / 180.0;
             const glm::dvec3 to_sun(0.0, std::cos(sun), std::sin(sun));
             for (int i = 0; i < side_px * side_px; i += 17) {

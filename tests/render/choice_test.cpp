@@ -26,7 +26,7 @@ using NodeKey = std::array<int, 3>;  // level, row, column, over the level
 
 NodeKey node_of(const FramePlan& plan, std::uint32_t node) {
     constexpr int side = static_cast<int>(gpu::meshlets_per_side);
-    const PageIndex& page = plan.page_indices[node / gpu::meshlets_per_page];
+    const PageIndex& page = plan.grids[0].page_indices[node / gpu::meshlets_per_page];
     const int in_page = static_cast<int>(node % gpu::meshlets_per_page);
     return {page.level, page.row * side + in_page / side, page.column * side + in_page % side};
 }
@@ -41,7 +41,8 @@ TEST_P(Choice, IsThatOfCore) {
                                     test::Region(test::patchy_field(900, 700))};
     std::size_t nodes = 0, pixels = 0, coarse = 0;
     for (const test::Region& region : regions) {
-        test::DrawnScene drawn(*gpu_, pages_in_memory(region.field, 1.0, 2), GetParam(), width_px, height_px);
+        test::DrawnScene drawn(*gpu_, pages_in_memory(region.grids[0].field, 1.0, 2), GetParam(), width_px,
+                               height_px);
         for (int i = 0; i < 60; ++i) {
             const Camera camera = sized(test::random_camera(random, region));
             const double tau_px = test::taus_px[i % 3];
@@ -50,10 +51,10 @@ TEST_P(Choice, IsThatOfCore) {
             for (const DrawnNode& node :
                  select_nodes(region.pyramid, camera, test::whole_picture(camera), tau_px).nodes)
                 wanted[{node.level, node.row, node.column}] = node.edges;
-            const auto accepted = *drawn.renderer().read_accepted(frame.plan.pages.size());
-            const auto edges = *drawn.renderer().read_edges(frame.plan.pages.size());
+            const auto accepted = *drawn.renderer().read_accepted(frame.plan.grids[0].pages.size());
+            const auto edges = *drawn.renderer().read_edges(frame.plan.grids[0].pages.size());
             std::map<NodeKey, bool> accepts;
-            for (std::uint32_t n = 0; n < frame.plan.pages.size() * gpu::meshlets_per_page; ++n)
+            for (std::uint32_t n = 0; n < frame.plan.grids[0].pages.size() * gpu::meshlets_per_page; ++n)
                 accepts[node_of(frame.plan, n)] = (accepted[n / 32] >> (n % 32) & 1U) != 0;
             std::size_t chosen = 0;
             for (const auto& [node, is_accepted] : accepts) {
@@ -94,7 +95,7 @@ TEST_P(Choice, AndThePictureAreTheSameWithLittleMemory) {
         test::asked_heights() == HeightStorage::packed ? 48U * 50'000U : 44 * sizeof(gpu::PageBlock);
     test::DrawnScene few(*gpu_, pages_in_memory(field, 1.0, 2), GetParam(), width_px, height_px, little);
     std::size_t pages = 0;
-    const std::uint64_t sent_before = few.scene().bytes_sent();
+    const std::uint64_t sent_before = few.scene().grids()[0].store().bytes_sent();
     for (int i = 0; i <= 24; ++i) {
         Camera camera;
         camera.width_px = width_px;
@@ -103,18 +104,19 @@ TEST_P(Choice, AndThePictureAreTheSameWithLittleMemory) {
         camera.eye = {46.45 + 0.01 * i, 8.6 + 0.01 * i, 3500.0 * std::pow(86.0, share)};
         camera.attitude = {15.0 * i, -10.0 - 75.0 * share, 0.0};
         const test::DrawnFrame one = all.draw(camera, 1.0), other = few.draw(camera, 1.0);
-        ASSERT_TRUE(other.plan.missing.empty())
-            << "frame " << i << " needs " << one.plan.pages.size() << " pages";
+        ASSERT_TRUE(other.plan.grids[0].missing.empty())
+            << "frame " << i << " needs " << one.plan.grids[0].pages.size() << " pages";
         ASSERT_EQ(one.ids, other.ids) << "frame " << i;
-        ASSERT_LE(few.scene().store().bytes(), little);
-        pages = std::max(pages, one.plan.pages.size());
+        ASSERT_LE(few.scene().grids()[0].store().bytes(), little);
+        pages = std::max(pages, one.plan.grids[0].pages.size());
     }
     std::printf(
         "at most %zu pages in a frame, %zu on the GPU with room for all, %zu with little; %llu bytes sent\n",
-        pages, all.scene().store().size(), few.scene().store().size(),
-        static_cast<unsigned long long>(few.scene().bytes_sent() - sent_before));
-    EXPECT_GT(all.scene().store().size(), few.scene().store().capacity()) << "or the test is too easy";
-    EXPECT_GT(few.scene().bytes_sent(), all.scene().bytes_sent());
+        pages, all.scene().grids()[0].store().size(), few.scene().grids()[0].store().size(),
+        static_cast<unsigned long long>(few.scene().grids()[0].store().bytes_sent() - sent_before));
+    EXPECT_GT(all.scene().grids()[0].store().size(), few.scene().grids()[0].store().capacity())
+        << "or the test is too easy";
+    EXPECT_GT(few.scene().grids()[0].store().bytes_sent(), all.scene().grids()[0].store().bytes_sent());
 }
 
 // Whatever pages are missing, coarser ones stand in: nothing of the ground is lost.
@@ -137,18 +139,20 @@ TEST_P(Choice, CoarserPagesStandInForMissingOnes) {
         const test::DrawnFrame whole = drawn.draw(camera, 1.0);
         ASSERT_EQ(ground_of(whole.ids), whole.ids.size()) << "camera " << i << " sees more than ground";
         const std::size_t hidden = random();
-        const auto plan = plan_frame(
-            drawn.scene().pages(),
+        GridScene& grid = drawn.scene().grids()[0];
+        const FrameView view{camera, test::whole_picture(camera), 1.0};
+        const auto plan = plan_grid(
+            grid.pages(),
             [&](const PageIndex& page) -> std::uint64_t {
                 const std::size_t hash =
                     static_cast<std::size_t>(page.level * 31 + page.row * 7 + page.column) * 2654435761U;
-                const bool top = page.level == drawn.scene().pages().levels() - 1;
-                return !top && (hash ^ hidden) % 3 == 0 ? 0 : drawn.scene().store().address(page);
+                const bool top = page.level == grid.pages().levels() - 1;
+                return !top && (hash ^ hidden) % 3 == 0 ? 0 : grid.store().address(page);
             },
-            camera, test::whole_picture(camera), 1.0, {}, drawn.scene().store().coding());
+            view, grid.store().coding());
         ASSERT_TRUE(plan.ok());
         stood_in += plan->missing.size();
-        ASSERT_TRUE(drawn.renderer().draw(*plan, {}).ok());
+        ASSERT_TRUE(drawn.renderer().draw(FramePlan{view, {*plan}}, {}).ok());
         const auto ids = *drawn.renderer().read_ids(width_px, height_px);
         ASSERT_EQ(ground_of(ids), ids.size())
             << "camera " << i << ", " << plan->missing.size() << " pages missing";

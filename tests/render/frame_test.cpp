@@ -93,9 +93,9 @@ class Frame : public test::GpuTest, public ::testing::WithParamInterface<RasterP
     }
 
     FramePlan plan(const Camera& camera, double tau_px = 0.0) {
-        auto made = scene_->settled_plan(camera, {0, 0, side_px, side_px, {0.5, 0.5}}, tau_px);
+        auto made = scene_->settled_plan({camera, {0, 0, side_px, side_px, {0.5, 0.5}}, tau_px});
         EXPECT_TRUE(made.ok()) << made.error().line();
-        EXPECT_TRUE(made->missing.empty());
+        EXPECT_TRUE(made->grids[0].missing.empty());
         return std::move(made).value();
     }
 
@@ -185,10 +185,10 @@ TEST_P(Frame, CullingChangesNoPixel) {
         const auto culled = drawn_depths();
         // Every page and every meshlet: pages made so large and so high that no test drops them, and no test
         // on the GPU.
-        auto all = unhidden_->settled_plan(camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 0.0);
+        auto all = unhidden_->settled_plan({camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 0.0});
         ASSERT_TRUE(all.ok()) << all.error().line();
-        ASSERT_EQ(all->pages.size(), 16U + 4U + 1U);
-        for (gpu::FramePage& page : all->pages) page.cull = 0;
+        ASSERT_EQ(all->grids[0].pages.size(), 16U + 4U + 1U);
+        for (gpu::FramePage& page : all->grids[0].pages) page.cull = 0;
         drawn_ids(std::move(all).value());
         ASSERT_EQ(culled, drawn_depths()) << "camera " << i;
     }

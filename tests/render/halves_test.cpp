@@ -40,7 +40,7 @@ class Halves : public test::GpuTest {
     }
     static FramePlan plan_of(Scene& scene, const Camera& camera, double tau_px,
                              const WorldModel& model = {}) {
-        auto plan = scene.settled_plan(camera, halves_picture, tau_px, model);
+        auto plan = scene.settled_plan({camera, halves_picture, tau_px, model});
         EXPECT_TRUE(plan.ok()) << plan.error().line();
         return std::move(plan).value();
     }
@@ -138,7 +138,7 @@ TEST_F(Halves, LeaveTheLowerIdWhereTrianglesAreAsNear) {
     const FramePlan fold = plan_of(folded, close, 0.0, rounded);
     const HeightField field = test::rough_field(47.0, 8.0, 150, 150);
     Scene twice = scene_of(field);
-    twice.draw_beside(scene_of(field));
+    twice.add(scene_of(field));
     const FramePlan same = plan_of(twice, eye_over(field, 0.6, 0.6, 500.0, 30.0, -30.0), 1.0);
     std::size_t ground = 0;
     for (const OcclusionUse occlusion : {OcclusionUse::off, OcclusionUse::on}) {
@@ -154,7 +154,7 @@ TEST_F(Halves, LeaveTheLowerIdWhereTrianglesAreAsNear) {
             const DrawnIds shown = draw(halves, same);
             EXPECT_EQ(draw(whole, same).ids, shown.ids);
             EXPECT_LE(*std::ranges::max_element(shown.ids),
-                      same.pages.size() * gpu::meshlets_per_page * gpu::meshlet_triangles);
+                      same.grids[0].pages.size() * gpu::meshlets_per_page * gpu::meshlet_triangles);
         }
     }
     EXPECT_GT(ground, std::size_t{4} * halves_px * halves_px / 2);

@@ -65,7 +65,7 @@ class HeightsOnGpu : public test::GpuTest {
         return camera;
     }
     static FramePlan plan(Scene& scene, const Camera& camera, double tau_px) {
-        auto made = scene.settled_plan(camera, test::whole_picture(camera), tau_px);
+        auto made = scene.settled_plan({camera, test::whole_picture(camera), tau_px});
         EXPECT_TRUE(made.ok()) << made.error().line();
         return std::move(made).value();
     }
@@ -102,9 +102,9 @@ TEST_F(HeightsOnGpu, AreWithinHalfAStep) {
     const Camera eye = camera(20000.0, 0.0, -90.0);
     const auto recorded = [&](Scene& from) {
         FramePlan drawn = plan(from, eye, 0.0);
-        for (gpu::FramePage& page : drawn.pages) page.cull = 0;
+        for (gpu::FramePage& page : drawn.grids[0].pages) page.cull = 0;
         EXPECT_TRUE(recorder.draw(drawn, {}).ok());
-        return std::pair(recorder.recorded(), drawn.page_indices);
+        return std::pair(recorder.recorded(), drawn.grids[0].page_indices);
     };
     const auto [at, pages] = recorded(whole);
     const auto [coded, coded_pages] = recorded(half);

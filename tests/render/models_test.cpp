@@ -65,9 +65,9 @@ Scene scene_of(const Gpu& gpu, std::unique_ptr<RegionPages> pages,
 }
 
 FramePlan plan_of(Scene& scene, const Camera& camera, double tau_px, const WorldModel& model) {
-    auto plan = scene.settled_plan(camera, whole, tau_px, model);
+    auto plan = scene.settled_plan({camera, whole, tau_px, model});
     EXPECT_TRUE(plan.ok()) << plan.error().line();
-    EXPECT_TRUE(plan->missing.empty());
+    EXPECT_TRUE(plan->grids[0].missing.empty());
     return std::move(plan).value();
 }
 
@@ -122,11 +122,11 @@ Errors errors_of(const std::vector<gpu::vec3>& recorded, const FramePlan& plan, 
                  const Camera& camera, const WorldModel& model) {
     Errors errors;
     const glm::dmat3 view_from_ecef = camera.view_from_ecef();
-    for (std::size_t n = 0; n < plan.pages.size(); ++n) {
-        if (plan.page_indices[n].level != 0) continue;
+    for (std::size_t n = 0; n < plan.grids[0].pages.size(); ++n) {
+        if (plan.grids[0].page_indices[n].level != 0) continue;
         for (int i = 0; i < 129 * 129; ++i) {
-            const int row = plan.page_indices[n].row * 128 + i / 129;
-            const int column = plan.page_indices[n].column * 128 + i % 129;
+            const int row = plan.grids[0].page_indices[n].row * 128 + i / 129;
+            const int column = plan.grids[0].page_indices[n].column * 128 + i % 129;
             if (row >= field.grid.rows() || column >= field.grid.columns()) continue;
             const Geodetic post{row_lat_deg(field.grid, row), field.grid.lon.at_deg(column),
                                 drawn_h_m(field, row, column, 1.0)};
@@ -157,7 +157,8 @@ TEST_F(ModelPlacement, PostsAreWhereTheModelPutsThem) {
             for (int i = 0; i < 3; ++i) {
                 const Camera camera = random_camera(random, field, 2.0, 4000.0, -60.0, 0.0);
                 FramePlan plan = plan_of(scene, camera, 0.0, model);
-                for (gpu::FramePage& page : plan.pages) page.cull = 0;  // every meshlet is to be placed
+                for (gpu::FramePage& page : plan.grids[0].pages)
+                    page.cull = 0;  // every meshlet is to be placed
                 ASSERT_TRUE(renderer.draw(plan, {}).ok());
                 const Errors now = errors_of(renderer.recorded(), plan, field, camera, model);
                 errors = {std::max(errors.worst_m, now.worst_m),
@@ -194,7 +195,7 @@ TEST_F(ModelPlacement, RecordedViewsShowWhatPrecisionDoes) {
     Camera camera = random_camera(random, field, 300.0, 300.0, -60.0, -50.0);
     const auto drawn = [&](FrameRenderer& renderer, Precision precision) {
         FramePlan plan = plan_of(scene, camera, 0.0, {Earth::ellipsoid, {}, precision});
-        for (gpu::FramePage& page : plan.pages) page.cull = 0;
+        for (gpu::FramePage& page : plan.grids[0].pages) page.cull = 0;
         EXPECT_TRUE(renderer.draw(plan, {}).ok());
         return renderer.recorded();
     };
@@ -303,7 +304,7 @@ TEST_P(Models, BentLightKeepsTau) {
                 const Camera camera = random_camera(random, field, 20.0, 20000.0, -30.0, -3.0);
                 const WorldModel model{Earth::ellipsoid, {k}, Precision::relative};
                 FramePlan plan = plan_of(scene, camera, tau_px, model);
-                const auto pages = plan.page_indices;
+                const auto pages = plan.grids[0].page_indices;
                 const auto depths = depths_of(renderer, std::move(plan));
                 const auto ids = renderer.read_ids(side_px, side_px);
                 ASSERT_TRUE(ids.ok());
@@ -350,8 +351,8 @@ TEST_P(Models, CullingChangesNoPixel) {
                 FramePlan culled = plan_of(scene, camera, 0.0, model);
                 culled_pages += culled.pages_beyond_frustum + culled.pages_beyond_horizon;
                 FramePlan everything = plan_of(all, camera, 0.0, model);
-                ASSERT_EQ(everything.pages.size(), 9U + 4U + 1U);
-                for (gpu::FramePage& page : everything.pages) page.cull = 0;
+                ASSERT_EQ(everything.grids[0].pages.size(), 9U + 4U + 1U);
+                for (gpu::FramePage& page : everything.grids[0].pages) page.cull = 0;
                 ASSERT_EQ(depths_of(renderer, std::move(culled)), depths_of(renderer, std::move(everything)))
                     << name << ", " << per_deg << " posts a degree, camera " << i;
             }

@@ -90,7 +90,7 @@ TEST_P(Occluded, GridsHideEachOther) {
         return half;
     };
     Scene halves = scene_of(part(0, 421));
-    halves.draw_beside(scene_of(part(420, 280)));
+    halves.add(scene_of(part(420, 280)));
     test::OcclusionPair renderers(*gpu_, GetParam(), width_px, height_px);
     EXPECT_EQ(
         test::draw_pairs(renderers, halves, over(field), 80, test::occlusion_pairs(25), width_px, height_px),
@@ -111,41 +111,42 @@ struct StreamedScenes {
 // Where the eye sees terrain alone none of them has background. The settled one is that with room for all.
 void stream_in(StreamedScenes& scenes, const Camera& camera) {
     const Tile tile{0, 0, width_px, height_px, {0.5, 0.5}};
-    const auto other = scenes.all.settled_plan(camera, tile, 1.0);
+    const auto other = scenes.all.settled_plan({camera, tile, 1.0});
     ASSERT_TRUE(other.ok()) << other.error().line();
     scenes.whole.background = scenes.renderers.background = 0;
     ASSERT_EQ(scenes.whole.differing(*other), 0U);
     bool settled = false;
     for (int step = 0; step < 4000 && !settled; ++step) {
-        const auto plan = scenes.few.plan(camera, tile, 1.0);
+        const auto plan = scenes.few.plan({camera, tile, 1.0});
         ASSERT_TRUE(plan.ok()) << plan.error().line();
-        settled = plan->missing.empty();
-        const auto advanced = scenes.few.advance(plan->missing);
+        settled = plan->grids[0].missing.empty();
+        const auto advanced = scenes.few.advance();
         ASSERT_TRUE(advanced.ok()) << advanced.error().line();
-        ASSERT_LE(scenes.few.store().size(), scenes.room);
-        if (plan->pages.empty() || (!*advanced && !settled && step % 50 != 0)) continue;
+        ASSERT_LE(scenes.few.grids()[0].store().size(), scenes.room);
+        if (plan->grids[0].pages.empty() || (!*advanced && !settled && step % 50 != 0)) continue;
         scenes.unsettled += settled ? 0 : 1;
         ++scenes.frames;
         ASSERT_EQ(scenes.renderers.differing(*plan), 0U) << "frame " << scenes.frames;
     }
     ASSERT_TRUE(settled);
-    const auto plan = scenes.few.settled_plan(camera, tile, 1.0);
+    const auto plan = scenes.few.settled_plan({camera, tile, 1.0});
     ASSERT_TRUE(plan.ok()) << plan.error().line();
-    ASSERT_TRUE(plan->missing.empty());
+    ASSERT_TRUE(plan->grids[0].missing.empty());
     ASSERT_EQ(scenes.renderers.differing(*plan), 0U);
-    std::printf("%zu pages, %zu in the store\n", plan->page_indices.size(), scenes.few.store().size());
+    std::printf("%zu pages, %zu in the store\n", plan->grids[0].page_indices.size(),
+                scenes.few.grids()[0].store().size());
     // Ids count the pages of a frame: the same ones in the same order, or they could not be compared.
     const auto same = [](const PageIndex& a, const PageIndex& b) {
         return a.level == b.level && a.row == b.row && a.column == b.column;
     };
-    ASSERT_TRUE(std::ranges::equal(plan->page_indices, other->page_indices, same));
+    ASSERT_TRUE(std::ranges::equal(plan->grids[0].page_indices, other->grids[0].page_indices, same));
     ASSERT_EQ(scenes.renderers.last_ids.size(), std::size_t{width_px * height_px});
     EXPECT_EQ(scenes.renderers.last_ids, scenes.whole.last_ids);
     if (scenes.whole.background == 0) {
         ++scenes.of_terrain_alone;
         EXPECT_EQ(scenes.renderers.background, 0U);
     }
-    scenes.drawn = plan->page_indices;
+    scenes.drawn = plan->grids[0].page_indices;
 }
 
 // With room for the 11 pages that the last eye needs, of the 16 that all of them do.
@@ -175,7 +176,7 @@ TEST_P(Occluded, FramesHoldWhileDataStreamIn) {
         early.insert(early.end(), scenes.drawn.begin(), scenes.drawn.end());
     }
     const auto gone = std::ranges::count_if(
-        early, [&](const PageIndex& page) { return scenes.few.store().address(page) == 0; });
+        early, [&](const PageIndex& page) { return scenes.few.grids()[0].store().address(page) == 0; });
     std::printf(
         "seed %u: %d frames, %d of them while pages were missing; %zd pages gone; %d eyes of ground\n", seed,
         scenes.frames, scenes.unsettled, gone, scenes.of_terrain_alone);
@@ -206,7 +207,7 @@ TEST_P(Occluded, HiddenPagesNeedNoRoom) {
         const auto report = render_picture(*gpu_, scene, camera, {}, options, sink);
         EXPECT_TRUE(report.ok()) << report.error().line();
         picture.settled = report->settled;
-        picture.pages = scene.store().size();
+        picture.pages = scene.grids()[0].store().size();
         return picture;
     };
     int with_fewer = 0;

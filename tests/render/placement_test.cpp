@@ -71,10 +71,10 @@ class PlacementOnGpu : public test::GpuTest {
         camera.eye = eye;
         camera.vertical_fov_deg = 110.0;
         camera.width_px = camera.height_px = 64;
-        auto plan = scene->settled_plan(camera, {0, 0, 64, 64, {0.5, 0.5}}, 0.0);
+        auto plan = scene->settled_plan({camera, {0, 0, 64, 64, {0.5, 0.5}}, 0.0});
         EXPECT_TRUE(plan.ok()) << plan.error().line();
-        EXPECT_EQ(plan->pages.size(), 1U);
-        for (gpu::FramePage& page : plan->pages)
+        EXPECT_EQ(plan->grids[0].pages.size(), 1U);
+        for (gpu::FramePage& page : plan->grids[0].pages)
             page.cull &= gpu::places_from_plane;  // every meshlet is to be placed
         auto drawn = renderer->draw(*plan, {});
         EXPECT_TRUE(drawn.ok()) << drawn.error().line();

@@ -57,7 +57,7 @@ class SeveralGrids : public test::GpuTest, public ::testing::WithParamInterface<
         EXPECT_TRUE(renderer.ok()) << renderer.error().line();
         Drawn drawn{};
         for (std::uint32_t i = 0; i < samples; ++i) {
-            auto plan = scene.settled_plan(camera, {0, 0, side_px, side_px, {0.5, 0.5}}, tau_px);
+            auto plan = scene.settled_plan({camera, {0, 0, side_px, side_px, {0.5, 0.5}}, tau_px});
             EXPECT_TRUE(plan.ok()) << plan.error().line();
             auto report = renderer->draw(std::move(*plan), plain_style(), i, samples);
             EXPECT_TRUE(report.ok()) << report.error().line();
@@ -101,7 +101,7 @@ TEST_P(SeveralGrids, AreDrawnAsOneOfAllTheirPosts) {
                 500.0F + 3.0F * static_cast<float>(row) + 2.0F * static_cast<float>(column) +
                 ridges[static_cast<std::size_t>((row - column + 400) % 8)];
     Scene whole = scene_of(field), halves = scene_of(columns_of(field, 0, 201));
-    halves.draw_beside(scene_of(columns_of(field, 200, 200)));
+    halves.add(scene_of(columns_of(field, 200, 200)));
     Scene half = scene_of(columns_of(field, 0, 201));
     std::size_t ground = 0, others = 0, differ = 0, colours = 0;
     for (int i = 0; i < 20; ++i) {
@@ -136,7 +136,7 @@ TEST_P(SeveralGrids, GiveEachPixelOnceInEverySample) {
     std::mt19937 random(seed);
     const HeightField field = test::rough_field(46.9, 8.1, 400, 400);
     Scene whole = scene_of(field), halves = scene_of(columns_of(field, 0, 201));
-    halves.draw_beside(scene_of(columns_of(field, 200, 200)));
+    halves.add(scene_of(columns_of(field, 200, 200)));
     std::size_t differ = 0, count = 0;
     for (int i = 0; i < 6; ++i) {
         const Camera camera = camera_over(field, random);

@@ -300,7 +300,7 @@ inline const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(FrameConstants, cut_column),
         ORO_MEMBER(FrameConstants, page_count),
         ORO_MEMBER(FrameConstants, first_page),
-        ORO_MEMBER(FrameConstants, grids_beside),
+        ORO_MEMBER(FrameConstants, other_grids),
         ORO_MEMBER(FrameConstants, sample_index),
         ORO_MEMBER(FrameConstants, sample_count),
         ORO_MEMBER(FrameConstants, has_means),

@@ -34,7 +34,7 @@ gpu::vec3 expected_colour(gpu::uint show, std::uint32_t id, const FramePlan& pla
     if (show == gpu::show_triangles) return colour_of_number(triangle);
     if (show == gpu::show_meshlets) return colour_of_number(node);
     const float light = 0.85F + 0.15F * colour_of_number(node).x;
-    return light * colour_of_level(plan.pages[node / gpu::meshlets_per_page].level);
+    return light * colour_of_level(plan.grids[0].pages[node / gpu::meshlets_per_page].level);
 }
 
 Camera camera_over(const HeightField& field) {
@@ -61,7 +61,7 @@ TEST_P(ShownParts, HaveTheColoursOfTheirNumbersAndLevels) {
          {gpu::show_visible, gpu::show_levels, gpu::show_meshlets, gpu::show_triangles}) {
         auto renderer = renderer_showing(show);
         ASSERT_TRUE(renderer.ok()) << renderer.error().line();
-        auto plan = scene->settled_plan(camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 1.0);
+        auto plan = scene->settled_plan({camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 1.0});
         ASSERT_TRUE(plan.ok()) << plan.error().line();
         ASSERT_TRUE(renderer->draw(*plan, {}).ok());
         const std::vector<std::uint32_t> ids = *renderer->read_ids(side_px, side_px);
@@ -88,7 +88,7 @@ TEST_P(ShownParts, HaveTheColoursOfTheirNumbersAndLevels) {
 // Of a pixel's triangle where clusters are drawn: by numbers of the graph.
 gpu::vec3 expected_on_clusters(gpu::uint show, std::uint32_t id, const FramePlan& plan) {
     const std::uint32_t triangle = (id - 1) % gpu::cluster_triangles;
-    const gpu::DrawnCluster& drawn = plan.clusters.drawn[(id - 1) / gpu::cluster_triangles];
+    const gpu::DrawnCluster& drawn = plan.grids[0].clusters.drawn[(id - 1) / gpu::cluster_triangles];
     const float light = 0.85F + 0.15F * colour_of_number(drawn.number).x;
     if (show == gpu::show_levels) return light * colour_of_level(drawn.counts >> 16U);
     if (show == gpu::show_groups) return light * colour_of_number(drawn.group);
@@ -111,7 +111,7 @@ TEST_P(ShownParts, OfClustersHaveTheColoursOfTheGraph) {
          {gpu::show_levels, gpu::show_meshlets, gpu::show_triangles, gpu::show_clusters, gpu::show_groups}) {
         auto renderer = renderer_showing(show);
         ASSERT_TRUE(renderer.ok()) << renderer.error().line();
-        auto plan = scene->settled_plan(camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 2.0);
+        auto plan = scene->settled_plan({camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 2.0});
         ASSERT_TRUE(plan.ok()) << plan.error().line();
         ASSERT_TRUE(renderer->draw(*plan, {}).ok());
         const std::vector<std::uint32_t> ids = *renderer->read_ids(side_px, side_px);
@@ -121,7 +121,7 @@ TEST_P(ShownParts, OfClustersHaveTheColoursOfTheGraph) {
             if (ids[i] == 0) continue;
             ++ground;
             wrong += is_colour(expected_on_clusters(show, ids[i], *plan), &rgba[4 * i]) ? 0 : 1;
-            levels.insert(plan->clusters.drawn[(ids[i] - 1) / gpu::cluster_triangles].counts >> 16U);
+            levels.insert(plan->grids[0].clusters.drawn[(ids[i] - 1) / gpu::cluster_triangles].counts >> 16U);
         }
         EXPECT_GT(ground, ids.size() / 4);
         EXPECT_EQ(wrong, 0U) << "show " << show;
@@ -141,7 +141,7 @@ TEST_P(ShownParts, OfClustersTellOfRounds) {
     camera.width_px = camera.height_px = side_px;
     auto renderer = renderer_showing(gpu::show_visible);
     ASSERT_TRUE(renderer.ok()) << renderer.error().line();
-    auto plan = scene->settled_plan(camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 1.0);
+    auto plan = scene->settled_plan({camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 1.0});
     ASSERT_TRUE(plan.ok()) << plan.error().line();
     ASSERT_TRUE(renderer->draw(*plan, {}).ok());
     const std::vector<std::uint32_t> ids = *renderer->read_ids(side_px, side_px);
@@ -149,7 +149,7 @@ TEST_P(ShownParts, OfClustersTellOfRounds) {
     std::size_t before = 0, last = 0, wrong = 0;
     for (std::size_t i = 0; i < ids.size(); ++i) {
         if (ids[i] == 0) continue;
-        const gpu::uint number = plan->clusters.drawn[(ids[i] - 1) / gpu::cluster_triangles].number;
+        const gpu::uint number = plan->grids[0].clusters.drawn[(ids[i] - 1) / gpu::cluster_triangles].number;
         const float light = 0.85F + 0.15F * colour_of_number(number).x;
         if (is_colour(light * colour_of_round(true), &rgba[4 * i]))
             ++before;
@@ -178,13 +178,13 @@ TEST_P(ShownParts, ALevelOfClustersIsDrawnAlone) {
         test::draw_by_clusters(*gpu_, terrain, *scene, std::uint64_t{64} << 20U, level);
         auto renderer = renderer_showing(gpu::show_colours);
         ASSERT_TRUE(renderer.ok()) << renderer.error().line();
-        auto plan = scene->settled_plan(camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 1.0);
+        auto plan = scene->settled_plan({camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 1.0});
         ASSERT_TRUE(plan.ok()) << plan.error().line();
         const auto drawn = renderer->draw(*plan, {});
         ASSERT_TRUE(drawn.ok()) << drawn.error().line();
         const std::vector<std::uint32_t> ids = *renderer->read_ids(side_px, side_px);
         EXPECT_EQ(std::ranges::count(ids, 0U), 0) << "level " << level;
-        for (const gpu::DrawnCluster& cluster : plan->clusters.drawn)
+        for (const gpu::DrawnCluster& cluster : plan->grids[0].clusters.drawn)
             EXPECT_EQ(cluster.counts >> 16U,
                       std::min(level, static_cast<std::uint32_t>(terrain.graph.levels.size())));
         EXPECT_LT(drawn->counts.triangles_drawn, last);
@@ -205,7 +205,7 @@ TEST_P(ShownParts, OverdrawCountsTriangles) {
         options.occlusion = OcclusionUse::off;
         auto renderer = FrameRenderer::create(*gpu_, options);
         EXPECT_TRUE(renderer.ok()) << renderer.error().line();
-        auto plan = scene->settled_plan(camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 1.0);
+        auto plan = scene->settled_plan({camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 1.0});
         for (int frame = 0; frame < 2; ++frame) EXPECT_TRUE(renderer->draw(*plan, {}).ok());
         return *renderer->read_picture(side_px, side_px);
     };

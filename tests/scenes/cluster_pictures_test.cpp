@@ -34,7 +34,7 @@ class ClusterPictures : public test::GpuTest {
         request.box = BoundingBox{8.25, 46.25, 8.75, 46.75};
         auto region = open_region(request);
         EXPECT_TRUE(region.ok()) << region.error().line();
-        return std::move(region->field);
+        return std::move(region->grids[0].field);
     }
 
     void fly(const test::ClusterTerrain& terrain, RasterPath path, std::uint64_t bytes, int cameras,
@@ -57,12 +57,12 @@ class ClusterPictures : public test::GpuTest {
                     if (test::ground_may_be_over_the_eye(terrain, camera, frame.plan)) return;
                     ++looked_at;
                     EXPECT_LT(test::pixel_of_a_hole(camera, frame.ids), 0)
-                        << frame.plan.clusters.missing << " missing";
+                        << frame.plan.grids[0].clusters.missing << " missing";
                 });
             frames += streamed.frames;
             coarser += streamed.coarser;
-            EXPECT_LE(streams->scene().clusters()->store().bytes(), bytes);
-            if (streamed.last.plan.clusters.without_room > 0) continue;
+            EXPECT_LE(streams->scene().grids()[0].clusters()->store().bytes(), bytes);
+            if (streamed.last.plan.grids[0].clusters.without_room > 0) continue;
             EXPECT_TRUE(streamed.last.plan.is_settled());
             EXPECT_EQ(waits->draw(camera, 1.0).ids, streamed.last.ids);
             ++settled;
@@ -89,7 +89,7 @@ class ClusterPictures : public test::GpuTest {
             const Camera camera = test::random_camera(random, terrain.field);
             const double tau_px = i % 5 == 0 ? 4.0 : 1.0;
             const test::DrawnFrame frame = drawn.draw(camera, tau_px);
-            ASSERT_TRUE(frame.plan.clusters.on || frame.plan.pages.empty());
+            ASSERT_TRUE(frame.plan.grids[0].clusters.on || frame.plan.grids[0].pages.empty());
             ground += static_cast<std::size_t>(side_px * side_px - std::ranges::count(frame.ids, 0U));
             const int hole = test::pixel_of_a_hole(camera, frame.ids);
             if (hole < 0) continue;

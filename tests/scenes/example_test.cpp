@@ -28,21 +28,21 @@ Result<Seen> example(const std::string& path) {
     ORO_TRY(const Region region, open_region(request));
 
     Camera camera{{36.55, -84.25, 0.0}, {30.0, -10.0, 0.0}, 45.0, 320, 240};  // heading, pitch, roll
-    camera.eye.h_m = ground_h_m(region.field, 36.55, -84.25, 1.0).value() + 100.0;
+    camera.eye.h_m = ground_h_m(region.grids[0].field, 36.55, -84.25, 1.0).value() + 100.0;
 
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
-    ORO_TRY(Scene scene, Scene::create(*gpu, pages_in_memory(region.field, 1.0, thread_count())));
+    ORO_TRY(Scene scene, Scene::create(*gpu, pages_in_memory(region.grids[0].field, 1.0, thread_count())));
     FrameRendererOptions options;
     options.extent = {320, 240};
     options.keep_depths = true;
     ORO_TRY(options.path, raster_path_for("auto", gpu->report()));
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(*gpu, options));
-    ORO_TRY(FramePlan plan, scene.settled_plan(camera, {0, 0, 320, 240, {0.5, 0.5}}, 1.0));
+    ORO_TRY(FramePlan plan, scene.settled_plan({camera, {0, 0, 320, 240, {0.5, 0.5}}, 1.0}));
     ORO_TRY(const FrameReport report, renderer.draw(std::move(plan), {}));
     EXPECT_GT(report.counts.triangles_drawn, 0U);
     ORO_TRY(const std::vector<float> depths, renderer.read_depths(320, 240));
 
-    const TrueSurface surface(region.field, 1.0, thread_count());
+    const TrueSurface surface(region.grids[0].field, 1.0, thread_count());
     const Oracle oracle(surface, sight_from(camera.eye));
     const auto hit = oracle.first_hit(camera.ecef_direction_at({160.5, 180.5}), 1.0e6);
     if (!hit) return Error{ErrorKind::no_data, path, "the sight line meets no ground"};

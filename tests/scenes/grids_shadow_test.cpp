@@ -28,11 +28,10 @@ HeightField walled_field(const PostPlace& north_west, double posts_per_deg, doub
 
 // Two grids of different posts, with the wall along the rim between them.
 Region walled_grids(double north_deg, double west_deg, double tall_deg) {
-    Region region;
-    region.field = walled_field({north_deg, west_deg}, 1200.0, tall_deg, 8.05 - west_deg);
-    region.rank = 1;
-    region.beside.emplace_back();
-    region.beside[0].field = walled_field({north_deg, 8.0452}, 1800.0, tall_deg, 0.0548);
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = walled_field({north_deg, west_deg}, 1200.0, tall_deg, 8.05 - west_deg);
+    region.grids[0].rank = 1;
+    region.grids.emplace_back().field = walled_field({north_deg, 8.0452}, 1800.0, tall_deg, 0.0548);
     return region;
 }
 Region walled_grids() {
@@ -55,8 +54,8 @@ std::vector<Camera> walled_cameras() {
 
 // Each grid casts on the other, as one grid does on itself.
 TEST_F(ShadowsOfPictures, BetweenGridsAreTheOracles) {
-    Region whole;
-    whole.field = walled_field({47.05, 8.0}, 1200.0, 0.1, 0.1);
+    Region whole{std::vector<RegionGrid>(1)};
+    whole.grids[0].field = walled_field({47.05, 8.0}, 1200.0, 0.1, 0.1);
     const Region halves = walled_grids();
     for (const Region* const region : {&std::as_const(whole), &halves}) {
         all = {};

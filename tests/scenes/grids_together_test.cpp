@@ -46,8 +46,8 @@ class GridsTogether : public test::GpuTest, public ::testing::WithParamInterface
         ASSERT_TRUE(cuts.ok()) << cuts.error().line();
         cuts_ = std::move(cuts).value();
         seam_ = seam_between(region_, cuts_, 1.0);
-        for (const Region* const grid : all_grids(region_)) {
-            none_decide_.emplace_back(grid->field.grid.post_count(), char{1});
+        for (const RegionGrid& grid : region_.grids) {
+            none_decide_.emplace_back(grid.field.grid.post_count(), char{1});
         }
         scene_.emplace(test::scene_of_grids(*gpu_, region_, cuts_, seam_));
     }
@@ -62,9 +62,9 @@ class GridsTogether : public test::GpuTest, public ::testing::WithParamInterface
             renderer_.emplace(test::made_renderer(*gpu_, options));
         }
         const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
-        auto plan = scene_->settled_plan(camera, tile, tau_px);
+        auto plan = scene_->settled_plan({camera, tile, tau_px});
         EXPECT_TRUE(plan.ok()) << plan.error().line();
-        near_m_ = static_cast<double>(plan->constants.near_m);
+        near_m_ = static_cast<double>(plan->grids[0].constants.near_m);
         auto report = renderer_->draw(std::move(*plan), plain_style(), 0, 1);
         EXPECT_TRUE(report.ok()) << report.error().line();
         return *renderer_->read_depths(width, height);
@@ -82,7 +82,7 @@ class GridsTogether : public test::GpuTest, public ::testing::WithParamInterface
         // Whichever diagonal is drawn: cells beside what is cut out fall.
         double ground_m = -1000.0;
         for (std::size_t i = 0; i < none_decide_.size(); ++i) {
-            const HeightField& field = all_grids(region_)[i]->field;
+            const HeightField& field = region_.grids[i].field;
             ground_m = std::max({ground_m, ground_h_m(field, lat_deg, lon_deg).value_or(-1000.0),
                                  field.surface_H_m(lat_deg, lon_deg, &none_decide_[i]).value_or(-1000.0) +
                                      field.undulation.at_m(lat_deg, lon_deg)});
@@ -136,15 +136,15 @@ TEST_P(GridsTogether, LeaveNoGap) {
 // Two grids side by side, their rims one post apart, or less where they are turned; and a third whose posts
 // are the middles of its cells.
 Region beside_each_other() {
-    Region region;
-    region.field = test::rough_field(47.0, 8.0, 200, 200);
-    region.rank = 0;
-    const double east_deg = region.field.grid.east_deg(), step_deg = region.field.grid.lon.spacing_deg();
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::rough_field(47.0, 8.0, 200, 200);
+    region.grids[0].rank = 0;
+    const double east_deg = region.grids[0].field.grid.east_deg(),
+                 step_deg = region.grids[0].field.grid.lon.spacing_deg();
     const auto add = [&](HeightField field, int rank) {
-        Region other;
+        RegionGrid& other = region.grids.emplace_back();
         other.field = std::move(field);
         other.rank = rank;
-        region.beside.push_back(std::move(other));
     };
     add(test::rough_field(47.0 - 0.4 * step_deg, east_deg + 0.9 * step_deg, 200, 150), 1);
     const PostPlace below{47.0 - 199.0 * step_deg - 1.2 * step_deg - 0.5 * 120 * 60.0 / 111'200.0,
@@ -166,29 +166,29 @@ TEST_P(GridsTogether, JoinOverGaps) {
     std::mt19937 random(seed);
     open(beside_each_other());
     ASSERT_GT(cuts_.bridges.size(), 300U);
-    const std::vector<const Region*> grids = all_grids(region_);
+    const std::vector<RegionGrid>& grids = region_.grids;
     double longest_m = 0.0;
     std::size_t over_ground = 0;
     for (const GapBridge& bridge : cuts_.bridges) {
         glm::dvec3 middle(0.0);
         for (std::size_t i = 0; i < 3; ++i) {
             const auto place = [&](const BridgePost& post) {
-                return post_ecef(grids[post.grid]->field, post.post.row, post.post.column, 0.0).m;
+                return post_ecef(grids[post.grid].field, post.post.row, post.post.column, 0.0).m;
             };
             longest_m =
                 std::max(longest_m, glm::length(place(bridge.posts[i]) - place(bridge.posts[(i + 1) % 3])));
             middle += place(bridge.posts[i]) / 3.0;
         }
         const Geodetic at = geodetic_from_ecef({middle});
-        for (const Region* const grid : grids)
-            over_ground += ground_h_m(grid->field, at.lat_deg, at.lon_deg) ? 1U : 0U;
+        for (const RegionGrid& grid : grids)
+            over_ground += ground_h_m(grid.field, at.lat_deg, at.lon_deg) ? 1U : 0U;
     }
     std::size_t background = 0, pixels = 0;
     for (int i = 0; i < 200; ++i) {
         // Over the joint between the first two, and that below the first; not near its ends.
         const bool east = random() % 2 == 0;
         const double share = std::uniform_real_distribution<double>(0.25, 0.75)(random);
-        const PostGrid& grid = region_.field.grid;
+        const PostGrid& grid = region_.grids[0].field.grid;
         const double lat_deg = east ? std::lerp(grid.south_deg(), grid.north_deg(), share)
                                     : grid.south_deg() - 0.0005,
                      lon_deg =
@@ -218,9 +218,9 @@ TEST_P(GridsTogether, JoinOverGaps) {
 std::vector<test::NearTriangle> all_triangles(const Region& region, const RegionCuts& cuts, const Seam& seam,
                                               const glm::dvec3& eye) {
     std::vector<test::NearTriangle> all;
-    const std::vector<const Region*> grids = all_grids(region);
+    const std::vector<RegionGrid>& grids = region.grids;
     for (std::size_t grid = 0; grid < grids.size(); ++grid) {
-        const HeightField rest = test::rest_of(grids[grid]->field, cuts.grids[grid]);
+        const HeightField rest = test::rest_of(grids[grid].field, cuts.grids[grid]);
         const auto there = [&](int row, int column) { return !is_void(rest.H_at_post_m(row, column)); };
         const auto at = [&](int row, int column) { return post_ecef(rest, row, column, 1.0).m - eye; };
         for (int row = 0; row + 1 < rest.grid.rows(); ++row) {

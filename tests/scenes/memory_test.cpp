@@ -36,7 +36,7 @@ TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForSixtyEightTiles) {
     options.path = file.string();
     options.overwrite = true;
     options.threads = 2;
-    const auto baked = bake_region(region->field, options);
+    const auto baked = bake_region(region->grids[0].field, options);
     ASSERT_TRUE(baked.ok()) << baked.error().line();
     auto opened = RegionFile::open(file.string());
     ASSERT_TRUE(opened.ok()) << opened.error().line();
@@ -55,20 +55,21 @@ TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForSixtyEightTiles) {
         camera.height_px = height_px;
         camera.eye = {51.2 + 2.6 * i / steps, 13.5 + 8.5 * i / steps, 0.0};
         const double ground_m =
-            ground_h_m(region->field, camera.eye.lat_deg, camera.eye.lon_deg).value_or(0.0);
+            ground_h_m(region->grids[0].field, camera.eye.lat_deg, camera.eye.lon_deg).value_or(0.0);
         camera.eye.h_m = ground_m + 2.0 * std::pow(1.5e5, share);
         camera.attitude = {15.0 * i, -2.0 - 50.0 * share, 0.0};
         const test::DrawnFrame free = all.draw(camera, 1.0), bound = few.draw(camera, 1.0);
-        ASSERT_TRUE(bound.plan.missing.empty()) << "frame " << i << " is not settled";
+        ASSERT_TRUE(bound.plan.grids[0].missing.empty()) << "frame " << i << " is not settled";
         ASSERT_EQ(free.ids, bound.ids) << "frame " << i;
-        ASSERT_LE(few.scene().store().bytes(), budget);
+        ASSERT_LE(few.scene().grids()[0].store().bytes(), budget);
     }
     std::printf(
         "68 tiles, %d frames from 300 km to 2 m and back: %.1f MB on the GPU with a budget of 64, %.1f "
         "without\n",
-        steps + 1, static_cast<double>(few.scene().store().bytes()) * 1e-6,
-        static_cast<double>(all.scene().store().bytes()) * 1e-6);
-    EXPECT_GT(all.scene().store().size(), few.scene().store().capacity()) << "or the test is too easy";
+        steps + 1, static_cast<double>(few.scene().grids()[0].store().bytes()) * 1e-6,
+        static_cast<double>(all.scene().grids()[0].store().bytes()) * 1e-6);
+    EXPECT_GT(all.scene().grids()[0].store().size(), few.scene().grids()[0].store().capacity())
+        << "or the test is too easy";
     std::filesystem::remove(file);
 }
 
@@ -91,7 +92,7 @@ Camera on_the_way(const HeightField& field, int step, int steps, int width_px, i
 // A file that is baked beforehand, for that takes long: OROGRAPH_TEST_CLUSTERS names it
 // (orograph bake --mesh clusters). Frames that wait and, in the end, frames that do not.
 std::uint64_t bytes_of(test::DrawnScene& drawn) {
-    return drawn.scene().store().bytes() + drawn.scene().clusters()->store().bytes();
+    return drawn.scene().grids()[0].store().bytes() + drawn.scene().grids()[0].clusters()->store().bytes();
 }
 
 // Frames that do not wait.
@@ -106,7 +107,7 @@ void fly_on(test::DrawnScene& flown, const Camera& camera, const std::vector<std
     const bool is_whole = test::pixel_of_a_hole(camera, settled) < 0;
     const test::StreamedFrames streamed =
         test::stream_frames(flown, camera, 1.0, [&](const test::DrawnFrame& frame) {
-            EXPECT_EQ(frame.plan.clusters.without_room, 0U);
+            EXPECT_EQ(frame.plan.grids[0].clusters.without_room, 0U);
             EXPECT_LE(bytes_of(flown), budget);
             way.looked_at += is_whole ? 1 : 0;
             way.holes += is_whole && test::pixel_of_a_hole(camera, frame.ids) >= 0 ? 1 : 0;
@@ -132,7 +133,7 @@ TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForClusters) {
         auto drawn = std::make_unique<test::DrawnScene>(*gpu_, pages_of_file(opened.region),
                                                         RasterPath::compute, width_px, height_px, bytes / 2);
         auto graph = clusters_of_file(opened.clusters, opened.region->fingerprint(), *field,
-                                      drawn->scene().pages().facts().shape.occluder);
+                                      drawn->scene().grids()[0].pages().facts().shape.occluder);
         EXPECT_TRUE(graph.ok()) << graph.error().line();
         auto made = ClusterScene::create(*gpu_, std::move(graph).value(), bytes / 2);
         EXPECT_TRUE(made.ok()) << made.error().line();
@@ -146,8 +147,8 @@ TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForClusters) {
     for (int i = 0; i <= steps; ++i) {
         const Camera camera = on_the_way(*field, i, steps, width_px, height_px);
         const test::DrawnFrame free = all->draw(camera, 1.0), bound = few->draw(camera, 1.0);
-        ASSERT_TRUE(bound.plan.clusters.on);
-        ASSERT_TRUE(bound.plan.missing.empty()) << "frame " << i << " is not settled";
+        ASSERT_TRUE(bound.plan.grids[0].clusters.on);
+        ASSERT_TRUE(bound.plan.grids[0].missing.empty()) << "frame " << i << " is not settled";
         ASSERT_EQ(free.ids, bound.ids) << "frame " << i;
         ASSERT_LE(bytes_of(*few), budget);
         fly_on(*flown, camera, free.ids, budget, way);
@@ -160,10 +161,11 @@ TEST_F(Memory, OfSixtyFourMegabytesIsEnoughForClusters) {
         "64, %.1f without; %zu of %zu clusters sent again\n",
         path, steps + 1, ground, static_cast<double>(bytes_of(*few)) * 1e-6,
         static_cast<double>(bytes_of(*all)) * 1e-6,
-        static_cast<std::size_t>(few->scene().clusters()->store().bytes_sent() -
-                                 all->scene().clusters()->store().bytes_sent()) /
+        static_cast<std::size_t>(few->scene().grids()[0].clusters()->store().bytes_sent() -
+                                 all->scene().grids()[0].clusters()->store().bytes_sent()) /
             sizeof(gpu::ClusterBlock),
-        static_cast<std::size_t>(all->scene().clusters()->store().bytes_sent()) / sizeof(gpu::ClusterBlock));
+        static_cast<std::size_t>(all->scene().grids()[0].clusters()->store().bytes_sent()) /
+            sizeof(gpu::ClusterBlock));
     std::printf(
         "without waiting: %d frames, %d of them coarser, %.1f MB on the GPU; %d holes in the %d that were "
         "looked at\n",

@@ -29,9 +29,9 @@ TEST_P(OccludedScene, TheAlpsAreThoseWithout) {
     if (!test::real_data("alps")) GTEST_SKIP() << "needs alps";
     const auto region = test::open_tiles("alps", "N46E007:N46E008");
     ASSERT_TRUE(region.ok()) << region.error().line();
-    Scene scene = scene_of(pages_in_memory(region->field, 1.0, 2));
+    Scene scene = scene_of(pages_in_memory(region->grids[0].field, 1.0, 2));
     const test::EyeGround where{46.3, 46.8, 7.4, 8.6, [&](double lat_deg, double lon_deg) {
-                                    return ground_h_m(region->field, lat_deg, lon_deg).value_or(0.0);
+                                    return ground_h_m(region->grids[0].field, lat_deg, lon_deg).value_or(0.0);
                                 }};
     test::OcclusionPair renderers(*gpu_, GetParam(), width_px, height_px);
     EXPECT_EQ(test::draw_pairs(renderers, scene, where, 91, test::occlusion_pairs(25), width_px, height_px),
@@ -46,9 +46,9 @@ TEST_P(OccludedScene, GridsWithSeamsAreThoseWithout) {
     ASSERT_TRUE(cuts.ok()) << cuts.error().line();
     const Seam seam = seam_between(region, *cuts, 1.0);
     std::optional<Scene> scene;
-    const std::vector<const Region*> grids = all_grids(region);
+    const std::vector<RegionGrid>& grids = region.grids;
     for (std::size_t i = 0; i < grids.size(); ++i) {
-        HeightField rest = grids[i]->field;
+        HeightField rest = grids[i].field;
         const CutOut& cut = cuts->grids[i];
         for (std::size_t post = 0; post < cut.left_out.size(); ++post)
             if (cut.left_out[post] != 0) rest.H_m[post] = void_height_m;
@@ -56,18 +56,18 @@ TEST_P(OccludedScene, GridsWithSeamsAreThoseWithout) {
         if (i == 0)
             scene.emplace(std::move(one));
         else
-            scene->draw_beside(std::move(one));
+            scene->add(std::move(one));
     }
-    auto pages = seam_pages(seam, {}, region_shape(region.field, 1.0));
+    auto pages = seam_pages(seam, {}, region_shape(region.grids[0].field, 1.0));
     ASSERT_TRUE(pages.ok()) << pages.error().line();
-    scene->draw_beside(scene_of(std::move(pages).value()));
+    scene->add(scene_of(std::move(pages).value()));
     const double middle = 0.5 * 500 / 1200.0;
     const test::EyeGround where{
         47.0 - middle - 0.05, 47.0 - middle + 0.05, 8.0 + middle - 0.05, 8.0 + middle + 0.07,
         [&](double lat_deg, double lon_deg) {
             double highest_m = -1000.0;
-            for (const Region* grid : grids)
-                highest_m = std::max(highest_m, ground_h_m(grid->field, lat_deg, lon_deg).value_or(-1000.0));
+            for (const RegionGrid& grid : grids)
+                highest_m = std::max(highest_m, ground_h_m(grid.field, lat_deg, lon_deg).value_or(-1000.0));
             return highest_m;
         }};
     test::OcclusionPair renderers(*gpu_, GetParam(), width_px, height_px);

@@ -125,7 +125,7 @@ class ErrorsOfPictures : public test::GpuTest {
     void look_over(const char* folder, const char* tiles, int views) {
         const auto region = test::open_tiles(folder, tiles);
         ASSERT_TRUE(region.ok()) << region.error().line();
-        look(folder, region->field, views);
+        look(folder, region->grids[0].field, views);
     }
 };
 

@@ -1,4 +1,4 @@
-// Grids that lie over each other or beside each other, as a scene that draws them as one surface.
+// Grids that lie over or next to each other, as a scene that draws them as one surface.
 #pragma once
 
 #include <memory>
@@ -27,19 +27,18 @@ inline Scene scene_of_pages(const Gpu& gpu, std::unique_ptr<RegionPages> pages) 
     return std::move(scene).value();
 }
 
-// The grids of a region as all_grids() numbers them, then the seam between them.
+// The grids of a region, then the seam between them.
 inline Scene scene_of_grids(const Gpu& gpu, const Region& region, const RegionCuts& cuts, const Seam& seam) {
     std::vector<Scene> scenes;
-    const std::vector<const Region*> grids = all_grids(region);
-    for (std::size_t i = 0; i < grids.size(); ++i)
+    for (std::size_t i = 0; i < region.grids.size(); ++i)
         scenes.push_back(
-            scene_of_pages(gpu, pages_in_memory(rest_of(grids[i]->field, cuts.grids[i]), 1.0, 2)));
+            scene_of_pages(gpu, pages_in_memory(rest_of(region.grids[i].field, cuts.grids[i]), 1.0, 2)));
     if (!seam.empty()) {
-        auto pages = seam_pages(seam, {}, region_shape(region.field, 1.0));
+        auto pages = seam_pages(seam, {}, region_shape(region.grids[0].field, 1.0));
         EXPECT_TRUE(pages.ok()) << pages.error().line();
         scenes.push_back(scene_of_pages(gpu, std::move(pages).value()));
     }
-    for (std::size_t i = 1; i < scenes.size(); ++i) scenes[0].draw_beside(std::move(scenes[i]));
+    for (std::size_t i = 1; i < scenes.size(); ++i) scenes[0].add(std::move(scenes[i]));
     return std::move(scenes[0]);
 }
 

@@ -34,7 +34,7 @@ TEST_F(ShadowsOfPictures, OfRealTerrainAreTheOracles) {
         if (!test::real_data(real.folder)) GTEST_SKIP() << "needs " << real.folder;
         const auto region = test::open_tiles(real.folder, real.tiles);
         ASSERT_TRUE(region.ok()) << region.error().line();
-        look_over(real.folder, region->field, test::views_of(i, views));
+        look_over(real.folder, region->grids[0].field, test::views_of(i, views));
     }
     judge(views);
 }

@@ -54,7 +54,7 @@ TEST_F(ShadowsOfPictures, HaveNoEdgesOfTrianglesNearTheEye) {
     for (const NearView& view : views) {
         const auto region = test::open_tiles("alps", view.tiles);
         ASSERT_TRUE(region.ok()) << region.error().line();
-        auto made = Scene::create(*gpu_, pages_in_memory(region->field, 1.0, thread_count()),
+        auto made = Scene::create(*gpu_, pages_in_memory(region->grids[0].field, 1.0, thread_count()),
                                   {std::uint64_t{1} << 30U, 0});
         ASSERT_TRUE(made.ok()) << made.error().line();
         DepthPainter painter(*gpu_, RasterPath::compute);
@@ -108,8 +108,8 @@ TEST_F(ShadowsOfPictures, OfSmoothGroundAreNearlyThoseOfTriangles) {
     const int views = test::view_count(8);
     const auto region = test::open_tiles("alps", "N46E008:N46E008");
     ASSERT_TRUE(region.ok()) << region.error().line();
-    const TrueSurface surface(region->field, 1.0, thread_count());
-    auto scene = Scene::create(*gpu_, pages_in_memory(region->field, 1.0, thread_count()),
+    const TrueSurface surface(region->grids[0].field, 1.0, thread_count());
+    auto scene = Scene::create(*gpu_, pages_in_memory(region->grids[0].field, 1.0, thread_count()),
                                {std::uint64_t{1} << 30U, 0});
     ASSERT_TRUE(scene.ok()) << scene.error().line();
     DepthPainter painter(*gpu_, RasterPath::compute);
@@ -121,7 +121,7 @@ TEST_F(ShadowsOfPictures, OfSmoothGroundAreNearlyThoseOfTriangles) {
     for (int view = 0; view < views; ++view) {
         Camera camera{
             {between(46.1, 46.9), between(8.1, 8.9), 0.0}, {between(0.0, 360.0), -20.0, 0.0}, 45.0, 320, 180};
-        const PostNumber post = region->field.grid.post_at(camera.eye.lat_deg, camera.eye.lon_deg);
+        const PostNumber post = region->grids[0].field.grid.post_at(camera.eye.lat_deg, camera.eye.lon_deg);
         const auto ground_m = surface.h_at_m(post.row, post.column);
         ASSERT_TRUE(ground_m);
         camera.eye.h_m = *ground_m + between(20.0, 500.0);
@@ -162,7 +162,7 @@ TEST_F(ShadowsOfPictures, OfSmoothGroundAreTheSameBesideAnotherGrid) {
                       other = test::made_field(46.5, 9.6, 100.0, 40, 40, hills);
     const auto drawn = [&](bool beside) {
         Scene scene = test::scene_of_pages(*gpu_, pages_in_memory(wide, 1.0, 2));
-        if (beside) scene.draw_beside(test::scene_of_pages(*gpu_, pages_in_memory(other, 1.0, 2)));
+        if (beside) scene.add(test::scene_of_pages(*gpu_, pages_in_memory(other, 1.0, 2)));
         const gpu::FrameStyle style = shaded_alone(enu_towards(110.0, 8.0), 1.0F, 1.0F);
         const Camera camera{{46.6, 6.8, 40000.0}, {70.0, -35.0, 0.0}, 50.0, 320, 180};
         return DepthPainter(*gpu_, RasterPath::compute).draw(scene, camera, style, {});

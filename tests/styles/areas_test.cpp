@@ -8,6 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/truth/oracle.h"
 #include "tests/styles/drawn_style.h"
+#include "tests/support/drawn/region_scene.h"
 
 namespace oro {
 namespace {
@@ -29,16 +30,16 @@ bool in_triangle(const std::array<std::array<double, 2>, 3>& corners, double lat
 class Areas : public test::StyleTest {
   protected:
     std::vector<std::uint8_t> drawn(const Region& region, const View& view) {
-        const auto style = load_style(view, region.field);
+        const auto style = load_style(view, region.grids[0].field);
         EXPECT_TRUE(style.ok()) << style.error().line();
-        auto scene = create_scene(*gpu_, region, 1.0, MemoryOptions{});
+        auto scene = test::create_scene(*gpu_, region);
         EXPECT_TRUE(scene.ok()) << scene.error().line();
         std::vector<std::uint8_t> rgb;
         const auto take = [&](std::span<const std::uint8_t> row) {
             rgb.insert(rgb.end(), row.begin(), row.end());
             return Result<void>();
         };
-        const TrueSurface surface(region.field, 1.0, thread_count());
+        const TrueSurface surface(region.grids[0].field, 1.0, thread_count());
         const auto picture =
             render_labelled(*gpu_, *scene, view, surface, *style, RasterPath::compute, take, {});
         EXPECT_TRUE(picture.ok()) << picture.error().line();
@@ -65,8 +66,8 @@ class Areas : public test::StyleTest {
 };
 
 TEST_F(Areas, AreTintedWhereTheOracleSeesThem) {
-    Region region;
-    region.field = test::square_field(46.5, 8.0, 30.0, 320, ridges_m);
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::square_field(46.5, 8.0, 30.0, 320, ridges_m);
     const std::string file = (std::filesystem::path(testing::TempDir()) / "areas_test.geojson").string();
     std::ofstream(file)
         << R"({"type": "Polygon", "coordinates": [[[7.97, 46.49], [8.03, 46.5], [8.0, 46.53], [7.97, 46.49]]]})";
@@ -78,7 +79,7 @@ TEST_F(Areas, AreTintedWhereTheOracleSeesThem) {
     const std::vector<std::uint8_t> tinted = drawn(region, view);
     ASSERT_EQ(bare.size(), tinted.size());
 
-    const TrueSurface surface(region.field, 1.0, thread_count());
+    const TrueSurface surface(region.grids[0].field, 1.0, thread_count());
     const Oracle oracle(surface, sight_from(view.camera.eye));
     const int width = view.camera.width_px, height = view.camera.height_px;
     std::vector<int> inside(static_cast<std::size_t>(width * height), -1);
@@ -113,8 +114,8 @@ TEST_F(Areas, AreTintedWhereTheOracleSeesThem) {
 
 // simplestyle's fields win over the options.
 TEST_F(Areas, OfAFeatureThatSaysItsFill) {
-    Region region;
-    region.field = test::square_field(46.5, 8.0, 30.0, 320, [](int, int) { return 1500.0; });
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::square_field(46.5, 8.0, 30.0, 320, [](int, int) { return 1500.0; });
     const std::string file = (std::filesystem::path(testing::TempDir()) / "areas_fill.geojson").string();
     std::ofstream(file) << R"({"type": "Feature", "properties": {"fill": "#0000ff", "fill-opacity": 1.0},
         "geometry": {"type": "Polygon", "coordinates": [[[7.9, 46.4], [8.1, 46.4], [8.1, 46.6], [7.9, 46.6]]]}})";

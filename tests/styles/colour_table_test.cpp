@@ -21,8 +21,8 @@ class ColourTables : public test::StyleTest {
   protected:
     void SetUp() override {
         test::StyleTest::SetUp();
-        region_.field = test::square_field(46.5, 8.0, post_m, 160, ramp_m);
-        raster_ = test::local_raster(region_.field, post_m, post_m);
+        region_.grids[0].field = test::square_field(46.5, 8.0, post_m, 160, ramp_m);
+        raster_ = test::local_raster(region_.grids[0].field, post_m, post_m);
     }
 
     // Largest difference of a byte, at pixels within 0.1 m of a post's height.
@@ -32,8 +32,8 @@ class ColourTables : public test::StyleTest {
         std::ofstream(table) << text;
         const auto bands = test::gdaldem(raster_, "color-relief", table.c_str());
         ASSERT_GE(bands.size(), 3U);
-        const Camera camera = test::straight_down(region_.field, post_m, 150.0, 900);
-        const auto style = style_of(text, ".txt", camera, region_.field);
+        const Camera camera = test::straight_down(region_.grids[0].field, post_m, 150.0, 900);
+        const auto style = style_of(text, ".txt", camera, region_.grids[0].field);
         ASSERT_TRUE(style.ok()) << style.error().line();
         const auto picture = drawn(region_, camera, *style);
         ASSERT_TRUE(picture);
@@ -55,7 +55,7 @@ class ColourTables : public test::StyleTest {
         EXPECT_LE(worst, 1.0) << "of 255";
     }
 
-    Region region_;
+    Region region_{std::vector<RegionGrid>(1)};
     std::filesystem::path raster_;
 };
 

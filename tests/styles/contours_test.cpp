@@ -98,18 +98,19 @@ class Contours : public test::StyleTest {
   protected:
     void SetUp() override {
         test::StyleTest::SetUp();
-        region_.field = test::square_field(46.5, 8.0, post_m, posts, hills_m);
+        region_.grids[0].field = test::square_field(46.5, 8.0, post_m, posts, hills_m);
     }
-    Region region_;
+    Region region_{std::vector<RegionGrid>(1)};
 };
 
 TEST_F(Contours, AreThoseOfGdal) {
     constexpr double interval_m = 20.0;
     Points truth, found;
-    const std::vector<Line> lines = gdal_contours(region_.field, interval_m);
+    const std::vector<Line> lines = gdal_contours(region_.grids[0].field, interval_m);
     for (const Line& line : lines) truth.add(line);
-    const Camera camera = test::straight_down(region_.field, post_m, 150.0, 1400);
-    const auto style = style_of(black_lines(R"(, "interval_m": 20)"), ".json", camera, region_.field);
+    const Camera camera = test::straight_down(region_.grids[0].field, post_m, 150.0, 1400);
+    const auto style =
+        style_of(black_lines(R"(, "interval_m": 20)"), ".json", camera, region_.grids[0].field);
     ASSERT_TRUE(style.ok()) << style.error().line();
     const auto picture = drawn(region_, camera, *style);
     ASSERT_TRUE(picture);
@@ -189,13 +190,13 @@ TEST_F(Contours, StandFiveToFortyPixelsApart) {
         camera.vertical_fov_deg = look.fov_deg;
         camera.width_px = 480;
         camera.height_px = 320;
-        const auto style = style_of(black_lines(""), ".json", camera, region_.field);
+        const auto style = style_of(black_lines(""), ".json", camera, region_.grids[0].field);
         ASSERT_TRUE(style.ok()) << style.error().line();
-        const auto again = style_of(black_lines(""), ".json", camera, region_.field);
+        const auto again = style_of(black_lines(""), ".json", camera, region_.grids[0].field);
         EXPECT_EQ(style->frame.contours.interval_m, again->frame.contours.interval_m);
         const auto picture = drawn(region_, camera, *style);
         ASSERT_TRUE(picture);
-        const double apart = apart_px(*picture, region_.field, style->frame.contours.interval_m);
+        const double apart = apart_px(*picture, region_.grids[0].field, style->frame.contours.interval_m);
         std::printf("%s: each %g m, %.1f px apart at the median\n", look.what,
                     static_cast<double>(style->frame.contours.interval_m), apart);
         EXPECT_GE(apart, 5.0);
@@ -205,10 +206,11 @@ TEST_F(Contours, StandFiveToFortyPixelsApart) {
 
 // A lake at a height of the lines is no line.
 TEST_F(Contours, LevelGroundIsNoLine) {
-    Region region;
-    region.field = test::square_field(46.5, 8.0, post_m, 60, [](int, int) { return 1500.0; });
-    const Camera camera = test::straight_down(region.field, post_m, 40.0, 64);
-    const auto style = style_of(black_lines(R"(, "interval_m": 100)"), ".json", camera, region.field);
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::square_field(46.5, 8.0, post_m, 60, [](int, int) { return 1500.0; });
+    const Camera camera = test::straight_down(region.grids[0].field, post_m, 40.0, 64);
+    const auto style =
+        style_of(black_lines(R"(, "interval_m": 100)"), ".json", camera, region.grids[0].field);
     ASSERT_TRUE(style.ok()) << style.error().line();
     const auto picture = drawn(region, camera, *style);
     ASSERT_TRUE(picture);

@@ -31,10 +31,11 @@ class Cover : public test::StyleTest {
     }
     // Of the middle of ground whose height goes by the row, of posts 30 m apart.
     glm::ivec3 seen_over(const std::string& text, const std::function<double(int)>& H_m, bool means) {
-        Region region;
-        region.field = test::square_field(46.5, 8.0, 30.0, 61, [&](int row, int) { return H_m(row); });
-        const Camera camera = test::straight_down(region.field, 30.0, 3.0, 17);
-        const auto style = style_of(text, ".json", camera, region.field);
+        Region region{std::vector<RegionGrid>(1)};
+        region.grids[0].field =
+            test::square_field(46.5, 8.0, 30.0, 61, [&](int row, int) { return H_m(row); });
+        const Camera camera = test::straight_down(region.grids[0].field, 30.0, 3.0, 17);
+        const auto style = style_of(text, ".json", camera, region.grids[0].field);
         EXPECT_TRUE(style.ok()) << style.error().line();
         if (!style.ok()) return {};
         const auto picture = drawn(region, camera, *style, means);

@@ -17,10 +17,10 @@
 #include <string>
 #include <vector>
 
-#include "apps/drawing/region_scene.h"
 #include "apps/view/style.h"
 #include "render/frame/depth_picture.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/drawn/region_scene.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/test_data.h"
 
@@ -159,7 +159,7 @@ class StyleTest : public GpuTest {
                                       bool means = false) {
         std::optional<DepthPicture> first;
         for (const RasterPath path : {RasterPath::mesh, RasterPath::compute}) {
-            auto scene = create_scene(*gpu_, region, 1.0, MemoryOptions{}, {}, HeightStorage::f32, means);
+            auto scene = create_scene(*gpu_, region, {.means = means});
             EXPECT_TRUE(scene.ok()) << scene.error().line();
             if (!scene.ok()) return std::nullopt;
             DepthPictureOptions options;

@@ -41,7 +41,7 @@ class SmoothEdges : public test::GpuTest {
             region_, scene_));
         View view;
         view.sun = SunDirection{215.0, 35.0};
-        const auto style = load_style(view, region_.field);
+        const auto style = load_style(view, region_.grids[0].field);
         ASSERT_TRUE(style.ok()) << style.error().line();
         style_ = style->frame;
     }
@@ -67,7 +67,7 @@ class SmoothEdges : public test::GpuTest {
         }
         for (int i = 0; i < count; ++i) {
             auto plan =
-                scene_->settled_plan(camera, {0, 0, width_px, height_px, sample_place(i, count)}, 1.0);
+                scene_->settled_plan({camera, {0, 0, width_px, height_px, sample_place(i, count)}, 1.0});
             EXPECT_TRUE(plan.ok()) << plan.error().line();
             const auto drawn = renderer->draw(std::move(*plan), style_, static_cast<std::uint32_t>(i),
                                               static_cast<std::uint32_t>(count));
@@ -122,7 +122,7 @@ class SmoothEdges : public test::GpuTest {
 
     [[nodiscard]] Camera over(double lat_deg, double lon_deg, double above_m, double heading_deg,
                               double pitch_deg, double fov_deg) const {
-        const double h_m = ground_h_m(region_.field, lat_deg, lon_deg, 1.0).value_or(0.0) + above_m;
+        const double h_m = ground_h_m(region_.grids[0].field, lat_deg, lon_deg, 1.0).value_or(0.0) + above_m;
         return Camera{{lat_deg, lon_deg, h_m}, {heading_deg, pitch_deg, 0.0}, fov_deg, width_px, height_px};
     }
 
@@ -187,7 +187,7 @@ class SmoothEdges : public test::GpuTest {
 
     [[nodiscard]] Camera over_grindelwald() const { return over(46.66, 8.06, 300.0, 205.0, 3.0, 14.0); }
 
-    Region region_;
+    Region region_{std::vector<RegionGrid>(1)};
     std::optional<Scene> scene_;
     gpu::FrameStyle style_{};
     // By what they are made for: several samples, smooth edges, mesh shaders.

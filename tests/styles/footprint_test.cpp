@@ -14,6 +14,7 @@
 #include "tests/styles/region_with_means.h"
 #include "tests/support/drawn/drawn_scene.h"
 #include "tests/support/drawn/made_renderer.h"
+#include "tests/support/drawn/region_scene.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/test_data.h"
 
@@ -54,7 +55,7 @@ class Footprint : public test::GpuTest {
         View view;
         view.style = name;
         view.sun = SunDirection{azimuth_deg, elevation_deg};
-        auto style = load_style(view, region_.field);
+        auto style = load_style(view, region_.grids[0].field);
         EXPECT_TRUE(style.ok()) << style.error().line();
         return style->frame;
     }
@@ -66,7 +67,7 @@ class Footprint : public test::GpuTest {
         FrameRenderer& renderer = count == 1 ? *single_ : *renderer_;
         for (int i = 0; i < count; ++i) {
             auto plan = scene_->settled_plan(
-                camera, {0, 0, camera.width_px, camera.height_px, sample_place(i, count)}, tau_px);
+                {camera, {0, 0, camera.width_px, camera.height_px, sample_place(i, count)}, tau_px});
             EXPECT_TRUE(plan.ok()) << plan.error().line();
             const auto drawn = renderer.draw(std::move(*plan), style, static_cast<std::uint32_t>(i),
                                              static_cast<std::uint32_t>(count));
@@ -130,7 +131,7 @@ class Footprint : public test::GpuTest {
         return camera;
     }
 
-    Region region_;
+    Region region_{std::vector<RegionGrid>(1)};
     std::optional<Scene> scene_;
     std::optional<FrameRenderer> renderer_;
     std::optional<FrameRenderer> single_;
@@ -189,13 +190,13 @@ TEST_F(Footprint, SlopesTakeLargerSquaresWhereMemoryIsShort) {
     const auto pages = [&](int memory_mb, double spacing_px) {
         MemoryOptions memory;
         memory.gpu_memory_mb = memory_mb;
-        auto scene = create_scene(*gpu_, region_, 1.0, memory, {}, HeightStorage::f32, true);
+        auto scene = test::create_scene(*gpu_, region_, {.memory = memory, .means = true});
         EXPECT_TRUE(scene.ok()) << scene.error().line();
         scene->hold_means(spacing_px);
-        const auto plan = scene->settled_plan(down, test::whole_picture(down), 1.0);
+        const auto plan = scene->settled_plan({down, test::whole_picture(down), 1.0});
         EXPECT_TRUE(plan.ok()) << plan.error().line();
-        EXPECT_TRUE(plan->missing.empty()) << memory_mb << " MB, squares of " << spacing_px << " px";
-        return plan->pages.size();
+        EXPECT_TRUE(plan->grids[0].missing.empty()) << memory_mb << " MB, squares of " << spacing_px << " px";
+        return plan->grids[0].pages.size();
     };
     const std::size_t coarse = pages(200, gpu::means_spacing_px), fine = pages(200, fine_px);
     std::printf("%zu pages, %zu for slopes\n", coarse, fine);

@@ -11,6 +11,7 @@
 #include "core/truth/oracle.h"
 #include "geo/region/region.h"
 #include "tests/styles/drawn_style.h"
+#include "tests/support/drawn/region_scene.h"
 
 namespace oro {
 namespace {
@@ -91,16 +92,16 @@ class Labels : public test::StyleTest {
     // What a view's picture has written on it, and its bytes.
     std::optional<LabelledPicture> labelled(const Region& region, const View& view, RasterPath path,
                                             std::vector<std::uint8_t>& bytes) {
-        auto style = load_style(view, region.field);
+        auto style = load_style(view, region.grids[0].field);
         EXPECT_TRUE(style.ok()) << style.error().line();
-        auto scene = create_scene(*gpu_, region, 1.0, MemoryOptions{}, {}, HeightStorage::f32, true);
+        auto scene = test::create_scene(*gpu_, region, {.means = true});
         EXPECT_TRUE(scene.ok()) << scene.error().line();
         if (!scene.ok() || !style.ok()) return std::nullopt;
         const auto take = [&](std::span<const std::uint8_t> row) {
             bytes.insert(bytes.end(), row.begin(), row.end());
             return Result<void>();
         };
-        const TrueSurface surface(region.field, 1.0, thread_count());
+        const TrueSurface surface(region.grids[0].field, 1.0, thread_count());
         auto picture = render_labelled(*gpu_, *scene, view, surface, *style, path, take, {});
         EXPECT_TRUE(picture.ok()) << picture.error().line();
         if (!picture.ok()) return std::nullopt;
@@ -143,7 +144,7 @@ class Labels : public test::StyleTest {
         const auto again = labelled(region, view, RasterPath::mesh, bytes[1]);
         ASSERT_TRUE(picture && again);
         EXPECT_EQ(bytes[0], bytes[1]) << "the same view, the same bytes";
-        const Truth truth(region.field, view.camera);
+        const Truth truth(region.grids[0].field, view.camera);
         Worst worst;
         for (const LineLabel& label : picture->labels) hold(label, truth, view.tau_px, worst);
         for (std::size_t i = 0; i < picture->labels.size(); ++i) {
@@ -179,8 +180,8 @@ class Labels : public test::StyleTest {
 };
 
 TEST_F(Labels, TellTheHeightOfTheGroundBelowThem) {
-    Region region;
-    region.field = test::square_field(46.5, 8.0, 30.0, 320, rolling_m);
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::square_field(46.5, 8.0, 30.0, 320, rolling_m);
     hold_all("straight down", region, view_at(46.5, 8.0, 12000.0, -90.0, 0.0), 3);
     hold_all("straight down, tau 1", region, view_at(46.5, 8.0, 12000.0, -90.0, 1.0), 3);
     hold_all("obliquely", region, view_at(46.455, 8.0, 5000.0, -32.0, 0.0), 4);
@@ -205,13 +206,13 @@ TEST_F(Labels, TellTheHeightOfRealGround) {
 
 // Tiles, and styles without labels.
 TEST_F(Labels, AreTheSameInTilesAndNoneWhereTheyAreOff) {
-    Region region;
-    region.field = test::square_field(46.5, 8.0, 30.0, 320, rolling_m);
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::square_field(46.5, 8.0, 30.0, 320, rolling_m);
     View view = view_at(46.5, 8.0, 12000.0, -90.0, 1.0);
-    auto scene = create_scene(*gpu_, region, 1.0, MemoryOptions{});
+    auto scene = test::create_scene(*gpu_, region);
     ASSERT_TRUE(scene.ok());
     PictureOptions options = picture_options(view, RasterPath::compute);
-    const TrueSurface surface(region.field, 1.0, thread_count());
+    const TrueSurface surface(region.grids[0].field, 1.0, thread_count());
     const auto whole = seen_heights(*gpu_, *scene, view.camera, options, surface);
     options.largest_tile_px = 100;
     const auto tiles = seen_heights(*gpu_, *scene, view.camera, options, surface);
@@ -230,7 +231,7 @@ TEST_F(Labels, AreTheSameInTilesAndNoneWhereTheyAreOff) {
     EXPECT_NE(with, without);
     view.labels = true;
     view.style = "plain";
-    const auto refused_style = load_style(view, region.field);
+    const auto refused_style = load_style(view, region.grids[0].field);
     ASSERT_FALSE(refused_style.ok());
     EXPECT_NE(refused_style.error().line().find("has no contour lines"), std::string::npos);
     EXPECT_EQ(refused_style.error().kind, ErrorKind::usage);

@@ -18,18 +18,19 @@ class Programs : public test::GpuTest {
 
     // A picture of the bundled region from a place near its middle, RGB.
     std::vector<std::uint8_t> draw(const Gpu& gpu, const char* style_name) {
-        Region region;
+        Region region{std::vector<RegionGrid>(1)};
         std::optional<Scene> scene;
         test::open_with_means(gpu, {(test::bundled_data() / "jacksboro.tif").string()}, region, scene);
         if (!scene) return {};
         View view;
         view.style = style_name;
-        view.camera.eye = {0.5 * (region.field.grid.south_deg() + region.field.grid.north_deg()),
-                           0.5 * (region.field.grid.west_deg() + region.field.grid.east_deg()), 3000.0};
+        view.camera.eye = {
+            0.5 * (region.grids[0].field.grid.south_deg() + region.grids[0].field.grid.north_deg()),
+            0.5 * (region.grids[0].field.grid.west_deg() + region.grids[0].field.grid.east_deg()), 3000.0};
         view.camera.attitude = {20.0, -20.0, 0.0};
         view.camera.width_px = 64;
         view.camera.height_px = 48;
-        const auto style = load_style(view, region.field);
+        const auto style = load_style(view, region.grids[0].field);
         EXPECT_TRUE(style.ok()) << style.error().line();
         PictureOptions options;
         options.path = RasterPath::compute;

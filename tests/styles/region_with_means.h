@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "apps/drawing/region_scene.h"
 #include "geo/opening/open_region.h"
 #include "geo/region/region.h"
+#include "tests/support/drawn/region_scene.h"
 
 namespace oro::test {
 
@@ -22,7 +22,7 @@ inline void open_with_means(const Gpu& gpu, std::vector<std::string> paths, Regi
     auto opened = open_region(request);
     ASSERT_TRUE(opened.ok()) << opened.error().line();
     region = std::move(*opened);
-    auto made = create_scene(gpu, region, 1.0, {}, {}, HeightStorage::f32, true);
+    auto made = create_scene(gpu, region, {.means = true});
     ASSERT_TRUE(made.ok()) << made.error().line();
     scene.emplace(std::move(*made));
 }

@@ -16,8 +16,8 @@ class ReliefLightTest : public test::StyleTest {
   protected:
     // Level ground in the north, ridges from north to south with slopes of 27 degrees in the south.
     static Region ridges() {
-        Region region;
-        region.field = test::square_field(46.5, 8.0, 30.0, 80, [](int row, int column) {
+        Region region{std::vector<RegionGrid>(1)};
+        region.grids[0].field = test::square_field(46.5, 8.0, 30.0, 80, [](int row, int column) {
             const int in_ridge = column % 16;
             return row < 40 ? 1500.0 : 1500.0 + 15.0 * std::min(in_ridge, 16 - in_ridge);
         });
@@ -28,9 +28,9 @@ class ReliefLightTest : public test::StyleTest {
         const Region region = ridges();
         View view;
         view.style = (test::bundled_data() / "styles" / (std::string(style_name) + ".json")).string();
-        view.camera = test::straight_down(region.field, 30.0, 70.0, 210);
+        view.camera = test::straight_down(region.grids[0].field, 30.0, 70.0, 210);
         view.sun = sun;
-        auto style = load_style(view, region.field);
+        auto style = load_style(view, region.grids[0].field);
         EXPECT_TRUE(style.ok()) << style.error().line();
         gpu::FrameStyle& frame = style->frame;
         frame.tint_count = 1;  // one tint, and heights do not matter

@@ -2,6 +2,7 @@
 #include "apps/window/show_legend.h"
 
 #include "tests/styles/drawn_style.h"
+#include "tests/support/drawn/region_scene.h"
 
 namespace oro {
 namespace {
@@ -10,21 +11,22 @@ class ShownLegend : public test::StyleTest {
   protected:
     void SetUp() override {
         StyleTest::SetUp();
-        region_.field = test::square_field(46.5, 8.0, 30.0, 200, [](int row, int) { return 1500.0 + row; });
-        view_.camera = test::straight_down(region_.field, 30.0, 150.0, 300);
+        region_.grids[0].field =
+            test::square_field(46.5, 8.0, 30.0, 200, [](int row, int) { return 1500.0 + row; });
+        view_.camera = test::straight_down(region_.grids[0].field, 30.0, 150.0, 300);
     }
     // A frame of triangles, each in its colour, seen from above; RGBA.
     std::vector<std::uint8_t> framed(ShowLegend& legend, int width, int height) {
         view_.camera.width_px = width;
         view_.camera.height_px = height;
-        auto scene = create_scene(*gpu_, region_, 1.0, MemoryOptions{}, {}, HeightStorage::f32);
+        auto scene = test::create_scene(*gpu_, region_);
         FrameRendererOptions options;
         options.extent = {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
         options.path = RasterPath::compute;
         options.show = gpu::show_triangles;
         auto renderer = FrameRenderer::create(*gpu_, options);
         EXPECT_TRUE(scene.ok() && renderer.ok());
-        auto plan = scene->settled_plan(view_.camera, {0, 0, width, height, {0.5, 0.5}}, 1.0);
+        auto plan = scene->settled_plan({view_.camera, {0, 0, width, height, {0.5, 0.5}}, 1.0});
         EXPECT_TRUE(plan.ok()) << plan.error().line();
         EXPECT_TRUE(renderer->draw(std::move(*plan), {}).ok());
         const auto done = legend.lay_over(view_, region_, Style{}, 1, *renderer);
@@ -32,7 +34,7 @@ class ShownLegend : public test::StyleTest {
         return std::move(*renderer->read_picture(options.extent.width, options.extent.height));
     }
 
-    Region region_;
+    Region region_{std::vector<RegionGrid>(1)};
     View view_;
 };
 

@@ -155,7 +155,7 @@ class Slopes : public test::StyleTest {
     void look(const char* what, const Region& region, const Camera& camera, const GdalSlopes& truth,
               const RasterPlace& place) {
         const auto picture_in = [&](const std::string& text) {
-            const auto style = style_of(text, ".json", camera, region.field);
+            const auto style = style_of(text, ".json", camera, region.grids[0].field);
             EXPECT_TRUE(style.ok()) << style.error().line();
             return style.ok() ? drawn(region, camera, *style) : std::nullopt;
         };
@@ -224,11 +224,12 @@ double hills_m(int row, int column, double post_m) {
 TEST_F(Slopes, AreThoseOfGdaldemOnTheSamePosts) {
     constexpr double post_m = 30.0;
     constexpr int posts = 200;  // more than a page
-    Region region;
-    region.field = test::square_field(46.5, 8.0, post_m, posts,
-                                      [](int row, int column) { return hills_m(row, column, post_m); });
-    const Camera camera = test::straight_down(region.field, post_m, 190.0, 1100);
-    look("the same posts", region, camera, GdalSlopes(test::local_raster(region.field, post_m, post_m)),
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::square_field(
+        46.5, 8.0, post_m, posts, [](int row, int column) { return hills_m(row, column, post_m); });
+    const Camera camera = test::straight_down(region.grids[0].field, post_m, 190.0, 1100);
+    look("the same posts", region, camera,
+         GdalSlopes(test::local_raster(region.grids[0].field, post_m, post_m)),
          [](const DrawnPoint& point) { return glm::dvec2(point.row, point.column); });
 }
 
@@ -240,12 +241,12 @@ TEST_F(Slopes, AreThoseOfGdaldemOnTheBundledRegion) {
     std::string reason;
     const auto region = test::opened(request, &reason);
     ASSERT_TRUE(region) << reason;
-    const PostGrid& grid = region->field.grid;
+    const PostGrid& grid = region->grids[0].field.grid;
     const test::MetresPerDegree degree =
         test::metres_per_degree(0.5 * (grid.north_deg() + grid.south_deg()), 500.0);
     const double column_m = degree.lon * grid.lon.spacing_deg(), row_m = degree.lat * grid.lat.spacing_deg();
-    look("the bundled region", *region, test::straight_down(region->field, row_m, 90.0, 1200),
-         GdalSlopes(test::local_raster(region->field, column_m, row_m), row_m / column_m),
+    look("the bundled region", *region, test::straight_down(region->grids[0].field, row_m, 90.0, 1200),
+         GdalSlopes(test::local_raster(region->grids[0].field, column_m, row_m), row_m / column_m),
          [](const DrawnPoint& point) { return glm::dvec2(point.row, point.column); });
 }
 
@@ -280,9 +281,10 @@ TEST_F(Slopes, AreThoseOfGdaldemOnARastersOwnPosts) {
     std::string reason;
     const auto region = test::opened(test::request_for({file.string()}), &reason);
     ASSERT_TRUE(region) << reason;
-    ASSERT_TRUE(region->field.grid.net);
-    look("a raster's own posts", *region, test::straight_down(region->field, projected_m, 180.0, 1000),
-         GdalSlopes(file), [](const DrawnPoint& point) { return glm::dvec2(point.row, point.column); });
+    ASSERT_TRUE(region->grids[0].field.grid.net);
+    look("a raster's own posts", *region,
+         test::straight_down(region->grids[0].field, projected_m, 180.0, 1000), GdalSlopes(file),
+         [](const DrawnPoint& point) { return glm::dvec2(point.row, point.column); });
 }
 
 // The same, laid onto a grid of latitudes and longitudes.
@@ -301,7 +303,7 @@ TEST_F(Slopes, AreThoseOfGdaldemOnAProjectedRaster) {
     OSRSetFromUserInput(from, "EPSG:4326");
     OSRSetAxisMappingStrategy(from, OAMS_TRADITIONAL_GIS_ORDER);
     const OGRCoordinateTransformationH transform = OCTNewCoordinateTransformation(from, to);
-    const PostGrid& grid = region->field.grid;
+    const PostGrid& grid = region->grids[0].field.grid;
     const auto place = [&](const DrawnPoint& point) {
         double x = grid.west_deg() + point.column * grid.lon.spacing_deg(),
                y = grid.north_deg() - point.row * grid.lat.spacing_deg();
@@ -309,7 +311,7 @@ TEST_F(Slopes, AreThoseOfGdaldemOnAProjectedRaster) {
         return glm::dvec2((raster.cell_corners[3] - y) / post_m - 0.5,
                           (x - raster.cell_corners[0]) / post_m - 0.5);
     };
-    look("a projected raster", *region, test::straight_down(region->field, post_m, 180.0, 1000),
+    look("a projected raster", *region, test::straight_down(region->grids[0].field, post_m, 180.0, 1000),
          GdalSlopes(file), place);
     OCTDestroyCoordinateTransformation(transform);
     OSRDestroySpatialReference(from);
@@ -319,16 +321,16 @@ TEST_F(Slopes, AreThoseOfGdaldemOnAProjectedRaster) {
 // Level ground has no aspect, although the geoid falls by 1 m in a km below it: the style says what it is
 // drawn in.
 TEST_F(Slopes, LevelGroundTakesItsOwnColour) {
-    Region region;
-    region.field = test::square_field(46.5, 8.0, 30.0, 60, [](int, int) { return 1500.0; });
-    region.field.undulation.lat = {1.0, 50.0, 0, -1, 8};
-    region.field.undulation.lon = {1.0, 5.0, 0, +1, 8};
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::square_field(46.5, 8.0, 30.0, 60, [](int, int) { return 1500.0; });
+    region.grids[0].field.undulation.lat = {1.0, 50.0, 0, -1, 8};
+    region.grids[0].field.undulation.lon = {1.0, 5.0, 0, +1, 8};
     for (int row = 0; row < 8; ++row) {
         for (int column = 0; column < 8; ++column)
-            region.field.undulation.N_m.push_back(static_cast<float>(80.0 * column - 110.0 * row));
+            region.grids[0].field.undulation.N_m.push_back(static_cast<float>(80.0 * column - 110.0 * row));
     }
-    const Camera camera = test::straight_down(region.field, 30.0, 40.0, 64);
-    const auto style = style_of(telling("aspect", "aspect_deg", 1.0), ".json", camera, region.field);
+    const Camera camera = test::straight_down(region.grids[0].field, 30.0, 40.0, 64);
+    const auto style = style_of(telling("aspect", "aspect_deg", 1.0), ".json", camera, region.grids[0].field);
     ASSERT_TRUE(style.ok()) << style.error().line();
     const auto picture = drawn(region, camera, *style);
     ASSERT_TRUE(picture);

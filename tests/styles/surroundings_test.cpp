@@ -54,8 +54,8 @@ class SurroundingsTest : public test::StyleTest {
     }
 
     DepthPicture picture(const HeightField& field, const Camera& camera, const gpu::FrameStyle& frame) {
-        Region region;
-        region.field = field;
+        Region region{std::vector<RegionGrid>(1)};
+        region.grids[0].field = field;
         Style style{};
         style.frame = frame;
         auto found = drawn(region, camera, style);

@@ -92,7 +92,7 @@ class Visibility : public test::GpuTest {
                       picture_side_px,
                       picture_side_px};
         const test::DrawnFrame frame = scene_->draw(camera, 0.1, style);
-        radius_m_ = static_cast<double>(frame.plan.constants.earth_radius_m);
+        radius_m_ = static_cast<double>(frame.plan.grids[0].constants.earth_radius_m);
         const auto air = scene_->renderer().read_air();
         const auto rgba = scene_->renderer().read_picture(picture_side_px, picture_side_px);
         const auto depths = scene_->renderer().read_depths(picture_side_px, picture_side_px);

@@ -8,6 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/lod/ground_means.h"
 #include "tests/styles/drawn_style.h"
+#include "tests/support/drawn/region_scene.h"
 
 namespace oro {
 namespace {
@@ -53,7 +54,7 @@ class WrittenFrame : public test::StyleTest {
         auto renderer = FrameRenderer::create(*gpu_, options);
         EXPECT_TRUE(renderer.ok()) << renderer.error().line();
         const Tile tile{0, 0, view.camera.width_px, view.camera.height_px, {0.5, 0.5}};
-        auto plan = scene.settled_plan(view.camera, tile, view.tau_px, view.model);
+        auto plan = scene.settled_plan({view.camera, tile, view.tau_px, view.model});
         EXPECT_TRUE(plan.ok()) << plan.error().line();
         EXPECT_TRUE(renderer->draw(std::move(*plan), style.frame).ok());
         if (written) {
@@ -69,27 +70,26 @@ class WrittenFrame : public test::StyleTest {
 };
 
 TEST_F(WrittenFrame, IsThePictureOfTheView) {
-    Region region;
-    region.field = test::square_field(46.5, 8.0, 30.0, 320, hills_m);
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::square_field(46.5, 8.0, 30.0, 320, hills_m);
     const View view = view_with_names();
-    const auto style = load_style(view, region.field);
+    const auto style = load_style(view, region.grids[0].field);
     ASSERT_TRUE(style.ok()) << style.error().line();
-    auto scene = create_scene(*gpu_, region, 1.0, MemoryOptions{}, {}, HeightStorage::f32,
-                              asks_for_means(style->frame));
+    auto scene = test::create_scene(*gpu_, region, {.means = asks_for_means(style->frame)});
     ASSERT_TRUE(scene.ok()) << scene.error().line();
     std::vector<std::uint8_t> picture;
     const auto take = [&](std::span<const std::uint8_t> row) {
         picture.insert(picture.end(), row.begin(), row.end());
         return Result<void>();
     };
-    const TrueSurface surface(region.field, 1.0, thread_count());
+    const TrueSurface surface(region.grids[0].field, 1.0, thread_count());
     const auto drawn = render_labelled(*gpu_, *scene, view, surface, *style, RasterPath::compute, take, {});
     ASSERT_TRUE(drawn.ok()) << drawn.error().line();
     EXPECT_FALSE(drawn->labels.empty());
     EXPECT_EQ(drawn->overlay.lines, 1U);
 
-    const auto bare = framed(view, region.field, *style, *scene, false);
-    const auto frame = framed(view, region.field, *style, *scene, true);
+    const auto bare = framed(view, region.grids[0].field, *style, *scene, false);
+    const auto frame = framed(view, region.grids[0].field, *style, *scene, true);
     std::size_t written = 0, differ = 0;
     for (std::size_t pixel = 0; pixel < frame.size() / 4; ++pixel) {
         for (std::size_t k = 0; k < 3; ++k) {

@@ -132,11 +132,11 @@ struct Spot {
 };
 
 Spot spot_over(Random& random, const RegionToSee& over) {
-    const PostGrid& grid = over.region.field.grid;
+    const PostGrid& grid = over.region.grids[0].field.grid;
     const double lat = between(random, grid.south_deg(), grid.north_deg());
     const double lon = between(random, grid.west_deg(), grid.east_deg());
     Spot spot{rounded(std::clamp(lat, -90.0, 90.0), 1e7), rounded(std::remainder(lon, 360.0), 1e7), {}};
-    spot.ground_m = ground_h_m(over.region.field, spot.lat_deg, spot.lon_deg, over.exaggeration);
+    spot.ground_m = ground_h_m(over.region.grids[0].field, spot.lat_deg, spot.lon_deg, over.exaggeration);
     return spot;
 }
 

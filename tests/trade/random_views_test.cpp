@@ -8,13 +8,13 @@
 #include <ctime>
 #include <map>
 
-#include "apps/drawing/region_scene.h"
 #include "apps/view/accuracy.h"
 #include "core/base/parallel.h"
 #include "core/measure/picture_errors.h"
 #include "geo/opening/open_region.h"
 #include "render/frame/depth_picture.h"
 #include "tests/support/asked_count.h"
+#include "tests/support/drawn/region_scene.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/test_data.h"
 #include "tests/trade/random_view.h"
@@ -86,7 +86,7 @@ void tell_head() {
 // A region that is open, with what drawing and measuring need of it.
 struct Opened {
     RegionOptions options;
-    Region region;
+    Region region{std::vector<RegionGrid>(1)};
     double exaggeration{1.0};
     double highest_H_m{};
     std::unique_ptr<TrueScene> truth;
@@ -95,12 +95,13 @@ struct Opened {
     [[nodiscard]] const TrueSurface& surface() const { return truth->surface(); }
     Result<Scene*> scene(const Gpu& gpu, HeightStorage heights) {
         if (const auto found = scenes.find(heights); found != scenes.end()) return &found->second;
-        ORO_TRY(Scene made, create_scene(gpu, region, exaggeration, {}, {}, heights));
+        ORO_TRY(Scene made,
+                test::create_scene(gpu, region, {.exaggeration = exaggeration, .heights = heights}));
         return &scenes.emplace(heights, std::move(made)).first->second;
     }
     Result<const RegionPages*> pages(const Gpu& gpu) {
         ORO_TRY(Scene* const any, scene(gpu, HeightStorage::f32));
-        return &any->pages();
+        return &any->grids()[0].pages();
     }
 };
 
@@ -123,7 +124,7 @@ class RandomViews : public test::GpuTest {
         if (!geoid) leave_geoid_out(opened->region);
         if (random() % 8 == 0) opened->exaggeration = static_cast<double>(1 + random() % 16) / 4.0;
         opened->highest_H_m =
-            std::max(0.0, opened->exaggeration * height_range(opened->region.field).highest_m);
+            std::max(0.0, opened->exaggeration * height_range(opened->region.grids[0].field).highest_m);
         View view;
         view.exaggeration = opened->exaggeration;
         ORO_TRY(opened->truth, TrueScene::of(view, opened->region));
@@ -272,7 +273,7 @@ class RandomViews : public test::GpuTest {
     }
 
     void look(Opened& opened, Random random, Tally& tally) {
-        const bool geoid = opened.region.geoid_left_out.N_m.empty();
+        const bool geoid = opened.region.grids[0].geoid_left_out.N_m.empty();
         const RandomView one = test::random_view(
             random, {opened.region, opened.exaggeration, geoid, opened.highest_H_m}, opened.surface());
         const auto view = view_of(opened, one.drawing);

@@ -12,7 +12,7 @@ namespace {
 class TradeOrder : public test::GpuTest {
   protected:
     TradeOrder() {
-        region_.field = test::rough_field(46.6, 8.2, 500, 600);
+        region_.grids[0].field = test::rough_field(46.6, 8.2, 500, 600);
         view_.camera.width_px = 128;
         view_.camera.height_px = 72;
     }
@@ -74,7 +74,7 @@ class TradeOrder : public test::GpuTest {
         return camera;
     }
 
-    Region region_;
+    Region region_{std::vector<RegionGrid>(1)};
     View view_;
     gpu::FrameStyle style_{};
 };
@@ -95,7 +95,7 @@ TEST_F(TradeOrder, CountsAreThoseOfAnyOrderAndAnyRepeats) {
 
 // The GPU holds what either view needs, and not both.
 TEST_F(TradeOrder, NorDoTheyDependOnWhatFillsTheMemory) {
-    region_.field = test::rough_field(46.7, 8.0, 1500, 1700);
+    region_.grids[0].field = test::rough_field(46.7, 8.0, 1500, 1700);
     MemoryOptions little;
     little.gpu_memory_mb = 48;  // for three scenes
     expect_same(measured(RasterPath::compute, false, 1, little),

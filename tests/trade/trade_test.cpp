@@ -126,8 +126,8 @@ class TradeOfViews : public test::GpuTest {
 };
 
 TEST_F(TradeOfViews, PredictionsHoldOnMadeTerrain) {
-    Region region;
-    region.field = test::rough_field(46.6, 8.2, 400, 500);
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::rough_field(46.6, 8.2, 400, 500);
     look("made terrain", region, 3);
     tell("made terrain", 3);
 }

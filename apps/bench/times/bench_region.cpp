@@ -40,7 +40,7 @@ Result<Scene> scene_of(const Gpu& gpu, const BenchOptions& options, BenchRegion&
     ORO_TRY(const HeightField field, field_in_memory(*region.file.region));
     ORO_TRY(std::unique_ptr<RegionClusters> graph,
             clusters_of_file(region.file.clusters, region.file.region->fingerprint(), field,
-                             scene.pages().facts().shape.occluder));
+                             scene.grids()[0].pages().facts().shape.occluder));
     ORO_TRY(ClusterScene made, ClusterScene::create(gpu, std::move(graph), bytes, memory.main));
     scene.draw_clusters(std::move(made));
     return scene;

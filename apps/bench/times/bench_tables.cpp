@@ -25,7 +25,7 @@ Result<DrawnEye> time_eye(const Gpu& gpu, RasterPath path, Scene& scene, const B
                           const BenchOptions& options) {
     ORO_TRY(FrameRenderer renderer, renderer_for(gpu, path, options));
     ORO_TRY(BenchTimes times, time_frames(scene, renderer, eye.camera, options));
-    return DrawnEye{std::move(times), scene.store().bytes_a_page()};
+    return DrawnEye{std::move(times), scene.grids()[0].store().bytes_a_page()};
 }
 
 Result<Scene> scene_for(const Gpu& gpu, const BenchOptions& options) {
@@ -76,8 +76,8 @@ Result<void> print_heights(const Gpu& gpu, BenchOptions options, const std::vect
                     ORO_TRY(drawn[i], time_eye(gpu, path, scene, eye, options));
                 }
                 std::printf("| %s | %.0f | %.2f | %s | %s | %.3f | %.3f | %.3f | %.3f |\n", kept,
-                            drawn[0].page_bytes, scene.store().bytes_a_post(), eye.name.c_str(), name,
-                            1e3 * drawn[0].times.gpu_s, 1e3 * drawn[0].times.raster_s,
+                            drawn[0].page_bytes, scene.grids()[0].store().bytes_a_post(), eye.name.c_str(),
+                            name, 1e3 * drawn[0].times.gpu_s, 1e3 * drawn[0].times.raster_s,
                             1e3 * drawn[1].times.gpu_s, 1e3 * drawn[1].times.raster_s);
                 std::fflush(stdout);
             }

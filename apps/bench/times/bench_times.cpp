@@ -27,11 +27,11 @@ constexpr double longest_wait_s = 60.0;
 // As a picture's, which waits for all that it asks for. Or as a window's: what is here, until that is all.
 Result<FramePlan> whole_plan(Scene& scene, const Camera& camera, const Tile& tile,
                              const BenchOptions& options) {
-    if (!options.as_window) return scene.settled_plan(camera, tile, options.tau_px);
+    if (!options.as_window) return scene.settled_plan({camera, tile, options.tau_px});
     for (const auto start = Clock::now(); seconds_since(start) < longest_wait_s;) {
-        ORO_TRY(FramePlan plan, scene.plan(camera, tile, options.tau_px));
+        ORO_TRY(FramePlan plan, scene.plan({camera, tile, options.tau_px}));
         if (plan.is_settled()) return plan;
-        ORO_TRY(const bool better, scene.advance(plan.missing));
+        ORO_TRY(const bool better, scene.advance());
         if (!better) std::this_thread::yield();
     }
     return Error{ErrorKind::failed, "--gpu-memory", "is too small for this view"};
@@ -48,7 +48,8 @@ Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Came
     BenchTimes times;
     const auto beginning = Clock::now();
     ORO_TRY(FramePlan plan, whole_plan(scene, camera, tile, options));
-    if (!plan.missing.empty()) return Error{ErrorKind::failed, "--gpu-memory", "is too small for this view"};
+    if (!plan.grids[0].missing.empty())
+        return Error{ErrorKind::failed, "--gpu-memory", "is too small for this view"};
     ORO_TRY(times.first, renderer.draw(plan, style));
     times.settled_s = seconds_since(beginning);
     // Frames without a pause, until clocks are up, and then those that count.
@@ -74,14 +75,14 @@ Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Came
     times.gpu_s = median_of(std::move(whole));
     times.plan_s = median_of(std::move(planned));
     times.frame_s = median_of(std::move(frame));
-    times.pages_on_gpu = scene.store().size();
-    times.bytes_on_gpu = scene.store().bytes();
-    if (scene.clusters()) {
-        times.clusters_on_gpu = scene.clusters()->store().size();
-        times.clusters_in_cut = plan.clusters.in_cut;
-        times.clusters_coarser = plan.clusters.drawn.size() - plan.clusters.in_cut;
-        times.bytes_on_gpu += scene.clusters()->store().bytes();
-        times.bytes_of_groups = scene.clusters()->groups().bytes();
+    times.pages_on_gpu = scene.grids()[0].store().size();
+    times.bytes_on_gpu = scene.grids()[0].store().bytes();
+    if (scene.grids()[0].clusters()) {
+        times.clusters_on_gpu = scene.grids()[0].clusters()->store().size();
+        times.clusters_in_cut = plan.grids[0].clusters.in_cut;
+        times.clusters_coarser = plan.grids[0].clusters.drawn.size() - plan.grids[0].clusters.in_cut;
+        times.bytes_on_gpu += scene.grids()[0].clusters()->store().bytes();
+        times.bytes_of_groups = scene.grids()[0].clusters()->groups().bytes();
     }
     return times;
 }
@@ -129,8 +130,8 @@ Result<std::uint64_t> pixels_without_occlusion(const Gpu& gpu, RasterPath path, 
         camera.eye.h_m += step.up_m;
         camera.attitude.heading_deg = std::fmod(camera.attitude.heading_deg + step.turn_deg, 360.0);
         ORO_TRY(FramePlan plan,
-                scene.settled_plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
-                                   options.tau_px));
+                scene.settled_plan(
+                    {camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}}, options.tau_px}));
         ORO_CHECK(renderer.draw(plan, options.style));
         ORO_CHECK(plain.draw(plan, options.style));
         ORO_TRY(const std::vector<std::uint32_t> with, renderer.read_ids(width, height));

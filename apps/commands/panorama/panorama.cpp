@@ -194,7 +194,7 @@ Result<Style> style_of(const View& view, const Region& region) {
     const std::vector<CylinderTile> tiles = cylinder_tiles(cylinder_of(view), view.camera.eye, {1.0});
     View part = view;
     part.camera = tiles[tiles.size() / 2].camera;
-    return load_style(part, region.field);
+    return load_style(part, region.grids.front().field);
 }
 
 void say_notes_of(const PanoramaOptions& options, const PanoramaReport& report) {
@@ -209,9 +209,8 @@ Result<void> draw(const PanoramaOptions& options, const RegionGround& ground, co
     const View& view = report.view;
     const auto drawing = Clock::now();
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
-    ORO_TRY(std::unique_ptr<RegionPages> pages,
-            region_pages(report.region, cuts.grids.front(), view.exaggeration,
-                         [&](double share) { bar.show(share, "measuring levels"); }));
+    ORO_TRY(GridPages pages, pages_of_grids(report.region, cuts, view.exaggeration,
+                                            [&](double share) { bar.show(share, "measuring levels"); }));
     ORO_TRY(RegionScene whole,
             scene_of_region(*gpu, report.region, cuts, std::move(pages),
                             {view.exaggeration, memory_of_pages(view, options.memory), view.heights,

@@ -13,9 +13,9 @@ using nlohmann::ordered_json;
 
 ordered_json eye_json(const PanoramaReport& report) {
     const Geodetic& eye = report.view.camera.eye;
-    const double N_m = report.region.field.undulation.at_m(eye.lat_deg, eye.lon_deg);
+    const double N_m = report.region.grids.front().field.undulation.at_m(eye.lat_deg, eye.lon_deg);
     return json_object("lat_deg", eye.lat_deg, "lon_deg", eye.lon_deg, "h_m", eye.h_m, "H_m", eye.h_m - N_m,
-                       "N_m", N_m, "geoid", report.region.geoid);
+                       "N_m", N_m, "geoid", report.region.grids.front().geoid);
 }
 
 // Azimuths and elevations to places: x = (azimuth - from) * px_per_deg, y = level_y - tan(elevation) *

@@ -48,7 +48,7 @@ Result<void> say_notes(const ShotOptions& options, const ShotResult& shot) {
     if (const std::string note = note_of_year(shot.view.sun); !note.empty()) say(options.quiet, note);
     if (shot.view.vectors_read) say_vectors(*shot.view.vectors_read, shot.view.vectors, options.quiet);
     const Geodetic& eye = shot.view.camera.eye;
-    const auto ground = ground_h_m(region_at(shot.region, eye.lat_deg, eye.lon_deg).field, eye.lat_deg,
+    const auto ground = ground_h_m(grid_at(shot.region, eye.lat_deg, eye.lon_deg).field, eye.lat_deg,
                                    eye.lon_deg, shot.view.exaggeration);
     if (ground && eye.h_m < *ground) {
         char text[80];
@@ -60,9 +60,9 @@ Result<void> say_notes(const ShotOptions& options, const ShotResult& shot) {
 
 // Where finer ground changes what coarser ground is beside it.
 void say_rims(const Region& region, const RegionCuts& cuts, bool quiet) {
-    const std::vector<const Region*> grids = all_grids(region);
+    const std::vector<RegionGrid>& grids = region.grids;
     for (std::size_t i = 0; i < grids.size(); ++i) {
-        const auto found = rim_diagonals(grids[i]->field, cuts.grids[i]);
+        const auto found = rim_diagonals(grids[i].field, cuts.grids[i]);
         if (!found) continue;
         char text[200];
         std::snprintf(
@@ -71,7 +71,7 @@ void say_rims(const Region& region, const RegionCuts& cuts, bool quiet) {
             "to %.1f m apart (at %.6f %.6f)",
             counted(found->cells, "cell", "cells").c_str(), found->most_m, found->place.lat_deg,
             found->place.lon_deg);
-        const auto& sources = grids[i]->sources;
+        const auto& sources = grids[i].sources;
         say(quiet, "note: the ground of " +
                        (sources.empty() ? std::string("a grid")
                                         : std::filesystem::path(sources.front().path).filename().string()) +
@@ -152,7 +152,7 @@ void tell(const ShotOptions& options, const PictureFiles& files, bool checks, co
         // What was asked for: as a table, or with -q as JSON alone.
         if (!options.quiet || !options.json)
             std::fputs((verification_text(*shot.verification, shot.view, shot.unseen) +
-                        resampling_line(shot.region) + light_line(shot.view, shot.region))
+                        resampling_line(shot.region.grids.front()) + light_line(shot.view, shot.region))
                            .c_str(),
                        stderr);
     }
@@ -168,9 +168,10 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
     // Before anything is written. A page that may be in view, and then is not, is told of when it is drawn.
     const auto nothing = nothing_in_view(shot.view, shot.region, options.view_file);
     if (!shot.view.map) {
-        ORO_TRY(const FramePlan first,
-                scene.plan(camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}}, shot.view.tau_px,
-                           shot.view.model));
+        ORO_TRY(const FramePlan first, scene.plan({camera,
+                                                   {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
+                                                   shot.view.tau_px,
+                                                   shot.view.model}));
         if (!first.wants_pages() && !nothing.ok()) return nothing.error();
     }
     ORO_TRY(shot.middle, place_in_middle(shot.view, ground));
@@ -192,11 +193,13 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
     shot.times.draw_s = seconds_since(drawing);
     if (shot.picture.ground_px == 0)
         say(options.quiet, "note: " + (nothing.ok() ? *nothing : nothing.error().what));
-    shot.pages_on_gpu = scene.store().size();
-    shot.page_bytes = scene.store().bytes();
-    if (const auto& drawn = scene.clusters())
-        shot.clusters = ClustersHeld{drawn->store().size(), drawn->store().bytes(), drawn->groups().size(),
-                                     drawn->groups().bytes()};
+    for (const GridScene& grid : scene.grids()) {
+        shot.pages_on_gpu += grid.store().size();
+        shot.page_bytes += grid.store().bytes();
+        if (const auto& drawn = grid.clusters())
+            shot.clusters = ClustersHeld{drawn->store().size(), drawn->store().bytes(),
+                                         drawn->groups().size(), drawn->groups().bytes()};
+    }
     shot.height_step_m = scene.height_step_m();
     return picture;
 }
@@ -244,7 +247,7 @@ Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, P
     shot.times.read_s = seconds_since(reading);
     ORO_CHECK(spare_files_of(options, files, shot));
     if (options.layers) ORO_CHECK(check_layers(shot.view.camera));
-    return load_style(shot.view, shot.region.field);
+    return load_style(shot.view, shot.region.grids.front().field);
 }
 
 // The region, ready to be drawn; what --tolerance chooses is chosen.
@@ -264,12 +267,12 @@ Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& 
                         {shot.view.exaggeration, memory_of_pages(shot.view, options.memory),
                          shot.view.heights, asks_for_means(style.frame), clusters, shot.view.mesh_level}));
     Scene& scene = whole.scene;
-    if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
-        say(options.quiet, note);
-    shot.has_means = asks_for_means(style.frame) && scene.pages().knows_means();
+    const std::string note = note_of_means(style.frame, scene.pages());
+    if (!note.empty()) say(options.quiet, note);
+    shot.has_means = asks_for_means(style.frame) && note.empty();
     ORO_CHECK(lay_images(shot.view, options.memory, gpu, scene, options.quiet));
-    const PageLayout finest = scene.pages().layout(0);
-    shot.pages = static_cast<std::uint64_t>(finest.rows) * static_cast<std::uint64_t>(finest.columns);
+    for (const GridScene& grid : scene.grids())
+        if (!grid.pages().is_seam()) shot.pages += grid.pages().layout(0).count();
     shot.triangles_at_full_resolution = whole.triangles;
     shot.times.pages_s = seconds_since(start);
     return std::move(whole.scene);

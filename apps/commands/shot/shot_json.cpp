@@ -1,5 +1,7 @@
 #include "apps/commands/shot/shot_json.h"
 
+#include <span>
+
 #include "apps/layers/picture_layers.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
@@ -142,16 +144,12 @@ void put_layers(const LayersReport& layers, const ShotTimes& times, const Pictur
 
 // All sources, the region, and those that lie apart from it.
 void put_regions(const ShotResult& shot, ordered_json& json) {
-    json["sources"] = sources_json(shot.region.sources);
-    for (const Region& other : shot.region.beside) {
-        for (nlohmann::ordered_json& source : sources_json(other.sources))
-            json["sources"].push_back(std::move(source));
-    }
-    json["region"] = region_json(shot.region);
-    if (!shot.region.beside.empty()) {
-        json["apart"] = nlohmann::ordered_json::array();
-        for (const Region& other : shot.region.beside) json["apart"].push_back(region_json(other));
-    }
+    json["sources"] = ordered_json::array();
+    for (const RegionGrid& grid : shot.region.grids)
+        for (ordered_json& source : sources_json(grid.sources)) json["sources"].push_back(std::move(source));
+    json["region"] = region_json(shot.region.grids.front());
+    for (const RegionGrid& other : std::span(shot.region.grids).subspan(1))
+        json["apart"].push_back(region_json(other));
 }
 
 }  // namespace
@@ -212,7 +210,7 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
         json["times_s"]["verify"] = shot.times.verify_s;
         json["error_picture"] = files.error;
         json["error"] = verification_json(*shot.verification);
-        json["error"]["resampling"] = resampling_json(region_resampling(shot.region));
+        json["error"]["resampling"] = resampling_json(region_resampling(shot.region.grids.front()));
     }
     return json;
 }

@@ -151,7 +151,8 @@ Result<void> run_profile(const ProfileOptions& options) {
         const LatLon& begin = profile.line.places.front();
         return Error{ErrorKind::no_data, "--along " + options.along,
                      "no elevation data along the line" +
-                         where_data_are(ground->region.field.grid, begin.lat_deg, begin.lon_deg)};
+                         where_data_are(grid_at(ground->region, begin.lat_deg, begin.lon_deg).field.grid,
+                                        begin.lat_deg, begin.lon_deg)};
     }
     for (const std::string& note : profile.line.notes) say(options.quiet, "note: " + note);
     say_notes(ground->region, options.quiet);

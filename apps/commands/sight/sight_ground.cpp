@@ -47,7 +47,7 @@ Result<Geodetic> point_over_ground(const Standing& standing, const SightGround& 
 Result<Standpoint> stand_over_ground(const Standing& standing, const SightGround& ground) {
     ORO_CHECK(check_above(standing.above_option, standing.above_m));
     ORO_TRY(const Place place, place_at(standing.place_option, standing.place));
-    const Region& there = region_at(ground.region, place.lat_deg, place.lon_deg);
+    const RegionGrid& there = grid_at(ground.region, place.lat_deg, place.lon_deg);
     ORO_TRY(Standpoint stood, stand(standing, there.field));
     Geodetic& point = stood.eye;
     if (!view_limits::sight_h_m.hold(point.h_m)) {

@@ -136,9 +136,9 @@ std::string eye_text(const Geodetic& eye, const SightGround& ground) {
 
 PostRaster raster_of(ViewshedReport& report, const SightGround& ground) {
     PostRaster raster;
-    const Region& region = ground.grids->region(report.grid);
-    raster.grid = region.field.grid;
-    raster.crs = region.posts_crs;
+    const RegionGrid& grid = ground.grids->grid(report.grid);
+    raster.grid = grid.field.grid;
+    raster.crs = grid.posts_crs;
     raster.first_row = report.window.first_row;
     raster.rows = report.window.rows;
     raster.first_column = report.window.first_column;
@@ -165,8 +165,8 @@ PostRaster raster_of(ViewshedReport& report, const SightGround& ground) {
 
 // Of the grid whose posts the file has.
 std::string first_source(const SightGround& ground, const ViewshedReport& report) {
-    const Region& region = ground.grids->region(report.grid);
-    return region.sources.empty() ? std::string("the first grid") : region.sources.front().path;
+    const RegionGrid& grid = ground.grids->grid(report.grid);
+    return grid.sources.empty() ? std::string("the first grid") : grid.sources.front().path;
 }
 
 void tell(const ViewshedOptions& options, const ViewshedReport& report, const SightGround& ground) {
@@ -275,10 +275,10 @@ Result<void> run_viewshed(const ViewshedOptions& options) {
         const ViewshedRequest request{report.eyes[i], report.air, report.target_m, report.radius_km * 1000.0,
                                       thread_count()};
         const auto of_all = static_cast<double>(report.eyes.size());
-        take_in(viewshed_of_grids(ground->ground(), report.grid, request,
-                                  [&](double share) {
-                                      bar.show((static_cast<double>(i) + share) / of_all, "looking around");
-                                  }),
+        take_in(viewshed(ground->ground(), report.grid, request,
+                         [&](double share) {
+                             bar.show((static_cast<double>(i) + share) / of_all, "looking around");
+                         }),
                 grid, report);
     }
     report.looking_s = seconds_since(looking);

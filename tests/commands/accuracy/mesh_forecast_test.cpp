@@ -34,14 +34,14 @@ Result<void> bake_in_small_windows(const fs::path& path) {
     BakeOptions grid;
     grid.path = folder / "grid.oro";
     grid.fingerprint = 5;
-    grid.description = region_description(region);
-    ORO_CHECK(bake_region(region.field, grid));
+    grid.description = region_description(region.grids[0]);
+    ORO_CHECK(bake_region(region.grids[0].field, grid));
     WindowedBake clusters;
     clusters.path = folder / "grid.oroc";
     clusters.fingerprint = grid.fingerprint;
     clusters.threads = 2;
     clusters.stages = {{3, 70'000}};
-    ORO_CHECK(bake_in_windows(region.field, clusters));
+    ORO_CHECK(bake_in_windows(region.grids[0].field, clusters));
     return join_parts(path, false, std::array<ContainerPart, 2>{{{grid.path, 0}, {clusters.path, 0}}});
 }
 
@@ -65,8 +65,8 @@ TEST(MeshForecasts, AreTheSameOfPostsReadPageByPage) {
     ASSERT_TRUE(baked.ok()) << baked.error().line();
     const auto region = opened(path);
     ASSERT_TRUE(region.ok()) << region.error().line();
-    ASSERT_TRUE(region->clusters);
-    const auto pages = pages_of_file(region->file);
+    ASSERT_TRUE(region->grids[0].clusters);
+    const auto pages = pages_of_file(region->grids[0].file);
     const auto in_memory = mesh_forecasts(towards_the_fault(), *region, *pages);
     const auto page_by_page = mesh_forecasts(towards_the_fault(), *region, *pages, 1000);
     ASSERT_TRUE(in_memory.ok() && page_by_page.ok() && *in_memory && *page_by_page);
@@ -80,7 +80,7 @@ TEST(MeshForecasts, AreTheSameOfPostsReadPageByPage) {
 TEST(MeshForecasts, AreNotThereWithoutClusters) {
     const auto region = opened(test::bundled_data() / "jacksboro.tif");
     ASSERT_TRUE(region.ok());
-    const auto pages = pages_in_memory(region->field, 1.0, 2);
+    const auto pages = pages_in_memory(region->grids[0].field, 1.0, 2);
     const auto none = mesh_forecasts(towards_the_fault(), *region, *pages);
     ASSERT_TRUE(none.ok());
     EXPECT_FALSE(none->has_value());

@@ -10,8 +10,9 @@ namespace oro {
 namespace {
 
 Region flat_region(int rows, int columns) {
-    Region region;
-    region.field = test::made_field(47.0, 8.0, 20.0, rows, columns, [](double, double) { return 500.0F; });
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field =
+        test::made_field(47.0, 8.0, 20.0, rows, columns, [](double, double) { return 500.0F; });
     return region;
 }
 ColourKey key_of(Show show, const Region& region, int every = 1) {

@@ -66,11 +66,12 @@ TEST(LegendLines, SayEyeSunAndData) {
     View view;
     view.camera = {{46.67, -8.06, 2500.0}, {205.0, -4.5, 0.0}, 45.0, 800, 400};
     view.tau_px = 0.5;
-    Region region;
-    region.field = test::made_field(47.0, -9.0, 20.0, 20, 30, [](double, double) { return 1000.0F; });
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field =
+        test::made_field(47.0, -9.0, 20.0, 20, 30, [](double, double) { return 1000.0F; });
     SourceReport source;
     source.path = "tiles/N46W009.hgt";
-    region.sources.push_back(source);
+    region.grids[0].sources.push_back(source);
     Style style{};
     style.sun = {315.0, 38.0, {}};
     const auto lines = legend_lines(view, region, style);
@@ -94,9 +95,9 @@ TEST(LegendLines, SayEyeSunAndData) {
 
 TEST(LegendColours, AreTheStyles) {
     View view;
-    Region region;
-    region.field = test::made_field(47.0, 8.0, 20.0, 3, 3,
-                                    [](double lat, double) { return lat > 46.99 ? 3000.0F : 500.0F; });
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::made_field(
+        47.0, 8.0, 20.0, 3, 3, [](double lat, double) { return lat > 46.99 ? 3000.0F : 500.0F; });
     Style style{};
     style.frame.tint_count = 2;
     style.frame.tints_as_codes = 1;

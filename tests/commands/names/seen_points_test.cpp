@@ -36,7 +36,7 @@ std::optional<Stage> alps() {
     auto region = open_region(request);
     EXPECT_TRUE(region.ok());
     Stage stage{std::make_unique<Region>(std::move(*region)), nullptr, {}};
-    stage.surface = std::make_unique<TrueSurface>(stage.region->field, 1.0, thread_count());
+    stage.surface = std::make_unique<TrueSurface>(stage.region->grids[0].field, 1.0, thread_count());
     Camera& camera = stage.camera;
     camera.eye = {46.95, 10.3, 0.0};
     camera.eye.h_m = *stage.surface->h_m(camera.eye.lat_deg, camera.eye.lon_deg) + 1500.0;
@@ -166,7 +166,7 @@ TEST(SeenPoints, HaveTheirOwnHeightWhereItCanBe) {
         ASSERT_GT(y_px, 100.0) << "no ground 8 km away";
         hit = oracle.first_hit(stage->camera.ecef_direction_at({960.0, y_px}), 2e5);
     }
-    const double N_m = stage->region->field.undulation.at_m(hit->point.lat_deg, hit->point.lon_deg),
+    const double N_m = stage->region->grids[0].field.undulation.at_m(hit->point.lat_deg, hit->point.lon_deg),
                  ground_H_m = hit->point.h_m - N_m;
     const auto seen_as = [&](HeightAbove heights, double height_m, std::optional<double> told) {
         NamedPoint point = named("p", hit->point.lat_deg, hit->point.lon_deg);

@@ -35,7 +35,7 @@ std::optional<Ground> ground(const char* name) {
     auto region = open_region(request);
     EXPECT_TRUE(region.ok());
     Ground made{std::make_unique<Region>(std::move(*region)), nullptr};
-    made.surface = std::make_unique<TrueSurface>(made.region->field, 1.0, thread_count());
+    made.surface = std::make_unique<TrueSurface>(made.region->grids[0].field, 1.0, thread_count());
     return made;
 }
 

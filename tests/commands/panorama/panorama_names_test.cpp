@@ -73,7 +73,7 @@ std::optional<Stage> alps(double lat_deg, double lon_deg, double above_m) {
     EXPECT_TRUE(region.ok());
     Stage stage;
     stage.region = std::make_unique<Region>(std::move(*region));
-    stage.surface = std::make_unique<TrueSurface>(stage.region->field, 1.0, thread_count());
+    stage.surface = std::make_unique<TrueSurface>(stage.region->grids[0].field, 1.0, thread_count());
     stage.camera.eye = {lat_deg, lon_deg, *stage.surface->h_m(lat_deg, lon_deg) + above_m};
     stage.camera.width_px = 7200;
     return stage;

@@ -1,4 +1,4 @@
-// Horizon and frustum culling against brute force, by the path of a frame: plan_frame's floats, the meshlets'
+// Horizon and frustum culling against brute force, by the path of a frame: plan_grid's floats, the meshlets'
 // bounds of build_page, the tests of shaders/choose/select.glsl.
 #include "core/earth/culling.h"
 
@@ -193,8 +193,8 @@ struct Verdict {
     bool beyond_horizon;
 };
 Verdict verdict_on(const Place& place, const Camera& camera, const Tile& tile, int meshlet) {
-    const Result<FramePlan> plan = plan_frame(
-        *place.pages, [](const PageIndex&) { return 1U; }, camera, tile, 0.0);
+    const Result<GridPlan> plan =
+        plan_grid(*place.pages, [](const PageIndex&) { return 1U; }, {camera, tile, 0.0});
     EXPECT_TRUE(plan.ok());
     if (plan->pages.empty()) return {plan->pages_beyond_frustum == 1, plan->pages_beyond_horizon == 1};
     const gpu::FramePage& page = plan->pages[0];

@@ -56,9 +56,8 @@ HeightField round_field(int columns, int rows) {
                              });
 }
 
-FramePlan planned(const PyramidPages& pages, const Residency& residency, const Camera& camera,
-                  double tau_px) {
-    Result<FramePlan> plan = plan_frame(pages, residency, camera, whole(camera), tau_px);
+GridPlan planned(const PyramidPages& pages, const Residency& residency, const Camera& camera, double tau_px) {
+    Result<GridPlan> plan = plan_grid(pages, residency, {camera, whole(camera), tau_px});
     EXPECT_TRUE(plan.ok());
     return std::move(plan).value();
 }
@@ -87,7 +86,7 @@ Key parent_page_beyond(const Region& region, const DrawnNode& node, int edge) {
 
 // The GPU's nodes are the reference's, with their edges; but beside pages that are hidden, which the GPU has
 // no word of, an edge may be left as it is.
-void expect_reference(const Region& region, const FramePlan& plan, const NodeSelection& reference,
+void expect_reference(const Region& region, const GridPlan& plan, const NodeSelection& reference,
                       Compared& compared) {
     const std::set<Key> in_plan = keys(plan.page_indices);
     std::map<Key, std::uint32_t> expected;
@@ -136,7 +135,7 @@ TEST(FrameChoice, DrawsTheNodesOfTheReference) {
         const Camera camera = random_camera(random, region);
         const double tau_px = taus_px[i / 3 % 3];
         const PyramidPages pages(region.field, region.pyramid);
-        const FramePlan plan = planned(pages, pages.residency(), camera, tau_px);
+        const GridPlan plan = planned(pages, pages.residency(), camera, tau_px);
         EXPECT_TRUE(plan.missing.empty());
         EXPECT_EQ(plan.pages_wanted, plan.pages.size());
         ASSERT_NO_FATAL_FAILURE(expect_reference(
@@ -179,7 +178,7 @@ TEST(FrameChoice, MeetsItselfRoundTheEarth) {
             if (i % 2 == 0) camera.eye.lon_deg = 180.0 + 0.1 * (i % 5 - 2);  // near the seam
             camera.eye.h_m += 1.0e5 * (i % 4);
             const double tau_px = taus_px[i % 3] * 0.5;
-            const FramePlan plan = planned(pages, pages.residency(), camera, tau_px);
+            const GridPlan plan = planned(pages, pages.residency(), camera, tau_px);
             const std::vector<DrawnNode> drawn = test::drawn_nodes(plan);
             std::vector<int> level_at;
             ASSERT_NO_FATAL_FAILURE(test::expect_one_cover(region, drawn, level_at)) << columns;
@@ -208,7 +207,7 @@ TEST(FrameChoice, AQuartersBoundHoldsForItsNodesInFloat) {
         const PyramidPages pages(region.field, region.unhidden);
         const Camera camera = random_camera(random, region);
         const LevelView view = level_view(camera, 1.0);
-        const FramePlan plan = planned(pages, pages.residency(), camera, 0.25);
+        const GridPlan plan = planned(pages, pages.residency(), camera, 0.25);
         for (std::size_t n = 0; n < plan.pages.size(); ++n) {
             const PyramidPage& page = pages.at(plan.page_indices[n]);
             const PageSummary& summary = page.summary;
@@ -264,8 +263,8 @@ double distance_m(const PyramidPage& page, const Camera& camera) {
 }
 
 // `missing` has what a frame with everything has and this one has not, what others wait for first.
-void expect_missing(const PyramidPages& pages, const Camera& camera, const FramePlan& all,
-                    const FramePlan& plan, const std::set<Key>& there) {
+void expect_missing(const PyramidPages& pages, const Camera& camera, const GridPlan& all,
+                    const GridPlan& plan, const std::set<Key>& there) {
     std::set<Key> expected;
     for (const PageIndex& page : all.page_indices) {
         if (!there.contains(key(page))) expected.insert(key(page));
@@ -299,8 +298,8 @@ TEST(FrameChoice, HasNoGapsWhateverIsMissing) {
         const Camera camera = random_camera(random, region);
         const double tau_px = taus_px[i / 4 % 3];
         const std::set<Key> there = random_residents(region, random);
-        const FramePlan all = planned(pages, pages.residency(), camera, tau_px);
-        const FramePlan plan =
+        const GridPlan all = planned(pages, pages.residency(), camera, tau_px);
+        const GridPlan plan =
             planned(pages, pages.residency([&](const PageIndex& page) { return there.contains(key(page)); }),
                     camera, tau_px);
         ASSERT_NO_FATAL_FAILURE(expect_missing(pages, camera, all, plan, there)) << i;
@@ -334,7 +333,7 @@ TEST(FrameChoice, CoversWhatCanBeSeenWhateverIsMissing) {
     for (int i = 0; i < 40; ++i) {
         const Camera camera = random_camera(random, region);
         const std::set<Key> there = random_residents(region, random);
-        const FramePlan plan =
+        const GridPlan plan =
             planned(pages, pages.residency([&](const PageIndex& page) { return there.contains(key(page)); }),
                     camera, 1.0);
         std::vector<int> times(static_cast<std::size_t>(rows * columns), 0);

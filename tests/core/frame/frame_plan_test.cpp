@@ -41,8 +41,8 @@ struct Region {
     [[nodiscard]] PageRecord record(const PageIndex& index) const {
         return std::move(pages->record(index)).value();
     }
-    [[nodiscard]] FramePlan plan(const Camera& camera, const Tile& tile, double tau_px) const {
-        Result<FramePlan> plan = plan_frame(*pages, everything, camera, tile, tau_px);
+    [[nodiscard]] GridPlan plan(const Camera& camera, const Tile& tile, double tau_px) const {
+        Result<GridPlan> plan = plan_grid(*pages, everything, {camera, tile, tau_px});
         EXPECT_TRUE(plan.ok());
         return std::move(plan).value();
     }
@@ -75,7 +75,7 @@ TEST(FramePlan, KeepsEveryPageWithAPostInThePicture) {
         camera.eye = {46.5 + 0.6 * unit(random), 8.5 + 0.6 * unit(random),
                       2600.0 + 2000.0 * (unit(random) + 1.0)};
         camera.attitude = {180.0 * unit(random), 30.0 * unit(random) - 20.0, 20.0 * unit(random)};
-        const FramePlan plan = region.plan(camera, {0, 0, 400, 300, {0.5, 0.5}}, 0.0);
+        const GridPlan plan = region.plan(camera, {0, 0, 400, 300, {0.5, 0.5}}, 0.0);
         // Each page below one that is kept is kept itself or hidden.
         std::size_t asked = 1;
         std::set<Key> kept;
@@ -123,7 +123,7 @@ TEST(FramePlan, PlacesPagesAndSortsThemByDistance) {
     const Region& region = alpine_region();
     const Camera camera = looking_north_east();
     for (const double tau_px : {0.0, 1.0, 8.0}) {
-        const FramePlan plan = region.plan(camera, {0, 0, 400, 300, {0.5, 0.5}}, tau_px);
+        const GridPlan plan = region.plan(camera, {0, 0, 400, 300, {0.5, 0.5}}, tau_px);
         ASSERT_GT(plan.pages.size(), 10U);
         EXPECT_EQ(plan.constants.page_count, plan.pages.size());
         double before_m = 0.0;
@@ -150,7 +150,7 @@ TEST(FramePlan, PlacesPagesAndSortsThemByDistance) {
 TEST(FramePlan, PagesFindTheirPostsInTheTables) {
     const Region& region = alpine_region();
     const Camera camera = looking_north_east();
-    const FramePlan plan = region.plan(camera, {0, 0, 400, 300, {0.5, 0.5}}, 1.0);
+    const GridPlan plan = region.plan(camera, {0, 0, 400, 300, {0.5, 0.5}}, 1.0);
     const DrawnHeights heights = drawn_heights(region.field, 1.0, 1);
     std::set<int> levels;
     for (std::size_t i = 0; i < plan.pages.size(); ++i) {
@@ -178,7 +178,7 @@ TEST(FramePlan, PagesFindTheirPostsInTheTables) {
 
 TEST(FramePlan, PagesKnowTheirParentsAndWhatLiesBesideThese) {
     const Region& region = alpine_region();
-    const FramePlan plan = region.plan(looking_north_east(), {0, 0, 400, 300, {0.5, 0.5}}, 1.0);
+    const GridPlan plan = region.plan(looking_north_east(), {0, 0, 400, 300, {0.5, 0.5}}, 1.0);
     const auto number_of = [&](const Key& wanted) {
         const auto found = std::find_if(plan.page_indices.begin(), plan.page_indices.end(),
                                         [&](const PageIndex& page) { return key(page) == wanted; });
@@ -214,8 +214,8 @@ TEST(FramePlan, HandsOnTheAddressesOfBlocks) {
         return 0x1'0000'0040U + (static_cast<std::uint64_t>(page.level) << 48U) +
                static_cast<std::uint64_t>(page.row * 16 + page.column) * 0x1000U;
     };
-    const Result<FramePlan> plan =
-        plan_frame(*region.pages, address, looking_north_east(), {0, 0, 400, 300, {}}, 1.0);
+    const Result<GridPlan> plan =
+        plan_grid(*region.pages, address, {looking_north_east(), {0, 0, 400, 300, {}}, 1.0});
     ASSERT_TRUE(plan.ok());
     for (std::size_t i = 0; i < plan->pages.size(); ++i) {
         const std::uint64_t expected = address(plan->page_indices[i]);
@@ -227,9 +227,9 @@ TEST(FramePlan, HandsOnTheAddressesOfBlocks) {
 TEST(FramePlan, WithNothingThereEverythingIsMissing) {
     const Region& region = alpine_region();
     const Tile tile{0, 0, 400, 300, {0.5, 0.5}};
-    const FramePlan all = region.plan(looking_north_east(), tile, 1.0);
-    const Result<FramePlan> plan = plan_frame(
-        *region.pages, [](const PageIndex&) { return 0U; }, looking_north_east(), tile, 1.0);
+    const GridPlan all = region.plan(looking_north_east(), tile, 1.0);
+    const Result<GridPlan> plan =
+        plan_grid(*region.pages, [](const PageIndex&) { return 0U; }, {looking_north_east(), tile, 1.0});
     ASSERT_TRUE(plan.ok());
     EXPECT_TRUE(plan->pages.empty());
     EXPECT_TRUE(plan->row_terms.empty());
@@ -241,7 +241,7 @@ TEST(FramePlan, WithNothingThereEverythingIsMissing) {
     // A region of one post has nothing to want.
     const auto nothing =
         pages_in_memory(test::world_field(1200.0, 0, 0, 1, 1, [](double, double) { return 7.0; }), 1.0, 1);
-    const Result<FramePlan> empty = plan_frame(*nothing, everything, looking_north_east(), tile, 1.0);
+    const Result<GridPlan> empty = plan_grid(*nothing, everything, {looking_north_east(), tile, 1.0});
     ASSERT_TRUE(empty.ok());
     EXPECT_TRUE(empty->pages.empty());
     EXPECT_TRUE(empty->missing.empty());
@@ -271,8 +271,8 @@ class EndlessPages : public RegionPages {
 TEST(FramePlan, SaysWhatCannotBeRead) {
     const PostGrid grid{{1200.0, 0.0, 47 * 1200, -1, 400}, {1200.0, 0.0, 0, 1, 500}};
     for (const Key& page : {Key{2, 0, 0}, Key{1, 0, 1}, Key{0, 3, 3}}) {
-        const Result<FramePlan> plan =
-            plan_frame(EndlessPages(grid, page), everything, looking_north_east(), {}, 1.0);
+        const Result<GridPlan> plan =
+            plan_grid(EndlessPages(grid, page), everything, {looking_north_east(), {}, 1.0});
         ASSERT_FALSE(plan.ok());
         EXPECT_EQ(plan.error().line(), "terrain.oro: page 7 is cut off");
     }
@@ -283,12 +283,12 @@ TEST(FramePlan, HasAsManyPagesAsTriangleIdsCanNumber) {
     const auto planned = [](int pages) {
         const PostGrid grid{{1200.0, 0.0, 60 * 1200, -1, pages * 128 + 1},
                             {1200.0, 0.0, 0, 1, pages * 128 + 1}};
-        return plan_frame(EndlessPages(grid, {-1, 0, 0}), everything, looking_north_east(), {}, 1.0);
+        return plan_grid(EndlessPages(grid, {-1, 0, 0}), everything, {looking_north_east(), {}, 1.0});
     };
-    const Result<FramePlan> most = planned(313);
+    const Result<GridPlan> most = planned(313);
     ASSERT_TRUE(most.ok());
     EXPECT_EQ(most->pages.size(), 130998U);
-    const Result<FramePlan> more = planned(314);
+    const Result<GridPlan> more = planned(314);
     ASSERT_FALSE(more.ok());
     EXPECT_EQ(more.error().kind, ErrorKind::failed);
     EXPECT_NE(more.error().what.find("131625 pages"), std::string::npos) << more.error().what;

@@ -27,7 +27,7 @@ T* at_address(uvec2 address) {
 // address of their nodes.
 class SimulatedFrame {
   public:
-    explicit SimulatedFrame(const FramePlan& plan);
+    explicit SimulatedFrame(const GridPlan& plan);
 
     // A node that is drawn: its page's number in the frame, its own in the page, its edges.
     struct Node {
@@ -88,7 +88,7 @@ class SimulatedFrame {
     FrameCounts counts_{};
 };
 
-inline SimulatedFrame::SimulatedFrame(const FramePlan& plan)
+inline SimulatedFrame::SimulatedFrame(const GridPlan& plan)
     : FRAME(plan.constants),
       pages_(plan.pages),
       accepted_(plan.pages.size() * accepted_words, 0U),
@@ -169,7 +169,7 @@ class PyramidPages : public RegionPages {
 };
 
 // What the GPU draws, its nodes numbered over their levels.
-inline std::vector<DrawnNode> drawn_nodes(const FramePlan& plan) {
+inline std::vector<DrawnNode> drawn_nodes(const GridPlan& plan) {
     constexpr int side = static_cast<int>(gpu::meshlets_per_side);
     std::vector<DrawnNode> nodes;
     for (const gpu::SimulatedFrame::Node& node : gpu::SimulatedFrame(plan).choose()) {

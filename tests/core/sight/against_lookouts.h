@@ -68,7 +68,7 @@ inline Geodetic eye_over(const TrueSurface& surface, double lat_deg, double lon_
 inline void expect_lookouts(const char* name, const TrueSurface& surface, const ViewshedRequest& request,
                             std::size_t least_posts, double most_off_m = 0.1) {
     const auto begin = Clock::now();
-    const Viewshed shed = viewshed(surface, request);
+    const Viewshed shed = viewshed(surface, 0, request);
     const double took_s = seconds_since(begin);
     const Tally tally = held_against_lookout(surface, request, shed, 31);
     const double lookout_s = seconds_since(begin) - took_s;

@@ -86,7 +86,7 @@ TEST(Viewshed, HasNoAnswerForVoidsAndLooksOverThem) {
     const ViewshedRequest request{
         eye_over(surface, 46.6 - 150.5 / 1200.0, 8.3 + 150.4 / 1200.0, 1200.0), {0.13}, 2.0, 9e3, 2};
     expect_lookouts("voids", surface, request, 20000);
-    const Viewshed shed = viewshed(surface, request);
+    const Viewshed shed = viewshed(surface, 0, request);
     for (int row = 100; row < 200; ++row) {
         for (int column = 100; column < 200; ++column) {
             if (!is_void(field.H_at_post_m(row, column))) continue;
@@ -99,9 +99,9 @@ TEST(Viewshed, IsTheSameForAnyNumberOfThreads) {
     const HeightField field = test::made_field(46.6, 8.3, 1200.0, 200, 200, hills_H_m);
     const TrueSurface surface(field, 1.0, 1);
     ViewshedRequest request{eye_over(surface, 46.52, 8.38, 5.0), standard_air, 1.0, 6e3, 1};
-    const Viewshed one = viewshed(surface, request);
+    const Viewshed one = viewshed(surface, 0, request);
     request.threads = 5;
-    EXPECT_EQ(one.missed_by_m, viewshed(surface, request).missed_by_m);
+    EXPECT_EQ(one.missed_by_m, viewshed(surface, 0, request).missed_by_m);
 }
 
 TEST(Viewshed, WindowsHoldTheCircle) {

@@ -9,6 +9,7 @@
 #include "geo/datum/vertical_datum.h"
 #include "tests/geo/datum/proj_folder.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -62,14 +63,14 @@ class DamagedGeoid : public testing::Test {
         const ProjFolder only(folder_.string());
         for (const bool strict : {false, true}) {
             request_.strict_datum = strict;
-            const auto region = open_region(request_);
+            const auto region = test::open_grid(request_);
             ASSERT_FALSE(region.ok())
                 << what << ": N = " << region->field.undulation.at_m(46.5, 8.0) << ", " << region->geoid;
             EXPECT_EQ(region.error().kind, ErrorKind::failed);
             EXPECT_NE(region.error().line().find(grid_.string()), std::string::npos) << region.error().line();
             EXPECT_NE(region.error().line().find("damaged"), std::string::npos) << region.error().line();
         }
-        std::printf("%s: %s\n", what, open_region(request_).error().line().c_str());
+        std::printf("%s: %s\n", what, test::open_grid(request_).error().line().c_str());
         const std::string damage = grid_state("EPSG:4326+5773").damage;
         EXPECT_NE(damage.find(grid_.string()), std::string::npos) << what << ": " << damage;
     }
@@ -140,7 +141,7 @@ TEST_F(DamagedGeoid, ProjsDatabaseThatIsThereAndCannotBeReadIsAnError) {
     for (const std::string& content : {std::string(), std::string("not a database")}) {
         write_text(folder_ / "proj.db", content);
         const ProjFolder only(folder_.string());
-        const auto region = open_region(request_);
+        const auto region = test::open_grid(request_);
         ASSERT_FALSE(region.ok()) << content;
         EXPECT_NE(region.error().line().find("proj.db"), std::string::npos) << region.error().line();
     }
@@ -202,7 +203,7 @@ TEST_F(DamagedGeoid, GridsOfOtherDatumsAreHeldToTheSame) {
         write_text(other, whole.substr(0, bytes));
         for (const bool strict : {false, true}) {
             request_.strict_datum = strict;
-            const auto refused = open_region(request_);
+            const auto refused = test::open_grid(request_);
             ASSERT_FALSE(refused.ok()) << bytes << ": H " << refused->field.H_at_m(46.5, 8.5);
             EXPECT_NE(refused.error().line().find(other.string()), std::string::npos)
                 << refused.error().line();

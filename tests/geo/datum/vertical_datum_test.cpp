@@ -11,6 +11,7 @@
 #include "geo/sources/source_words.h"
 #include "tests/geo/datum/proj_folder.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -51,7 +52,7 @@ std::string write_flat(const fs::path& folder, const std::string& crs, double he
     return write_raster(folder / "flat.tif", raster, [=](int, int) { return height; });
 }
 
-double H_at_centre(const Region& region) {
+double H_at_centre(const RegionGrid& region) {
     return static_cast<double>(region.field.H_at_m(46.5, 8.0));
 }
 
@@ -232,7 +233,7 @@ TEST(VerticalDatum, AGridThatProjLacksIsNamedAndStrictRefuses) {
             EXPECT_NE(note.find(said), std::string::npos) << note;
         EXPECT_NE(datum_words(region->sources[0].vertical_datum).find(c.datum), std::string::npos);
         request.strict_datum = true;
-        const auto strict = open_region(request);
+        const auto strict = test::open_grid(request);
         ASSERT_FALSE(strict.ok()) << c.crs;
         EXPECT_NE(strict.error().line().find("flat.tif"), std::string::npos) << strict.error().line();
         EXPECT_NE(strict.error().line().find(c.grid), std::string::npos) << strict.error().line();
@@ -253,7 +254,7 @@ TEST(VerticalDatum, WithoutEgm96NothingIsHidden) {
     ASSERT_EQ(region->notes.size(), 1U);
     EXPECT_NE(region->notes[0].find("egm96_15"), std::string::npos) << region->notes[0];
     request.strict_datum = true;
-    const auto strict = open_region(request);
+    const auto strict = test::open_grid(request);
     ASSERT_FALSE(strict.ok());
     EXPECT_NE(strict.error().line().find("egm96_15"), std::string::npos) << strict.error().line();
 }

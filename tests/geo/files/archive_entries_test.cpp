@@ -9,6 +9,7 @@
 #include <cstdio>
 
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -68,7 +69,7 @@ class DamagedArchive : public testing::Test {
         for (const std::string& content : damaged) {
             put(archive, content);
             for (const std::string& path : {archive.string(), folder.string()}) {
-                const auto region = open_region(request_for({path}));
+                const auto region = test::open_grid(request_for({path}));
                 ASSERT_FALSE(region.ok()) << name << " of " << content.size() << " bytes in " << path;
                 EXPECT_EQ(region.error().kind, ErrorKind::failed);
                 EXPECT_NE(region.error().line().find(name), std::string::npos) << region.error().line();
@@ -155,7 +156,7 @@ TEST_F(DamagedArchive, NamesOfEntriesAreThoseThatGdalOpens) {
 // However few files may be open: two tiles, or an error that says so.
 TEST_F(DamagedArchive, TooManyOpenFiles) {
     write_bytes("/vsizip/" + (folder / "b.zip").string() + "/N46E008.hgt", tile);
-    ASSERT_TRUE(open_region(request_for({folder.string()})).ok());
+    ASSERT_TRUE(test::open_grid(request_for({folder.string()})).ok());
     rlimit before{};
     getrlimit(RLIMIT_NOFILE, &before);
     const int first_free = open("/dev/null", O_RDONLY);
@@ -165,7 +166,7 @@ TEST_F(DamagedArchive, TooManyOpenFiles) {
         rlimit few = before;
         few.rlim_cur = static_cast<rlim_t>(first_free + more);
         setrlimit(RLIMIT_NOFILE, &few);
-        const auto region = open_region(request_for({folder.string()}));
+        const auto region = test::open_grid(request_for({folder.string()}));
         setrlimit(RLIMIT_NOFILE, &before);
         if (region.ok()) {
             EXPECT_EQ(region->sources.size(), 2U) << more;

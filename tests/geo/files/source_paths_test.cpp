@@ -7,6 +7,7 @@
 
 #include "tests/geo/vectors/written_zip.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -16,7 +17,7 @@ using namespace test;
 namespace fs = std::filesystem;
 
 void expect_error(const std::string& path, ErrorKind kind, const std::string& says) {
-    const auto region = open_region(request_for({path}));
+    const auto region = test::open_grid(request_for({path}));
     ASSERT_FALSE(region.ok()) << path;
     EXPECT_EQ(region.error().kind, kind) << region.error().line();
     EXPECT_NE(region.error().line().find(path), std::string::npos) << region.error().line();
@@ -30,8 +31,8 @@ TEST(SourcePaths, NothingThere) {
     expect_error("/vsicurl/http://localhost/N46E008.hgt", ErrorKind::failed, "no such file");
     fs::create_symlink(folder / "gone.hgt", folder / "N46E008.hgt");
     expect_error((folder / "N46E008.hgt").string(), ErrorKind::failed, "symbolic link to nothing");
-    EXPECT_FALSE(open_region(request_for({folder.string()})).ok());
-    EXPECT_FALSE(open_region(request_for({})).ok());
+    EXPECT_FALSE(test::open_grid(request_for({folder.string()})).ok());
+    EXPECT_FALSE(test::open_grid(request_for({})).ok());
 }
 
 TEST(SourcePaths, FoldersWithoutData) {
@@ -65,10 +66,10 @@ TEST(SourcePaths, EntriesThatCannotBeUnpackedHaveALine) {
                  "is packed by Deflate64, and only Deflate is read: unpack it, and name the file");
     expect_error(zip("rare.zip", 0, 77), ErrorKind::failed,
                  "is packed by method 77, and only Deflate is read");
-    EXPECT_TRUE(open_region(request_for({zip("whole.zip", 0, 0)})).ok());
+    EXPECT_TRUE(test::open_grid(request_for({zip("whole.zip", 0, 0)})).ok());
     // Bytes that are no Deflate.
     expect_error(zip("broken.zip", 0, 8), ErrorKind::failed, "broken.zip/N46E008.hgt: ");
-    const auto broken = open_region(request_for({zip("broken.zip", 0, 8)}));
+    const auto broken = test::open_grid(request_for({zip("broken.zip", 0, 8)}));
     EXPECT_EQ(broken.error().line().find(".cpp"), std::string::npos) << broken.error().line();
 }
 
@@ -77,7 +78,7 @@ TEST(SourcePaths, TextFileCalledTif) {
     std::ofstream(folder / "dem.tif") << "This is no raster.\n";
     expect_error((folder / "dem.tif").string(), ErrorKind::failed, "no raster");
     // In a folder, too: it may be what a server sent instead of a tile.
-    const auto region = open_region(request_for({folder.string()}));
+    const auto region = test::open_grid(request_for({folder.string()}));
     ASSERT_FALSE(region.ok());
     EXPECT_EQ(region.error().kind, ErrorKind::failed);
     EXPECT_NE(region.error().line().find("dem.tif"), std::string::npos) << region.error().line();
@@ -105,7 +106,7 @@ TEST(SourcePaths, ArchiveThatIsNone) {
     std::ofstream(folder / "tiles.zip") << "This is no archive, whatever its name says.\n";
     expect_error((folder / "tiles.zip").string(), ErrorKind::failed, "archive");
     std::ofstream(folder / "N46E008.hgt.gz") << "This is not packed, whatever its name says.\n";
-    EXPECT_FALSE(open_region(request_for({(folder / "N46E008.hgt.gz").string()})).ok());
+    EXPECT_FALSE(test::open_grid(request_for({(folder / "N46E008.hgt.gz").string()})).ok());
 }
 
 TEST(SourcePaths, LibrariesStayOffStandardError) {
@@ -119,7 +120,7 @@ TEST(SourcePaths, LibrariesStayOffStandardError) {
     testing::internal::CaptureStderr();
     testing::internal::CaptureStdout();
     for (const char* name : {"dem.tif", "tiles.zip", "N46E008.hgt.gz", "dem.vrt", "dem.asc", ""})
-        EXPECT_FALSE(open_region(request_for({(folder / name).string()})).ok()) << name;
+        EXPECT_FALSE(test::open_grid(request_for({(folder / name).string()})).ok()) << name;
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
 }

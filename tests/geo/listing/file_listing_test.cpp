@@ -14,6 +14,7 @@
 #include "core/base/elapsed.h"
 #include "geo/sources/hgt_source.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -134,7 +135,7 @@ TEST_F(Listing, SaysWhatOpeningSays) {
     write_files(3);
     EXPECT_FALSE(listed(request()).error);
     std::ofstream(data / "broken.tif") << "no raster at all";
-    const auto region = open_region(request());
+    const auto region = test::open_grid(request());
     ASSERT_FALSE(region.ok());
     EXPECT_EQ(listed(request()).error->line(), region.error().line());
 }

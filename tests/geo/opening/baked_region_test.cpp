@@ -10,6 +10,7 @@
 #include "core/baked/bake.h"
 #include "geo/region/region_description.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -19,7 +20,7 @@ using namespace test;
 namespace fs = std::filesystem;
 
 // Bakes what the paths hold; gives the file.
-std::string baked(const Region& region, const fs::path& file) {
+std::string baked(const RegionGrid& region, const fs::path& file) {
     BakeOptions how;
     how.path = file.string();
     how.description = region_description(region);
@@ -39,7 +40,7 @@ std::vector<std::string> three_tiles(const fs::path& folder) {
             write_hgt(folder / "N10E023.hgt", 1201, hills)};
 }
 
-void expect_same_surface(const Region& is, const Region& was) {
+void expect_same_surface(const RegionGrid& is, const RegionGrid& was) {
     const PostGrid &a = is.field.grid, &b = was.field.grid;
     ASSERT_EQ(a.rows(), b.rows());
     ASSERT_EQ(a.columns(), b.columns());
@@ -234,13 +235,13 @@ TEST(BakedRegion, OfPostsInTheirOwnCrsIsThatOfItsSource) {
     }
     RegionRequest resampled = request_for({(folder / "own.oro").string()});
     resampled.resample = true;
-    const auto refused = open_region(resampled);
+    const auto refused = test::open_grid(resampled);
     ASSERT_FALSE(refused.ok());
     EXPECT_EQ(refused.error().kind, ErrorKind::usage);
     // One whose description does not tell it.
-    Region without = *source;
+    RegionGrid without = *source;
     without.posts_crs.reset();
-    const auto damaged = open_region(request_for({baked(without, folder / "without.oro")}));
+    const auto damaged = test::open_grid(request_for({baked(without, folder / "without.oro")}));
     ASSERT_FALSE(damaged.ok());
     EXPECT_NE(damaged.error().what.find("does not tell the CRS"), std::string::npos);
 }
@@ -254,7 +255,7 @@ class BakedRegionErrors : public testing::Test {
         file_ = baked(*tiles, folder_ / "region.oro");
     }
     Error error_of(const RegionRequest& request) const {
-        const auto region = open_region(request);
+        const auto region = test::open_grid(request);
         EXPECT_FALSE(region.ok());
         return region.ok() ? Error{} : region.error();
     }
@@ -307,7 +308,7 @@ TEST_F(BakedRegionErrors, DescriptionsThatDoNotFit) {
     ASSERT_TRUE(bake_region(tiles->field, how).ok());
     EXPECT_NE(error_of(request_for({how.path})).line().find("its description cannot be read"),
               std::string::npos);
-    Region told = *tiles;
+    RegionGrid told = *tiles;
     ASSERT_GT(told.voids, 0U);
     told.voids = 0;
     how.path = (folder_ / "another.oro").string();

@@ -11,6 +11,7 @@
 #include "geo/sources/source_words.h"
 #include "tests/geo/datum/proj_folder.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -50,7 +51,7 @@ HeightRange range_of_folder(const fs::path& folder, std::vector<std::string>& no
 }
 
 std::string refusal_of(const std::vector<std::string>& paths) {
-    const auto region = open_region(request_for(paths));
+    const auto region = test::open_grid(request_for(paths));
     return region.ok() ? "" : region.error().line();
 }
 
@@ -285,10 +286,10 @@ TEST(Companions, ContradictionsAreNotesOfTheRegion) {
         write_raster(other / "q.tif", finer, some);
         RegionRequest request = request_for({other.string()});
         request.grids_apart = true;
-        region = opened(request);
-        ASSERT_TRUE(region);
-        EXPECT_EQ(region->beside.size(), metres ? 1U : 0U);
-        EXPECT_EQ(notes_with(region->notes, "contradict each other by more than 16 m"), 1U) << metres;
+        const auto grids = open_region(request);
+        ASSERT_TRUE(grids.ok()) << grids.error().line();
+        EXPECT_EQ(grids->grids.size(), metres ? 2U : 1U);
+        EXPECT_EQ(notes_with(grids->grids[0].notes, "contradict each other by more than 16 m"), 1U) << metres;
     }
 }
 
@@ -344,7 +345,7 @@ TEST(ProductHeights, ThatLackTheirGridSaySo) {
     EXPECT_EQ(datum_words(region->sources[0].vertical_datum),
               "EPSG:3855 EGM2008 height, of Copernicus DEM (by its name); EGM96 stands in");
     request.strict_datum = true;
-    EXPECT_NE(open_region(request).ok(), true);
+    EXPECT_NE(test::open_grid(request).ok(), true);
 }
 
 }  // namespace

@@ -1,4 +1,3 @@
-#include "geo/opening/open_region.h"
 #include "geo/sources/source_words.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -124,17 +124,17 @@ TEST(Region, NoDataInTheBox) {
     write_hgt(folder / "N10E020.hgt", 1201, [](int, int) { return 100; });
     RegionRequest request = request_for({folder.string()});
     request.box = BoundingBox{30, 10, 31, 11};
-    auto region = open_region(request);
+    auto region = test::open_grid(request);
     ASSERT_FALSE(region.ok());
     EXPECT_EQ(region.error().kind, ErrorKind::no_data);
     EXPECT_NE(region.error().line().find("30,10,31,11"), std::string::npos) << region.error().line();
     // Touching along a line is no data either.
     request.box = BoundingBox{21, 10, 22, 11};
-    EXPECT_FALSE(open_region(request).ok());
+    EXPECT_FALSE(test::open_grid(request).ok());
     // All void.
     write_hgt(folder / "N10E030.hgt", 1201, [](int, int) { return -32768; });
     request.box = BoundingBox{30, 10, 31, 11};
-    region = open_region(request);
+    region = test::open_grid(request);
     ASSERT_FALSE(region.ok());
     EXPECT_EQ(region.error().kind, ErrorKind::no_data);
 }
@@ -315,7 +315,7 @@ TEST(Region, RealWorldAndTooLargeRegions) {
     EXPECT_EQ(world->voids, 0U);
     // With 1-arc-second tiles beside it the world is too large: refused before anything is read, with the way
     // out.
-    const auto all = open_region(request_for({folder->string()}));
+    const auto all = test::open_grid(request_for({folder->string()}));
     ASSERT_FALSE(all.ok());
     EXPECT_NE(all.error().line().find("--bbox"), std::string::npos) << all.error().line();
     EXPECT_NE(all.error().line().find("posts"), std::string::npos);
@@ -342,7 +342,7 @@ TEST(Region, AClaimBeyondTheFileIsToldBeforeMemoryIsTaken) {
                                        "UNIT[\"degree\",0.0174532925199433]]";
     RegionRequest request;
     request.paths = {(folder / "r.bt").string()};
-    const Result<Region> region = open_region(request);
+    const Result<RegionGrid> region = test::open_grid(request);
     ASSERT_FALSE(region.ok());
     EXPECT_NE(region.error().line().find("near row 15859771"), std::string::npos) << region.error().line();
 }

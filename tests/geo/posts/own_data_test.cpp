@@ -9,8 +9,8 @@
 
 #include "core/terrain/ground.h"
 #include "geo/files/raster_library.h"
-#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro::test {
@@ -47,9 +47,9 @@ TEST_P(OwnDataOf, KeepsItsHeightsAndItsRange) {
     const std::string file = *folder / GetParam();
     RegionRequest request;
     request.paths = {file};
-    const auto region = open_region(request);
+    const auto region = test::open_grid(request);
     request.resample = true;
-    const auto resampled = open_region(request);
+    const auto resampled = test::open_grid(request);
     ASSERT_TRUE(region.ok() && resampled.ok()) << region.error().line();
     const HeightField& field = region->field;
     ASSERT_TRUE(field.grid.net);
@@ -99,11 +99,11 @@ TEST(OwnData, OfAContinentIsKept) {
     if (!file) GTEST_SKIP() << "needs geotiff";
     RegionRequest request;
     request.paths = {file->string()};
-    const auto whole = open_region(request);
+    const auto whole = test::open_grid(request);
     ASSERT_TRUE(whole.ok()) << whole.error().line();
     ASSERT_TRUE(whole->field.grid.net);
     request.box = BoundingBox{-180.0, -90.0, 180.0, -84.0};
-    const auto part = open_region(request);
+    const auto part = test::open_grid(request);
     ASSERT_TRUE(part.ok()) << part.error().line();
     ASSERT_TRUE(part->field.grid.net);
     EXPECT_LT(part->field.H_m.size(), whole->field.H_m.size() / 4);

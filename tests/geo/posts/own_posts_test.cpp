@@ -16,6 +16,7 @@
 #include "geo/region/region.h"
 #include "tests/geo/datum/proj_folder.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro::test {
@@ -109,7 +110,7 @@ TEST_P(OwnPostsOf, LieWhereProjAndGeographicLibPutThem) {
     RegionRequest request;
     request.paths = {written(folder / "own.tif", of)};
     const auto started = std::chrono::steady_clock::now();
-    const auto region = open_region(request);
+    const auto region = test::open_grid(request);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - started;
     ASSERT_TRUE(region.ok()) << region.error().line();
     const HeightField& field = region->field;
@@ -172,13 +173,13 @@ TEST(OwnPosts, OfABoxAreThoseOfTheWhole) {
     const Case& of = cases[0];
     RegionRequest request;
     request.paths = {written(folder / "own.tif", of)};
-    const auto whole = open_region(request);
+    const auto whole = test::open_grid(request);
     ASSERT_TRUE(whole.ok()) << whole.error().line();
     const auto& net = *whole->field.grid.net;
     const PostPlace middle = net.place_at(450, 550);
     request.box = BoundingBox{middle.lon_deg - 0.02, middle.lat_deg - 0.01, middle.lon_deg + 0.02,
                               middle.lat_deg + 0.01};
-    const auto part = open_region(request);
+    const auto part = test::open_grid(request);
     ASSERT_TRUE(part.ok()) << part.error().line();
     const PostGrid& grid = part->field.grid;
     EXPECT_LT(grid.rows(), 120);
@@ -197,7 +198,7 @@ TEST(OwnPosts, OfABoxAreThoseOfTheWhole) {
         }
     }
     request.box = BoundingBox{10.0, 50.0, 11.0, 51.0};
-    const auto elsewhere = open_region(request);
+    const auto elsewhere = test::open_grid(request);
     ASSERT_FALSE(elsewhere.ok());
     EXPECT_EQ(elsewhere.error().kind, ErrorKind::no_data);
 }
@@ -208,7 +209,7 @@ TEST(OwnPosts, OfTilesAreThoseOfOneFile) {
         const auto folder = scratch_folder();
         RegionRequest request;
         request.paths = {written(folder / "whole.tif", of)};
-        const auto whole = open_region(request);
+        const auto whole = test::open_grid(request);
         ASSERT_TRUE(whole.ok()) << whole.error().line();
         // 2 x 2 tiles that share a row and a column of posts; then without the last.
         const int half_row = of.rows / 2, half_column = of.columns / 2;
@@ -229,14 +230,14 @@ TEST(OwnPosts, OfTilesAreThoseOfOneFile) {
                                          [&](int r, int c) { return made_H_m(row + r, column + c); }));
         }
         request.paths = tiles;
-        const auto joined = open_region(request);
+        const auto joined = test::open_grid(request);
         ASSERT_TRUE(joined.ok()) << joined.error().line();
         EXPECT_EQ(joined->posts_print, whole->posts_print);
         EXPECT_EQ(joined->seams.shared_posts, static_cast<std::uint64_t>(of.rows + of.columns - 1));
         EXPECT_EQ(joined->seams.disagreeing_posts, 0U);
         EXPECT_EQ(joined->voids, 0U);
         request.paths.pop_back();
-        const auto three = open_region(request);
+        const auto three = test::open_grid(request);
         ASSERT_TRUE(three.ok()) << three.error().line();
         const auto missing = static_cast<std::uint64_t>(of.rows - half_row - 1) *
                              static_cast<std::uint64_t>(of.columns - half_column - 1);
@@ -258,7 +259,7 @@ TEST(OwnPosts, OfSeveralLatticesAreResampled) {
     for (const Case& other : {half, turned, elsewhere}) {
         RegionRequest request;
         request.paths = {one, written(folder / "other.tif", other)};
-        const auto region = open_region(request);
+        const auto region = test::open_grid(request);
         const bool near_each_other = std::string(other.crs) == of.crs;
         ASSERT_EQ(region.ok(), near_each_other) << "far apart they need too many posts";
         if (!near_each_other) continue;
@@ -271,7 +272,7 @@ TEST(OwnPosts, OfSeveralLatticesAreResampled) {
             << region->notes.front();
         EXPECT_NE(region->notes.front().find("other.tif and"), std::string::npos) << region->notes.front();
         request.resample = true;
-        const auto asked = open_region(request);
+        const auto asked = test::open_grid(request);
         ASSERT_TRUE(asked.ok());
         EXPECT_EQ(asked->posts_print, region->posts_print);
         EXPECT_EQ(asked->notes.size() + 1, region->notes.size()) << "what is asked for needs no note";
@@ -286,7 +287,7 @@ TEST(OwnPosts, OfTwoOperationsLieByOne) {
     if (!file) GTEST_SKIP() << "needs geotiff/alpinemaps_at_mgi.tif";
     RegionRequest request;
     request.paths = {file->string()};
-    const auto region = open_region(request);
+    const auto region = test::open_grid(request);
     ASSERT_TRUE(region.ok()) << region.error().line();
     const PostGrid& grid = region->field.grid;
     ASSERT_TRUE(grid.net);
@@ -317,9 +318,9 @@ TEST(OwnPosts, OfDegreesAreAsEver) {
     const Case degrees{"", "EPSG:4326", {8.0, 0.01, 0.0, 47.0, 0.0, -0.01}, 30, 40};
     RegionRequest request;
     request.paths = {written(folder / "degrees.tif", degrees)};
-    const auto usual = open_region(request);
+    const auto usual = test::open_grid(request);
     request.resample = true;
-    const auto asked = open_region(request);
+    const auto asked = test::open_grid(request);
     ASSERT_TRUE(usual.ok() && asked.ok());
     EXPECT_FALSE(asked->field.grid.net);
     EXPECT_EQ(asked->posts_print, usual->posts_print);

@@ -117,7 +117,7 @@ void expect_as_by_brute_force(const Resampling& said, const Expected& expected, 
     }
 }
 
-const Resampling& only_one(const Region& region) {
+const Resampling& only_one(const RegionGrid& region) {
     EXPECT_EQ(region.sources.size(), 1U);
     EXPECT_TRUE(region.sources[0].resampling);
     return *region.sources[0].resampling;

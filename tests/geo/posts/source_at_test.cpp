@@ -21,13 +21,13 @@ SourceReport source(const std::string& path, double per_deg, const BoundingBox& 
     return report;
 }
 
-std::string name_at(const Region& region, double lat_deg, double lon_deg) {
+std::string name_at(const RegionGrid& region, double lat_deg, double lon_deg) {
     const SourceReport* const found = source_at(region, lat_deg, lon_deg);
     return found ? found->path : "none";
 }
 
 TEST(SourceAt, TheFinerWinsWhereTwoOverlap) {
-    Region region;
+    RegionGrid region;
     region.sources = {source("a/coarse.tif", 120, {8, 46, 10, 48}),
                       source("z/fine.tif", 3600, {8.5, 46.5, 9, 47})};
     EXPECT_EQ(name_at(region, 46.7, 8.7), "z/fine.tif");
@@ -40,7 +40,7 @@ TEST(SourceAt, TheFinerWinsWhereTwoOverlap) {
 }
 
 TEST(SourceAt, AmongEqualsTheFirstFileNameWhateverItsFolder) {
-    Region region;
+    RegionGrid region;
     region.sources = {source("a/N46E008.hgt", 1200, {8, 46, 9, 47}),
                       source("b/N46E007.hgt", 1200, {7, 46, 8, 47})};
     EXPECT_EQ(name_at(region, 46.5, 8.0), "b/N46E007.hgt") << "the meridian that both have";
@@ -51,7 +51,7 @@ TEST(SourceAt, AmongEqualsTheFirstFileNameWhateverItsFolder) {
 // Two files of a turned lattice, side by side: each one's box holds a corner of the other.
 TEST(SourceAt, OnANetByTheFilesOwnPosts) {
     const test::PlaneOfPosts plane{101, 201, {46.5, 8.5}, 30.0, 30.0};
-    Region region;
+    RegionGrid region;
     region.field.grid = grid_on_net(test::net_of(plane));
     const BoundingBox all{8.0, 46.0, 9.0, 47.0};
     region.sources = {source("a.tif", 3600, all), source("b.tif", 3600, all)};
@@ -72,14 +72,14 @@ TEST(SourceAt, OnANetByTheFilesOwnPosts) {
 TEST(SourceAt, OverTheAntimeridianInEveryTurn) {
     // Boxes as sources write them: west > east, or east beyond 180; and one round the Earth.
     for (const BoundingBox& box : {BoundingBox{177, -20, -178, -15}, BoundingBox{177, -20, 182, -15}}) {
-        Region region;
+        RegionGrid region;
         region.sources = {source("fiji.tif", 60, box)};
         for (const double lon_deg : {177.0, 179.5, 180.0, -180.0, -179.0, 181.0, -178.0, 182.0, -183.0})
             EXPECT_EQ(name_at(region, -17.0, lon_deg), "fiji.tif") << lon_deg;
         for (const double lon_deg : {176.9, -177.9, 0.0, 182.1, -183.1})
             EXPECT_EQ(name_at(region, -17.0, lon_deg), "none") << lon_deg;
     }
-    Region world;
+    RegionGrid world;
     world.sources = {source("world.tif", 1, {-180, -90, 180, 90})};
     for (const double lon_deg : {-180.0, -0.0, 180.0, 359.9})
         EXPECT_EQ(name_at(world, 90.0, lon_deg), "world.tif") << lon_deg;
@@ -87,7 +87,7 @@ TEST(SourceAt, OverTheAntimeridianInEveryTurn) {
 
 // Two rasters of cell centres side by side: between their last posts there is a cell that neither box holds.
 TEST(SourceAt, BetweenTwoBoxesTheNearerOne) {
-    Region region;
+    RegionGrid region;
     region.sources = {source("west.tif", 10, {8.05, 46.05, 8.95, 46.95}),
                       source("east.tif", 10, {9.05, 46.05, 9.95, 46.95})};
     EXPECT_EQ(name_at(region, 46.5, 8.97), "west.tif");

@@ -11,6 +11,7 @@
 #include "core/surface/grid_surface.h"
 #include "core/terrain/drawn_heights.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -23,7 +24,7 @@ void expect_back(const std::filesystem::path& source, double most_bits,
                  const std::optional<BoundingBox>& box = std::nullopt) {
     RegionRequest request = request_for({source.string()});
     request.box = box;
-    const auto region = open_region(request);
+    const auto region = test::open_grid(request);
     ASSERT_TRUE(region.ok()) << region.error().line();
     const HeightField& field = region->field;
     const DrawnHeights heights = drawn_heights(field, 1.0, 2);

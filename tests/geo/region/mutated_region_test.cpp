@@ -17,6 +17,7 @@
 #include "geo/region/region_description.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/mutated_bytes.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -36,12 +37,12 @@ std::uint64_t sum_of(const std::vector<Number>& numbers) {
     return xxh64(std::as_bytes(std::span(numbers)));
 }
 
-Result<Region> whole_region(const std::string& path) {
-    return open_region(request_for({path}));
+Result<RegionGrid> whole_region(const std::string& path) {
+    return test::open_grid(request_for({path}));
 }
 
 Result<std::uint64_t> drawn_pages(const std::string& path) {
-    ORO_TRY(const Region region, whole_region(path));
+    ORO_TRY(const RegionGrid region, whole_region(path));
     const auto pages = pages_of_file(region.file);
     std::uint64_t sum = 0;
     const PageOrder& order = region.file->order();
@@ -57,7 +58,7 @@ Result<std::uint64_t> drawn_pages(const std::string& path) {
 
 // One page at a time, as a sight line or the eye asks.
 Result<std::uint64_t> posts_when_asked(const std::string& path) {
-    ORO_TRY(const Region region, whole_region(path));
+    ORO_TRY(const RegionGrid region, whole_region(path));
     std::vector<float> posts;
     for (int row = 0; row < region.field.grid.rows(); row += 29) {
         for (int column = 0; column < region.field.grid.columns(); column += 31)
@@ -68,7 +69,7 @@ Result<std::uint64_t> posts_when_asked(const std::string& path) {
 }
 
 Result<std::uint64_t> ground(const std::string& path) {
-    ORO_TRY(const Region region, whole_region(path));
+    ORO_TRY(const RegionGrid region, whole_region(path));
     const PostGrid& grid = region.field.grid;
     std::vector<double> heights;
     for (const double share : {0.1, 0.5, 0.77})
@@ -81,7 +82,7 @@ Result<std::uint64_t> ground(const std::string& path) {
 }
 
 Result<std::uint64_t> all_posts(const std::string& path) {
-    ORO_TRY(const Region region, whole_region(path));
+    ORO_TRY(const RegionGrid region, whole_region(path));
     ORO_TRY(const HeightField field, field_in_memory(*region.file));
     return sum_of(field.H_m) ^ sum_of(field.undulation.N_m);
 }
@@ -89,12 +90,12 @@ Result<std::uint64_t> all_posts(const std::string& path) {
 Result<std::uint64_t> a_part(const std::string& path) {
     RegionRequest request = request_for({path});
     request.box = BoundingBox{-84.30, 36.51, -84.22, 36.58};
-    ORO_TRY(const Region region, open_region(request));
+    ORO_TRY(const RegionGrid region, test::open_grid(request));
     return sum_of(region.field.H_m) ^ sum_of(region.field.undulation.N_m);
 }
 
 Result<std::uint64_t> description(const std::string& path) {
-    ORO_TRY(const Region region, whole_region(path));
+    ORO_TRY(const RegionGrid region, whole_region(path));
     const HeightRange range = height_range(region.field);
     const std::string text = region_description(region) + std::to_string(range.lowest_m) + " " +
                              std::to_string(range.highest_m) + " " + std::to_string(region.voids);

@@ -9,8 +9,8 @@
 #include "core/base/parallel.h"
 #include "core/terrain/ground.h"
 #include "core/truth/oracle.h"
-#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -22,7 +22,7 @@ TEST(OracleOverTiles, EveryPixelOfAPictureOverNineTiles) {
     RegionRequest request;
     request.paths = {alps->string()};
     request.box = *parse_tile_range("N46E006:N47E010");
-    const auto region = open_region(request);
+    const auto region = test::open_grid(request);
     ASSERT_TRUE(region.ok()) << region.error().line();
     const HeightField& field = region->field;
     const auto start = std::chrono::steady_clock::now();

@@ -6,8 +6,8 @@
 
 #include "core/packed/packed_heights.h"
 #include "core/terrain/page.h"
-#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -41,7 +41,7 @@ std::optional<Count> count_of(const char* name, double exaggeration = 1.0) {
     if (!data) return std::nullopt;
     RegionRequest request;
     request.paths = {data->string()};
-    const Result<Region> region = open_region(request);
+    const Result<RegionGrid> region = test::open_grid(request);
     EXPECT_TRUE(region.ok()) << region.error().line();
     const HeightField& field = region->field;
     Count count;

@@ -61,8 +61,8 @@ SourceReport unusual_source(const std::string& path) {
     return s;
 }
 
-Region unusual_region() {
-    Region region;
+RegionGrid unusual_region() {
+    RegionGrid region;
     region.sources = {unusual_source("Höhen/N46E008.hgt"), unusual_source("b c.zip/N47E008.hgt")};
     region.seams = {9007199254740993U, 1, 1e-300};
     region.geoid = "EGM96 (egm96_15.gtx)";
@@ -85,7 +85,7 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(RegionDescription, ARegionBakedBeforeHolesWereToldApartIsRead) {
-    Region region;
+    RegionGrid region;
     region.voids = 30;
     region.outside = 10;
     region.in_missing = 5;
@@ -103,7 +103,7 @@ TEST(RegionDescription, ARegionBakedBeforeHolesWereToldApartIsRead) {
 }
 
 TEST(RegionDescription, EveryFieldComesBack) {
-    const Region region = unusual_region();
+    const RegionGrid region = unusual_region();
     const std::string text = region_description(region);
     EXPECT_EQ(text.find('\n'), std::string::npos);
     const auto read = region_from_description(text, "region.oro");
@@ -175,7 +175,7 @@ TEST(RegionDescription, WhatWasMeasuredComesBack) {
 }
 
 TEST(RegionDescription, NamesThatAreNoUtf8AreStillText) {
-    Region region = unusual_region();
+    RegionGrid region = unusual_region();
     region.sources[0].path = "H\xf6hen.tif";
     const auto read = region_from_description(region_description(region), "region.oro");
     ASSERT_TRUE(read.ok()) << read.error().line();
@@ -217,7 +217,7 @@ TEST(RegionDescription, EveryFieldIsNeededAndOfItsKind) {
 
 // Where posts lie in the CRS of their sources: of regions on a net alone.
 TEST(RegionDescription, TheCrsOfPostsComesBackAndIsWhole) {
-    Region region = unusual_region();
+    RegionGrid region = unusual_region();
     EXPECT_EQ(region_description(region).find("posts_crs"), std::string::npos);
     region.posts_crs = PostsCrs{"PROJCRS[\"x\"]", {2600000.25, 25.0, 1e-17, 1200000.0, 0.5, -25.0}};
     const std::string text = region_description(region);

@@ -9,9 +9,9 @@
 #include "core/base/parallel.h"
 #include "core/light/sun_over_terrain.h"
 #include "core/terrain/ground.h"
-#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
 #include "tests/core/light/sun_scan.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace {
@@ -24,7 +24,7 @@ TEST(SunOverAlps, WithinTenSecondsOfBruteForce) {
     const auto box = oro::parse_tile_range("N46E007:N46E008");
     ASSERT_TRUE(box.ok());
     request.box = *box;
-    const auto region = oro::open_region(request);
+    const auto region = test::open_grid(request);
     ASSERT_TRUE(region.ok()) << region.error().line();
     const oro::TrueSurface surface(region->field, 1.0, oro::thread_count());
     const struct {

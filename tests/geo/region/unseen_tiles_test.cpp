@@ -6,8 +6,8 @@
 
 #include "core/base/parallel.h"
 #include "core/unseen/unseen_ground.h"
-#include "geo/opening/open_region.h"
 #include "geo/region/region.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -36,9 +36,9 @@ TEST(UnseenTiles, ATileLeftOutMovesTheSkylineByNoMoreThanTheBound) {
     if (!west || !east) GTEST_SKIP() << "needs alps/N46E009 and N46E010";
     RegionRequest request;
     request.paths = {west->string()};
-    const auto one = open_region(request);
+    const auto one = test::open_grid(request);
     request.paths.push_back(east->string());
-    const auto both = open_region(request);
+    const auto both = test::open_grid(request);
     ASSERT_TRUE(one.ok() && both.ok());
     const TrueSurface surface(one->field, 1.0, thread_count());
     Camera camera;

@@ -282,11 +282,11 @@ void compare(const std::string& file, const std::string& path, double reach_m,
         const Geodetic eye{lat_deg[0], lon_deg[0], *ground_m + observer_above_m};
         ViewshedRequest request{eye, matched_air(eye), target_above_m, reach_m + 2.0 * cell_m, 1};
         const auto one_begin = Clock::now();
-        (void)viewshed(surface, request);
+        (void)viewshed(surface, 0, request);
         const double one_s = seconds_since(one_begin);
         request.threads = 2;
         const auto two_begin = Clock::now();
-        const Viewshed shed = viewshed(surface, request);
+        const Viewshed shed = viewshed(surface, 0, request);
         const double two_s = seconds_since(two_begin);
         const Agreement posts =
             agreement(cells, gdal, seen_by_viewshed(region->field.grid, shed, cells, gdal));

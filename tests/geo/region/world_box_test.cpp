@@ -5,6 +5,7 @@
 
 #include "geo/sources/source_words.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -30,7 +31,7 @@ std::string write_world(const fs::path& file, double west_deg, int columns = 360
 }
 
 // Every post of the region against the pixel that GDAL reads there.
-void expect_pixels(const std::string& file, double west_deg, const Region& region) {
+void expect_pixels(const std::string& file, double west_deg, const RegionGrid& region) {
     const GDALDatasetH dataset = GDALOpen(file.c_str(), GA_ReadOnly);
     ASSERT_TRUE(dataset);
     const PostGrid& grid = region.field.grid;
@@ -176,7 +177,7 @@ TEST(NarrowBox, BetweenTheLastPostsOfTwoRastersIsInsideTheSurface) {
         // One of the two alone ends at its last post, and a box beyond that has no data.
         if (std::abs(width_deg) > 1.0) continue;
         request.paths.pop_back();
-        const auto alone = open_region(request);
+        const auto alone = test::open_grid(request);
         ASSERT_FALSE(alone.ok());
         EXPECT_EQ(alone.error().kind, ErrorKind::no_data);
     }

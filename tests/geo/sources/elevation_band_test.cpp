@@ -5,6 +5,7 @@
 #include <cpl_string.h>
 
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -85,14 +86,14 @@ TEST(ElevationBand, IsTakenBesideMasksAndCodes) {
 
 TEST(ElevationBand, IsNotGuessedAmongSeveral) {
     const fs::path folder = scratch_folder();
-    const auto two = open_region(request_for({write_bands(
+    const auto two = test::open_grid(request_for({write_bands(
         folder / "two.tif", 2, GDT_Float32, [](int b, int r, int c) { return b * height_m(r, c); })}));
     ASSERT_FALSE(two.ok());
     EXPECT_NE(two.error().line().find("has 2 bands, and nothing tells which of them holds heights"),
               std::string::npos)
         << two.error().line();
     EXPECT_NE(two.error().line().find("gdal_translate -b N"), std::string::npos);
-    const auto image = open_region(request_for({write_bands(
+    const auto image = test::open_grid(request_for({write_bands(
         folder / "rgb.tif", 3, GDT_Byte, [](int b, int r, int c) { return (b * r + c) % 256; })}));
     ASSERT_FALSE(image.ok());
     EXPECT_NE(image.error().line().find("has 3 bands: an image"), std::string::npos) << image.error().line();

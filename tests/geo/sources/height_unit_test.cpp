@@ -8,6 +8,7 @@
 
 #include "geo/sources/source_words.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -135,11 +136,11 @@ TEST(HeightUnit, AnUnknownOneNamesTheOption) {
     Raster raster = utm_grid("EPSG:32613");
     raster.unit = "cubit";
     const auto file = write_raster(folder / "cubits.tif", raster, slope_m);
-    const auto refused = open_region(request_for({file}));
+    const auto refused = test::open_grid(request_for({file}));
     ASSERT_FALSE(refused.ok());
     for (const char* words : {"'cubit'", "--height-unit m, ft, us-ft, cm, dm or mm"})
         EXPECT_NE(refused.error().line().find(words), std::string::npos) << refused.error().line();
-    const auto keys = open_region(request_for(
+    const auto keys = test::open_grid(request_for(
         {write_bytes((folder / "keys.tif").string(), tiff_with_vertical_unit(false, true, 9102, 1000))}));
     ASSERT_FALSE(keys.ok());  // 9102 is the degree
     EXPECT_NE(keys.error().line().find("--height-unit"), std::string::npos) << keys.error().line();
@@ -170,7 +171,7 @@ TEST(HeightUnit, ZunitsThatAreNoUnitAreRefused) {
     Raster raster = utm_grid("EPSG:32613");
     const std::string file = write_raster(folder / "grid.tif", raster, slope_m);
     std::ofstream(folder / "grid.prj") << "Projection UTM\nZunits  furlongs\nUnits METERS\n";
-    const auto refused = open_region(request_for({file}));
+    const auto refused = test::open_grid(request_for({file}));
     ASSERT_FALSE(refused.ok());
     EXPECT_NE(
         refused.error().line().find("gives its heights in 'furlongs' (Zunits of its .prj file), which is "
@@ -221,7 +222,7 @@ TEST(HeightUnit, AssumedMetresBesideACrsInFeetAreTold) {
         request.paths.push_back(write_raster(folder / name, raster, slope_m));
         raster.cell_corners[0] += 200.0;
     }
-    const auto about_unit = [](const Region& region) {
+    const auto about_unit = [](const RegionGrid& region) {
         std::vector<std::string> found;
         for (const std::string& note : region.notes)
             if (note.find("--height-unit") != std::string::npos) found.push_back(note);

@@ -6,6 +6,7 @@
 
 #include "geo/sources/source_words.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -139,7 +140,7 @@ TEST(Hgt, WrongSizesAndNamesAreErrorsThatSayWhatWasExpected) {
           BadHgt{"N46E012.SRTMGL1.hgt", 2884802, "1 arc-second"}}) {
         const std::string file =
             write_bytes((folder / bad.name).string(), std::vector<unsigned char>(bad.bytes));
-        const auto region = open_region(request_for({file}));
+        const auto region = test::open_grid(request_for({file}));
         ASSERT_FALSE(region.ok()) << bad.name;
         EXPECT_EQ(region.error().kind, ErrorKind::failed) << bad.name;
         const std::string line = region.error().line();
@@ -147,7 +148,7 @@ TEST(Hgt, WrongSizesAndNamesAreErrorsThatSayWhatWasExpected) {
         EXPECT_NE(line.find(bad.says), std::string::npos) << line;
         EXPECT_EQ(line.find('\n'), std::string::npos) << line;
         // Found in a folder it is the same error: terrain does not silently miss a tile.
-        EXPECT_FALSE(open_region(request_for({folder.string()})).ok());
+        EXPECT_FALSE(test::open_grid(request_for({folder.string()})).ok());
         fs::remove(file);
     }
 }
@@ -165,7 +166,7 @@ TEST(Hgt, DamagedPackingIsAnErrorAndNotZeros) {
         const std::string noise(5000, '\xff');
         stream.write(noise.data(), static_cast<std::streamsize>(noise.size()));
         stream.close();
-        const auto region = open_region(request_for({file.string()}));
+        const auto region = test::open_grid(request_for({file.string()}));
         ASSERT_FALSE(region.ok()) << name;
         EXPECT_NE(region.error().line().find(name), std::string::npos) << region.error().line();
     }
@@ -180,7 +181,7 @@ TEST(Hgt, AChangedByteInAnArchiveIsAnError) {
         const fs::path file = folder / name;
         const bool zip = file.extension() == ".zip";
         write_bytes((zip ? "/vsizip/" : "/vsigzip/") + file.string() + (zip ? "/N46E008.hgt" : ""), bytes);
-        EXPECT_TRUE(open_region(request_for({file.string()})).ok()) << name;
+        EXPECT_TRUE(test::open_grid(request_for({file.string()})).ok()) << name;
         const auto size = static_cast<std::streamoff>(fs::file_size(file));
         for (int part = 2; part < 12; ++part) {
             const fs::path changed = folder / "changed" / name;
@@ -192,7 +193,7 @@ TEST(Hgt, AChangedByteInAnArchiveIsAnError) {
             stream.seekp(size * part / 13);
             stream.put(byte);
             stream.close();
-            const auto region = open_region(request_for({changed.string()}));
+            const auto region = test::open_grid(request_for({changed.string()}));
             ASSERT_FALSE(region.ok()) << name << ", byte " << size * part / 13 << " of " << size;
             EXPECT_NE(region.error().line().find(name), std::string::npos) << region.error().line();
         }
@@ -202,7 +203,7 @@ TEST(Hgt, AChangedByteInAnArchiveIsAnError) {
 TEST(Hgt, PlainTileCalledGzip) {
     const fs::path file = scratch_folder() / "N46E008.hgt.gz";
     write_hgt(file, 1201, ramp);
-    const auto region = open_region(request_for({file.string()}));
+    const auto region = test::open_grid(request_for({file.string()}));
     ASSERT_FALSE(region.ok());
     EXPECT_NE(region.error().line().find("is no gzip file"), std::string::npos) << region.error().line();
 }
@@ -212,12 +213,12 @@ TEST(Hgt, TruncatedArchivesAreErrors) {
     const auto bytes = hgt_bytes(1201, ramp);
     write_bytes("/vsigzip/" + (folder / "N46E008.hgt.gz").string(), bytes);
     fs::resize_file(folder / "N46E008.hgt.gz", fs::file_size(folder / "N46E008.hgt.gz") / 2);
-    EXPECT_FALSE(open_region(request_for({(folder / "N46E008.hgt.gz").string()})).ok());
+    EXPECT_FALSE(test::open_grid(request_for({(folder / "N46E008.hgt.gz").string()})).ok());
     fs::resize_file(folder / "N46E008.hgt.gz", 5);
-    EXPECT_FALSE(open_region(request_for({(folder / "N46E008.hgt.gz").string()})).ok());
+    EXPECT_FALSE(test::open_grid(request_for({(folder / "N46E008.hgt.gz").string()})).ok());
     write_bytes("/vsizip/" + (folder / "N46E009.hgt.zip").string() + "/N46E009.hgt", bytes);
     fs::resize_file(folder / "N46E009.hgt.zip", fs::file_size(folder / "N46E009.hgt.zip") / 2);
-    const auto region = open_region(request_for({(folder / "N46E009.hgt.zip").string()}));
+    const auto region = test::open_grid(request_for({(folder / "N46E009.hgt.zip").string()}));
     ASSERT_FALSE(region.ok());
     EXPECT_NE(region.error().line().find("archive"), std::string::npos) << region.error().line();
 }
@@ -237,7 +238,7 @@ TEST(Hgt, GzipThatUnpacksToMoreThanItStates) {
         for (unsigned shift = 0; shift < 32; shift += 8)
             stream.put(static_cast<char>(bytes.size() >> shift & 0xffU));
         stream.close();
-        const auto region = open_region(request_for({file.string()}));
+        const auto region = test::open_grid(request_for({file.string()}));
         ASSERT_FALSE(region.ok()) << more;
         EXPECT_NE(region.error().line().find("N46E008.hgt.gz"), std::string::npos) << region.error().line();
     }
@@ -272,7 +273,7 @@ TEST(Hgt, BytesInTheOtherOrderAreAnError) {
         const int swapped = (height_m & 255) << 8 | height_m >> 8;
         return swapped > 32767 ? swapped - 65536 : swapped;
     });
-    const auto refused = open_region(request_for({file}));
+    const auto refused = test::open_grid(request_for({file}));
     ASSERT_FALSE(refused.ok());
     EXPECT_NE(refused.error().line().find("its bytes seem to be in the other order"), std::string::npos);
 }

@@ -8,6 +8,7 @@
 #include "geo/sources/source_words.h"
 #include "tests/geo/datum/proj_folder.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro::test {
@@ -36,7 +37,7 @@ class HorizontalDatums : public testing::Test {
         OSRCleanup();  // GDAL keeps the folders that PROJ looked into before
     }
     void TearDown() override { OSRCleanup(); }
-    Region region_of(const std::string& file) {
+    RegionGrid region_of(const std::string& file) {
         std::string reason;
         const auto region = opened(request_for({file}), &reason);
         EXPECT_TRUE(region) << reason;
@@ -45,7 +46,7 @@ class HorizontalDatums : public testing::Test {
     std::string refusal_of(const std::string& file) {
         RegionRequest request = request_for({file});
         request.strict_datum = true;
-        const auto region = open_region(request);
+        const auto region = test::open_grid(request);
         return region.ok() ? "" : region.error().line();
     }
 };
@@ -53,7 +54,7 @@ class HorizontalDatums : public testing::Test {
 TEST_F(HorizontalDatums, Wgs84SaysNothing) {
     for (const char* crs : {"EPSG:4326", "EPSG:4979"}) {
         const std::string file = write_around(folder, crs, 46.5, 8.0);
-        const Region region = region_of(file);
+        const RegionGrid region = region_of(file);
         ASSERT_EQ(region.sources.size(), 1U);
         EXPECT_TRUE(region.sources[0].horizontal_datum.is_wgs84) << crs;
         EXPECT_EQ(horizontal_words(region.sources[0].horizontal_datum), "");
@@ -68,7 +69,7 @@ TEST_F(HorizontalDatums, Wgs84SaysNothing) {
 TEST_F(HorizontalDatums, Nad27LacksItsGrids) {
     const ProjFolder only(folder.string());
     const std::string file = write_around(folder, "EPSG:4267", 39.2240867, -98.5421517);
-    const Region region = region_of(file);
+    const RegionGrid region = region_of(file);
     ASSERT_EQ(region.sources.size(), 1U);
     const HorizontalDatum& datum = region.sources[0].horizontal_datum;
     EXPECT_FALSE(datum.is_wgs84);
@@ -90,7 +91,7 @@ TEST_F(HorizontalDatums, Nad27LacksItsGrids) {
 // Found: none of it was said.
 TEST_F(HorizontalDatums, WhatCountsAsWgs84ByConvention) {
     const std::string file = write_around(folder, "EPSG:4258", 50.0, 10.0);
-    const Region region = region_of(file);
+    const RegionGrid region = region_of(file);
     ASSERT_EQ(region.sources.size(), 1U);
     const HorizontalDatum& datum = region.sources[0].horizontal_datum;
     EXPECT_EQ(datum.operation, "ETRS89 to WGS 84 (1)");
@@ -108,7 +109,7 @@ TEST_F(HorizontalDatums, MapsHaveTheDatumOfTheirDegrees) {
     raster.cell_corners = {570000.0, 500.0, 0.0, 5545000.0, 0.0, -500.0};
     raster.crs = "EPSG:25832";
     const auto flat = [](int, int) { return 500.0; };
-    const Region region = region_of(write_raster(folder / "map.tif", raster, flat));
+    const RegionGrid region = region_of(write_raster(folder / "map.tif", raster, flat));
     EXPECT_TRUE(region.sources.at(0).horizontal_datum.unchanged);
     EXPECT_EQ(region.notes, std::vector<std::string>{"EPSG:4258 ETRS89: taken as WGS84, within 1 to 2 m"});
     raster.crs = "EPSG:32632";
@@ -118,7 +119,7 @@ TEST_F(HorizontalDatums, MapsHaveTheDatumOfTheirDegrees) {
 // EPSG's null operation states 4 m; with a grid of the state it would be 2 m, which is what is known anyway.
 TEST_F(HorizontalDatums, Nad83IsKnownBetterThanItsOperationStates) {
     const std::string file = write_around(folder, "EPSG:4269", 36.5, -84.2);
-    const Region region = region_of(file);
+    const RegionGrid region = region_of(file);
     const HorizontalDatum& datum = region.sources.at(0).horizontal_datum;
     EXPECT_EQ(datum.operation, "NAD83 to WGS 84 (1)");
     EXPECT_EQ(datum.accuracy_m, 4.0);
@@ -131,7 +132,7 @@ TEST_F(HorizontalDatums, DhdnWithAndWithoutItsGrid) {
     const std::string file = write_around(folder, "EPSG:4314", 50.0, 10.0);
     {
         const ProjFolder only(folder.string());
-        const Region region = region_of(file);
+        const RegionGrid region = region_of(file);
         const HorizontalDatum& datum = region.sources.at(0).horizontal_datum;
         EXPECT_EQ(datum.operation, "DHDN to WGS 84 (2)");
         EXPECT_EQ(datum.accuracy_m, 3.0);
@@ -141,15 +142,15 @@ TEST_F(HorizontalDatums, DhdnWithAndWithoutItsGrid) {
     }
     if (!proj_file("BETA2007.gsb")) GTEST_SKIP() << "needs BETA2007.gsb of proj-data";
     OSRCleanup();
-    const Region region = region_of(file);
+    const RegionGrid region = region_of(file);
     const HorizontalDatum& datum = region.sources.at(0).horizontal_datum;
     EXPECT_EQ(datum.operation, "DHDN to WGS 84 (4)");
     EXPECT_EQ(datum.accuracy_m, 1.0);
     EXPECT_TRUE(datum.missing_grids.empty());
     // Found: such a file was resampled, because of the kinks between nodes of a grid of shifts.
     EXPECT_TRUE(region.field.grid.net);
-    EXPECT_EQ(region.notes, std::vector<std::string>{
-                                "EPSG:4314 DHDN: within 1 m of WGS84, by DHDN to WGS 84 (4)"});
+    EXPECT_EQ(region.notes,
+              std::vector<std::string>{"EPSG:4314 DHDN: within 1 m of WGS84, by DHDN to WGS 84 (4)"});
     EXPECT_EQ(refusal_of(file), "");
 }
 
@@ -157,7 +158,7 @@ TEST_F(HorizontalDatums, DhdnWithAndWithoutItsGrid) {
 TEST_F(HorizontalDatums, BallparkIsRefused) {
     const std::string file =
         write_around(folder, "+proj=longlat +a=6378000 +b=6356000 +no_defs +type=crs", 46.5, 8.0);
-    const Region region = region_of(file);
+    const RegionGrid region = region_of(file);
     const HorizontalDatum& datum = region.sources.at(0).horizontal_datum;
     EXPECT_TRUE(datum.ballpark);
     EXPECT_FALSE(datum.accuracy_m);
@@ -169,7 +170,7 @@ TEST_F(HorizontalDatums, BallparkIsRefused) {
 TEST_F(HorizontalDatums, DynamicDatumsAndEpochs) {
     for (const double epoch : {0.0, 2020.5}) {
         const std::string file = write_around(folder, "EPSG:9000", 46.5, 8.0, epoch);  // ITRF2014
-        const Region region = region_of(file);
+        const RegionGrid region = region_of(file);
         const HorizontalDatum& datum = region.sources.at(0).horizontal_datum;
         EXPECT_EQ(datum.frame_epoch, 2010.0);
         EXPECT_EQ(datum.coordinate_epoch, epoch > 0.0 ? std::optional(epoch) : std::nullopt);
@@ -183,7 +184,7 @@ TEST_F(HorizontalDatums, DynamicDatumsAndEpochs) {
 }
 
 TEST_F(HorizontalDatums, ABakedRegionTellsTheSame) {
-    const Region region = region_of(write_around(folder, "EPSG:4267", 39.2240867, -98.5421517));
+    const RegionGrid region = region_of(write_around(folder, "EPSG:4267", 39.2240867, -98.5421517));
     const std::string text = region_description(region);
     const auto read = region_from_description(text, "test");
     ASSERT_TRUE(read.ok()) << read.error().line();

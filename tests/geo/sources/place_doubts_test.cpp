@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -43,7 +44,7 @@ TEST(PlaceDoubts, DegreesUnderACrsOfMetresAreRefused) {
                           {"EPSG:32632+5773", 8.0, 47.0, 1.0},
                           {"EPSG:2226", -120.5, 38.0, 1.0 / 1200.0},
                           {"EPSG:3857", 46.0, 10.0, 0.01}}) {
-        const auto region = open_region(
+        const auto region = test::open_grid(
             request_for({write_raster(folder / "deg.tif", forty(c.crs, c.x, c.y, c.step), relief_m)}));
         ASSERT_FALSE(region.ok()) << c.crs;
         const std::string line = region.error().line();
@@ -95,7 +96,7 @@ TEST(PlaceDoubts, SystemsThatStateNoAreaAreLookedUp) {
         << R"(PARAMETER["False_Easting",500000.0],PARAMETER["False_Northing",0.0],)"
         << R"(PARAMETER["Central_Meridian",9.0],PARAMETER["Scale_Factor",0.9996],)"
         << R"(PARAMETER["Latitude_Of_Origin",0.0],UNIT["Meter",1.0]])";
-    const auto refused = open_region(request_for({(folder / "deg.asc").string()}));
+    const auto refused = test::open_grid(request_for({(folder / "deg.asc").string()}));
     ASSERT_FALSE(refused.ok());
     EXPECT_NE(refused.error().line().find("look like degrees"), std::string::npos) << refused.error().line();
 }

@@ -10,6 +10,7 @@
 #include "geo/sources/source_words.h"
 #include "tests/geo/datum/proj_folder.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -165,11 +166,11 @@ TEST(Raster, UnknownUnitsAreErrors) {
     Raster raster = hundredths(5, 5);
     RegionRequest request = request_for({write_raster(folder / "a.tif", raster, slope)});
     request.height_unit = "furlong";
-    auto region = open_region(request);
+    auto region = test::open_grid(request);
     ASSERT_FALSE(region.ok());
     EXPECT_EQ(region.error().kind, ErrorKind::usage);
     raster.unit = "K";
-    region = open_region(request_for({write_raster(folder / "b.tif", raster, slope)}));
+    region = test::open_grid(request_for({write_raster(folder / "b.tif", raster, slope)}));
     ASSERT_FALSE(region.ok());
     EXPECT_NE(region.error().line().find("'K'"), std::string::npos) << region.error().line();
     EXPECT_NE(region.error().line().find("b.tif"), std::string::npos) << region.error().line();
@@ -207,7 +208,7 @@ TEST(Raster, NoDataOfEveryKindIsAHole) {
 TEST(Raster, WhatIsNoElevationIsRefusedWithTheReason) {
     const fs::path folder = scratch_folder();
     const auto expect = [&](const char* name, const Raster& raster, const char* says) {
-        const auto region = open_region(request_for({write_raster(folder / name, raster, slope)}));
+        const auto region = test::open_grid(request_for({write_raster(folder / name, raster, slope)}));
         ASSERT_FALSE(region.ok()) << name;
         const std::string line = region.error().line();
         EXPECT_NE(line.find(name), std::string::npos) << line;
@@ -259,7 +260,7 @@ TEST(Raster, UnknownCrsIsAnErrorThatNamesTheFile) {
         << "<VRTDataset rasterXSize=\"5\" rasterYSize=\"5\"><SRS>EPSG:999999</SRS>"
            "<GeoTransform>8,0.01,0,46,0,-0.01</GeoTransform>"
            "<VRTRasterBand dataType=\"Int16\" band=\"1\"/></VRTDataset>";
-    const auto region = open_region(request_for({(folder / "dem.vrt").string()}));
+    const auto region = test::open_grid(request_for({(folder / "dem.vrt").string()}));
     ASSERT_FALSE(region.ok());
     EXPECT_EQ(region.error().kind, ErrorKind::failed);
     EXPECT_TRUE(
@@ -273,7 +274,7 @@ TEST(Raster, AFolderWithoutProjsDatabaseIsNamed) {
     nowhere.crs = R"(LOCAL_CS["site",UNIT["metre",1]])";
     const std::string file = write_raster(folder / "dem.tif", nowhere, slope);
     const ProjFolder only(empty.string());
-    const auto region = open_region(request_for({file}));
+    const auto region = test::open_grid(request_for({file}));
     ASSERT_FALSE(region.ok());
     EXPECT_TRUE(region.error().line().ends_with("dem.tif: PROJ finds no proj.db, its database, in " +
                                                 empty.string() + ", which PROJ_DATA names"))
@@ -286,7 +287,7 @@ TEST(Raster, TheLargestRasterIsTooLarge) {
     std::ofstream(file) << R"(<VRTDataset rasterXSize="2147483647" rasterYSize="2147483647">
 <SRS>EPSG:4326</SRS><GeoTransform>0, 1e-9, 0, 40, 0, -1e-9</GeoTransform>
 <VRTRasterBand dataType="Float32" band="1"/></VRTDataset>)";
-    const auto region = open_region(request_for({file.string()}));
+    const auto region = test::open_grid(request_for({file.string()}));
     ASSERT_FALSE(region.ok());
     EXPECT_NE(region.error().line().find("2147483647 x 2147483647"), std::string::npos)
         << region.error().line();
@@ -398,7 +399,7 @@ TEST(Raster, AVrtOfHgtTilesGivesWayToThem) {
         std::ranges::count_if(region->notes,
                               [&](const std::string& note) { return note.find(why) != std::string::npos; }),
         1);
-    const auto alone = open_region(request_for({vrt}));
+    const auto alone = test::open_grid(request_for({vrt}));
     ASSERT_FALSE(alone.ok());
     EXPECT_TRUE(alone.error().line().ends_with(why)) << alone.error().line();
 }
@@ -433,7 +434,7 @@ TEST(Raster, AGridWithAByteOrderMarkIsRefusedForIt) {
     for (const auto& [mark, encoding] : {std::pair{"\xef\xbb\xbf", "UTF-8"}, {"\xff\xfe", "UTF-16"}}) {
         const fs::path file = scratch_folder() / "grid.asc";
         std::ofstream(file) << mark << grid_text(10);
-        const auto region = open_region(request_for({file.string()}));
+        const auto region = test::open_grid(request_for({file.string()}));
         ASSERT_FALSE(region.ok());
         EXPECT_NE(region.error().line().find("grid.asc: starts with a byte order mark (its text is " +
                                              std::string(encoding) + ")"),
@@ -446,7 +447,7 @@ TEST(Raster, DamagedContentIsAnError) {
     const fs::path folder = scratch_folder();
     const std::string file = write_raster(folder / "dem.tif", hundredths(200, 200), slope);
     fs::resize_file(file, fs::file_size(file) / 2);
-    const auto region = open_region(request_for({file}));
+    const auto region = test::open_grid(request_for({file}));
     ASSERT_FALSE(region.ok());
     EXPECT_NE(region.error().line().find("dem.tif"), std::string::npos) << region.error().line();
 }

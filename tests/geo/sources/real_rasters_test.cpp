@@ -9,6 +9,7 @@
 
 #include "geo/sources/source_words.h"
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -52,7 +53,7 @@ TEST(Raster, RealCollection) {
         std::printf("%-50s %5d x %-5d %s\n", c.file, region->field.grid.rows(), region->field.grid.columns(),
                     placement_words(region->sources[0]).c_str());
     }
-    const auto swiss = open_region(request_for({(*folder / "dhm25_25_matrix.bt").string()}));
+    const auto swiss = test::open_grid(request_for({(*folder / "dhm25_25_matrix.bt").string()}));
     ASSERT_FALSE(swiss.ok());
     EXPECT_NE(swiss.error().line().find("coordinate reference system"), std::string::npos)
         << swiss.error().line();
@@ -61,7 +62,7 @@ TEST(Raster, RealCollection) {
 TEST(Raster, RealImagesAreRefused) {
     const auto image = real_data("drape/osgearth_world.tif");
     if (!image) GTEST_SKIP() << "needs drape/osgearth_world.tif";
-    const auto region = open_region(request_for({image->string()}));
+    const auto region = test::open_grid(request_for({image->string()}));
     ASSERT_FALSE(region.ok());
     EXPECT_NE(region.error().line().find("3 bands"), std::string::npos);
 }

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -75,7 +76,7 @@ std::set<std::size_t> cuts_of(std::size_t size) {
 
 // True when a region is told apart from the whole one: by failing, by a note, or not at all because it is the
 // same.
-bool is_no_lie(const Result<Region>& region, const Region& whole) {
+bool is_no_lie(const Result<RegionGrid>& region, const RegionGrid& whole) {
     if (!region.ok() || region->notes != whole.notes) return true;
     const PostGrid &grid = region->field.grid, &of_whole = whole.field.grid;
     return grid.north_deg() == of_whole.north_deg() && grid.west_deg() == of_whole.west_deg() &&
@@ -94,7 +95,7 @@ void expect_no_lies(const fs::path& folder, const fs::path& raster) {
         const std::string content = content_of(file);
         for (const std::size_t cut : cuts_of(content.size())) {
             std::ofstream(file, std::ios::binary) << content.substr(0, cut);
-            const auto region = open_region(request_for({raster.string()}));
+            const auto region = test::open_grid(request_for({raster.string()}));
             told += !region.ok();
             EXPECT_TRUE(is_no_lie(region, *whole))
                 << file.filename() << " of " << content.size() << " bytes, cut at " << cut;
@@ -102,7 +103,7 @@ void expect_no_lies(const fs::path& folder, const fs::path& raster) {
         std::ofstream(file, std::ios::binary) << content;
     }
     EXPECT_GT(told, 40);
-    EXPECT_TRUE(is_no_lie(open_region(request_for({raster.string()})), *whole));
+    EXPECT_TRUE(is_no_lie(test::open_grid(request_for({raster.string()})), *whole));
 }
 
 class TrustedFormats : public testing::TestWithParam<Format> {};
@@ -173,7 +174,7 @@ TEST(TrustedFormat, OthersAreRefused) {
     std::ofstream(folder / "c.hdr") << "NROWS 4\nNCOLS 4\nNBITS 16\nULXMAP 8\nULYMAP 47\nXDIM 1\nYDIM 1\n";
     std::ofstream(folder / "c.bil") << std::string(32, '\1');
     for (const char* name : {"a.nc", "b.img", "c.bil"}) {
-        const auto region = open_region(request_for({(folder / name).string()}));
+        const auto region = test::open_grid(request_for({(folder / name).string()}));
         ASSERT_FALSE(region.ok()) << name;
         EXPECT_NE(region.error().line().find("trusted"), std::string::npos) << region.error().line();
     }
@@ -182,7 +183,7 @@ TEST(TrustedFormat, OthersAreRefused) {
            "0, "
            "-0.1</GeoTransform><VRTRasterBand dataType=\"Int16\" band=\"1\" subClass=\"VRTRawRasterBand\">"
            "<SourceFilename relativeToVRT=\"1\">c.bil</SourceFilename></VRTRasterBand></VRTDataset>";
-    const auto raw = open_region(request_for({(folder / "raw.vrt").string()}));
+    const auto raw = test::open_grid(request_for({(folder / "raw.vrt").string()}));
     ASSERT_FALSE(raw.ok());
     EXPECT_NE(raw.error().line().find("raw bytes"), std::string::npos) << raw.error().line();
 }

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "tests/geo/written_terrain.h"
+#include "tests/support/open_grid.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -129,7 +130,7 @@ TEST(UndeclaredVoids, APartOfAFileIsAsTheWholeIs) {
     write_raster(file, raster, [](int r, int c) { return c < 30 ? -9999.0 : hills_m(r, c); });
     RegionRequest request = request_for({file.string()});
     request.box = BoundingBox{8.05, 46.1, 8.25, 46.3};
-    EXPECT_FALSE(open_region(request).ok());
+    EXPECT_FALSE(test::open_grid(request).ok());
     request.box = BoundingBox{8.2, 46.1, 8.4, 46.3};
     const auto region = opened(request);
     ASSERT_TRUE(region);
@@ -246,7 +247,7 @@ TEST(UndeclaredVoids, HeightsInMillimetresAreToldWithTheOption) {
     RegionRequest request = request_for({write_raster(scratch_folder() / "mm.tif", raster, [](int r, int c) {
         return std::round(1000.0 * hills_m(r, c));
     })});
-    const auto refused = open_region(request);
+    const auto refused = test::open_grid(request);
     ASSERT_FALSE(refused.ok());
     EXPECT_EQ(refused.error().kind, ErrorKind::no_data);
     for (const char* words : {"mm.tif", "no terrain has", "--height-unit m, ft, us-ft, cm, dm or mm"})

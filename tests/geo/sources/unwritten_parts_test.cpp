@@ -62,7 +62,7 @@ std::string write_sparse(const fs::path& file, std::optional<double> no_data) {
     return file.string();
 }
 
-std::size_t gap_notes(const Region& region, const std::string& count) {
+std::size_t gap_notes(const RegionGrid& region, const std::string& count) {
     std::size_t found = 0;
     for (const std::string& note : region.notes)
         found += note.find(": " + count + " posts have no data: they lie in gaps") != std::string::npos;

@@ -21,11 +21,11 @@ const std::vector<char>* left_out_of(const RegionCuts& cuts, std::size_t grid) {
 }
 
 // The third grid lies over the second, and that over the first.
-std::optional<double> H_below_m(const std::vector<const Region*>& grids, const RegionCuts& cuts,
+std::optional<double> H_below_m(const std::vector<RegionGrid>& grids, const RegionCuts& cuts,
                                 std::size_t number, const PostPlace& at) {
     std::optional<double> H_m;
     for (std::size_t below = number; below-- > 0 && !H_m;)
-        H_m = grids[below]->field.surface_H_m(at.lat_deg, at.lon_deg, left_out_of(cuts, below));
+        H_m = grids[below].field.surface_H_m(at.lat_deg, at.lon_deg, left_out_of(cuts, below));
     return H_m;
 }
 
@@ -37,14 +37,14 @@ TEST(Feather, IsWhatDistancesToTheRimSay) {
     const Region before = test::three_grids(90);
     Region after = test::three_grids(90);
     ASSERT_TRUE(feather(after, width_m).ok());
-    const std::vector<const Region*> grids = all_grids(before), changed = all_grids(after);
+    const std::vector<RegionGrid>&grids = before.grids, &changed = after.grids;
     const RegionCuts cuts = cut_regions(before).value();
-    EXPECT_FALSE(changed[0]->feathered);
+    EXPECT_FALSE(changed[0].feathered);
     double worst_m = 0.0;
     int inside = 0, moved = 0;
     for (const std::size_t number : {1U, 2U}) {
-        const HeightField& own = grids[number]->field;
-        const HeightField& now = changed[number]->field;
+        const HeightField& own = grids[number].field;
+        const HeightField& now = changed[number].field;
         const std::vector<RimEdge> rim = coverage_rim(own);
         for (int i = 0; i < 1500; ++i) {
             const int row = static_cast<int>(random() % static_cast<unsigned>(own.grid.rows())),
@@ -82,15 +82,15 @@ TEST(Feather, IsWhatDistancesToTheRimSay) {
     EXPECT_GT(inside, 500);
     EXPECT_GT(moved, 500);
     EXPECT_LT(worst_m, 0.001);
-    EXPECT_GT(changed[1]->feathered->posts, 1000U);
-    EXPECT_GT(changed[1]->feathered->most_m, 10.0);
-    EXPECT_GT(changed[1]->feathered->rms_m, 1.0);
+    EXPECT_GT(changed[1].feathered->posts, 1000U);
+    EXPECT_GT(changed[1].feathered->most_m, 10.0);
+    EXPECT_GT(changed[1].feathered->rms_m, 1.0);
 }
 
 // No step is left along rims but what straight lines between posts leave.
 TEST(Feather, LeavesNoSteps) {
     Region region = test::three_grids(90);
-    const double west_deg = region.field.grid.west_deg() + 0.001;
+    const double west_deg = region.grids[0].field.grid.west_deg() + 0.001;
     const auto highest_step_m = [&] {
         const auto ground = RegionGround::of(region, 1.0);
         EXPECT_TRUE(ground.ok());

@@ -51,12 +51,12 @@ TEST(SeamLight, IsThatOfThePagesBeside) {
         for (const SeamCorner& corner : piece.corners) normals[key(corner.at.m)] = corner.normal;
     int shared = 0;
     double most_deg = 0.0, most_uncut_deg = 0.0;
-    const std::vector<const Region*> grids = all_grids(region);
+    const std::vector<RegionGrid>& grids = region.grids;
     for (std::size_t i = 0; i < grids.size(); ++i) {
         const CutOut& cut = cuts->grids[i];
         if (cut.left_out.empty()) continue;
         const CutOut uncut{std::vector<char>(cut.left_out.size(), 0), {}, {}};
-        const Rest rest{grids[i]->field, cut}, whole{grids[i]->field, uncut};
+        const Rest rest{grids[i].field, cut}, whole{grids[i].field, uncut};
         for (int row = 0; row < rest.field.grid.rows(); ++row) {
             for (int column = 0; column < rest.field.grid.columns(); ++column) {
                 if (!rest.has(row, column)) continue;

@@ -42,7 +42,7 @@ TEST(ViewshedOfGrids, IsWhatMarchedLinesSee) {
         const Geodetic eye{lat_deg, lon_deg, ground.h_m(lat_deg, lon_deg).value() + 12.0};
         const ViewshedRequest request{eye, {}, 2.0, 1500.0, thread_count()};
         for (std::size_t grid = 0; grid < ground.grids(); ++grid) {
-            const Viewshed shed = viewshed_of_grids(ground, grid, request);
+            const Viewshed shed = viewshed(ground, grid, request);
             ASSERT_GT(shed.window.rows, 0);
             for (int i = 0; i < 150; ++i) {
                 const int row = shed.window.first_row +
@@ -84,7 +84,7 @@ TEST(ViewshedOfGrids, IsThatOfOneWhereNoOtherIsNear) {
     const TrueGround& ground = (*grids)->ground();
     const Geodetic eye{46.98, 8.02, ground.h_m(46.98, 8.02).value() + 20.0};
     const ViewshedRequest request{eye, standard_air, 0.0, 1500.0, 1};
-    const Viewshed all = viewshed_of_grids(ground, 0, request), one = viewshed(ground.surface(0), request);
+    const Viewshed all = viewshed(ground, 0, request), one = viewshed(ground.surface(0), 0, request);
     EXPECT_EQ(all.window, one.window);
     EXPECT_EQ(all.missed_by_m, one.missed_by_m);
     EXPECT_FALSE(one.missed_by_m.empty());

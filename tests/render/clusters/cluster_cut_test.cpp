@@ -43,9 +43,9 @@ class ClusterCuts : public test::GpuTest, public ::testing::WithParamInterface<R
         for (int turns = 0; turns < 50; ++turns) {
             frame = test::stream_frames(drawn, camera, tau_px, [](const test::DrawnFrame&) {}).last;
             EXPECT_TRUE(frame.plan.is_settled());
-            if (frame.plan.clusters.asked.size() != asked) turns = 0;
-            asked = frame.plan.clusters.asked.size();
-            EXPECT_TRUE(drawn.scene().advance(frame.plan.missing).ok());
+            if (frame.plan.grids[0].clusters.asked.size() != asked) turns = 0;
+            asked = frame.plan.grids[0].clusters.asked.size();
+            EXPECT_TRUE(drawn.scene().advance().ok());
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
         return frame;
@@ -54,11 +54,11 @@ class ClusterCuts : public test::GpuTest, public ::testing::WithParamInterface<R
     static Numbers cut_on_gpu(test::DrawnScene& drawn, const FramePlan& plan) {
         auto report = drawn.renderer().draw(plan, {});
         EXPECT_TRUE(report.ok()) << report.error().line();
-        const auto states = drawn.renderer().read_cluster_states(plan.clusters.drawn.size());
+        const auto states = drawn.renderer().read_cluster_states(plan.grids[0].clusters.drawn.size());
         EXPECT_TRUE(states.ok()) << states.error().line();
         Numbers cut;
         for (std::size_t i = 0; i < states->size(); ++i)
-            if (((*states)[i] & gpu::cluster_kept) != 0) cut.insert(plan.clusters.drawn[i].number);
+            if (((*states)[i] & gpu::cluster_kept) != 0) cut.insert(plan.grids[0].clusters.drawn[i].number);
         return cut;
     }
     ClusterView view(const Camera& camera, double tau_px, const HorizonOccluder& occluder,
@@ -75,10 +75,11 @@ class ClusterCuts : public test::GpuTest, public ::testing::WithParamInterface<R
         std::vector<std::uint64_t> triangles;
         for (const std::uint32_t id : ids)
             triangles.push_back(
-                id == 0 ? 0
-                        : std::uint64_t{plan.clusters.drawn[(id - 1) / gpu::cluster_triangles].number} *
-                                  gpu::cluster_triangles +
-                              (id - 1) % gpu::cluster_triangles + 1);
+                id == 0
+                    ? 0
+                    : std::uint64_t{plan.grids[0].clusters.drawn[(id - 1) / gpu::cluster_triangles].number} *
+                              gpu::cluster_triangles +
+                          (id - 1) % gpu::cluster_triangles + 1);
         return triangles;
     }
 };
@@ -90,7 +91,7 @@ TEST_P(ClusterCuts, AreTheProcessors) {
     const int eyes = asked_eyes(12);
     std::mt19937_64 random(seed);
     test::DrawnScene offers = scene(), waits = scene();
-    const HorizonOccluder& occluder = offers.scene().pages().facts().shape.occluder;
+    const HorizonOccluder& occluder = offers.scene().grids()[0].pages().facts().shape.occluder;
     const auto region = clusters_of_graph(terrain_.graph, terrain_.field, occluder);
     ASSERT_TRUE(region.ok());
     std::size_t clusters = 0, asked = 0, coarser = 0;
@@ -98,12 +99,12 @@ TEST_P(ClusterCuts, AreTheProcessors) {
         SCOPED_TRACE("seed " + std::to_string(seed) + ", eye " + std::to_string(i));
         const Camera camera = test::random_camera(random, terrain_.field);
         FramePlan plan = settled(offers, camera, 1.0).plan;
-        asked += plan.clusters.asked.size();
+        asked += plan.grids[0].clusters.asked.size();
         const Numbers finest = cut_on_gpu(offers, plan);
         EXPECT_EQ(finest, cut_here(**region, view(camera, 1.0, occluder)));
         const double tau_px = 1.0 + std::pow(2.0, static_cast<double>(random() % 8) - 3.0);
         const ClusterView other = view(camera, tau_px, occluder);
-        plan.constants.cut.rule = other.cut_rule();
+        plan.grids[0].constants.cut.rule = other.cut_rule();
         const Numbers cut = cut_on_gpu(offers, plan);
         EXPECT_EQ(cut, cut_here(**region, other)) << "tau " << tau_px;
         clusters += finest.size() + cut.size();
@@ -126,7 +127,7 @@ TEST_P(ClusterCuts, OfLevelsAreTheProcessors) {
     const int eyes = asked_eyes(4);
     std::mt19937_64 random(seed);
     test::DrawnScene offers = scene(1);
-    const HorizonOccluder& occluder = offers.scene().pages().facts().shape.occluder;
+    const HorizonOccluder& occluder = offers.scene().grids()[0].pages().facts().shape.occluder;
     const auto region = clusters_of_graph(terrain_.graph, terrain_.field, occluder);
     ASSERT_TRUE(region.ok());
     for (int i = 0; i < eyes; ++i) {
@@ -135,7 +136,7 @@ TEST_P(ClusterCuts, OfLevelsAreTheProcessors) {
         FramePlan plan = settled(offers, camera, 1.0).plan;
         for (const std::uint32_t level : {1U, 2U, 5U}) {
             const ClusterView other = view(camera, 1.0, occluder, level);
-            plan.constants.cut.rule = other.cut_rule();
+            plan.grids[0].constants.cut.rule = other.cut_rule();
             EXPECT_EQ(cut_on_gpu(offers, plan), cut_here(**region, other)) << "level " << level;
         }
     }

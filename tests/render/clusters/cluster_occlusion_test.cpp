@@ -80,21 +80,21 @@ TEST_P(OccludedClusters, WindowsAreThoseWithout) {
     for (int i = 0; i < 4; ++i) {
         const auto [one, other] = test::eyes_in_motion(where(), random, width_px, height_px);
         for (const Camera& camera : {one, other}) {
-            auto plan = drawn.plan(camera, tile, 1.0);
+            auto plan = drawn.plan({camera, tile, 1.0});
             for (int turn = 0; turn < 2000 && plan.ok() && !plan->is_settled(); ++turn) {
                 ASSERT_EQ(renderers.differing(*plan), 0U) << "seed 181, eye " << i;
                 for (int news = 0; news < 100; ++news) {
-                    const auto better = drawn.advance(plan->missing);
+                    const auto better = drawn.advance();
                     ASSERT_TRUE(better.ok()) << better.error().line();
                     if (*better) break;
                     std::this_thread::sleep_for(std::chrono::milliseconds(2));
                 }
-                plan = drawn.plan(camera, tile, 1.0);
+                plan = drawn.plan({camera, tile, 1.0});
             }
             ASSERT_TRUE(plan.ok()) << plan.error().line();
             EXPECT_TRUE(plan->is_settled());
             ASSERT_EQ(renderers.differing(*plan), 0U) << "seed 181, eye " << i;
-            coarser += plan->clusters.drawn.size() - plan->clusters.in_cut;
+            coarser += plan->grids[0].clusters.drawn.size() - plan->grids[0].clusters.in_cut;
         }
     }
     EXPECT_GT(coarser, 50U);
@@ -114,7 +114,7 @@ TEST_P(OccludedClusters, TakeTurnsWithBlocks) {
         const auto [one, other] = test::eyes_in_motion(where(), random, width_px, height_px);
         for (const Camera& camera : {one, other, one}) {
             for (Scene* const drawn : {&clusters, &*blocks, &clusters}) {
-                auto plan = drawn->settled_plan(camera, tile, 1.0);
+                auto plan = drawn->settled_plan({camera, tile, 1.0});
                 ASSERT_TRUE(plan.ok()) << plan.error().line();
                 ASSERT_EQ(renderers.differing(*plan), 0U) << "eye " << i;
             }

@@ -35,18 +35,19 @@ class StreamedClusters : public test::GpuTest, public ::testing::WithParamInterf
     static std::vector<std::uint32_t> clusters_of(const test::DrawnFrame& frame) {
         std::vector<std::uint32_t> numbers;
         for (const std::uint32_t id : frame.ids)
-            numbers.push_back(id == 0 ? no_group
-                                      : frame.plan.clusters.drawn[(id - 1) / gpu::cluster_triangles].number);
+            numbers.push_back(
+                id == 0 ? no_group
+                        : frame.plan.grids[0].clusters.drawn[(id - 1) / gpu::cluster_triangles].number);
         return numbers;
     }
     // No background within the terrain, and ground from the first frame that has any pages.
     void expect_whole(const Camera& camera, const test::DrawnFrame& frame) {
-        EXPECT_TRUE(frame.plan.clusters.on || frame.plan.pages.empty());
+        EXPECT_TRUE(frame.plan.grids[0].clusters.on || frame.plan.grids[0].pages.empty());
         if (test::ground_may_be_over_the_eye(terrain_, camera, frame.plan)) return;
         ++looked_at_;
         EXPECT_LT(test::pixel_of_a_hole(camera, frame.ids), 0)
             << "background within the terrain; eye " << camera.eye.lat_deg << "," << camera.eye.lon_deg
-            << " h " << camera.eye.h_m << ", " << frame.plan.clusters.missing << " missing";
+            << " h " << camera.eye.h_m << ", " << frame.plan.grids[0].clusters.missing << " missing";
     }
     int looked_at_{0};  // frames
 };
@@ -91,10 +92,10 @@ TEST_P(StreamedClusters, NeedNoMoreMemoryThanTheirCut) {
     std::size_t most = 0;
     for (int i = 0; i < 12; ++i) {
         cameras.push_back(test::random_camera(random, terrain_.field));
-        most = std::max(most, waits.draw(cameras.back(), 1.0).plan.clusters.drawn.size());
+        most = std::max(most, waits.draw(cameras.back(), 1.0).plan.grids[0].clusters.drawn.size());
     }
-    const auto clusters =
-        clusters_of_graph(terrain_.graph, terrain_.field, waits.scene().pages().facts().shape.occluder);
+    const auto clusters = clusters_of_graph(terrain_.graph, terrain_.field,
+                                            waits.scene().grids()[0].pages().facts().shape.occluder);
     const std::uint64_t bytes = (most + (*clusters)->roots().size()) * slot_bytes;
     test::DrawnScene streams = scene(bytes);
     for (const Camera& camera : cameras) {
@@ -102,7 +103,7 @@ TEST_P(StreamedClusters, NeedNoMoreMemoryThanTheirCut) {
             streams, camera, 1.0, [&](const test::DrawnFrame& frame) { expect_whole(camera, frame); });
         EXPECT_TRUE(streamed.last.plan.is_settled()) << "seed " << seed;
         EXPECT_EQ(waits.draw(camera, 1.0).ids, streamed.last.ids) << "seed " << seed;
-        EXPECT_LE(streams.scene().clusters()->store().bytes(), bytes);
+        EXPECT_LE(streams.scene().grids()[0].clusters()->store().bytes(), bytes);
     }
 }
 
@@ -114,8 +115,10 @@ TEST_P(StreamedClusters, HoldNoMoreGroupsThanTheyMayOrAFrameNeeds) {
     std::mt19937_64 random(seed);
     test::DrawnScene free = scene(gpu_bytes), waits = scene(gpu_bytes, main_bytes),
                      streams = scene(gpu_bytes, main_bytes);
-    const auto held = [](test::DrawnScene& drawn) { return drawn.scene().clusters()->groups().bytes(); };
-    EXPECT_EQ(waits.scene().clusters()->groups().most_bytes(), held_bytes);
+    const auto held = [](test::DrawnScene& drawn) {
+        return drawn.scene().grids()[0].clusters()->groups().bytes();
+    };
+    EXPECT_EQ(waits.scene().grids()[0].clusters()->groups().most_bytes(), held_bytes);
     std::vector<Camera> cameras;
     for (int i = 0; i < 8; ++i) cameras.push_back(test::random_camera(random, terrain_.field));
     for (int i = 0; i < 24; ++i) {
@@ -158,15 +161,15 @@ TEST_P(StreamedClusters, AreCoarserWithTooLittleMemory) {
             const test::DrawnFrame waited = waits.draw(camera, 0.5);
             expect_whole(camera, waited);
             for (const FramePlan* const plan : {&streamed.last.plan, &waited.plan}) {
-                EXPECT_EQ(plan->is_settled(), plan->clusters.without_room == 0);
-                EXPECT_EQ(plan->shows_all(), plan->clusters.without_room == 0);
-                EXPECT_LE(plan->clusters.drawn.size(), slots);
+                EXPECT_EQ(plan->is_settled(), plan->grids[0].clusters.without_room == 0);
+                EXPECT_EQ(plan->shows_all(), plan->grids[0].clusters.without_room == 0);
+                EXPECT_LE(plan->grids[0].clusters.drawn.size(), slots);
             }
-            too_little += waited.plan.clusters.without_room > 0 ? 1 : 0;
-            EXPECT_LE(few.scene().clusters()->store().bytes(), slots * slot_bytes);
+            too_little += waited.plan.grids[0].clusters.without_room > 0 ? 1 : 0;
+            EXPECT_LE(few.scene().grids()[0].clusters()->store().bytes(), slots * slot_bytes);
         }
         EXPECT_GT(too_little, 3) << slots;
-        EXPECT_GT(waits.scene().clusters()->most_without_room(), 0U);
+        EXPECT_GT(waits.scene().grids()[0].clusters()->most_without_room(), 0U);
     }
 }
 
@@ -195,7 +198,7 @@ TEST_P(StreamedClusters, BringWhatShowsBeforeWhatIsHidden) {
             if (clusters_of(frame) != whole)
                 groups = 0;
             else if (groups == 0)
-                groups = streams.scene().clusters()->groups().size();
+                groups = streams.scene().grids()[0].clusters()->groups().size();
         };
         const auto streamed = test::stream_frames(streams, camera, tau_px, look, {}, tells, 2000);
         EXPECT_TRUE(streamed.last.plan.is_settled());

@@ -98,7 +98,7 @@ TEST_P(ClustersByPath, MakeRoomForEachOther) {
     std::size_t most = 0, sum = 0;
     for (int i = 0; i < 12; ++i) {
         cameras.push_back(test::random_camera(random, terrain_.field));
-        const std::size_t drawn = picture(all, cameras.back(), 1.0).frame.plan.clusters.drawn.size();
+        const std::size_t drawn = picture(all, cameras.back(), 1.0).frame.plan.grids[0].clusters.drawn.size();
         most = std::max(most, drawn);
         sum += drawn;
     }
@@ -107,7 +107,7 @@ TEST_P(ClustersByPath, MakeRoomForEachOther) {
     for (const Camera& camera : cameras) {
         const Picture a = picture(all, camera, 1.0), b = picture(few, camera, 1.0);
         EXPECT_EQ(a.rgba, b.rgba) << "seed 313";
-        EXPECT_LE(few.scene().clusters()->store().size(), most);
+        EXPECT_LE(few.scene().grids()[0].clusters()->store().size(), most);
     }
 }
 

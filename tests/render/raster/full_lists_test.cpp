@@ -47,7 +47,7 @@ class FullLists : public test::GpuTest, public ::testing::WithParamInterface<Ful
         std::vector<FramePlan> made;
         for (int i = 0; i < 10; ++i) {
             const Camera camera = test::eyes_in_motion(where, random, width_px, height_px).first;
-            auto plan = scene.settled_plan(camera, Tile{0, 0, width_px, height_px, {0.5, 0.5}}, 1.0);
+            auto plan = scene.settled_plan({camera, Tile{0, 0, width_px, height_px, {0.5, 0.5}}, 1.0});
             EXPECT_TRUE(plan.ok()) << plan.error().line();
             made.push_back(std::move(plan).value());
         }

@@ -22,7 +22,8 @@ inline void draw_by_clusters(const Gpu& gpu, const ClusterTerrain& terrain, Scen
                              std::uint64_t bytes = std::uint64_t{64} << 20U,
                              std::optional<std::uint32_t> level = {},
                              std::uint64_t main_bytes = HeldGroups::no_limit) {
-    auto clusters = clusters_of_graph(terrain.graph, terrain.field, scene.pages().facts().shape.occluder);
+    auto clusters =
+        clusters_of_graph(terrain.graph, terrain.field, scene.grids()[0].pages().facts().shape.occluder);
     ASSERT_TRUE(clusters.ok()) << clusters.error().line();
     auto made = ClusterScene::create(gpu, std::move(clusters).value(), bytes, main_bytes);
     ASSERT_TRUE(made.ok()) << made.error().line();
@@ -34,7 +35,7 @@ inline void draw_by_clusters(const Gpu& gpu, const ClusterTerrain& terrain, Scen
 inline bool ground_may_be_over_the_eye(const ClusterTerrain& terrain, const Camera& camera,
                                        const FramePlan& plan) {
     const double ground_m = ground_h_m(terrain.field, camera.eye.lat_deg, camera.eye.lon_deg).value_or(0.0);
-    const auto cut = plan.clusters.drawn | std::views::take(plan.clusters.in_cut);
+    const auto cut = plan.grids[0].clusters.drawn | std::views::take(plan.grids[0].clusters.in_cut);
     return std::ranges::any_of(cut, [&](const gpu::DrawnCluster& drawn) {
         if (terrain.graph.clusters[drawn.number].made_by == no_group) return false;
         const ClusterGroup& group = terrain.graph.groups[drawn.group];

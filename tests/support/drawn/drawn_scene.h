@@ -39,11 +39,11 @@ class DrawnScene {
     }
 
     DrawnFrame draw(const Camera& camera, double tau_px, const gpu::FrameStyle& style = {}) {
-        return draw(camera, scene_->settled_plan(camera, whole_picture(camera), tau_px), style);
+        return draw(camera, scene_->settled_plan({camera, whole_picture(camera), tau_px}), style);
     }
     // With what is there, as a window does.
     DrawnFrame draw_what_is_here(const Camera& camera, double tau_px, const gpu::FrameStyle& style = {}) {
-        return draw(camera, scene_->plan(camera, whole_picture(camera), tau_px), style);
+        return draw(camera, scene_->plan({camera, whole_picture(camera), tau_px}), style);
     }
 
     Scene& scene() { return *scene_; }

@@ -82,7 +82,7 @@ class OcclusionPair {
 
     // Draws a plan by both; the pixels in which they differ.
     std::size_t differing(const FramePlan& plan) {
-        const std::uint32_t width = plan.constants.width_px, height = plan.constants.height_px;
+        const std::uint32_t width = plan.view.width_px(), height = plan.view.height_px();
         const std::vector<std::uint32_t> one = ids(*plain_, plan), two = ids(*with_, plan);
         std::size_t differ = 0;
         for (std::size_t i = 0; i < one.size(); ++i) {
@@ -110,7 +110,7 @@ class OcclusionPair {
         (&renderer == &*plain_ ? drawn_without : drawn_with) += counts.meshlets_drawn;
         later += counts.meshlets_drawn_later;
         hidden += counts.meshlets_hidden;
-        auto read = renderer.read_ids(plan.constants.width_px, plan.constants.height_px);
+        auto read = renderer.read_ids(plan.view.width_px(), plan.view.height_px());
         EXPECT_TRUE(read.ok()) << read.error().line();
         return std::move(read).value();
     }
@@ -133,7 +133,7 @@ inline std::size_t draw_pairs(OcclusionPair& renderers, Scene& scene, const EyeG
             if (random() % 4 == 0) tile.sample_px = {0.25, 0.8125};
             if (random() % 8 == 0)
                 tile = {width_px / 3, height_px / 4, width_px / 2, height_px / 3, {0.5, 0.5}};
-            auto plan = scene.settled_plan(camera, tile, tau_px, model);
+            auto plan = scene.settled_plan({camera, tile, tau_px, model});
             EXPECT_TRUE(plan.ok()) << plan.error().line();
             const std::size_t here = renderers.differing(*plan);
             if (here > 0 && differ == 0)

@@ -28,12 +28,12 @@ inline StreamedFrames stream_frames(DrawnScene& drawn, const Camera& camera, dou
     for (bool is_over = false; !is_over && streamed.frames < most_frames;) {
         streamed.last = drawn.draw_what_is_here(camera, tau_px, style);
         ++streamed.frames;
-        streamed.coarser += streamed.last.plan.clusters.missing > 0 ? 1 : 0;
+        streamed.coarser += streamed.last.plan.grids[0].clusters.missing > 0 ? 1 : 0;
         each(streamed.last);
         if (tells) drawn.scene().saw(streamed.last.report.sights);
         is_over = streamed.last.plan.is_settled();
         for (int turn = 0; !is_over; ++turn) {
-            const auto better = drawn.scene().advance(streamed.last.plan.missing);
+            const auto better = drawn.scene().advance();
             EXPECT_TRUE(better.ok()) << better.error().line();
             if (!better.ok() || turn == turns_without_news) is_over = true;
             if (better.ok() && *better) break;
