@@ -38,24 +38,21 @@ std::uint64_t main_bytes(std::uint64_t bytes) {
     return bytes > 0 ? bytes : 64'000'000;
 }
 
-std::shared_ptr<PageBudget> page_budget(const Gpu& gpu, std::uint64_t bytes) {
-    return std::make_shared<PageBudget>(gpu_bytes(gpu, bytes));
+std::shared_ptr<MemoryBudget> page_budget(const Gpu& gpu, std::uint64_t bytes) {
+    return std::make_shared<MemoryBudget>(gpu_bytes(gpu, bytes));
 }
 
 Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const SceneMemory& memory,
                             HeightStorage heights, bool means) {
     const PageParts parts{means && pages->knows_means(), pages->facts().grid.net != nullptr};
     ORO_TRY(const HeightQuantization coding, height_quantization(*pages, heights));
-    ORO_TRY(
-        PageStore store,
-        PageStore::create(gpu, memory.shared ? memory.shared : page_budget(gpu, memory.gpu), coding, parts));
+    PageStore store(gpu, memory.shared ? memory.shared : page_budget(gpu, memory.gpu), coding, parts);
     Scene scene(std::move(pages), std::move(store));
     static std::atomic<std::uint64_t> scenes{0};
     scene.number_ = ++scenes;
     const std::uint64_t under_way = main_bytes(memory.main) / memory.shares;
     const std::size_t page_size = page_bytes({}, parts);
-    scene.stream_ = std::make_unique<PageStream>(*scene.pages_, thread_count(), under_way / page_size, parts,
-                                                 coding.packed);
+    scene.loader_ = page_loader(*scene.pages_, thread_count(), under_way / page_size, parts, coding.packed);
     const UndulationField& undulation = scene.pages_->facts().undulation;
     if (!undulation.N_m.empty()) {
         ORO_TRY(scene.undulation_, create_undulation(gpu, undulation));
@@ -227,8 +224,8 @@ Result<void> Scene::end_plan(const Camera& camera, const Tile& tile, FramePlan& 
     hidden_.clear();
     for (const PageIndex& page : std::span(plan.missing).last(plan.missing_hidden))
         hidden_.insert({page.level, page.row, page.column});
-    plan.wants_sights = !plan.missing.empty() || !store_.has_room() || plan.clusters.missing > 0 ||
-                        (plan.clusters.on && !clusters_->has_room());
+    plan.wants_sights = !plan.missing.empty() || !store_.has_capacity() || plan.clusters.missing > 0 ||
+                        (plan.clusters.on && !clusters_->has_capacity());
     if (store_.means_before() > 0) {
         plan.constants.has_means = 1;
         for (gpu::FramePage& page : plan.pages) page.means = before(page, store_.means_before());
@@ -242,7 +239,7 @@ Result<void> Scene::end_plan(const Camera& camera, const Tile& tile, FramePlan& 
 }
 
 Result<Scene::Sent> Scene::send_ready(bool wait) {
-    ORO_TRY(std::vector<LoadedPage> ready, stream_->take(wait));
+    ORO_TRY(std::vector<LoadedPage> ready, loader_->take(wait));
     for (LoadedPage& page : ready) page.is_hidden = is_hidden(page.index);
     std::ranges::stable_partition(ready, [](const LoadedPage& page) { return !page.is_hidden; });
     Sent sent;
@@ -270,13 +267,13 @@ Result<bool> Scene::advance(std::span<const PageIndex> missing) {
     }
     if (full_) return better;
     if (full_for_hidden_)
-        stream_->want(shown_of(missing));
+        loader_->request(shown_of(missing));
     else
-        stream_->want(missing);
+        loader_->request(missing);
     ORO_TRY(const Sent sent, send_ready(false));
     full_for_hidden_ = full_for_hidden_ || sent.hidden_left;
     full_ = sent.shown_left;
-    if (full_) stream_->want({});
+    if (full_) loader_->cancel();
     // For the next frame: what none of this one's grids uses.
     if (!beside_.empty() && std::ranges::any_of(all(), [](const Scene* scene) { return scene->full_; }))
         make_room();
@@ -286,7 +283,8 @@ Result<bool> Scene::advance(std::span<const PageIndex> missing) {
 // Where any grid's memory is full, what the others hold of it may be what earlier frames left.
 void Scene::forget_frames() {
     const std::vector<Scene*> scenes = all();
-    const bool full = std::ranges::any_of(scenes, [](const Scene* one) { return !one->store_.has_room(); });
+    const bool full =
+        std::ranges::any_of(scenes, [](const Scene* one) { return !one->store_.has_capacity(); });
     for (Scene* const one : scenes) {
         one->seen_ = SeenGround(*one->pages_);
         one->hidden_.clear();
@@ -294,9 +292,9 @@ void Scene::forget_frames() {
         one->shown_beside_.clear();
         one->full_ = one->full_for_hidden_ = one->can_give_way_ = false;
         one->means_spacing_px_ = one->asked_means_px_;
-        one->stream_->want({});
+        one->loader_->cancel();
         if (!full) continue;
-        one->store_.forget_pages();
+        one->store_.clear();
         one->store_.begin_frame();
         one->store_.release_unused();
     }
@@ -358,14 +356,15 @@ Result<std::vector<FramePlan>> Scene::settled_plans(const Camera& camera, const 
 // there may be room for others then.
 Result<bool> Scene::bring(std::span<const PageIndex> all_pages) {
     while (!all_pages.empty()) {
-        const std::span<const PageIndex> pages = all_pages.first(std::min(all_pages.size(), store_.room()));
-        stream_->want(pages);
+        const std::span<const PageIndex> pages =
+            all_pages.first(std::min(all_pages.size(), store_.free_capacity()));
+        loader_->request(pages);
         if (pages.empty()) return false;
         for (std::size_t count = 0; count < pages.size();) {
             ORO_TRY(const Sent sent, send_ready(true));
             count += sent.count;
             if (sent.hidden_left || sent.shown_left) {
-                stream_->want({});
+                loader_->cancel();
                 return false;
             }
             if (sent.count == 0) break;
@@ -390,7 +389,7 @@ Result<FramePlan> Scene::own_settled_plan(const Camera& camera, const Tile& tile
         }
         // What other frames left may lie so that there is room, and not in one piece.
         if (!fits && store_.has_pieces() && !std::exchange(begun_anew, true)) {
-            store_.forget_pages();
+            store_.clear();
             continue;
         }
         if (!fits) return own_plan(camera, tile, tau_px, model, Clusters::waited_for);
