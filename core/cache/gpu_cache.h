@@ -44,8 +44,8 @@ struct NoValue {};
 // that inserted it or that used it last. Its bytes are given to another once the GPU has completed that
 // frame, and no sooner, whether it was evicted or erased: so several frames may be in flight.
 //
-// A key is a whole number (below the number of all items: it is the index of a table) or has an order. The
-// cache keeps a Value with each item for its owner. It is for one thread at a time.
+// A key has an order, or is a whole number, which is the index of a table then. The cache keeps a Value with
+// each item for its owner. It is for one thread at a time.
 template <class Key, class Value = NoValue>
 class GpuCache {
   public:
@@ -56,7 +56,7 @@ class GpuCache {
         Key key{};
         [[no_unique_address]] Value value{};
         std::uint64_t used{};  // by this frame last; of free bytes: what was there before
-        std::uint64_t rank{};  // those of the lowest are evicted first; 0 until it is set
+        std::uint64_t rank{};  // items of the lowest are evicted first; 0 until it is set
         std::uint32_t bin{}, offset{}, bytes{};
         Handle previous{none}, next{none};  // neighbours in the bin
         bool is_free{true};
@@ -64,14 +64,14 @@ class GpuCache {
 
     explicit GpuCache(std::shared_ptr<MemoryBudget> budget) : budget_(std::move(budget)) {}
 
-    // From here on items are used by the frame that signals `value`, which rises from call to call. The GPU
-    // has completed all frames up to `completed`, which is less. A frame that is begun and never submitted
-    // counts as completed with the next.
+    // From here on items are used by the frame that signals `value`, which rises from call to call; it begins
+    // with 1. The GPU has completed all frames up to `completed`, which is less. A frame that is begun and
+    // never submitted counts as completed with the next.
     void begin_frame(std::uint64_t value, std::uint64_t completed) {
         assert(value > frame_ && completed < value && completed >= completed_);
         frame_ = value;
         completed_ = completed;
-        forget_runs();
+        run_bytes_ = 0;
     }
     // The next frame of a renderer that waits for each.
     void begin_frame() { begin_frame(frame_ + 1, frame_); }
@@ -85,11 +85,30 @@ class GpuCache {
         slots_[first].bytes = static_cast<std::uint32_t>(bytes);
         free_.emplace(position(first), first);
         bins_.push_back({first, MemoryBudget::take(budget_, bytes)});
-        forget_runs();
+        run_bytes_ = 0;
     }
     // Removes the bins of which no byte is in use by the frame or by one in flight, and numbers the others
     // anew in their order: which of them stayed.
-    std::vector<bool> release_unused();
+    std::vector<bool> release_unused() {
+        std::vector<bool> stayed;
+        free_.clear();
+        for (const Bin& bin : bins_) {
+            bool stays = false;
+            for_each_in(bin, [&](Handle at) { stays = stays || !is_completed(slots_[at]); });
+            const auto new_number = static_cast<std::uint32_t>(std::ranges::count(stayed, true));
+            for_each_in(bin, [&](Handle at) {
+                slots_[at].bin = new_number;
+                if (!stays) spare_.push_back(at);
+                if (!stays && !slots_[at].is_free) remove(at);
+                if (stays && slots_[at].is_free) free_.emplace(position(at), at);
+            });
+            stayed.push_back(stays);
+        }
+        std::size_t number = 0;
+        std::erase_if(bins_, [&](const Bin&) { return !stayed[number++]; });
+        run_bytes_ = 0;
+        return stayed;
+    }
 
     // `none` where an item is not in the cache. Finding it is no use.
     [[nodiscard]] Handle find(const Key& key) const {
@@ -114,20 +133,56 @@ class GpuCache {
     // The item in place of others, where insert() gives none: of neighbours that are long enough, of those
     // whose highest rank is the lowest; of these, of those used least recently; and of these the first. An
     // item whose rank is one of the last `spared` frames stays. `none` where too few bytes may be evicted.
-    Handle evict(const Key& key, std::size_t bytes, std::uint64_t spared = 0);
-    // Removes an item; all of them, so that their bytes lie in one piece.
+    Handle evict(const Key& key, std::size_t bytes, std::uint64_t spared = 0) {
+        if (run_bytes_ != bytes || run_spared_ != spared) list_runs(bytes, spared);
+        while (!runs_.empty()) {
+            std::ranges::pop_heap(runs_, std::greater());
+            const Run run = runs_.back();
+            runs_.pop_back();
+            // What has been used since it was listed may not go any more, or goes later.
+            const std::optional<Run> now = run_at(run.first, bytes, spared);
+            if (now && *now > run) {
+                runs_.push_back(*now);
+                std::ranges::push_heap(runs_, std::greater());
+            } else if (now) {
+                // What is free before the run waits for a frame in flight, or the run would begin there.
+                if (!slots_[run.first].is_free) free(run.first, false);
+                while (slots_[run.first].bytes < bytes) free(slots_[run.first].next);
+                return place(run.first, key, bytes);
+            }
+        }
+        return none;
+    }
     void erase(const Key& key) {
         if (const Handle handle = find(key); handle != none) free(handle);
-        forget_runs();
+        run_bytes_ = 0;
     }
-    void clear();
+    // Removes all items. Each bin is free in one piece then.
+    void clear() {
+        for (const Bin& bin : bins_)
+            for (Handle at = bin.first; at != none; at = slots_[at].next)
+                if (!slots_[at].is_free) at = free(at);
+        run_bytes_ = 0;
+    }
 
     // Number of items.
     [[nodiscard]] std::size_t size() const { return size_; }
     // Whether so many bytes are free in one piece.
     [[nodiscard]] bool has_free(std::size_t bytes) const { return first_free(bytes) != none; }
-    // How many items of so many bytes find a place that is free or that may be evicted.
-    [[nodiscard]] std::size_t fitting(std::size_t bytes) const;
+    // How many items of so many bytes find bytes that are free or that may be evicted.
+    [[nodiscard]] std::size_t fitting(std::size_t bytes) const {
+        std::size_t count = 0, length = 0;
+        for (const Bin& bin : bins_) {
+            for_each_in(bin, [&](Handle at) {
+                if (!may_go(slots_[at], 0))
+                    count += std::exchange(length, 0) / bytes;
+                else
+                    length += slots_[at].bytes;
+            });
+            count += std::exchange(length, 0) / bytes;
+        }
+        return count;
+    }
     template <class Visit>
     void for_each(const Visit& visit) const {
         for (const Slot& slot : slots_)
@@ -147,6 +202,10 @@ class GpuCache {
         auto operator<=>(const Run&) const = default;
     };
 
+    template <class Visit>
+    void for_each_in(const Bin& bin, const Visit& visit) const {
+        for (Handle at = bin.first; at != none; at = slots_[at].next) visit(at);
+    }
     [[nodiscard]] std::uint64_t position(Handle handle) const {
         return std::uint64_t{slots_[handle].bin} << 32U | slots_[handle].offset;
     }
@@ -160,10 +219,6 @@ class GpuCache {
             return slots_[piece.second].bytes >= bytes && is_completed(slots_[piece.second]);
         });
         return found == free_.end() ? none : found->second;
-    }
-    void forget_runs() {
-        runs_.clear();
-        run_bytes_ = 0;
     }
     void set_handle(const Key& key, Handle handle) {
         if constexpr (std::is_integral_v<Key>) {
@@ -185,191 +240,90 @@ class GpuCache {
         slots_[handle] = {};
         return handle;
     }
-    Handle place(Handle piece, const Key& key, std::size_t bytes);
-    void remove(Handle handle);
-    Handle free(Handle handle, bool joins_previous = true);
-    void join_with_next(Handle handle);
-    [[nodiscard]] std::optional<Run> run_at(Handle first, std::size_t bytes, std::uint64_t spared) const;
-    void list_runs(std::size_t bytes, std::uint64_t spared);
+    // The item takes the begin of a free piece.
+    Handle place(Handle piece, const Key& key, std::size_t bytes) {
+        free_.erase({position(piece), piece});
+        const auto length = static_cast<std::uint32_t>(bytes);
+        if (slots_[piece].bytes > length) {
+            const Handle rest = new_slot();
+            const Slot& slot = slots_[piece];
+            slots_[rest] = {.used = slot.used,
+                            .bin = slot.bin,
+                            .offset = slot.offset + length,
+                            .bytes = slot.bytes - length,
+                            .previous = piece,
+                            .next = slot.next};
+            if (slot.next != none) slots_[slot.next].previous = rest;
+            slots_[piece].next = rest;
+            free_.emplace(position(rest), rest);
+            run_bytes_ = 0;
+        }
+        const Slot& slot = slots_[piece];
+        slots_[piece] = {key, {}, frame_, 0, slot.bin, slot.offset, length, slot.previous, slot.next, false};
+        set_handle(key, piece);
+        ++size_;
+        return piece;
+    }
+    void remove(Handle handle) {
+        set_handle(slots_[handle].key, none);
+        slots_[handle].is_free = true;
+        --size_;
+    }
+    // The free piece that an item's bytes are part of now.
+    Handle free(Handle handle, bool joins_previous = true) {
+        remove(handle);
+        free_.emplace(position(handle), handle);
+        const Handle next = slots_[handle].next, previous = slots_[handle].previous;
+        if (next != none && slots_[next].is_free) join_with_next(handle);
+        if (!joins_previous || previous == none || !slots_[previous].is_free) return handle;
+        join_with_next(previous);
+        return previous;
+    }
+    void join_with_next(Handle handle) {
+        Slot& slot = slots_[handle];
+        const Handle next = slot.next;
+        free_.erase({position(next), next});
+        slot.bytes += slots_[next].bytes;
+        slot.used = std::max(slot.used, slots_[next].used);
+        slot.next = slots_[next].next;
+        if (slot.next != none) slots_[slot.next].previous = handle;
+        spare_.push_back(next);
+        run_bytes_ = 0;
+    }
+    [[nodiscard]] std::optional<Run> run_at(Handle first, std::size_t bytes, std::uint64_t spared) const {
+        std::pair<std::uint64_t, std::uint64_t> age{0, 0};
+        std::size_t length = 0;
+        for (Handle at = first; length < bytes; at = slots_[at].next) {
+            if (at == none || !may_go(slots_[at], spared)) return std::nullopt;
+            if (!slots_[at].is_free) age = std::max(age, {slots_[at].rank, slots_[at].used});
+            length += slots_[at].bytes;
+        }
+        return Run{age.first, age.second, position(first), first};
+    }
+    void list_runs(std::size_t bytes, std::uint64_t spared) {
+        runs_.clear();
+        for (const Bin& bin : bins_)
+            for_each_in(bin, [&](Handle at) {
+                if (const auto run = run_at(at, bytes, spared)) runs_.push_back(*run);
+            });
+        std::ranges::make_heap(runs_, std::greater());
+        run_bytes_ = bytes;
+        run_spared_ = spared;
+    }
 
     std::shared_ptr<MemoryBudget> budget_;
     std::vector<Bin> bins_;
-    std::vector<Slot> slots_;                          // items and free pieces; no two pieces are neighbours
+    std::vector<Slot> slots_;                          // items and free pieces
     std::vector<Handle> spare_;                        // of slots that are neither
     std::set<std::pair<std::uint64_t, Handle>> free_;  // by their positions
     std::conditional_t<std::is_integral_v<Key>, std::vector<Handle>, std::map<Key, Handle>> table_;
     std::size_t size_{};
     std::uint64_t frame_{1};
     std::uint64_t completed_{0};
-    // What may be evicted, a heap whose front is the next, as it was when it was listed for so many bytes.
+    // What may be evicted for so many bytes, a heap whose front is the next. 0: it is to be listed anew.
     std::vector<Run> runs_;
-    std::size_t run_bytes_{};  // 0: nothing is listed
+    std::size_t run_bytes_{};
     std::uint64_t run_spared_{};
 };
-
-// The item takes the begin of a free piece.
-template <class Key, class Value>
-auto GpuCache<Key, Value>::place(Handle piece, const Key& key, std::size_t bytes) -> Handle {
-    free_.erase({position(piece), piece});
-    if (slots_[piece].bytes > bytes) {
-        const Handle rest = new_slot();
-        Slot &slot = slots_[piece], &other = slots_[rest];
-        other.used = slot.used;
-        other.bin = slot.bin;
-        other.offset = slot.offset + static_cast<std::uint32_t>(bytes);
-        other.bytes = slot.bytes - static_cast<std::uint32_t>(bytes);
-        other.previous = piece;
-        other.next = std::exchange(slot.next, rest);
-        if (other.next != none) slots_[other.next].previous = rest;
-        slot.bytes = static_cast<std::uint32_t>(bytes);
-        free_.emplace(position(rest), rest);
-        forget_runs();
-    }
-    Slot& slot = slots_[piece];
-    slot.key = key;
-    slot.value = {};
-    slot.used = frame_;
-    slot.rank = 0;
-    slot.is_free = false;
-    set_handle(key, piece);
-    ++size_;
-    return piece;
-}
-
-template <class Key, class Value>
-void GpuCache<Key, Value>::remove(Handle handle) {
-    set_handle(slots_[handle].key, none);
-    slots_[handle].is_free = true;
-    --size_;
-}
-
-// The free piece that an item's bytes are part of now.
-template <class Key, class Value>
-auto GpuCache<Key, Value>::free(Handle handle, bool joins_previous) -> Handle {
-    remove(handle);
-    free_.emplace(position(handle), handle);
-    const Handle next = slots_[handle].next, previous = slots_[handle].previous;
-    if (next != none && slots_[next].is_free) join_with_next(handle);
-    if (!joins_previous || previous == none || !slots_[previous].is_free) return handle;
-    join_with_next(previous);
-    return previous;
-}
-
-template <class Key, class Value>
-void GpuCache<Key, Value>::join_with_next(Handle handle) {
-    Slot& slot = slots_[handle];
-    const Handle next = slot.next;
-    free_.erase({position(next), next});
-    slot.bytes += slots_[next].bytes;
-    slot.used = std::max(slot.used, slots_[next].used);
-    slot.next = slots_[next].next;
-    if (slot.next != none) slots_[slot.next].previous = handle;
-    spare_.push_back(next);
-    forget_runs();
-}
-
-template <class Key, class Value>
-void GpuCache<Key, Value>::clear() {
-    for (const Bin& bin : bins_)
-        for (Handle at = bin.first; at != none; at = slots_[at].next)
-            if (!slots_[at].is_free) at = free(at);
-    forget_runs();
-}
-
-template <class Key, class Value>
-auto GpuCache<Key, Value>::run_at(Handle first, std::size_t bytes, std::uint64_t spared) const
-    -> std::optional<Run> {
-    std::pair<std::uint64_t, std::uint64_t> age{0, 0};
-    std::size_t length = 0;
-    for (Handle at = first; length < bytes; at = slots_[at].next) {
-        if (at == none || !may_go(slots_[at], spared)) return std::nullopt;
-        if (!slots_[at].is_free) age = std::max(age, {slots_[at].rank, slots_[at].used});
-        length += slots_[at].bytes;
-    }
-    return Run{age.first, age.second, position(first), first};
-}
-
-template <class Key, class Value>
-void GpuCache<Key, Value>::list_runs(std::size_t bytes, std::uint64_t spared) {
-    runs_.clear();
-    for (const Bin& bin : bins_)
-        for (Handle at = bin.first; at != none; at = slots_[at].next)
-            if (const auto run = run_at(at, bytes, spared)) runs_.push_back(*run);
-    std::ranges::make_heap(runs_, std::greater());
-    run_bytes_ = bytes;
-    run_spared_ = spared;
-}
-
-template <class Key, class Value>
-auto GpuCache<Key, Value>::evict(const Key& key, std::size_t bytes, std::uint64_t spared) -> Handle {
-    if (run_bytes_ != bytes || run_spared_ != spared) list_runs(bytes, spared);
-    while (!runs_.empty()) {
-        std::ranges::pop_heap(runs_, std::greater());
-        const Run run = runs_.back();
-        runs_.pop_back();
-        // What has been used since it was listed may not go any more, or goes later.
-        const std::optional<Run> now = run_at(run.first, bytes, spared);
-        if (!now) continue;
-        if (*now > run) {
-            runs_.push_back(*now);
-            std::ranges::push_heap(runs_, std::greater());
-            continue;
-        }
-        std::vector<Handle> gone;
-        std::size_t length = 0;
-        for (Handle at = run.first; length < bytes; at = slots_[at].next) {
-            if (!slots_[at].is_free) gone.push_back(at);
-            length += slots_[at].bytes;
-        }
-        Handle piece = run.first;
-        // What is free before the run waits for a frame in flight, or the run would begin there.
-        for (const Handle handle : gone) piece = free(handle, handle != run.first);
-        return place(piece, key, bytes);
-    }
-    return none;
-}
-
-template <class Key, class Value>
-std::size_t GpuCache<Key, Value>::fitting(std::size_t bytes) const {
-    std::size_t count = 0;
-    for (const Bin& bin : bins_) {
-        std::size_t length = 0;
-        for (Handle at = bin.first; at != none; at = slots_[at].next) {
-            if (may_go(slots_[at], 0)) {
-                length += slots_[at].bytes;
-                continue;
-            }
-            count += std::exchange(length, 0) / bytes;
-        }
-        count += length / bytes;
-    }
-    return count;
-}
-
-template <class Key, class Value>
-std::vector<bool> GpuCache<Key, Value>::release_unused() {
-    std::vector<bool> stayed;
-    std::vector<Bin> kept;
-    free_.clear();
-    for (Bin& bin : bins_) {
-        bool stays = false;
-        for (Handle at = bin.first; at != none; at = slots_[at].next)
-            stays = stays || !is_completed(slots_[at]);
-        for (Handle at = bin.first; at != none; at = slots_[at].next) {
-            if (stays) {
-                slots_[at].bin = static_cast<std::uint32_t>(kept.size());
-                if (slots_[at].is_free) free_.emplace(position(at), at);
-                continue;
-            }
-            if (!slots_[at].is_free) remove(at);
-            spare_.push_back(at);
-        }
-        stayed.push_back(stays);
-        if (stays) kept.push_back(std::move(bin));
-    }
-    bins_ = std::move(kept);
-    forget_runs();
-    return stayed;
-}
 
 }  // namespace oro

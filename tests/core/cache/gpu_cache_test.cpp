@@ -26,26 +26,6 @@ std::vector<std::uint32_t> keys_of(const Cache& cache) {
     return keys;
 }
 
-TEST(GpuCache, FillsWhatIsFree) {
-    const auto cache = cache_of(100);
-    for (std::uint32_t i = 0; i < 3; ++i) EXPECT_EQ(cache->at(cache->insert(i, 30)).offset, 30 * i);
-    EXPECT_EQ(cache->insert(3, 30), Cache::none) << "10 bytes are left";
-    EXPECT_TRUE(cache->has_free(10));
-    EXPECT_FALSE(cache->has_free(11));
-    cache->erase(0);
-    cache->erase(1);
-    EXPECT_FALSE(cache->has_free(30)) << "the frame may have used them";
-    cache->begin_frame();
-    EXPECT_EQ(cache->at(cache->insert(4, 60)).offset, 0U) << "both together";
-    EXPECT_EQ(cache->find(1), Cache::none);
-    EXPECT_EQ(cache->at(cache->find(4)).bytes, 60U);
-    EXPECT_EQ(keys_of(*cache), (std::vector<std::uint32_t>{2, 4}));
-    cache->clear();
-    EXPECT_EQ(cache->size(), 0U);
-    cache->begin_frame();
-    EXPECT_TRUE(cache->has_free(100)) << "in one piece";
-}
-
 TEST(GpuCache, EvictsTheLowestRankThenTheLeastRecentlyUsed) {
     const auto cache = cache_of(60);
     for (std::uint32_t i = 0; i < 6; ++i) {

@@ -102,7 +102,7 @@ TEST_F(Loaders, TellAnErrorOnceAndGoOn) {
 TEST_F(Loaders, EndWhileTheyAreBusy) {
     for (int i = 0; i < 20; ++i) {
         const auto stream = loader(3, 50);
-        stream->request(numbers(1000 * i, 200));
+        stream->request(numbers(10'000 + 1000 * i, 200));
         if (i % 2 == 0) {
             ASSERT_TRUE(stream->take(true).ok());
         }
