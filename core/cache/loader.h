@@ -33,7 +33,7 @@ class Loader {
         Key key;
         int priority{};  // those of the lowest are loaded first
     };
-    // Loads an item. Threads call it at a time; it may call add().
+    // Loads an item. Several threads call it at a time; it may call add().
     using Load = std::function<Result<Item>(const Request&)>;
     // How much of the capacity an item takes.
     using Weight = std::function<std::size_t(const Item&)>;
@@ -53,8 +53,9 @@ class Loader {
         changed_.notify_all();
     }
 
-    // What is needed now, in the place of all requests before: those that are not here are cancelled, and an
-    // item that is ready for one of them is dropped. What was taken may be requested again.
+    // What is needed now, most needed first, in the place of all requests before: those are cancelled, and an
+    // item that is ready for one of them is dropped. What is under way still comes. What was taken may be
+    // requested again.
     void request(std::span<const Key> keys) {
         std::vector<Request> requests;
         for (const Key& key : keys) requests.push_back({key, 0});
