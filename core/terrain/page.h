@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
@@ -20,6 +21,7 @@ struct PageIndex {
     int row{};
     int column{};
     int level{};
+    auto operator<=>(const PageIndex&) const = default;
 };
 
 // Pages of a region's level 0.

@@ -33,9 +33,8 @@ ClusterScene::~ClusterScene() = default;
 
 Result<ClusterScene> ClusterScene::create(const Gpu& gpu, std::unique_ptr<RegionClusters> clusters,
                                           std::uint64_t bytes, std::uint64_t main_bytes) {
-    ORO_TRY(ClusterStore store,
-            ClusterStore::create(
-                gpu, std::max<std::uint64_t>(bytes, clusters->roots().size() * sizeof(gpu::ClusterBlock))));
+    ClusterStore store(gpu,
+                       std::max<std::uint64_t>(bytes, clusters->roots().size() * sizeof(gpu::ClusterBlock)));
     if (main_bytes != HeldGroups::no_limit) clusters->hold_at_most(main_bytes - main_bytes / 4);
     return ClusterScene(std::move(clusters), std::move(store), most_on_the_way(main_bytes));
 }
@@ -60,7 +59,7 @@ Result<void> ClusterScene::add_to(GridPlan& plan, const Camera& camera, const Ti
     ORO_CHECK(store_.hold(choice.clusters, [&](std::uint32_t cluster, gpu::ClusterBlock& block) {
         return clusters_->fill(cluster, coding, block);
     }));
-    if (stream_) stream_->want_nothing();
+    if (stream_) stream_->cancel();
     view_.reset();
     plan.clusters.missing = plan.clusters.without_room = without_room;
     most_without_room_ = std::max(most_without_room_, without_room);
@@ -83,7 +82,7 @@ Result<void> ClusterScene::add_what_is_here(GridPlan& plan, const Camera& camera
     }));
     view_.emplace(camera, tile, tau_px, model, occluder, coding, level_);
     ORO_TRY(StreamedChoice choice, choose_here());
-    want(choice);
+    request(choice);
     ORO_CHECK(draw(choice.drawn, choice.offer, camera, plan));
     drawn_ = std::move(choice.drawn.clusters);
     plan.clusters.missing = choice.missing;
@@ -112,7 +111,7 @@ Result<StreamedChoice> ClusterScene::choose_here() {
     return choice;
 }
 
-void ClusterScene::want(const StreamedChoice& choice) {
+void ClusterScene::request(const StreamedChoice& choice) {
     std::vector<std::uint32_t> to_come;
     std::size_t hidden = 0;
     for (std::size_t i = 0; i < choice.clusters_wanted.size(); ++i) {
@@ -120,7 +119,7 @@ void ClusterScene::want(const StreamedChoice& choice) {
         to_come.push_back(choice.clusters_wanted[i]);
         hidden += i + choice.clusters_hidden >= choice.clusters_wanted.size() ? 1U : 0U;
     }
-    stream_->want(*view_, choice.groups_wanted, to_come, choice.groups_hidden, hidden);
+    stream_->request(*view_, choice.groups_wanted, to_come, choice.groups_hidden, hidden);
 }
 
 void ClusterScene::saw(const FrameSights& sights) {
@@ -131,14 +130,14 @@ void ClusterScene::saw(const FrameSights& sights) {
 
 void ClusterScene::forget_frames() {
     saw({});
-    if (stream_) stream_->want_nothing();
+    if (stream_) stream_->cancel();
     view_.reset();
     drawn_.clear();
     is_whole_ = has_room_ = false;
-    if (!has_room()) store_.forget_clusters();
+    if (!has_capacity()) store_.clear();
 }
 
-bool ClusterScene::has_room() const {
+bool ClusterScene::has_capacity() const {
     return store_.size() < store_.capacity() && groups().bytes() + bytes_on_the_way <= groups().most_bytes();
 }
 
@@ -167,7 +166,7 @@ Result<bool> ClusterScene::advance() {
     if (ready.groups.empty() && ready.clusters.empty()) return false;
     ORO_CHECK(send(std::move(ready)));
     ORO_TRY(const StreamedChoice choice, choose_here());
-    want(choice);
+    request(choice);
     return choice.drawn.clusters != drawn_ || (choice.missing == 0) != is_whole_ ||
            (choice.without_room == 0) != has_room_;
 }

@@ -51,8 +51,8 @@ class ClusterScene {
     // not wait for what is not ready. Errors: damage, the device.
     Result<bool> advance();
 
-    // Whether some more may come without any that gives way.
-    [[nodiscard]] bool has_room() const;
+    // Whether some more may come without an eviction.
+    [[nodiscard]] bool has_capacity() const;
 
     [[nodiscard]] const ClusterStore& store() const { return store_; }
     // What groups take of the processor's memory: those that were read, without those on their way.
@@ -66,7 +66,7 @@ class ClusterScene {
     Result<void> draw(const ClusterChoice& choice, const ClusterOffer& offer, const Camera& camera,
                       GridPlan& plan);
     Result<StreamedChoice> choose_here();
-    void want(const StreamedChoice& choice);
+    void request(const StreamedChoice& choice);
     Result<void> send(ClusterStream::Ready ready);
 
     std::unique_ptr<RegionClusters> clusters_;

@@ -8,8 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "core/cache/loader.h"
 #include "core/drape/ground_image.h"
-#include "render/device/resources.h"
+#include "render/device/buffer_cache.h"
 
 namespace oro {
 
@@ -19,60 +20,58 @@ struct DrapeLook {
     float relief{0.35F};  // as gpu::DrapeTable
 };
 
+// The cache of tiles on the GPU. Those least recently used are evicted first.
 class DrapeStore {
   public:
     // Tiles may take `bytes`, at least one tile; buffers are made when they are needed.
     static Result<DrapeStore> create(const Gpu& gpu, std::unique_ptr<const GroundImage> image,
                                      const DrapeLook& look, std::uint64_t bytes);
+    DrapeStore(DrapeStore&&) noexcept = default;
+    DrapeStore& operator=(DrapeStore&&) = delete;  // a loader ends before the image that it reads
+    ~DrapeStore() = default;
 
     // Where shaders find the tiles; `wanted` and the seed are left as they are.
     void describe(gpu::DrapeTable& table) const;
-    // From here on tiles count as used by another frame: those of earlier ones may make room.
-    void begin_frame() { ++frame_; }
+    // From here on tiles are used by the next frame. All frames before are completed on the GPU.
+    void begin_frame() { cache_.items().begin_frame(); }
 
     // What came of a list of wanted tiles.
     struct Served {
         bool changed{};      // tiles were sent: the table is another
         bool settled{true};  // all of them are here
-        bool is_full{};      // ... and those that are not find no room
+        bool is_full{};      // ... and those that are not find no capacity
     };
-    // Reads the tiles that are not here and sends them; `all`: every one, else as many as can be read at a
+    // Reads the tiles that are not here and uploads them; `all`: every one, else as many as can be read at a
     // time. Waits for the GPU. Errors: a file that cannot be read, the device.
     Result<Served> serve(std::span<const ImageTile> wanted, bool all);
 
-    [[nodiscard]] std::size_t size() const { return held_.size(); }
-    [[nodiscard]] std::size_t capacity() const { return capacity_; }
-    [[nodiscard]] std::uint64_t bytes() const;  // of the buffers
+    // Number of tiles that are here.
+    [[nodiscard]] std::size_t size() const { return cache_.items().size() + empty_.size(); }
+    [[nodiscard]] std::size_t capacity() const { return cache_.capacity(); }
+    [[nodiscard]] std::uint64_t bytes() const { return cache_.bytes(); }  // of the buffers
 
   private:
-    struct Held {
-        std::size_t slot;  // no_slot: there is nothing in it
-        std::uint64_t used;
-    };
     struct Loaded {
         ImageTile tile;
-        bool has_image{};
-        std::vector<std::uint32_t> texels;
+        std::vector<std::uint32_t> texels;  // none: no image lies in it
     };
-    explicit DrapeStore(const Gpu& gpu) : gpu_(&gpu) {}
-    Result<std::vector<Loaded>> load(std::span<const ImageTile> tiles) const;
-    Result<bool> send(std::vector<Loaded>& tiles);
-    Result<bool> find_slot(std::size_t& slot);
-    Result<bool> add_chunk();
+    using Cache = BufferCache<ImageTile>;
+    DrapeStore(const Gpu& gpu, std::unique_ptr<const GroundImage> image, const DrapeLook& look,
+               std::uint64_t bytes);
+    std::vector<ImageTile> missing_of(std::span<const ImageTile> wanted);
+    Result<std::vector<Loaded>> load(std::span<const ImageTile> tiles);
+    Result<bool> send(std::span<const Loaded> tiles);
     void forget_empty();
-    Result<void> copy(std::span<const std::size_t> slots);
     Result<void> send_table();
 
     const Gpu* gpu_;
     std::unique_ptr<const GroundImage> image_;
     DrapeLook look_;
-    Commands commands_;
-    Buffer staging_, table_staging_, table_;
-    std::vector<Buffer> chunks_;
-    std::size_t capacity_{};
-    std::size_t slots_{};  // ever used
-    std::map<ImageTile, Held> held_;
-    std::uint64_t frame_{1};
+    Commands commands_;  // of the table
+    Buffer table_staging_, table_;
+    Cache cache_;
+    std::map<ImageTile, std::uint64_t> empty_;  // tiles without an image: the last frame that used each
+    std::unique_ptr<Loader<ImageTile, Loaded>> loader_;  // last: it ends before the image
 };
 
 }  // namespace oro

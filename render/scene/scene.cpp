@@ -39,24 +39,21 @@ std::uint64_t main_bytes(std::uint64_t bytes) {
     return bytes > 0 ? bytes : 64'000'000;
 }
 
-std::shared_ptr<PageBudget> page_budget(const Gpu& gpu, std::uint64_t bytes) {
-    return std::make_shared<PageBudget>(gpu_bytes(gpu, bytes));
+std::shared_ptr<MemoryBudget> page_budget(const Gpu& gpu, std::uint64_t bytes) {
+    return std::make_shared<MemoryBudget>(gpu_bytes(gpu, bytes));
 }
 
 Result<GridScene> GridScene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages,
                                     const SceneMemory& memory, HeightStorage heights, bool means) {
     const PageParts parts{means && pages->knows_means(), pages->facts().grid.net != nullptr};
     ORO_TRY(const HeightQuantization coding, height_quantization(*pages, heights));
-    ORO_TRY(
-        PageStore store,
-        PageStore::create(gpu, memory.shared ? memory.shared : page_budget(gpu, memory.gpu), coding, parts));
+    PageStore store(gpu, memory.shared ? memory.shared : page_budget(gpu, memory.gpu), coding, parts);
     GridScene scene(std::move(pages), std::move(store));
     static std::atomic<std::uint64_t> scenes{0};
     scene.number_ = ++scenes;
     const std::uint64_t under_way = main_bytes(memory.main) / memory.shares;
     const std::size_t page_size = page_bytes({}, parts);
-    scene.stream_ = std::make_unique<PageStream>(*scene.pages_, thread_count(), under_way / page_size, parts,
-                                                 coding.packed);
+    scene.loader_ = page_loader(*scene.pages_, thread_count(), under_way / page_size, parts, coding.packed);
     const UndulationField& undulation = scene.pages_->facts().undulation;
     if (!undulation.N_m.empty()) {
         ORO_TRY(scene.undulation_, create_undulation(gpu, undulation));
@@ -154,8 +151,8 @@ Result<void> GridScene::end_plan(const FrameView& view, GridPlan& plan) {
     hidden_.clear();
     for (const PageIndex& page : std::span(plan.missing).last(plan.missing_hidden))
         hidden_.insert({page.level, page.row, page.column});
-    plan.wants_sights = !plan.missing.empty() || !store_.has_room() || plan.clusters.missing > 0 ||
-                        (plan.clusters.on && !clusters_->has_room());
+    plan.wants_sights = !plan.missing.empty() || !store_.has_capacity() || plan.clusters.missing > 0 ||
+                        (plan.clusters.on && !clusters_->has_capacity());
     if (store_.means_before() > 0) {
         plan.constants.has_means = 1;
         for (gpu::FramePage& page : plan.pages) page.means = before(page, store_.means_before());
@@ -169,7 +166,7 @@ Result<void> GridScene::end_plan(const FrameView& view, GridPlan& plan) {
 }
 
 Result<GridScene::Sent> GridScene::send_ready(bool wait) {
-    ORO_TRY(std::vector<LoadedPage> ready, stream_->take(wait));
+    ORO_TRY(std::vector<LoadedPage> ready, loader_->take(wait));
     for (LoadedPage& page : ready) page.is_hidden = is_hidden(page.index);
     std::ranges::stable_partition(ready, [](const LoadedPage& page) { return !page.is_hidden; });
     Sent sent;
@@ -192,13 +189,13 @@ Result<bool> GridScene::advance() {
     }
     if (full_) return better;
     if (full_for_hidden_)
-        stream_->want(shown_of(missed_));
+        loader_->request(shown_of(missed_));
     else
-        stream_->want(missed_);
+        loader_->request(missed_);
     ORO_TRY(const Sent sent, send_ready(false));
     full_for_hidden_ = full_for_hidden_ || sent.hidden_left;
     full_ = sent.shown_left;
-    if (full_) stream_->want({});
+    if (full_) loader_->cancel();
     return better || sent.count > 0 || (full_ && can_give_way_);
 }
 
@@ -209,9 +206,9 @@ void GridScene::forget_frames(bool gives_back) {
     receivers_.clear();
     full_ = full_for_hidden_ = can_give_way_ = false;
     means_spacing_px_ = asked_means_px_;
-    stream_->want({});
+    loader_->cancel();
     if (gives_back) {
-        store_.forget_pages();
+        store_.clear();
         store_.begin_frame();
         store_.release_unused();
     }
@@ -222,14 +219,15 @@ void GridScene::forget_frames(bool gives_back) {
 // there may be room for others then.
 Result<bool> GridScene::bring(std::span<const PageIndex> all_pages) {
     while (!all_pages.empty()) {
-        const std::span<const PageIndex> pages = all_pages.first(std::min(all_pages.size(), store_.room()));
-        stream_->want(pages);
+        const std::span<const PageIndex> pages =
+            all_pages.first(std::min(all_pages.size(), store_.free_capacity()));
+        loader_->request(pages);
         if (pages.empty()) return false;
         for (std::size_t count = 0; count < pages.size();) {
             ORO_TRY(const Sent sent, send_ready(true));
             count += sent.count;
             if (sent.hidden_left || sent.shown_left) {
-                stream_->want({});
+                loader_->cancel();
                 return false;
             }
             if (sent.count == 0) break;
@@ -253,7 +251,7 @@ Result<GridPlan> GridScene::settled_plan(const FrameView& view) {
         }
         // What other frames left may lie so that there is room, and not in one piece.
         if (!fits && store_.has_pieces() && !std::exchange(begun_anew, true)) {
-            store_.forget_pages();
+            store_.clear();
             continue;
         }
         if (!fits) return plan(view, Clusters::waited_for);
@@ -372,7 +370,7 @@ Result<bool> Scene::advance() {
 // Where any grid's memory is full, what the others hold of it may be what earlier frames left.
 void Scene::forget_frames() {
     const bool full =
-        std::ranges::any_of(grids_, [](const GridScene& grid) { return !grid.store_.has_room(); });
+        std::ranges::any_of(grids_, [](const GridScene& grid) { return !grid.store_.has_capacity(); });
     for (GridScene& grid : grids_) grid.forget_frames(full);
 }
 

@@ -16,8 +16,8 @@
 #include "core/frame/seen_ground.h"
 #include "render/clusters/cluster_scene.h"
 #include "render/scene/drape_store.h"
+#include "render/scene/page_loader.h"
 #include "render/scene/page_store.h"
-#include "render/scene/page_stream.h"
 
 namespace oro {
 
@@ -30,14 +30,14 @@ struct SceneMemory {
     std::uint64_t main{};  // pages on their way there; 0: 64 MB
     unsigned shares{1};    // scenes that share `main`
     // Memory on the GPU that others take from, too, in place of `gpu`; null: none do.
-    std::shared_ptr<PageBudget> shared{};
+    std::shared_ptr<MemoryBudget> shared{};
 };
 // What `gpu` stands for on a device, bytes, where 0 is as much as is reasonable there;
 std::uint64_t gpu_bytes(const Gpu& gpu, std::uint64_t bytes);
 // The same of `main`.
 std::uint64_t main_bytes(std::uint64_t bytes);
 // gpu_bytes() to be shared.
-std::shared_ptr<PageBudget> page_budget(const Gpu& gpu, std::uint64_t bytes);
+std::shared_ptr<MemoryBudget> page_budget(const Gpu& gpu, std::uint64_t bytes);
 
 // One grid that is being drawn: its pages, and those of them that are on the GPU.
 class GridScene {
@@ -85,7 +85,7 @@ class GridScene {
     void forget_frames(bool gives_back);
 
     std::unique_ptr<RegionPages> pages_;
-    std::unique_ptr<PageStream> stream_;
+    std::unique_ptr<PageLoader> loader_;
     PageStore store_;
     std::unique_ptr<DrapeStore> drape_;
     Buffer undulation_;

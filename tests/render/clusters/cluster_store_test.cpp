@@ -25,24 +25,23 @@ class ClustersOnGpu : public test::GpuTest {
 };
 
 // ... then those unused for longest; what the frame uses stays.
-TEST_F(ClustersOnGpu, HiddenOnesGiveWayFirst) {
-    auto store = ClusterStore::create(*gpu_, 6 * sizeof(gpu::ClusterBlock));
-    ASSERT_TRUE(store.ok()) << store.error().line();
+TEST_F(ClustersOnGpu, EvictHiddenOnesFirst) {
+    ClusterStore store(*gpu_, 6 * sizeof(gpu::ClusterBlock));
     for (std::uint32_t i = 0; i < 6; ++i) {
-        store->begin_frame();
-        send(*store, i, 1);
+        store.begin_frame();
+        send(store, i, 1);
     }
-    for (const std::uint32_t cluster : {2U, 4U, 5U, 19U}) store->note_hidden(cluster, true);
-    store->note_hidden(4, false);
-    store->begin_frame();
-    store->use(2);
-    send(*store, 10, 1);
-    EXPECT_EQ(here(*store), (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 10}));
-    send(*store, 11, 1);
-    EXPECT_EQ(here(*store), (std::vector<std::uint32_t>{1, 2, 3, 4, 10, 11}));
-    store->begin_frame();
-    send(*store, 12, 2);
-    EXPECT_EQ(here(*store), (std::vector<std::uint32_t>{3, 4, 10, 11, 12, 13}));
+    for (const std::uint32_t cluster : {2U, 4U, 5U, 19U}) store.note_hidden(cluster, true);
+    store.note_hidden(4, false);
+    store.begin_frame();
+    store.use(2);
+    send(store, 10, 1);
+    EXPECT_EQ(here(store), (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 10}));
+    send(store, 11, 1);
+    EXPECT_EQ(here(store), (std::vector<std::uint32_t>{1, 2, 3, 4, 10, 11}));
+    store.begin_frame();
+    send(store, 12, 2);
+    EXPECT_EQ(here(store), (std::vector<std::uint32_t>{3, 4, 10, 11, 12, 13}));
 }
 
 }  // namespace

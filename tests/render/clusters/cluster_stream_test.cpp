@@ -46,11 +46,11 @@ class ClusterStreams : public ::testing::Test {
             if (is_enough(ready)) return {};
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
-        return Error{ErrorKind::failed, "the stream", "brought too little"};
+        return Error{ErrorKind::failed, "the stream", "loaded too little"};
     }
 };
 
-// Asked for the topmost groups, it brings all that the cut of the eye is found by, and no other; each once.
+// For the topmost groups it loads all that the cut of the eye is found by, and no other; each once.
 TEST_F(ClusterStreams, GoOnToAllThatAnEyeNeeds) {
     std::mt19937_64 random(351);
     for (int i = 0; i < 8; ++i) {
@@ -67,7 +67,7 @@ TEST_F(ClusterStreams, GoOnToAllThatAnEyeNeeds) {
             if (!eye.is_beyond_frustum(region->groups()[region->maker(root)]))
                 top.insert(region->maker(root));
         const std::vector<std::uint32_t> first(top.begin(), top.end());
-        stream.want(eye, first, {});
+        stream.request(eye, first, {});
         std::set<std::uint32_t> loaded;
         const auto done = take_until(stream, [&](ClusterStream::Ready& ready) {
             for (auto& group : ready.groups) {
@@ -117,15 +117,15 @@ TEST_F(ClusterStreams, GoOnWhileOthersChoose) {
             std::vector<std::uint32_t> to_come;
             std::ranges::copy_if(choice->clusters_wanted, std::back_inserter(to_come),
                                  [&](std::uint32_t cluster) { return !here.contains(cluster); });
-            stream.want(eye, choice->groups_wanted, to_come);
+            stream.request(eye, choice->groups_wanted, to_come);
             return choice->missing == 0;
         });
         EXPECT_TRUE(done.ok());
     }
 }
 
-// Under a budget what gave way is loaded again, by threads, for eyes that come back.
-TEST_F(ClusterStreams, BringAgainWhatGaveWay) {
+// Under a budget what was evicted is loaded again, by threads, for eyes that come back.
+TEST_F(ClusterStreams, LoadAgainWhatWasEvicted) {
     constexpr std::uint64_t budget = 150'000;
     std::mt19937_64 random(353);
     const auto region = clusters();
@@ -158,7 +158,7 @@ TEST_F(ClusterStreams, BringAgainWhatGaveWay) {
             std::vector<std::uint32_t> to_come;
             std::ranges::copy_if(choice->clusters_wanted, std::back_inserter(to_come),
                                  [&](std::uint32_t cluster) { return !is_here(cluster); });
-            stream.want(eye, choice->groups_wanted, to_come);
+            stream.request(eye, choice->groups_wanted, to_come);
             return choice->missing == 0;
         });
         EXPECT_TRUE(done.ok());
@@ -168,7 +168,7 @@ TEST_F(ClusterStreams, BringAgainWhatGaveWay) {
 }
 
 // Groups that are wanted last, and all below them, come after all that the others lead to.
-TEST_F(ClusterStreams, BringWhatIsWantedLastAfterTheRest) {
+TEST_F(ClusterStreams, LoadWhatIsWantedLastAfterTheRest) {
     const ClusterGraph& graph = terrain_.graph;
     std::mt19937_64 random(354);
     int looked_at = 0;
@@ -205,7 +205,7 @@ TEST_F(ClusterStreams, BringWhatIsWantedLastAfterTheRest) {
         all.insert(to_look_at.begin(), to_look_at.end());
         look_below(all);
         ClusterStream stream(*region, {}, 1, 100'000);
-        stream.want(eye, first, {}, last);
+        stream.request(eye, first, {}, last);
         std::vector<std::uint32_t> loaded;
         const auto done = take_until(stream, [&](const ClusterStream::Ready& ready) {
             for (const auto& group : ready.groups) loaded.push_back(group.number);
@@ -229,7 +229,7 @@ TEST_F(ClusterStreams, TellOfDamageOnce) {
     const auto region = clusters(top);
     ClusterStream stream(*region, {}, 2, 8);
     const std::vector<std::uint32_t> first{top};
-    stream.want(view(camera), first, {});
+    stream.request(view(camera), first, {});
     const auto done =
         take_until(stream, [](const ClusterStream::Ready& ready) { return !ready.groups.empty(); });
     ASSERT_FALSE(done.ok());

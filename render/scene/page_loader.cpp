@@ -1,0 +1,27 @@
+#include "render/scene/page_loader.h"
+
+#include "core/packed/packed_heights.h"
+
+namespace oro {
+
+std::unique_ptr<PageLoader> page_loader(const RegionPages& pages, int threads, std::size_t capacity,
+                                        const PageParts& parts, bool packs) {
+    const auto load = [&pages, parts, packs](const PageLoader::Request& request) -> Result<LoadedPage> {
+        const PageIndex& page = request.key;
+        LoadedPage loaded{page, std::make_unique<gpu::PageBlock>(), nullptr, nullptr, false};
+        ORO_CHECK(pages.load(page, *loaded.block));
+        if (parts.means) {
+            loaded.means = std::make_unique<gpu::PageMeans>();
+            ORO_CHECK(pages.load_means(page, *loaded.means));
+        }
+        if (parts.places) {
+            loaded.places = std::make_unique<gpu::PagePlaces>();
+            ORO_CHECK(pages.load_places(page, *loaded.block, *loaded.places));
+        }
+        if (packs) loaded.heights = packed_heights(loaded.block->heights, pages.facts().shape.exaggeration);
+        return loaded;
+    };
+    return std::make_unique<PageLoader>(load, threads, capacity);
+}
+
+}  // namespace oro
