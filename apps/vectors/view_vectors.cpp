@@ -1,11 +1,10 @@
 #include "apps/vectors/view_vectors.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <utility>
 
 #include "apps/command_line/refusals.h"
-#include "apps/options/view_limits.h"
+#include "apps/options/option_table.h"
 #include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
 #include "apps/report/path_json.h"
@@ -20,19 +19,6 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr Limits width_px = view_limits::overlay_width_px;
-
-// A number of an option that is within its limits.
-Result<void> take_number(const char* option, const std::optional<double>& given, const Limits& limits,
-                         double& number) {
-    if (!given) return {};
-    if (!limits.hold(*given)) {
-        char text[40];
-        std::snprintf(text, sizeof text, "%.15g", *given);
-        return refused(option, text, between_words(limits.low, limits.high));
-    }
-    number = *given;
-    return {};
-}
 
 ordered_json files_json(const std::vector<std::string>& files) {
     ordered_json json = ordered_json::array();
@@ -96,9 +82,14 @@ Result<void> choose_vectors(const ViewOptions& options, VectorChoices& choices) 
             return refused("--overlay-colour", *options.overlay_colour, "must be a colour such as #e2252b");
         choices.overlay_colour = *colour;
     }
-    ORO_CHECK(take_number("--overlay-width", options.overlay_width_px, width_px, choices.overlay_width_px));
-    return take_number("--overlay-fill", options.overlay_fill, view_limits::overlay_fill,
-                       choices.overlay_fill);
+    if (options.overlay_width_px) {
+        ORO_TRY(choices.overlay_width_px, within("--overlay-width", *options.overlay_width_px, width_px));
+    }
+    if (options.overlay_fill) {
+        ORO_TRY(choices.overlay_fill,
+                within("--overlay-fill", *options.overlay_fill, view_limits::overlay_fill));
+    }
+    return {};
 }
 
 void put_vectors(const VectorChoices& choices, ordered_json& json) {

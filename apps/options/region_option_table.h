@@ -1,0 +1,18 @@
+// The tables of the options that say which terrain, and how much memory it may take.
+#pragma once
+
+#include <vector>
+
+#include "apps/options/option_table.h"
+#include "apps/options/options.h"
+
+namespace oro {
+
+const std::vector<OptionRow<RegionOptions>>& region_option_table();
+const std::vector<OptionRow<MemoryOptions>>& memory_option_table();
+
+// The name of the first option that was given which says how data are read or which part of them is taken;
+// nothing where there is none. The paths of the data are not among these.
+const char* first_given_of_region(const RegionOptions& options);
+
+}  // namespace oro
