@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "apps/command_line/refusals.h"
-#include "apps/options/option_table.h"
+#include "apps/options/view_limits.h"
 #include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
 #include "apps/report/path_json.h"
@@ -58,18 +58,14 @@ std::vector<std::string*> VectorChoices::paths() {
     return all;
 }
 
-Result<void> choose_vectors(const ViewOptions& options, VectorChoices& choices) {
+Result<void> check_vectors(const ViewOptions& options, VectorChoices& choices) {
     for (const auto& [option, files] :
          {std::pair{"--names", &options.names}, {"--overlay", &options.overlay}}) {
         if (files->size() > most_vector_files)
             return refused(option, "", "at most " + std::to_string(most_vector_files) + " files");
     }
-    if (!options.names.empty()) choices.names = options.names;
-    if (!options.overlay.empty()) choices.overlay = options.overlay;
-    if (options.names_field) {
-        if (!choices.any()) return refused("--names-field", "", "says nothing without --names FILE");
-        choices.names_field = *options.names_field;
-    }
+    if (options.names_field && !choices.any())
+        return refused("--names-field", "", "says nothing without --names FILE");
     for (const auto& [option, is_given] : {std::pair{"--overlay-colour", options.overlay_colour.has_value()},
                                            {"--overlay-width", options.overlay_width_px.has_value()},
                                            {"--overlay-fill", options.overlay_fill.has_value()}}) {
@@ -81,13 +77,6 @@ Result<void> choose_vectors(const ViewOptions& options, VectorChoices& choices) 
         if (!colour)
             return refused("--overlay-colour", *options.overlay_colour, "must be a colour such as #e2252b");
         choices.overlay_colour = *colour;
-    }
-    if (options.overlay_width_px) {
-        ORO_TRY(choices.overlay_width_px, within("--overlay-width", *options.overlay_width_px, width_px));
-    }
-    if (options.overlay_fill) {
-        ORO_TRY(choices.overlay_fill,
-                within("--overlay-fill", *options.overlay_fill, view_limits::overlay_fill));
     }
     return {};
 }

@@ -156,16 +156,19 @@ void add_places(Rows eye) {
 
 void add_directions(Rows eye) {
     eye.setting(
-        {"--heading DEGREES", shown_first | in_every_view, "0", "heading_deg", limits::heading_deg},
+        {"--heading DEGREES", shown_first | in_every_view, "0", "heading_deg", {-360, 360}},
         &ViewOptions::heading_deg, [](auto& view) -> auto& { return view.camera.attitude.heading_deg; },
         "Where the eye looks, clockwise from true north, {}: 90 is east.");
     eye.setting(
-        {"--pitch DEGREES", shown_first | in_every_view,
-         "0; down to a place that it looks at, or to the data", "pitch_deg", limits::pitch_deg},
+        {"--pitch DEGREES",
+         shown_first | in_every_view,
+         "0; down to a place that it looks at, or to the data",
+         "pitch_deg",
+         {-90, 90}},
         &ViewOptions::pitch_deg, [](auto& view) -> auto& { return view.camera.attitude.pitch_deg; },
         "How far up or down it looks: 0 is level, -90 straight down, 90 straight up.");
     eye.setting(
-        {"--roll DEGREES", in_every_view, "0", "roll_deg", limits::roll_deg}, &ViewOptions::roll_deg,
+        {"--roll DEGREES", in_every_view, "0", "roll_deg", {-180, 180}}, &ViewOptions::roll_deg,
         [](auto& view) -> auto& { return view.camera.attitude.roll_deg; },
         "Tilt of the eye, {}: above 0 its right side goes down.");
     eye.add({"--look-at PLACE", shown_first}, &ViewOptions::look_at,
@@ -199,24 +202,31 @@ void add_style_and_images(Rows looks) {
 }
 
 void add_vectors(Rows looks) {
-    looks.add({"--names FILE", shown_first | changes_looks}, &ViewOptions::names,
-              "Name the points of a vector file (GPX, KML, GeoJSON, GeoPackage) that the eye sees, with "
-              "height and distance. A window shows them while the eye rests. May be given several times.");
-    looks.add({"--names-field FIELD", changes_looks, "name"}, &ViewOptions::names_field,
-              "The field of such files that holds the name. Needs --names or --overlay.");
-    looks.add({"--overlay FILE", shown_first | changes_looks}, &ViewOptions::overlay,
-              "Lay the lines and polygons of a vector file on the ground, and name its points. A window "
-              "shows them while the eye rests. May be given several times.");
+    looks.setting(
+        {"--names FILE", shown_first | changes_looks}, &ViewOptions::names,
+        [](auto& view) -> auto& { return view.vectors.names; },
+        "Name the points of a vector file (GPX, KML, GeoJSON, GeoPackage) that the eye sees, with "
+        "height and distance. A window shows them while the eye rests. May be given several times.");
+    looks.setting(
+        {"--names-field FIELD", changes_looks, "name"}, &ViewOptions::names_field,
+        [](auto& view) -> auto& { return view.vectors.names_field; },
+        "The field of such files that holds the name. Needs --names or --overlay.");
+    looks.setting(
+        {"--overlay FILE", shown_first | changes_looks}, &ViewOptions::overlay,
+        [](auto& view) -> auto& { return view.vectors.overlay; },
+        "Lay the lines and polygons of a vector file on the ground, and name its points. A window "
+        "shows them while the eye rests. May be given several times.");
     looks.add({"--overlay-colour COLOUR", changes_looks, "#e2252b"}, &ViewOptions::overlay_colour,
               "Colour of these lines. A feature with a field stroke has that colour. Needs --overlay.");
-    looks.add(
+    looks.setting(
         {"--overlay-width PIXELS", changes_looks, "2", "", limits::overlay_width_px},
-        &ViewOptions::overlay_width_px,
+        &ViewOptions::overlay_width_px, [](auto& view) -> auto& { return view.vectors.overlay_width_px; },
         "Width of these lines, {}. A feature with a field stroke-width has that width. Needs --overlay.");
-    looks.add({"--overlay-fill SHARE", changes_looks, "0.2", "", limits::overlay_fill},
-              &ViewOptions::overlay_fill,
-              "How much of the ground the areas of polygons hide, {}. Features with the fields fill and "
-              "fill-opacity are filled as these say. Needs --overlay.");
+    looks.setting(
+        {"--overlay-fill SHARE", changes_looks, "0.2", "", limits::overlay_fill}, &ViewOptions::overlay_fill,
+        [](auto& view) -> auto& { return view.vectors.overlay_fill; },
+        "How much of the ground the areas of polygons hide, {}. Features with the fields fill and "
+        "fill-opacity are filled as these say. Needs --overlay.");
 }
 
 void add_light(Rows looks) {
@@ -267,16 +277,16 @@ void add_drawing(Rows looks) {
                  "own; overdraw, how many triangles cover a pixel; clusters or groups of them, each in a "
                  "colour of its own, of a file that was baked with clusters. A legend says which colour is "
                  "what. For pictures of one sample.");
-    looks.setting({"--samples N", in_every_view, "1", "samples", limits::samples}, &ViewOptions::samples,
+    looks.setting({"--samples N", in_every_view, "1", "samples", {1, 64}}, &ViewOptions::samples,
                   &View::samples,
                   "How many samples make a pixel, {}. More make edges smoother, and take longer.");
-    looks.setting({"--exaggeration FACTOR", in_every_view, "1, as high as in nature", "exaggeration",
-                   limits::exaggeration},
-                  &ViewOptions::exaggeration, &View::exaggeration, "Multiply all heights by this, {}.");
+    looks.setting(
+        {"--exaggeration FACTOR", in_every_view, "1, as high as in nature", "exaggeration", {0.01, 100}},
+        &ViewOptions::exaggeration, &View::exaggeration, "Multiply all heights by this, {}.");
 }
 
 void add_triangles(Rows detail) {
-    detail.setting({"--tau PIXELS", no_trait, "1; in a window 0.5", "tau_px", limits::tau_px},
+    detail.setting({"--tau PIXELS", no_trait, "1; in a window 0.5", "tau_px", {0, 1000}},
                    &ViewOptions::tau_px, &View::tau_px,
                    "How far left-out detail may move anything on the picture, {}. 0 leaves nothing out.");
     detail.setting({"--pipeline", no_trait, "auto", "pipeline"}, &ViewOptions::pipeline, &View::pipeline,
@@ -292,8 +302,8 @@ void add_triangles(Rows detail) {
     mesh.put = [](const View& view, nlohmann::ordered_json& json) {
         if (view.mesh == "clusters") json["mesh"] = view.mesh;
     };
-    detail.setting({"--mesh-level N", no_trait, "", "mesh_level", limits::mesh_level},
-                   &ViewOptions::mesh_level, &View::mesh_level,
+    detail.setting({"--mesh-level N", no_trait, "", "mesh_level", {0, 80}}, &ViewOptions::mesh_level,
+                   &View::mesh_level,
                    "Draw the clusters of one level of the graph, wherever the eye is: 0 is the original, "
                    "beyond the last the coarsest are drawn. Needs a file that was baked with clusters. Not "
                    "with --tau, which asks for the clusters that a view needs.");

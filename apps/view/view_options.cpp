@@ -91,7 +91,7 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
     view.style = present_name(view.style);
     view.sea_asked |= options.sea.has_value();
     view.rim_asked |= options.rim.has_value();
-    ORO_CHECK(choose_vectors(options, view.vectors));
+    ORO_CHECK(check_vectors(options, view.vectors));
     ORO_CHECK(check_drape(view, options));
     if (view.show && view.samples > 1)
         return refused("--show", "", "is for pictures of one sample, not together with --samples");
