@@ -18,12 +18,12 @@
 namespace oro {
 
 // The headings that options of several commands stand under in help.
-namespace headings {
+namespace option_headings {
 inline constexpr const char* data = "Elevation data";
 inline constexpr const char* eye = "The eye";
 inline constexpr const char* looks = "Looks";
 inline constexpr const char* detail = "Detail and models";
-}  // namespace headings
+}  // namespace option_headings
 
 // What an option is beside a value.
 enum OptionTraits : unsigned {

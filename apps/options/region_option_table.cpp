@@ -12,7 +12,7 @@ using RegionRows = std::vector<OptionRow<RegionOptions>>;
 template <class Value>
 void add(RegionRows& rows, const OptionText& text, Value RegionOptions::*field, const char* help,
          std::vector<std::string> words = {}) {
-    rows.push_back(option_row<RegionOptions>(headings::data, text, field, help, std::move(words)));
+    rows.push_back(option_row<RegionOptions>(option_headings::data, text, field, help, std::move(words)));
 }
 
 // Which files, and which part of them.
@@ -74,12 +74,12 @@ RegionRows made_region_table() {
 std::vector<OptionRow<MemoryOptions>> made_memory_table() {
     std::vector<OptionRow<MemoryOptions>> rows;
     rows.push_back(option_row<MemoryOptions>(
-        headings::detail, {"--gpu-memory MB", no_trait, "half of it, at most 2147", "", memory_mb},
+        option_headings::detail, {"--gpu-memory MB", no_trait, "half of it, at most 2147", "", memory_mb},
         &MemoryOptions::gpu_memory_mb,
         "How much of the GPU's memory terrain may take, in megabytes, {}. Images over the ground take half "
         "of what is given."));
     rows.push_back(option_row<MemoryOptions>(
-        headings::detail, {"--memory MB", no_trait, "64", "", memory_mb}, &MemoryOptions::memory_mb,
+        option_headings::detail, {"--memory MB", no_trait, "64", "", memory_mb}, &MemoryOptions::memory_mb,
         "How much main memory terrain may take on its way to the GPU, in megabytes, {}. Clusters have half "
         "of it. Files other than .oro need more: all their heights are read at once; so are those of what is "
         "drawn by clusters."));

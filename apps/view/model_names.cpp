@@ -30,7 +30,7 @@ nlohmann::ordered_json light_json(const Air& air, double eye_h_m) {
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     json["k"] = air.k_at(eye_h_m);
     json["refraction"] = air.k;
-    json["air"] = name_in(air_laws, air.law);
+    json["air"] = name_in(air_law_names, air.law);
     json["eye_h_m"] = eye_h_m;
     return json;
 }

@@ -21,34 +21,35 @@ struct View;
 template <class Choice, std::size_t count>
 using Names = std::array<std::pair<const char*, Choice>, count>;
 
-inline constexpr Names<Earth, 3> earths{
+inline constexpr Names<Earth, 3> earth_names{
     {{"ellipsoid", Earth::ellipsoid}, {"sphere", Earth::sphere}, {"flat", Earth::flat}}};
 // The third is for measuring alone.
-inline constexpr Names<Precision, 3> precisions{
+inline constexpr Names<Precision, 3> precision_names{
     {{"relative", Precision::relative}, {"naive", Precision::naive}, {"", Precision::rounded_posts}}};
 // Whether a view has the geoid.
-inline constexpr Names<bool, 2> geoids{{{"egm96", true}, {"none", false}}};
-inline constexpr Names<Air, 1> airs{{{"standard", standard_air}}};
-inline constexpr Names<AirLaw, 2> air_laws{{{"constant", AirLaw::constant}, {"standard", AirLaw::standard}}};
-inline constexpr Names<HeightStorage, 3> storages{
+inline constexpr Names<bool, 2> geoid_names{{{"egm96", true}, {"none", false}}};
+inline constexpr Names<Air, 1> air_names{{{"standard", standard_air}}};
+inline constexpr Names<AirLaw, 2> air_law_names{
+    {{"constant", AirLaw::constant}, {"standard", AirLaw::standard}}};
+inline constexpr Names<HeightStorage, 3> height_storage_names{
     {{"f32", HeightStorage::f32}, {"packed", HeightStorage::packed}, {"i16", HeightStorage::i16}}};
-inline constexpr Names<Sea, 3> seas{{{"level", Sea::level}, {"low", Sea::low}, {"voids", Sea::voids}}};
-inline constexpr Names<Rim, 2> rims{{{"skirt", Rim::skirt}, {"none", Rim::none}}};
-inline constexpr Names<bool, 2> switches{{{"on", true}, {"off", false}}};
+inline constexpr Names<Sea, 3> sea_names{{{"level", Sea::level}, {"low", Sea::low}, {"voids", Sea::voids}}};
+inline constexpr Names<Rim, 2> rim_names{{{"skirt", Rim::skirt}, {"none", Rim::none}}};
+inline constexpr Names<bool, 2> switch_names{{{"on", true}, {"off", false}}};
 // Of view files.
-inline constexpr Names<std::optional<bool>, 3> labels_of_view{
+inline constexpr Names<std::optional<bool>, 3> label_switch_names{
     {{"style", std::nullopt}, {"on", true}, {"off", false}}};
-inline constexpr Names<Show, 7> shows{{{"visible", Show::visible},
-                                       {"levels", Show::levels},
-                                       {"meshlets", Show::meshlets},
-                                       {"triangles", Show::triangles},
-                                       {"overdraw", Show::overdraw},
-                                       {"clusters", Show::clusters},
-                                       {"groups", Show::groups}}};
-inline constexpr Names<ImageValues, 3> values_of_images{{{"auto", ImageValues::by_file},
-                                                         {"codes", ImageValues::codes},
-                                                         {"reflectance", ImageValues::reflectance}}};
-inline constexpr Names<Edges, 2> edges_of_ground{{{"smooth", Edges::smooth}, {"steps", Edges::steps}}};
+inline constexpr Names<Show, 7> show_names{{{"visible", Show::visible},
+                                            {"levels", Show::levels},
+                                            {"meshlets", Show::meshlets},
+                                            {"triangles", Show::triangles},
+                                            {"overdraw", Show::overdraw},
+                                            {"clusters", Show::clusters},
+                                            {"groups", Show::groups}}};
+inline constexpr Names<ImageValues, 3> image_value_names{{{"auto", ImageValues::by_file},
+                                                          {"codes", ImageValues::codes},
+                                                          {"reflectance", ImageValues::reflectance}}};
+inline constexpr Names<Edges, 2> edge_names{{{"smooth", Edges::smooth}, {"steps", Edges::steps}}};
 
 // What --mesh takes, and view files have.
 inline std::vector<std::string> mesh_words() {

@@ -59,7 +59,7 @@ Result<void> check_surroundings(const View& view, const gpu::FrameStyle& style) 
                      "is for styles with " + what + "; " + view.style + " has none"};
     };
     if (view.sea_asked && view.sea != Sea::level && style.water.on == 0)
-        return of_no_use(std::string("--sea ") + name_in(seas, view.sea), "water");
+        return of_no_use(std::string("--sea ") + name_in(sea_names, view.sea), "water");
     const bool has_skirt = (style.voids.on & gpu::voids_with_skirt) != 0;
     if (view.rim_asked && view.rim == Rim::none && !has_skirt) return of_no_use("--rim none", "voids");
     return {};

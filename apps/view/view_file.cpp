@@ -73,7 +73,7 @@ void read_air(const nlohmann::json& json, Air& air) {
     // Views of before --refraction was the same at all heights do not say which air they have: theirs bent
     // light less where the eye was higher.
     air.law = AirLaw::standard;
-    read_choice(json, "air", air_laws, air.law);
+    read_choice(json, "air", air_law_names, air.law);
     if (air.k == 0.0) air.law = AirLaw::constant;
 }
 
@@ -101,7 +101,7 @@ void read_drape(const nlohmann::json& json, View& view) {
     for (const nlohmann::json& file : files)
         view.drape.push_back(path_from(as_field("files", file), "files"));
     view.drape_opacity = number(drape, "opacity", limits::drape_opacity);
-    read_choice(drape, "values", values_of_images, view.drape_values);
+    read_choice(drape, "values", image_value_names, view.drape_values);
 }
 
 ordered_json drape_json(const View& view) {
@@ -110,7 +110,7 @@ ordered_json drape_json(const View& view) {
     for (const std::string& file : view.drape) json["files"].push_back(path_json(file));
     json["opacity"] = view.drape_opacity;
     if (view.drape_values != ImageValues::by_file)
-        json["values"] = name_in(values_of_images, view.drape_values);
+        json["values"] = name_in(image_value_names, view.drape_values);
     return json;
 }
 
@@ -213,7 +213,7 @@ void read_settings(const nlohmann::json& json, View& view) {
     view.style = present_name(path_from(json, "style"));
     read_drape(json, view);
     view.vectors = vectors_from(json);
-    read_choice(json, "labels", labels_of_view, view.labels);
+    read_choice(json, "labels", label_switch_names, view.labels);
     read_air(json, view.model.air);
     // The bundle's name alone: what it stood for is in the fields themselves, which somebody may have
     // changed.
@@ -289,10 +289,10 @@ ordered_json settings_json(const View& view) {
     json["style"] = path_json(view.style);
     if (!view.drape.empty()) json["drape"] = drape_json(view);
     put_vectors(view.vectors, json);
-    json["labels"] = name_in(labels_of_view, view.labels);
+    json["labels"] = name_in(label_switch_names, view.labels);
     json["accuracy"] = view.accuracy;
     json["refraction"] = view.model.air.k;
-    json["air"] = name_in(air_laws, view.model.air.law);
+    json["air"] = name_in(air_law_names, view.model.air.law);
     return json;
 }
 

@@ -112,7 +112,7 @@ class Rows {
     // On or off; true or false in JSON.
     template <class Value, class Owner, class Place>
     void on_off(const OptionText& text, Value Owner::*given, Place in_view, const char* help) {
-        connect(add(text, given, help, words_of(switches)), given, in_view, switches, NoNames{});
+        connect(add(text, given, help, words_of(switch_names)), given, in_view, switch_names, NoNames{});
     }
 
   private:
@@ -194,7 +194,7 @@ void add_style_and_images(Rows looks) {
                   &ViewOptions::drape_opacity, &View::drape_opacity,
                   "How much images hide of the style's colours, {}. Needs --drape.");
     looks.choice({"--drape-values", changes_looks, "auto"}, &ViewOptions::drape_values, &View::drape_values,
-                 values_of_images,
+                 image_value_names,
                  "What the values of images are: codes of sRGB, as a picture program writes them, or "
                  "reflectance, linear light that is stretched from its darkest to its brightest. auto: bytes "
                  "are codes; other numbers are what their ICC profile says, and reflectance without one. "
@@ -254,10 +254,10 @@ void add_light(Rows looks) {
 }
 
 void add_surroundings(Rows looks) {
-    looks.choice({"--sea", changes_looks, "level", "sea"}, &ViewOptions::sea, &View::sea, seas,
+    looks.choice({"--sea", changes_looks, "level", "sea"}, &ViewOptions::sea, &View::sea, sea_names,
                  "What a style with water draws as the sea: level, ground that is level, as lakes are; low, "
                  "too, what is up to 5 m above sea level and all below it; voids, what has no height.");
-    looks.choice({"--rim", changes_looks, "skirt", "rim"}, &ViewOptions::rim, &View::rim, rims,
+    looks.choice({"--rim", changes_looks, "skirt", "rim"}, &ViewOptions::rim, &View::rim, rim_names,
                  "What a style with voids draws below the region's rim: skirt, walls down to the ellipsoid; "
                  "or none.");
 }
@@ -268,10 +268,10 @@ void add_drawing(Rows looks) {
                  "Whether every fifth contour line has its height written on it, in pictures; a window has "
                  "none. For styles with contour lines.");
     looks.choice({"--edges", changes_looks, "as the style has it", "edges"}, &ViewOptions::edges,
-                 &View::edges, edges_of_ground,
+                 &View::edges, edge_names,
                  "Edges of the ground before the sky and before farther ground, in pictures of one sample: "
                  "smooth, each pixel shows what it has of both; or steps, it shows what is in its middle.");
-    looks.choice({"--show", changes_looks, "", "show"}, &ViewOptions::show, &View::show, shows,
+    looks.choice({"--show", changes_looks, "", "show"}, &ViewOptions::show, &View::show, show_names,
                  "Show how the picture was made, in the place of colours: visible, whether the last round "
                  "drew it or one before; levels, how coarse; meshlets or triangles, each in a colour of its "
                  "own; overdraw, how many triangles cover a pixel; clusters or groups of them, each in a "
@@ -312,7 +312,7 @@ void add_triangles(Rows detail) {
 void add_models(Rows detail) {
     detail.choice(
         {"--earth", no_trait, "ellipsoid", "earth"}, &ViewOptions::earth,
-        [](auto& view) -> auto& { return view.model.earth; }, earths,
+        [](auto& view) -> auto& { return view.model.earth; }, earth_names,
         "Shape of the Earth: ellipsoid (WGS84, as GPS has it), sphere, or flat around the eye. The last two "
         "are there to show how far off they are.");
     detail.add({"--refraction K", no_trait, "0", "", limits::refraction_k}, &ViewOptions::refraction_k,
@@ -321,16 +321,17 @@ void add_models(Rows detail) {
     detail.add({"--air", no_trait, "", "", {}, "--refraction"}, &ViewOptions::air,
                "standard: air that bends light less the higher the eye is, by 0.13 at sea level, 0.091 at "
                "3,000 m and nothing from space. Not with --refraction.",
-               words_of(airs));
+               words_of(air_names));
     detail.choice(
         {"--precision", no_trait, "relative", "precision"}, &ViewOptions::precision,
-        [](auto& view) -> auto& { return view.model.precision; }, precisions,
+        [](auto& view) -> auto& { return view.model.precision; }, precision_names,
         "relative: positions are counted from the eye, and exact near it. naive: they are counted from the "
         "Earth's centre with 7 digits, to show how far off that is.");
-    detail.choice({"--geoid", no_trait, "egm96", "geoid"}, &ViewOptions::geoid, &View::has_geoid, geoids,
+    detail.choice({"--geoid", no_trait, "egm96", "geoid"}, &ViewOptions::geoid, &View::has_geoid, geoid_names,
                   "egm96: sea level is where the EGM96 model has it. none: it is the ellipsoid itself, to "
                   "show how far off that is.");
-    detail.choice({"--heights", no_trait, "f32", "heights"}, &ViewOptions::heights, &View::heights, storages,
+    detail.choice({"--heights", no_trait, "f32", "heights"}, &ViewOptions::heights, &View::heights,
+                  height_storage_names,
                   "How the GPU keeps heights: f32 in steps of 0.5 mm, packed for the same picture in less "
                   "than half of the memory, or i16 in half the memory and coarser steps.");
 }
@@ -353,7 +354,8 @@ void add_accuracy(Rows detail) {
 
 ViewRows made_view_table() {
     ViewRows rows;
-    const Rows eye(headings::eye, rows), looks(headings::looks, rows), detail(headings::detail, rows);
+    const Rows eye(option_headings::eye, rows), looks(option_headings::looks, rows),
+        detail(option_headings::detail, rows);
     add_places(eye);
     add_directions(eye);
     add_style_and_images(looks);
@@ -375,7 +377,7 @@ const std::vector<ViewOption>& view_option_table() {
 }
 
 bool is_of_eye(const ViewOption& option) {
-    return option.heading == std::string_view(headings::eye) && option.name != "--size";
+    return option.heading == std::string_view(option_headings::eye) && option.name != "--size";
 }
 
 std::string on_summit_sentence(const std::string& who_stands, const std::string& place_option) {

@@ -113,7 +113,7 @@ Result<Air> air_asked_for(const std::optional<double>& refraction_k, const std::
         ORO_TRY(const double k, within("--refraction", *refraction_k, view_limits::refraction_k));
         return Air{k, AirLaw::constant};
     }
-    return air ? choice_named("--air", airs, *air) : Result<Air>(usual);
+    return air ? choice_named("--air", air_names, *air) : Result<Air>(usual);
 }
 
 std::int64_t time_now_s() {
