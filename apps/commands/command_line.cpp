@@ -245,7 +245,7 @@ void add_sun(CLI::App& app, SunOptions& options) {
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
     set_help(command, {{"sun --at PLACE [PATH...] [OPTIONS]"}, "", "docs/commands/sun.md"},
-             options_for_later({}));
+             options_for_later({}, {"--altitude", "--on-summit"}));
 }
 
 void add_sight(CLI::App& app, SightOptions& options) {
@@ -272,7 +272,7 @@ void add_sight(CLI::App& app, SightOptions& options) {
              {{"sight PATH... --from PLACE --to PLACE [OPTIONS]"},
               "The Earth's curvature always counts. Hidden is an answer, too: the exit code is 0.",
               "docs/commands/sight.md"},
-             options_for_later({}));
+             options_for_later({}, {"--altitude", "--on-summit"}));
 }
 
 void add_profile(CLI::App& app, ProfileOptions& options) {
@@ -328,7 +328,7 @@ void add_viewshed(CLI::App& app, ViewshedOptions& options) {
              {{"viewshed PATH... --at PLACE --out FILE.tif [OPTIONS]"},
               "The Earth's curvature always counts.",
               "docs/commands/viewshed.md"},
-             options_for_later({}));
+             options_for_later({}, {"--altitude", "--on-summit"}));
 }
 
 void add_bake(CLI::App& app, BakingOptions& options) {
