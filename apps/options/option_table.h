@@ -63,15 +63,17 @@ struct OptionRow {
     std::function<bool(const Options&)> is_given;
 };
 
-// "0.05 to 120"
+// The limits in words: "0.05 to 120".
 std::string span(const Limits& limits);
-// An option's sentences with its limits and its default.
+// What help prints of an option: its sentences with its limits and its default.
 std::string sentence_of(const char* help, const OptionText& text);
-// "a|b|c"
+// The words as a choice of one of them: "a|b|c".
 std::string alternatives(const std::vector<std::string>& words);
-// The value. A usage error of that option where it is not within the limits.
+// The value gives itself where it is within the limits; else there is a usage error of that option.
 Result<double> within(const std::string& option, double value, const Limits& limits);
 
+// Whether a command line has given a value: a flag that is set, anything in an optional value, a text or a
+// list.
 inline bool was_given(bool value) {
     return value;
 }
@@ -84,7 +86,8 @@ bool was_given(const Sequence& value) {
     return !value.empty();
 }
 
-// A row for a field. help: sentences, {} stands for the limits. words: the values that may be chosen.
+// The row for one field of Options. help: sentences, in which {} stands for the limits. words: the values
+// that may be chosen.
 template <class Options, class Value, class Owner>
 OptionRow<Options> option_row(const char* heading, const OptionText& text, Value Owner::*field,
                               const char* help, std::vector<std::string> words = {}) {
@@ -106,7 +109,7 @@ OptionRow<Options> option_row(const char* heading, const OptionText& text, Value
     return row;
 }
 
-// The row of that name; there must be one.
+// The row of that name. There must be one.
 template <class Row>
 const Row& row_named(const std::vector<Row>& table, std::string_view name) {
     for (const Row& row : table)
@@ -121,7 +124,7 @@ const char* first_given(const std::vector<Row>& table, const Options& options, A
         if (asked(row) && row.is_given(options)) return row.name.c_str();
     return nullptr;
 }
-// ... of those with these names, in their order.
+// The same is asked here of the options with these names, in their order.
 template <class Row, class Options>
 const char* first_given_of(const std::vector<Row>& table, const Options& options,
                            std::initializer_list<const char*> names) {

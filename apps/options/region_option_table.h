@@ -1,4 +1,4 @@
-// The tables of the options that say which terrain, and how much memory it may take.
+// The tables of the options of elevation data and of memory.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,9 @@
 
 namespace oro {
 
+// The rows of the options that say which terrain, in the order of help.
 const std::vector<OptionRow<RegionOptions>>& region_option_table();
+// The rows of the options that say how much memory it may take.
 const std::vector<OptionRow<MemoryOptions>>& memory_option_table();
 
 // The name of the first option that was given which says how data are read or which part of them is taken;

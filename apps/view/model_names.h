@@ -18,6 +18,7 @@ namespace oro {
 
 struct View;
 
+// Choices and the names that options and view files have for them; "" for what no user may write.
 template <class Choice, std::size_t count>
 using Names = std::array<std::pair<const char*, Choice>, count>;
 

@@ -23,16 +23,17 @@ struct ViewOption : OptionRow<ViewOptions> {
     std::function<void(const nlohmann::json&, View&)> read;
 };
 
-// In the order of help.
+// The rows of all options of a view, in the order of help. They are made when they are first asked for.
 const std::vector<ViewOption>& view_option_table();
 
 // True for options of the eye, which a view from a file has itself: all under that heading but --size.
 bool is_of_eye(const ViewOption& option);
+// True for options that change the colours or the light of a picture.
 inline bool is_look(const ViewOption& option) {
     return option.text.is(changes_looks);
 }
 
-// What --on-summit does. who_stands: "the eye stands"; place_option: "--at".
+// What help prints of --on-summit. who_stands: "the eye stands"; place_option: "--at".
 std::string on_summit_sentence(const std::string& who_stands, const std::string& place_option);
 
 }  // namespace oro

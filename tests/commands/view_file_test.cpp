@@ -72,9 +72,9 @@ TEST(ViewFile, KeysStandAsTheyAlwaysDid) {
     view.mesh = "clusters";
     view.vectors.names = {"peaks.gpx"};
     view.vectors.overlay = {"track.gpx"};
+    const auto json = nlohmann::ordered_json::parse(oro::view_to_json(view, false));
     std::string keys;
-    for (const auto& [key, value] : nlohmann::ordered_json::parse(oro::view_to_json(view, false)).items())
-        keys += key + " ";
+    for (const auto& [key, value] : json.items()) keys += key + " ";
     EXPECT_EQ(
         keys,
         "orograph_view sources bbox height_unit source_crs source_vertical fill_voids strict_datum eye "
