@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/command_line/help.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/command_line.h"
 #include "apps/commands/commands.h"
@@ -115,7 +116,10 @@ int run_command_line(int argc, char** argv) {
     } catch (const CLI::ParseError& e) {
         if (e.get_exit_code() != 0) return told(oro::refusal_of(app, e, words));
         if (const auto no_command = oro::refusal_of_command(app, words)) return told(*no_command);
-        app.exit(e);
+        if (e.get_name() == "CallForHelp" && oro::asks_for_all_options(words))
+            app.exit(CLI::CallForAllHelp());
+        else
+            app.exit(e);
         return exit_code({});
     }
     return run_command(app, line, words);

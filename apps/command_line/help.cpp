@@ -72,12 +72,9 @@ std::vector<std::string> headings_of(const std::vector<const CLI::Option*>& opti
     return headings;
 }
 
-std::string options_text(const CLI::App& command, std::size_t columns) {
+std::string options_text(const std::vector<const CLI::Option*>& options, std::size_t columns) {
     constexpr std::size_t roomy = 90;
     const std::size_t second_column = columns < roomy ? 26 : 36;
-    std::vector<const CLI::Option*> options = command.get_options({});
-    std::ranges::stable_partition(
-        options, [&](const CLI::Option* option) { return option != command.get_help_ptr(); });
     std::string text;
     for (const std::string& heading : headings_of(options)) {
         text += "\n" + heading + ":\n";
@@ -86,6 +83,37 @@ std::string options_text(const CLI::App& command, std::size_t columns) {
                 text += row(name_of(*option), option->get_description(), second_column, columns);
         }
     }
+    return text;
+}
+
+// Those that are not hidden, `--help` last, without those that are for later.
+std::vector<const CLI::Option*> shown_options(const CLI::App& command,
+                                              const std::vector<std::string>& later) {
+    std::vector<const CLI::Option*> options = command.get_options({});
+    std::ranges::stable_partition(
+        options, [&](const CLI::Option* option) { return option != command.get_help_ptr(); });
+    std::erase_if(options, [&](const CLI::Option* option) {
+        return option->get_group().empty() || std::ranges::find(later, option->get_name()) != later.end();
+    });
+    return options;
+}
+
+// Of all options, or of those but for `later`.
+std::string help_text(const CLI::App& command, const CommandHelp& help, const std::vector<std::string>& later,
+                      std::size_t columns) {
+    std::string text = wrapped(command.get_description() + ".", 0, 0, columns) + "\n";
+    for (const std::string& usage : help.usages) {
+        text += usage == help.usages.front() ? "Usage: " : "       ";
+        text += wrapped("orograph " + usage, 7, 7, columns);
+    }
+    const auto listed = shown_options(command, later);
+    text += options_text(listed, columns) + "\n";
+    if (!help.note.empty()) text += wrapped(help.note, 0, 0, columns) + "\n";
+    text += wrapped(exit_codes, 0, 0, columns) + "More: " + help.page + "\n";
+    if (const std::size_t more = shown_options(command, {}).size() - listed.size(); more > 0)
+        text += wrapped("`orograph " + command.get_name() + " --help all` lists " + std::to_string(more) +
+                            (more == 1 ? " more option." : " more options."),
+                        0, 0, columns);
     return text;
 }
 
@@ -110,22 +138,18 @@ std::string program_text(const CLI::App& app, std::size_t columns) {
 
 }  // namespace
 
-std::string help_text(const CLI::App& command, const CommandHelp& help, std::size_t columns) {
-    std::string text = wrapped(command.get_description() + ".", 0, 0, columns) + "\n";
-    for (const std::string& usage : help.usages) {
-        text += usage == help.usages.front() ? "Usage: " : "       ";
-        text += wrapped("orograph " + usage, 7, 7, columns);
-    }
-    text += options_text(command, columns) + "\n";
-    if (!help.note.empty()) text += wrapped(help.note, 0, 0, columns) + "\n";
-    return text + wrapped(exit_codes, 0, 0, columns) + "More: " + help.page + "\n";
+void set_help(CLI::App& command, const CommandHelp& help, const std::vector<std::string>& later) {
+    command.set_help_flag("-h,--help", "Print this help.")->group(messages);
+    command.formatter_fn([help, later](const CLI::App* asked, const std::string&, CLI::AppFormatMode mode) {
+        const bool of_all = mode == CLI::AppFormatMode::All;
+        return help_text(*asked, help, of_all ? std::vector<std::string>() : later, columns_here());
+    });
 }
 
-void set_help(CLI::App& command, const CommandHelp& help) {
-    command.set_help_flag("-h,--help", "Print this help.")->group(messages);
-    command.formatter_fn([help](const CLI::App* asked, const std::string&, CLI::AppFormatMode) {
-        return help_text(*asked, help, columns_here());
-    });
+bool asks_for_all_options(const std::vector<std::string>& words) {
+    for (std::size_t i = 1; i < words.size(); ++i)
+        if (words[i] == "all" && (words[i - 1] == "--help" || words[i - 1] == "-h")) return true;
+    return false;
 }
 
 void hide(CLI::App& command, const std::vector<std::string>& options) {

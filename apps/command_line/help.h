@@ -19,14 +19,14 @@ struct CommandHelp {
 };
 
 // Gives a command its help, as wide as the terminal is, up to 100 columns. `--help` stands last of the
-// messages' options.
-void set_help(CLI::App& command, const CommandHelp& help);
+// messages' options. later: options that are listed only where all are asked for.
+void set_help(CLI::App& command, const CommandHelp& help, const std::vector<std::string>& later = {});
 // Takes options out of a command's help that have no effect there, or are refused with a reason.
 void hide(CLI::App& command, const std::vector<std::string>& options);
 // The help of the program itself: its commands and how to begin.
 void set_program_help(CLI::App& app);
 
-// A command's help as it is printed on so many columns (40 or more).
-std::string help_text(const CLI::App& command, const CommandHelp& help, std::size_t columns);
+// Whether a command line asks for all options: `--help all`. App::help() lists them with AppFormatMode::All.
+bool asks_for_all_options(const std::vector<std::string>& words);
 
 }  // namespace oro

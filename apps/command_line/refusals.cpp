@@ -131,8 +131,9 @@ Error of_count(const CLI::App& command, const std::vector<std::string>& words) {
 
 Error of_no_command(const std::string& word, const std::vector<std::string>& names) {
     const std::string near = nearest_words(word, names);
-    return refused(word, "",
-                   "is no command" + (near.empty() ? "; these are " + joined(names, " and ") : near));
+    return refused("", "",
+                   "there is no command \"" + word + "\"" +
+                       (near.empty() ? "; these are " + joined(names, " and ") : near));
 }
 
 Error of_missing(const CLI::App& command) {
@@ -221,7 +222,9 @@ void need_no_value(CLI::Option& option) {
 std::optional<Error> refusal_of_command(const CLI::App& app, const std::vector<std::string>& words) {
     const std::vector<std::string> names = command_names(app);
     for (std::size_t i = 1; i < words.size(); ++i) {
-        if (words[i].starts_with('-')) continue;
+        const bool is_of_help =
+            i > 1 && words[i] == "all" && (words[i - 1] == "--help" || words[i - 1] == "-h");
+        if (words[i].starts_with('-') || is_of_help) continue;
         if (std::ranges::find(names, words[i]) != names.end()) return std::nullopt;
         return of_no_command(words[i], names);
     }

@@ -5,6 +5,7 @@
 #include "apps/command_line/help.h"
 #include "apps/command_line/option_group.h"
 #include "apps/commands/options.h"
+#include "apps/view/view_option_table.h"
 
 namespace oro {
 namespace {
@@ -64,9 +65,12 @@ void add_shot(CLI::App& app, ShotOptions& options) {
     add_memory_options(command, options.memory);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "errors, and the table of --verify");
-    set_help(command, {{"shot PATH... --out FILE [OPTIONS]", "shot --view PICTURE [--out FILE] [OPTIONS]"},
-                       "",
-                       "docs/commands/shot.md"});
+    set_help(command,
+             {{"shot PATH... --out FILE [OPTIONS]", "shot --view PICTURE [--out FILE] [OPTIONS]"},
+              "",
+              "docs/commands/shot.md"},
+             options_for_later({"--time", "--layers", "--ortho", "--crs", "--resolution", "--legend",
+                                "--no-legend", "--unseen-ceiling", "--no-paths", "--data-changed"}));
 }
 
 void add_panorama(CLI::App& app, PanoramaOptions& options) {
@@ -101,22 +105,18 @@ void add_panorama(CLI::App& app, PanoramaOptions& options) {
         "Where the eye is: latitude,longitude as in 46.57,7.99, or in another way that shot takes.");
     command.get_option("--above")->description(
         "Height of the eye over the ground there (default 2). Needs --at. Not with --altitude.");
-    command.get_option("--air")->description(
-        "standard (default): air that bends light less the higher the eye is, by 0.13 at sea level, 0.091 at "
-        "3,000 m and nothing from space. Not with --refraction.");
-    command.get_option("--refraction")
-        ->description(
-            "How much the air bends light (a surveyor's coefficient of refraction), the same at all heights, "
-            "-1 to 0.9: 0 is not at all, 0.13 is usual by day. Not with --air.");
+    describe_standard_air(command);
     hide(command, {"--heading", "--pitch", "--roll", "--look-at", "--fov", "--size", "--labels", "--show",
                    "--tolerance"});
     add_memory_options(command, options.memory);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "errors");
-    set_help(command, {{"panorama PATH... --at PLACE --out FILE [OPTIONS]",
-                        "panorama --view PICTURE --out FILE [OPTIONS]"},
-                       "The Earth's curvature always counts.",
-                       "docs/commands/panorama.md"});
+    set_help(
+        command,
+        {{"panorama PATH... --at PLACE --out FILE [OPTIONS]", "panorama --view PICTURE --out FILE [OPTIONS]"},
+         "The Earth's curvature always counts.",
+         "docs/commands/panorama.md"},
+        options_for_later({"--ridges", "--time", "--no-paths", "--data-changed"}));
 }
 
 void add_compare(CLI::App& app, CompareOptions& options) {
@@ -135,8 +135,7 @@ void add_compare(CLI::App& app, CompareOptions& options) {
     picture.flag("--overwrite", options.overwrite, "Replace a file that is there.");
     add_region_options(command, options.region);
     command.get_option("PATH")->description("The picture's elevation data, where they have moved.");
-    hide(command, {"--bbox", "--tile", "--height-unit", "--source-crs", "--source-vertical", "--strict-datum",
-                   "--fill-voids", "--resample", "--order", "--feather"});
+    hide_region_options(command);
     add_memory_options(command, options.memory);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the table and errors");
@@ -163,7 +162,8 @@ void add_view(CLI::App& app, WindowOptions& options) {
               "Keys: W A S D move; Space and Ctrl go up and down; Shift is faster. Drag the mouse, or Q E R "
               "F, to look. Right click tells what is there, in the title and on standard output. G goes to a "
               "place that you type. P writes a picture into the working folder. Esc leaves.",
-              "docs/commands/view.md"});
+              "docs/commands/view.md"},
+             options_for_later({"--no-paths"}));
 }
 
 void add_plan(CLI::App& app, PlanOptions& options) {
@@ -179,16 +179,15 @@ void add_plan(CLI::App& app, PlanOptions& options) {
         ->description(
             "How far off the picture may be, 0.001 to 1000, e.g. 1px (default 1px). Errors are judged by "
             "it.");
-    hide(command, {"--style",       "--drape",        "--drape-opacity",  "--drape-values",  "--names",
-                   "--names-field", "--overlay",      "--overlay-colour", "--overlay-width", "--overlay-fill",
-                   "--sun",         "--sun-time",     "--visibility",     "--sea",           "--rim",
-                   "--shadows",     "--sky-openness", "--labels",         "--edges",         "--samples",
-                   "--pipeline",    "--show",         "--mesh",           "--mesh-level"});
+    hide_looks(command);
+    hide(command, {"--samples", "--pipeline", "--mesh", "--mesh-level"});
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
-    set_help(command, {{"plan PATH... [OPTIONS]", "plan --view PICTURE [OPTIONS]"},
-                       "Nothing is drawn or written.",
-                       "docs/commands/plan.md"});
+    set_help(command,
+             {{"plan PATH... [OPTIONS]", "plan --view PICTURE [OPTIONS]"},
+              "Nothing is drawn or written.",
+              "docs/commands/plan.md"},
+             options_for_later({"--unseen-ceiling"}, {"--tau", "--tolerance"}));
 }
 
 void add_trade(CLI::App& app, TradeOptions& options) {
@@ -219,7 +218,8 @@ void add_trade(CLI::App& app, TradeOptions& options) {
              {{"trade PATH... [OPTIONS]", "trade --view PICTURE [OPTIONS]"},
               "The settings to compare are --tau, --earth, --refraction, --air, --precision, --geoid, "
               "--heights and --accuracy. trade sets them itself.",
-              "docs/commands/trade.md"});
+              "docs/commands/trade.md"},
+             options_for_later({"--time"}));
 }
 
 void add_sun(CLI::App& app, SunOptions& options) {
@@ -234,10 +234,18 @@ void add_sun(CLI::App& app, SunOptions& options) {
     add_region_options(command, options.region);
     command.get_option("PATH")->description(
         "Files or folders of elevation data, as of shot. Without any: over a plain horizon alone.");
-    add_place_options(command, options.view);
+    add_some_view_options(command, options.view, {"--at", "--above", "--altitude", "--on-summit"});
+    command.get_option("--at")->description(
+        "The place: latitude,longitude as in 46.57,7.99, or in another way that shot takes.");
+    command.get_option("--above")->description(
+        "Height of the eye over the ground there (default 2). Needs elevation data. Not with --altitude.");
+    command.get_option("--altitude")
+        ->description("Height of the eye above sea level instead. Needs elevation data. Not with --above.");
+    add_air_options(command, options.view);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
-    set_help(command, {{"sun --at PLACE [PATH...] [OPTIONS]"}, "", "docs/commands/sun.md"});
+    set_help(command, {{"sun --at PLACE [PATH...] [OPTIONS]"}, "", "docs/commands/sun.md"},
+             options_for_later({}, {"--altitude", "--on-summit"}));
 }
 
 void add_sight(CLI::App& app, SightOptions& options) {
@@ -253,16 +261,18 @@ void add_sight(CLI::App& app, SightOptions& options) {
     line.number("--altitude", options.altitude_m, "METRES",
                 "Height of the eye above sea level instead. Not with --above.")
         .excludes(&above);
-    add_on_summit(line, options.on_summit, "the eye stands", "--from");
+    line.flag("--on-summit", options.on_summit, on_summit_sentence("the eye stands", "--from"));
     line.number("--target", options.target_m, "METRES",
                 "Height of what is looked at over the ground at --to (default 0: the ground itself).");
     add_region_options(command, options.region);
-    add_air_options(command, options.air);
+    add_air_options(command, options.view);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
-    set_help(command, {{"sight PATH... --from PLACE --to PLACE [OPTIONS]"},
-                       "The Earth's curvature always counts. Hidden is an answer, too: the exit code is 0.",
-                       "docs/commands/sight.md"});
+    set_help(command,
+             {{"sight PATH... --from PLACE --to PLACE [OPTIONS]"},
+              "The Earth's curvature always counts. Hidden is an answer, too: the exit code is 0.",
+              "docs/commands/sight.md"},
+             options_for_later({}, {"--altitude", "--on-summit"}));
 }
 
 void add_profile(CLI::App& app, ProfileOptions& options) {
@@ -287,7 +297,8 @@ void add_profile(CLI::App& app, ProfileOptions& options) {
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
     set_help(command,
-             {{"profile PATH... --along LINE [--out FILE] [OPTIONS]"}, "", "docs/commands/profile.md"});
+             {{"profile PATH... --along LINE [--out FILE] [OPTIONS]"}, "", "docs/commands/profile.md"},
+             options_for_later({}));
 }
 
 void add_viewshed(CLI::App& app, ViewshedOptions& options) {
@@ -303,19 +314,21 @@ void add_viewshed(CLI::App& app, ViewshedOptions& options) {
     shed.number("--altitude", options.altitude_m, "METRES",
                 "Height of observers above sea level instead. Not with --above.")
         .excludes(&above);
-    add_on_summit(shed, options.on_summit, "each observer stands", "its --at");
+    shed.flag("--on-summit", options.on_summit, on_summit_sentence("each observer stands", "its --at"));
     shed.number("--target", options.target_m, "METRES",
                 "Height of what is looked at over the ground of each post (default 0: the ground itself).");
     shed.number("--radius", options.radius_km, "KM", "How far to look, 0.01 to 1000 (default 20).");
     shed.option("--out", options.out, "FILE", "The GeoTIFF to write (.tif).");
     shed.flag("--overwrite", options.overwrite, "Replace a file that is there.");
     add_region_options(command, options.region);
-    add_air_options(command, options.air);
+    add_air_options(command, options.view);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
-    set_help(command, {{"viewshed PATH... --at PLACE --out FILE.tif [OPTIONS]"},
-                       "The Earth's curvature always counts.",
-                       "docs/commands/viewshed.md"});
+    set_help(command,
+             {{"viewshed PATH... --at PLACE --out FILE.tif [OPTIONS]"},
+              "The Earth's curvature always counts.",
+              "docs/commands/viewshed.md"},
+             options_for_later({}, {"--altitude", "--on-summit"}));
 }
 
 void add_bake(CLI::App& app, BakingOptions& options) {
@@ -330,10 +343,12 @@ void add_bake(CLI::App& app, BakingOptions& options) {
     add_region_options(command, options.region);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "errors");
-    set_help(command, {{"bake PATH... --out FILE.oro [OPTIONS]"},
-                       "When a bake is stopped half-way, FILE.oro.partial and FILE.oro.partial-stitched "
-                       "stay. Give the same command again: it goes on from there and removes them.",
-                       "docs/commands/bake.md"});
+    set_help(command,
+             {{"bake PATH... --out FILE.oro [OPTIONS]"},
+              "When a bake is stopped half-way, FILE.oro.partial and FILE.oro.partial-stitched "
+              "stay. Give the same command again: it goes on from there and removes them.",
+              "docs/commands/bake.md"},
+             options_for_later({}, {"--mesh"}));
 }
 
 void add_info(CLI::App& app, InfoOptions& options) {
@@ -345,7 +360,7 @@ void add_info(CLI::App& app, InfoOptions& options) {
               "Read all of a .oro file, and name the first damaged byte. Other files are always read whole.");
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
-    set_help(command, {{"info PATH... [OPTIONS]"}, "", "docs/commands/info.md"});
+    set_help(command, {{"info PATH... [OPTIONS]"}, "", "docs/commands/info.md"}, options_for_later({}));
 }
 
 void add_doctor(CLI::App& app, DoctorOptions& options) {

@@ -202,8 +202,9 @@ std::string eye_text(const View& view, const PlanEye& eye) {
         above = ", " + metres(std::abs(*eye.above_ground_m)) + " m " +
                 (*eye.above_ground_m < 0.0 ? "below" : "above") + " the ground";
     char text[240];
-    std::snprintf(text, sizeof text, "Eye: %.6f %.6f, H %s m%s, towards %.4g.\n", place.lat_deg,
-                  place.lon_deg, metres(eye.H_m).c_str(), above.c_str(), heading_deg);
+    std::snprintf(text, sizeof text, "Eye: %.6f %.6f, H %s m%s, towards %.4g degrees (%s).\n", place.lat_deg,
+                  place.lon_deg, metres(eye.H_m).c_str(), above.c_str(), heading_deg,
+                  compass_point(static_cast<int>(std::lround(heading_deg / 22.5))));
     return text;
 }
 
@@ -244,7 +245,7 @@ std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye
     out += "Light: " + light_words(budget.air, budget.eye_h_m) +
            (view.model.air == budget.air ? ".\n" : "; in this picture it goes straight.\n");
     out +=
-        "Worst: no ground is moved farther, and so nothing that is seen, no edge and no skyline.\n"
+        "Worst: no ground is moved farther than this. So edges and skylines are not moved farther either.\n"
         "Typical: half of the ground is moved by less.\n" +
         estimates_text(budget) + "\n";
     out += "Switch off one part of the model to see how much error that causes:\n";

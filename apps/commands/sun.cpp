@@ -9,12 +9,14 @@
 #include "apps/eye/asked_summit.h"
 #include "apps/eye/standpoint.h"
 #include "apps/light/sun.h"
+#include "apps/options/region_option_table.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
 #include "apps/report/summit_words.h"
 #include "apps/view/truth.h"
 #include "apps/view/view.h"
+#include "apps/view/view_option_table.h"
 #include "core/base/parallel.h"
 #include "core/light/sun_over_terrain.h"
 #include "core/light/utc_time.h"
@@ -129,25 +131,10 @@ Result<void> look_over_terrain(const SunOptions& options, SunReport& report) {
 
 // What has no effect where there is no terrain.
 Result<void> leave_terrain_out(const SunOptions& options) {
-    const ViewOptions& view = options.view;
-    const RegionOptions& region = options.region;
-    for (const auto& [option, is_given] : {std::pair{"--above", view.above_m.has_value()},
-                                           {"--altitude", view.altitude_m.has_value()},
-                                           {"--on-summit", view.on_summit},
-                                           {"--refraction", view.refraction_k.has_value()},
-                                           {"--air", view.air.has_value()},
-                                           {"--bbox", !region.bbox.empty()},
-                                           {"--tile", !region.tile.empty()},
-                                           {"--height-unit", !region.height_unit.empty()},
-                                           {"--source-crs", !region.source_crs.empty()},
-                                           {"--source-vertical", !region.source_vertical.empty()},
-                                           {"--strict-datum", region.strict_datum},
-                                           {"--resample", region.resample},
-                                           {"--order", !region.order.empty()},
-                                           {"--feather", region.feather_m.has_value()},
-                                           {"--fill-voids", region.fill_voids}}) {
-        if (is_given) return refused(option, "", "says nothing without elevation data: name them, too");
-    }
+    const char* option = first_given_of(view_option_table(), options.view,
+                                        {"--above", "--altitude", "--on-summit", "--refraction", "--air"});
+    if (option == nullptr) option = first_given_of_region(options.region);
+    if (option != nullptr) return refused(option, "", "says nothing without elevation data: name them, too");
     return {};
 }
 

@@ -23,6 +23,7 @@
 #include "apps/view/accuracy.h"
 #include "apps/view/style.h"
 #include "apps/view/view_changes.h"
+#include "apps/view/view_option_table.h"
 #include "core/truth/view_set.h"
 #include "geo/files/whole_file.h"
 
@@ -90,19 +91,11 @@ void describe(const TradeOptions& options, const View& view, const Region& regio
 
 // A trade draws with all of them.
 Result<void> leave_settings_out(const ViewOptions& view) {
-    for (const auto& [option, is_given] : {std::pair{"--tau", view.tau_px.has_value()},
-                                           {"--earth", view.earth.has_value()},
-                                           {"--refraction", view.refraction_k.has_value()},
-                                           {"--air", view.air.has_value()},
-                                           {"--precision", view.precision.has_value()},
-                                           {"--geoid", view.geoid.has_value()},
-                                           {"--heights", view.heights.has_value()},
-                                           {"--accuracy", view.accuracy.has_value()},
-                                           {"--tolerance", view.tolerance.has_value()},
-                                           {"--mesh", view.mesh.has_value()},
-                                           {"--mesh-level", view.mesh_level.has_value()}}) {
-        if (is_given) return refused(option, "", "trade chooses this itself: leave it out");
-    }
+    if (const char* const option =
+            first_given_of(view_option_table(), view,
+                           {"--tau", "--earth", "--refraction", "--air", "--precision", "--geoid",
+                            "--heights", "--accuracy", "--tolerance", "--mesh", "--mesh-level"}))
+        return refused(option, "", "trade chooses this itself: leave it out");
     return {};
 }
 

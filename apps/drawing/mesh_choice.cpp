@@ -14,7 +14,7 @@ std::string without_clusters(const Region& region, const View& view) {
     if (view.exaggeration != 1.0) return "clusters are of heights without exaggeration";
     if (view.model.earth != Earth::ellipsoid) return "clusters are drawn on the ellipsoid";
     if (view.show == Show::overdraw)
-        return "--show " + std::string(name_of(*view.show)) + " tells of blocks, not of clusters";
+        return "--show " + std::string(name_in(show_names, *view.show)) + " tells of blocks, not of clusters";
     if (grid.field.undulation.N_m.size() != grid.file->outline().undulation.N_m.size())
         return "clusters are of heights with the geoid";
     return "";
@@ -24,7 +24,7 @@ std::string without_clusters(const Region& region, const View& view) {
 std::string asks_for_clusters(const View& view) {
     if (view.mesh_level) return "--mesh-level";
     if (view.show == Show::clusters || view.show == Show::groups)
-        return "--show " + std::string(name_of(*view.show));
+        return "--show " + std::string(name_in(show_names, *view.show));
     return view.mesh == "clusters" ? "--mesh clusters" : "";
 }
 

@@ -2,17 +2,11 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "apps/view/view.h"
 #include "geo/region/region.h"
 
 namespace oro {
-
-// The words of --mesh for a picture.
-inline std::vector<std::string> mesh_words() {
-    return {"auto", "clusters", "grid"};
-}
 
 // Whether a region has clusters that a view's models can be drawn by, whatever else the view asks for.
 bool has_clusters(const Region& region, const View& view);

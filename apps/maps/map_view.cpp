@@ -6,51 +6,30 @@
 #include "apps/command_line/refusals.h"
 #include "apps/maps/ortho_map.h"
 #include "apps/options/view_limits.h"
+#include "apps/view/view_option_table.h"
 #include "geo/together/cut_regions.h"
 
 namespace oro {
-namespace {
-
-Result<void> refuse(const std::vector<std::pair<const char*, bool>>& given, const std::string& why) {
-    for (const auto& [option, is_given] : given)
-        if (is_given) return refused(option, "", why);
-    return {};
-}
-
-}  // namespace
-
 Result<void> check_map_options(const ShotOptions& options) {
     const ViewOptions& view = options.view;
     if (!options.ortho) {
-        ORO_CHECK(
-            refuse({{"--crs", options.crs.has_value()}, {"--resolution", options.resolution.has_value()}},
-                   "says nothing without --ortho"));
+        if (options.crs || options.resolution)
+            return refused(options.crs ? "--crs" : "--resolution", "", "says nothing without --ortho");
         return {};
     }
     if (!options.view_file.empty())
         return refused("--ortho", "", "not together with --view, which says itself whether it is a map");
-    ORO_CHECK(refuse({{"--at", view.at.has_value()},
-                      {"--above", view.above_m.has_value()},
-                      {"--altitude", view.altitude_m.has_value()},
-                      {"--on-summit", view.on_summit},
-                      {"--heading", view.heading_deg.has_value()},
-                      {"--pitch", view.pitch_deg.has_value()},
-                      {"--roll", view.roll_deg.has_value()},
-                      {"--look-at", view.look_at.has_value()},
-                      {"--fov", view.vertical_fov_deg.has_value()}},
-                     "not together with --ortho: a map is seen from straight above, and has no eye"));
-    ORO_CHECK(refuse({{"--earth", view.earth.has_value()},
-                      {"--refraction", view.refraction_k.has_value()},
-                      {"--air", view.air.has_value()},
-                      {"--precision", view.precision.has_value()},
-                      {"--tolerance", view.tolerance.has_value()},
-                      {"--edges", view.edges.has_value()},
-                      {"--show", view.show.has_value()},
-                      {"--names", !view.names.empty()},
-                      {"--overlay", !view.overlay.empty()},
-                      {"--verify", options.verify},
-                      {"--layers", options.layers}},
-                     "not together with --ortho: it is for pictures from an eye"));
+    if (const char* const option = first_given(view_option_table(), view, is_of_eye))
+        return refused(option, "",
+                       "not together with --ortho: a map is seen from straight above, and has no eye");
+    const char* const of_eye = first_given_of(view_option_table(), view,
+                                              {"--earth", "--refraction", "--air", "--precision",
+                                               "--tolerance", "--edges", "--show", "--names", "--overlay"});
+    if (of_eye != nullptr || options.verify || options.layers)
+        return refused(of_eye != nullptr ? of_eye
+                       : options.verify  ? "--verify"
+                                         : "--layers",
+                       "", "not together with --ortho: it is for pictures from an eye");
     if (view.size && options.resolution)
         return refused("--resolution", "", either_words("--resolution", "--size"));
     if (options.resolution && !(*options.resolution > 0.0 && std::isfinite(*options.resolution)))

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/options/view_settings.h"
+
 namespace oro {
 
 // Which terrain.
@@ -23,7 +25,7 @@ struct RegionOptions {
 };
 
 // From where, and how it looks.
-struct ViewOptions {
+struct ViewOptions : ViewSettings<OnCommandLine> {
     std::optional<std::string> at;
     std::optional<double> above_m;
     std::optional<double> altitude_m;
@@ -35,41 +37,22 @@ struct ViewOptions {
     std::optional<std::string> size;
     std::optional<std::string> sun;
     std::optional<std::string> sun_time;
-    std::optional<std::string> shadows;  // on, off
-    std::optional<std::string> sky_openness;
-    std::optional<std::string> labels;
-    std::optional<std::string> edges;  // smooth, steps
-    std::optional<std::string> show;   // visible, levels, meshlets, triangles, overdraw, clusters, groups
-    bool legend{false};                // a strip below the picture
-    bool takes_maps{false};            // not an option: whether a view that is a map may be opened
-    bool on_summit{false};             // the eye stands on the highest post near --at
-    bool stands_at_place{false};       // not an option: whether --at alone is where the eye stands
-    std::optional<double> exaggeration;
-    std::optional<int> samples;
-    std::optional<std::string> style;
-    std::optional<double> visibility_km;
-    std::optional<std::string> sea;
-    std::optional<std::string> rim;
-    std::vector<std::string> drape;  // images over the ground, the last on top
-    std::optional<double> drape_opacity;
-    std::optional<std::string> drape_values;  // auto, codes, reflectance
-    std::vector<std::string> names;           // vector files whose points are named
+    bool legend{false};              // a strip below the picture
+    bool takes_maps{false};          // not an option: whether a view that is a map may be opened
+    bool on_summit{false};           // the eye stands on the highest post near --at
+    bool stands_at_place{false};     // not an option: whether --at alone is where the eye stands
+    std::vector<std::string> names;  // vector files whose points are named
     std::optional<std::string> names_field;
     std::vector<std::string> overlay;  // vector files that lie on the ground
     std::optional<std::string> overlay_colour;
     std::optional<double> overlay_width_px;
     std::optional<double> overlay_fill;
     std::optional<std::string> time;
-    std::optional<std::string> pipeline;
-    std::optional<std::string> mesh;
-    std::optional<int> mesh_level;
-    std::optional<double> tau_px;
     std::optional<std::string> earth;
     std::optional<double> refraction_k;
     std::optional<std::string> air;
     std::optional<std::string> precision;
     std::optional<std::string> geoid;
-    std::optional<std::string> heights;
     std::optional<std::string> accuracy;   // a bundle of options; single ones win over it
     std::optional<std::string> tolerance;  // pixels: the cheapest bundle that holds it
 };
@@ -143,15 +126,9 @@ struct SunOptions {
     bool quiet{false};
 };
 
-// How light goes.
-struct AirOptions {
-    std::optional<double> refraction_k;
-    std::optional<std::string> air;
-};
-
 struct SightOptions {
     RegionOptions region;
-    AirOptions air;
+    ViewOptions view;  // the air alone
     std::string from;
     std::string to;
     std::optional<double> above_m;
@@ -176,7 +153,7 @@ struct ProfileOptions {
 
 struct ViewshedOptions {
     RegionOptions region;
-    AirOptions air;
+    ViewOptions view;  // the air alone
     std::vector<std::string> at;
     std::optional<double> above_m;
     std::optional<double> altitude_m;

@@ -1,5 +1,5 @@
-// The least and the most that each number of a view may be: one table for the command line, which makes
-// views, and for the reader of views, so that a picture that was written can be opened again.
+// The least and the most that numbers of a view may be which more than one place asks for; those of one
+// option alone stand in its row (apps/view/view_option_table.cpp).
 #pragma once
 
 #include <cstdint>
@@ -19,9 +19,6 @@ namespace view_limits {
 inline constexpr Limits lat_deg{-90, 90};
 inline constexpr Limits lon_deg{-180, 180};
 inline constexpr Limits eye_h_m{-7e6, 2e9};  // from the Earth's middle to five times the moon's distance
-inline constexpr Limits heading_deg{-360, 360};
-inline constexpr Limits pitch_deg{-90, 90};
-inline constexpr Limits roll_deg{-180, 180};
 inline constexpr Limits fov_deg{0.05, 120};
 inline constexpr Limits side_px{1, 65500};  // what JPEG can hold; PNG and TIFF hold more
 // Of panoramas. Higher and lower rows would be drawn ever taller: at 75 degrees 15 times as tall as level
@@ -31,15 +28,11 @@ inline constexpr Limits azimuth_deg{-360, 360};
 inline constexpr Limits sweep_deg{0.1, 360};
 inline constexpr Limits elevation_deg{-75, 75};
 inline constexpr double least_elevations_deg = 0.02;
-inline constexpr Limits samples{1, 64};
 inline constexpr Limits drape_opacity{0, 1};
 inline constexpr Limits overlay_width_px{0.5, 50};
 inline constexpr Limits overlay_fill{0, 1};
-inline constexpr Limits exaggeration{0.01, 100};
 inline constexpr Limits sun_azimuth_deg{-1e9, 1e9};
 inline constexpr Limits sun_elevation_deg{-90, 90};
-inline constexpr Limits tau_px{0, 1000};
-inline constexpr Limits mesh_level{0, 80};  // no graph has more
 inline constexpr Limits refraction_k{-1, 0.9};
 inline constexpr Limits visibility_km{0.05, 288};  // molecules alone: 288.5
 // The years 0 to 9999, as many as a picture's tags can tell.

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "apps/report/figures.h"
+
 namespace oro {
 namespace {
 
@@ -154,7 +156,7 @@ class Writer {
         for (int i = 0; i <= 32; i += every) {
             const double on_deg = 22.5 * i - around_.from_deg;
             if (on_deg < -1e-9 || on_deg > around_.sweep_deg + 1e-9) continue;
-            ORO_CHECK(write(wind_name(i % 16), {on_deg * px_per_deg, top_px + winds_down_share * em_px_},
+            ORO_CHECK(write(compass_point(i % 16), {on_deg * px_per_deg, top_px + winds_down_share * em_px_},
                             i % 4 == 0 ? winds_size : 0.9, i % 4 == 0 ? ink : faint_ink, "wind"));
         }
         return {};
@@ -190,12 +192,6 @@ class Writer {
 };
 
 }  // namespace
-
-const char* wind_name(int sixteenth) {
-    static constexpr std::array<const char*, 16> names{"N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE",
-                                                       "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"};
-    return names[static_cast<std::size_t>(sixteenth & 15)];
-}
 
 int Rulers::strip_px() const {
     return static_cast<int>(std::ceil(strip_share * em_px));

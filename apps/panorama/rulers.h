@@ -28,7 +28,4 @@ Rulers rulers_of(const Cylinder& around, double em_px);
 Result<void> put_rulers(const Rulers& rulers, const Cylinder& around, const TextFace& face,
                         const std::string& told_left, const std::string& told_right, Sheet& sheet);
 
-// "N", "NNE", ... of a multiple of 22.5 degrees.
-const char* wind_name(int sixteenth);
-
 }  // namespace oro

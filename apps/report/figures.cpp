@@ -122,4 +122,10 @@ std::string counted(std::uint64_t count, const char* one, const char* many) {
     return grouped(count) + " " + (count == 1 ? one : many);
 }
 
+const char* compass_point(int sixteenth) {
+    static constexpr std::array<const char*, 16> names{"N", "NNE", "NE", "ENE", "E", "ESE", "SE", "SSE",
+                                                       "S", "SSW", "SW", "WSW", "W", "WNW", "NW", "NNW"};
+    return names[static_cast<std::size_t>(sixteenth & 15)];
+}
+
 }  // namespace oro

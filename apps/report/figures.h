@@ -30,5 +30,7 @@ std::string all_digits(double value);
 std::string grouped(std::uint64_t count);
 // "1 file", "12,345 files"
 std::string counted(std::uint64_t count, const char* one, const char* many);
+// The point of the compass that lies so many sixteenths of a turn clockwise from north: "N", "NNE", ...
+const char* compass_point(int sixteenth);
 
 }  // namespace oro

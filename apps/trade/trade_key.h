@@ -24,7 +24,7 @@ inline bool is_predicted(const TradeKey& key) {
     return !key.clusters;
 }
 
-// "full detail", "no geoid", "no full detail, tau 2", "clusters, tau 2" (likewise without full detail),
+// "full detail", "no geoid", "tau 2", "clusters, tau 2" (both without full detail),
 // "draft", "ground between the posts": parts of the model as plan calls them.
 std::string name_of(const TradeKey& key);
 

@@ -1,6 +1,5 @@
 #include "apps/vectors/view_vectors.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <utility>
 
@@ -20,19 +19,6 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr Limits width_px = view_limits::overlay_width_px;
-
-// A number of an option that is within its limits.
-Result<void> take_number(const char* option, const std::optional<double>& given, const Limits& limits,
-                         double& number) {
-    if (!given) return {};
-    if (!limits.hold(*given)) {
-        char text[40];
-        std::snprintf(text, sizeof text, "%.15g", *given);
-        return refused(option, text, between_words(limits.low, limits.high));
-    }
-    number = *given;
-    return {};
-}
 
 ordered_json files_json(const std::vector<std::string>& files) {
     ordered_json json = ordered_json::array();
@@ -72,18 +58,14 @@ std::vector<std::string*> VectorChoices::paths() {
     return all;
 }
 
-Result<void> choose_vectors(const ViewOptions& options, VectorChoices& choices) {
+Result<void> check_vectors(const ViewOptions& options, VectorChoices& choices) {
     for (const auto& [option, files] :
          {std::pair{"--names", &options.names}, {"--overlay", &options.overlay}}) {
         if (files->size() > most_vector_files)
             return refused(option, "", "at most " + std::to_string(most_vector_files) + " files");
     }
-    if (!options.names.empty()) choices.names = options.names;
-    if (!options.overlay.empty()) choices.overlay = options.overlay;
-    if (options.names_field) {
-        if (!choices.any()) return refused("--names-field", "", "says nothing without --names FILE");
-        choices.names_field = *options.names_field;
-    }
+    if (options.names_field && !choices.any())
+        return refused("--names-field", "", "says nothing without --names FILE");
     for (const auto& [option, is_given] : {std::pair{"--overlay-colour", options.overlay_colour.has_value()},
                                            {"--overlay-width", options.overlay_width_px.has_value()},
                                            {"--overlay-fill", options.overlay_fill.has_value()}}) {
@@ -96,9 +78,7 @@ Result<void> choose_vectors(const ViewOptions& options, VectorChoices& choices) 
             return refused("--overlay-colour", *options.overlay_colour, "must be a colour such as #e2252b");
         choices.overlay_colour = *colour;
     }
-    ORO_CHECK(take_number("--overlay-width", options.overlay_width_px, width_px, choices.overlay_width_px));
-    return take_number("--overlay-fill", options.overlay_fill, view_limits::overlay_fill,
-                       choices.overlay_fill);
+    return {};
 }
 
 void put_vectors(const VectorChoices& choices, ordered_json& json) {

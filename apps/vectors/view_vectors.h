@@ -38,9 +38,9 @@ struct VectorsRead {
 // Files of each kind that a view may have.
 inline constexpr std::size_t most_vector_files = 64;
 
-// Changes the choices as far as options are given. Errors: a colour or a width that is none, a detail of
-// files that are not named (usage).
-Result<void> choose_vectors(const ViewOptions& options, VectorChoices& choices);
+// Checks the choices, which have what options give, and takes the colour. Errors: a colour that is none, too
+// many files, a detail of files that are not named (usage).
+Result<void> check_vectors(const ViewOptions& options, VectorChoices& choices);
 
 // Puts the choices into a view's JSON, where there are any, and takes them out of it. Throws JsonFault.
 void put_vectors(const VectorChoices& choices, nlohmann::ordered_json& json);

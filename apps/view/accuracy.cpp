@@ -41,7 +41,7 @@ std::vector<HeightsOff> resampled_of(const Region& region) {
 AccuracyBundle bundle_of(Bundle kind, const char* name, double tau_px, HeightStorage heights,
                          const Air& air) {
     char text[100];
-    std::snprintf(text, sizeof text, "--tau %g --heights %s ", tau_px, name_of(heights));
+    std::snprintf(text, sizeof text, "--tau %g --heights %s ", tau_px, name_in(height_storage_names, heights));
     return {kind, name, tau_px, heights, air, text + air_option(air)};
 }
 

@@ -59,7 +59,7 @@ Result<void> check_surroundings(const View& view, const gpu::FrameStyle& style) 
                      "is for styles with " + what + "; " + view.style + " has none"};
     };
     if (view.sea_asked && view.sea != Sea::level && style.water.on == 0)
-        return of_no_use(std::string("--sea ") + name_of(view.sea), "water");
+        return of_no_use(std::string("--sea ") + name_in(sea_names, view.sea), "water");
     const bool has_skirt = (style.voids.on & gpu::voids_with_skirt) != 0;
     if (view.rim_asked && view.rim == Rim::none && !has_skirt) return of_no_use("--rim none", "voids");
     return {};
@@ -107,6 +107,10 @@ bool is_style_path(const std::string& style) {
     return style.ends_with(".json") || is_table(style) || style.find('/') != std::string::npos;
 }
 
+std::string present_name(const std::string& style) {
+    return style == "default" ? "haze" : style;
+}
+
 void light_by(const SunDirection& sun, gpu::FrameStyle& style) {
     style.sun_enu = gpu::vec3(enu_towards(sun.azimuth_deg, sun.elevation_deg));
     style.sun_hidden = static_cast<float>(1.0 - direct_light(sun));
@@ -115,7 +119,7 @@ void light_by(const SunDirection& sun, gpu::FrameStyle& style) {
 namespace {
 
 std::string file_of_style(const std::string& name) {
-    return is_style_path(name) ? name : (data_folder() / "styles" / (name + ".json")).string();
+    return is_style_path(name) ? name : (data_folder() / "styles" / (present_name(name) + ".json")).string();
 }
 
 }  // namespace

@@ -14,6 +14,10 @@ gpu::uint shown_by(Show show);
 // True for a path (ending in .json or .txt, or with a folder), false for a name in the data folder.
 bool is_style_path(const std::string& style);
 
+// The name of a style that had another in older views and scripts: `haze` was `default` before `natural` was
+// drawn where nobody asked. All other names and paths stay.
+std::string present_name(const std::string& style);
+
 // Whether views in a style that ask for no sun have the usual one of their place. False, too, where there is
 // no such style: load_style() says so.
 bool has_sun_by_place(const std::string& style);

@@ -31,19 +31,6 @@ struct ToldView {
     std::optional<Fingerprints> prints;  // none of before there were any
 };
 
-// What a style that has water takes for the sea: level ground alone; low ground, too (posts up to 5 m above
-// sea level, and all below it, whose mean over 3 x 3 of them is at most 1 m: heights of the sea with noise);
-// or, beside level ground, what has no height.
-enum class Sea { level, low, voids };
-// What is below the rim of a region, in styles that draw voids: walls down to the ellipsoid, or nothing.
-enum class Rim { skirt, none };
-// Where ground ends before the sky or before farther ground, in pictures of one sample: a pixel shows what it
-// has of both, or what is in its middle.
-enum class Edges { smooth, steps };
-// What a picture shows of its own making, in the place of colours: whether the last of a frame's rounds drew
-// it, how coarse, which meshlet, which triangle, how many triangles, which cluster, which group of clusters.
-enum class Show { visible, levels, meshlets, triangles, overdraw, clusters, groups };
-
 // Which part of all around a panorama shows: azimuths from the left border clockwise, elevations from its
 // lowest row to its highest. The view's camera then tells the eye, the middle and the whole picture's size.
 struct PanoramaFrame {
@@ -56,7 +43,7 @@ struct PanoramaFrame {
 // What a picture is drawn on.
 enum class PictureKind { plane, panorama };
 
-struct View {
+struct View : ViewSettings<OfView> {
     RegionRequest region;
     bool own_posts{};      // its region keeps the posts of files in a CRS of their own
     bool several_grids{};  // ... and those of files that lie apart, or over each other, as grids of their own
@@ -65,35 +52,15 @@ struct View {
     std::optional<PanoramaFrame> panorama;  // nothing: a picture on a plane
     bool legend{};                          // a strip below the picture
     int legend_px{};                        // its height, of pictures that were drawn
-    double exaggeration{1.0};
-    int samples{1};
-    std::optional<SunDirection> sun;      // nothing: the style's
-    std::optional<double> visibility_km;  // nothing: the style's
-    std::string style{"natural"};
-    std::optional<bool> shadows;       // nothing: as the style has it
-    std::optional<bool> sky_openness;  // likewise
-    std::optional<bool> labels;        // likewise: heights on contour lines
-    std::optional<Edges> edges;        // likewise
-    std::optional<Show> show;          // nothing: the ground
-    Sea sea{Sea::level};
-    Rim rim{Rim::skirt};
+    std::optional<SunDirection> sun;        // nothing: the style's
     // An option of this command says it, and not the view's file alone, which names both for any style.
     bool sea_asked{};
     bool rim_asked{};
-    std::vector<std::string> drape;  // images over the ground, the last on top
-    double drape_opacity{1.0};
-    ImageValues drape_values{ImageValues::by_file};
-    std::vector<ImageSource> images;                  // these files, from open_view on
+    std::vector<ImageSource> images;                  // the files of drape, from open_view on
     VectorChoices vectors;                            // names and lines from files
     std::shared_ptr<const VectorsRead> vectors_read;  // what is in them, from open_view on; null: no files
-    std::string pipeline{"auto"};  // or "mesh", "compute": written views name the one that drew them
-    std::string mesh{"auto"};      // or "clusters", "grid": what triangles are taken from (apps/drawing)
-    // The clusters of this level of the graph alone, instead of those that tau_px asks for.
-    std::optional<int> mesh_level;
-    double tau_px{1.0};  // largest error of what is drawn; 0: full resolution
     WorldModel model;
     bool has_geoid{true};  // false: N is 0 everywhere, heights are above the ellipsoid
-    HeightStorage heights{HeightStorage::f32};
     std::string accuracy;  // the bundle that these come from; empty when they were chosen one by one
     std::int64_t time_utc_s{};
     bool tells_paths{true};           // false: its picture names neither sources nor the folder of a style

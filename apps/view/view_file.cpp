@@ -1,4 +1,5 @@
 // Views as JSON, and back.
+#include <array>
 #include <ctime>
 #include <nlohmann/json.hpp>
 
@@ -11,14 +12,15 @@
 #include "apps/report/path_json.h"
 #include "apps/view/accuracy.h"
 #include "apps/view/model_names.h"
+#include "apps/view/style.h"
 #include "apps/view/view.h"
+#include "apps/view/view_option_table.h"
 #include "apps/view/view_paths.h"
 #include "core/light/utc_time.h"
 #include "geo/files/letter_case.h"
 #include "geo/files/text_encoding.h"
 #include "geo/pictures/picture.h"
 #include "geo/sources/raster_source.h"
-#include "render/device/raster_request.h"
 
 namespace oro {
 namespace {
@@ -59,28 +61,20 @@ BoundingBox read_box(const nlohmann::json& json) {
 }
 
 // Of a named choice; views of before there was it have none, and keep what `value` is.
-template <class Choice, class Named>
-void read_choice(const nlohmann::json& json, const char* name, Named named, Choice& value) {
-    if (!json.contains(name)) return;
-    const std::string chosen = json_string(json, name);
-    Result<Choice> found = named(chosen);
-    if (!found.ok())
-        throw JsonFault{"'" + std::string(name) + "' is '" + chosen + "': " + found.error().what};
-    value = *found;
+template <class Choice, std::size_t count>
+void read_choice(const nlohmann::json& json, const char* name, const Names<Choice, count>& names,
+                 Choice& value) {
+    if (json.contains(name)) value = choice_in(json, name, names);
 }
 
-void read_models(const nlohmann::json& json, View& view) {
-    read_choice(json, "earth", earth_named, view.model.earth);
-    read_choice(json, "precision", precision_named, view.model.precision);
-    read_choice(json, "geoid", geoid_named, view.has_geoid);
-    read_choice(json, "heights", heights_named, view.heights);
+void read_air(const nlohmann::json& json, Air& air) {
     if (!json.contains("refraction")) return;
-    view.model.air.k = number(json, "refraction", limits::refraction_k);
+    air.k = number(json, "refraction", limits::refraction_k);
     // Views of before --refraction was the same at all heights do not say which air they have: theirs bent
     // light less where the eye was higher.
-    view.model.air.law = AirLaw::standard;
-    read_choice(json, "air", air_law_named, view.model.air.law);
-    if (view.model.air.k == 0.0) view.model.air.law = AirLaw::constant;
+    air.law = AirLaw::standard;
+    read_choice(json, "air", air_law_names, air.law);
+    if (air.k == 0.0) air.law = AirLaw::constant;
 }
 
 void read_sources(const nlohmann::json& json, View& view) {
@@ -107,7 +101,7 @@ void read_drape(const nlohmann::json& json, View& view) {
     for (const nlohmann::json& file : files)
         view.drape.push_back(path_from(as_field("files", file), "files"));
     view.drape_opacity = number(drape, "opacity", limits::drape_opacity);
-    read_choice(drape, "values", drape_values_named, view.drape_values);
+    read_choice(drape, "values", image_value_names, view.drape_values);
 }
 
 ordered_json drape_json(const View& view) {
@@ -115,7 +109,8 @@ ordered_json drape_json(const View& view) {
     json["files"] = ordered_json::array();
     for (const std::string& file : view.drape) json["files"].push_back(path_json(file));
     json["opacity"] = view.drape_opacity;
-    if (view.drape_values != ImageValues::by_file) json["values"] = name_of(view.drape_values);
+    if (view.drape_values != ImageValues::by_file)
+        json["values"] = name_in(image_value_names, view.drape_values);
     return json;
 }
 
@@ -123,10 +118,6 @@ void read_camera(const nlohmann::json& json, Camera& camera) {
     const auto& eye = json_field(json, "eye");
     camera.eye = {number(eye, "lat_deg", limits::lat_deg), number(eye, "lon_deg", limits::lon_deg),
                   number(eye, "h_m", limits::eye_h_m)};
-    camera.attitude = {number(json, "heading_deg", limits::heading_deg),
-                       number(json, "pitch_deg", limits::pitch_deg),
-                       number(json, "roll_deg", limits::roll_deg)};
-    camera.vertical_fov_deg = number(json, "fov_deg", limits::fov_deg);
     const nlohmann::json& size = json_array(json, "size_px", 2);
     camera.width_px = static_cast<int>(whole(as_field("size_px", size[0]), "size_px", limits::side_px));
     camera.height_px = static_cast<int>(whole(as_field("size_px", size[1]), "size_px", limits::side_px));
@@ -209,30 +200,27 @@ void read_region(const nlohmann::json& json, RegionRequest& region) {
     region.strict_datum = json_flag(json, "strict_datum");
 }
 
-// Views of before there was a choice have no pipeline. Only what was drawn by clusters says so; all else is
-// drawn again by blocks.
-void read_drawing(const nlohmann::json& json, View& view) {
-    if (json.contains("pipeline")) view.pipeline = json_string(json, "pipeline");
-    if (!raster_request_named(view.pipeline))
-        throw JsonFault{"'pipeline' is '" + view.pipeline + "', none of " +
-                        listed(words_of(raster_requests))};
-    view.mesh = json.contains("mesh") ? json_string(json, "mesh") : "grid";
-    if (view.mesh != "auto" && view.mesh != "clusters" && view.mesh != "grid")
-        throw JsonFault{"'mesh' is '" + view.mesh + "', none of auto, clusters, grid"};
-    if (json.contains("mesh_level"))
-        view.mesh_level = static_cast<int>(whole(json, "mesh_level", limits::mesh_level));
-}
-
-// What is shown where ground ends, and in the place of colours.
-void read_show(const nlohmann::json& json, View& view) {
-    if (Show show{}; json.contains("show")) {
-        read_choice(json, "show", show_named, show);
-        view.show = show;
-    }
-    if (Edges edges{}; json.contains("edges")) {
-        read_choice(json, "edges", edges_named, edges);
-        view.edges = edges;
-    }
+// Of the options: what the table says, and what is made of several fields.
+void read_settings(const nlohmann::json& json, View& view) {
+    // Views of before there were labels were drawn without, those of before there was a tau at full
+    // resolution. Only what was drawn by clusters says so; all else is drawn again by blocks.
+    view.labels = false;
+    view.tau_px = 0.0;
+    view.mesh = "grid";
+    for (const ViewOption& option : view_option_table())
+        if (option.read) option.read(json, view);
+    if (const auto& sun = json_field(json, "sun"); !sun.is_null()) view.sun = read_sun(sun);
+    view.style = present_name(path_from(json, "style"));
+    read_drape(json, view);
+    view.vectors = vectors_from(json);
+    read_choice(json, "labels", label_switch_names, view.labels);
+    read_air(json, view.model.air);
+    // The bundle's name alone: what it stood for is in the fields themselves, which somebody may have
+    // changed.
+    if (json.contains("accuracy")) view.accuracy = json_string(json, "accuracy");
+    if (!view.accuracy.empty() && !accuracy_bundle(view.accuracy).ok())
+        throw JsonFault{"'accuracy' is '" + view.accuracy + "', none of " + listed(accuracy_words())};
+    forget_other_bundle(view);
 }
 
 // What the parser of options would have refused must not come in by a file.
@@ -256,34 +244,7 @@ View read_fields(const nlohmann::json& json) {
         view.legend = true;
     }
     view.panorama = read_panorama(json);
-    view.samples = static_cast<int>(whole(json, "samples", limits::samples));
-    view.exaggeration = number(json, "exaggeration", limits::exaggeration);
-    if (const auto& sun = json_field(json, "sun"); !sun.is_null()) view.sun = read_sun(sun);
-    // Views of before there was air that light goes through have none.
-    if (json.contains("visibility_km"))
-        view.visibility_km = number(json, "visibility_km", limits::visibility_km);
-    view.style = path_from(json, "style");
-    read_choice(json, "sea", sea_named, view.sea);
-    read_choice(json, "rim", rim_named, view.rim);
-    read_drape(json, view);
-    view.vectors = vectors_from(json);
-    // Where nothing was asked for there is none.
-    if (json.contains("shadows")) view.shadows = json_flag(json, "shadows");
-    if (json.contains("sky_openness")) view.sky_openness = json_flag(json, "sky_openness");
-    // Views of before there were labels were drawn without.
-    view.labels = false;
-    read_choice(json, "labels", labels_named, view.labels);
-    read_show(json, view);
-    read_drawing(json, view);
-    // Views of before there was a tau were drawn at full resolution.
-    view.tau_px = json.contains("tau_px") ? number(json, "tau_px", limits::tau_px) : 0.0;
-    read_models(json, view);
-    // The bundle's name alone: what it stood for is in the fields themselves, which somebody may have
-    // changed.
-    if (json.contains("accuracy")) view.accuracy = json_string(json, "accuracy");
-    if (!view.accuracy.empty() && !accuracy_bundle(view.accuracy).ok())
-        throw JsonFault{"'accuracy' is '" + view.accuracy + "', none of " + listed(accuracy_words())};
-    forget_other_bundle(view);
+    read_settings(json, view);
     view.time_utc_s = whole(json, "time_utc_s", limits::time_utc_s);
     // Views of before there were any have none.
     if (json.contains("fingerprints")) view.prints = prints_from(json_field(json, "fingerprints"));
@@ -301,7 +262,41 @@ std::string time_text(std::int64_t time_utc_s) {
     return text;
 }
 
-std::string view_to_json(const View& view, bool pretty) {
+namespace {
+
+// The keys of settings in the order that views have had them in since the first. Those that are not listed
+// follow in the order of the table.
+constexpr std::array keys_in_order{
+    "samples", "exaggeration", "sun",        "visibility_km", "style",      "sea",          "rim",
+    "drape",   "names",        "overlay",    "names_field",   "shadows",    "sky_openness", "labels",
+    "show",    "edges",        "pipeline",   "mesh",          "mesh_level", "tau_px",       "accuracy",
+    "earth",   "geoid",        "refraction", "air",           "precision",  "heights"};
+
+void move_field(ordered_json& from, const char* key, ordered_json& to) {
+    const auto found = from.find(key);
+    if (found == from.end()) return;
+    to[key] = std::move(*found);
+    from.erase(found);
+}
+
+// Of the options but the eye's: what the table says, and what is made of several fields.
+ordered_json settings_json(const View& view) {
+    ordered_json json = ordered_json::object();
+    for (const ViewOption& option : view_option_table())
+        if (option.put && !is_of_eye(option)) option.put(view, json);
+    json["sun"] = nullptr;
+    if (view.sun) json["sun"] = sun_json(*view.sun);
+    json["style"] = path_json(view.style);
+    if (!view.drape.empty()) json["drape"] = drape_json(view);
+    put_vectors(view.vectors, json);
+    json["labels"] = name_in(label_switch_names, view.labels);
+    json["accuracy"] = view.accuracy;
+    json["refraction"] = view.model.air.k;
+    json["air"] = name_in(air_law_names, view.model.air.law);
+    return json;
+}
+
+ordered_json begun_with_region(const View& view) {
     ordered_json json = ordered_json::object();
     json["orograph_view"] = view_format;
     if (view.paths_from_own_file) json["paths_from"] = own_file;
@@ -319,38 +314,32 @@ std::string view_to_json(const View& view, bool pretty) {
     if (view.region.listed_first) json["order"] = "listed";
     if (view.region.feather_m > 0.0) json["feather_m"] = view.region.feather_m;
     json["strict_datum"] = view.region.strict_datum;
+    return json;
+}
+
+}  // namespace
+
+nlohmann::ordered_json models_json(const View& view) {
+    ordered_json settings = settings_json(view), models = ordered_json::object();
+    for (const char* const key : {"earth", "geoid", "refraction", "air", "precision", "heights"})
+        move_field(settings, key, models);
+    return models;
+}
+
+std::string view_to_json(const View& view, bool pretty) {
+    ordered_json json = begun_with_region(view);
     const Camera& camera = view.camera;
     json["eye"] =
         json_object("lat_deg", camera.eye.lat_deg, "lon_deg", camera.eye.lon_deg, "h_m", camera.eye.h_m);
-    json["heading_deg"] = camera.attitude.heading_deg;
-    json["pitch_deg"] = camera.attitude.pitch_deg;
-    json["roll_deg"] = camera.attitude.roll_deg;
-    json["fov_deg"] = camera.vertical_fov_deg;
+    for (const ViewOption& option : view_option_table())
+        if (option.put && is_of_eye(option)) option.put(view, json);
     json["size_px"] = json_list(camera.width_px, camera.height_px);
     if (view.map) json["map"] = map_json(*view.map);
     if (view.legend) json["legend_px"] = view.legend_px;
     if (view.panorama) json["panorama"] = panorama_json(*view.panorama);
-    json["samples"] = view.samples;
-    json["exaggeration"] = view.exaggeration;
-    json["sun"] = nullptr;
-    if (view.sun) json["sun"] = sun_json(*view.sun);
-    if (view.visibility_km) json["visibility_km"] = *view.visibility_km;
-    json["style"] = path_json(view.style);
-    json["sea"] = name_of(view.sea);
-    json["rim"] = name_of(view.rim);
-    if (!view.drape.empty()) json["drape"] = drape_json(view);
-    put_vectors(view.vectors, json);
-    if (view.shadows) json["shadows"] = *view.shadows;
-    if (view.sky_openness) json["sky_openness"] = *view.sky_openness;
-    json["labels"] = !view.labels ? "style" : *view.labels ? "on" : "off";
-    if (view.show) json["show"] = name_of(*view.show);
-    if (view.edges) json["edges"] = name_of(*view.edges);
-    json["pipeline"] = view.pipeline;
-    if (view.mesh == "clusters") json["mesh"] = view.mesh;
-    if (view.mesh_level) json["mesh_level"] = *view.mesh_level;
-    json["tau_px"] = view.tau_px;
-    json["accuracy"] = view.accuracy;
-    json.update(models_json(view));
+    ordered_json settings = settings_json(view);
+    for (const char* const key : keys_in_order) move_field(settings, key, json);
+    json.update(settings);
     json["time_utc_s"] = view.time_utc_s;
     json["time"] = time_text(view.time_utc_s);
     if (view.prints) json["fingerprints"] = prints_json(*view.prints);

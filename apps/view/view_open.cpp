@@ -7,6 +7,7 @@
 #include "apps/view/own_posts_limits.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
+#include "apps/view/view_option_table.h"
 #include "core/base/file_there.h"
 #include "geo/opening/open_region.h"
 
@@ -109,16 +110,8 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         ORO_TRY(view, read_view(view_file));
         ORO_CHECK(check_map(view, view_options, view_file));
         ORO_CHECK(check_kind(view, view_file, kind));
-        view.told = ToldView{
-            view_file, view.camera.width_px, view.camera.height_px + view.legend_px,
-            !view_options.style && !view_options.visibility_km && !view_options.sun &&
-                !view_options.sun_time && !view_options.sea && !view_options.rim &&
-                view_options.drape.empty() && !view_options.drape_opacity && !view_options.drape_values &&
-                !view_options.shadows && view_options.names.empty() && !view_options.names_field &&
-                view_options.overlay.empty() && !view_options.overlay_colour &&
-                !view_options.overlay_width_px && !view_options.overlay_fill && !view_options.sky_openness &&
-                !view_options.labels && !view_options.edges && !view_options.show,
-            view.prints};
+        view.told = ToldView{view_file, view.camera.width_px, view.camera.height_px + view.legend_px,
+                             !first_given(view_option_table(), view_options, is_look), view.prints};
         const std::string told_style = view.style;
         ORO_CHECK(change_view(view, view_options));
         // With another style goes another usual sun.

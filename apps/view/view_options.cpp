@@ -6,11 +6,13 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/command_line/whole_text.h"
-#include "apps/options/view_limits.h"
+#include "apps/options/region_option_table.h"
 #include "apps/report/json_text.h"
 #include "apps/view/accuracy.h"
 #include "apps/view/model_names.h"
+#include "apps/view/style.h"
 #include "apps/view/view.h"
+#include "apps/view/view_option_table.h"
 #include "geo/sources/told_of_files.h"
 
 namespace oro {
@@ -40,34 +42,6 @@ Result<std::int64_t> picture_time_s() {
     return time_now_s();
 }
 
-Result<double> within(const char* option, double value, const Limits& limits) {
-    if (limits.hold(value)) return value;
-    char text[40];
-    std::snprintf(text, sizeof text, "%.15g", value);
-    return refused(option, text, between_words(limits.low, limits.high));
-}
-
-Result<void> apply_models(View& view, const ViewOptions& options) {
-    if (options.accuracy) {
-        ORO_TRY(const AccuracyBundle bundle, accuracy_bundle(*options.accuracy));
-        apply_bundle(bundle, view);
-    }
-    if (options.earth) {
-        ORO_TRY(view.model.earth, earth_named(*options.earth));
-    }
-    ORO_TRY(view.model.air, air_asked_for(options.refraction_k, options.air, view.model.air));
-    if (options.precision) {
-        ORO_TRY(view.model.precision, precision_named(*options.precision));
-    }
-    if (options.geoid) {
-        ORO_TRY(view.has_geoid, geoid_named(*options.geoid));
-    }
-    if (options.heights) {
-        ORO_TRY(view.heights, heights_named(*options.heights));
-    }
-    return {};
-}
-
 // After the picture's time, which the sun may go by.
 Result<void> apply_sun(View& view, const ViewOptions& options) {
     if (options.sun) {
@@ -82,65 +56,17 @@ Result<void> apply_sun(View& view, const ViewOptions& options) {
     return {};
 }
 
-Result<void> apply_drape(View& view, const ViewOptions& options) {
-    if (!options.drape.empty()) view.drape = options.drape;
+// The images and what is said of them.
+Result<void> check_drape(const View& view, const ViewOptions& options) {
     if (view.drape.empty() && (options.drape_opacity || options.drape_values))
         return refused(options.drape_opacity ? "--drape-opacity" : "--drape-values", "",
                        "says nothing without --drape FILE");
-    if (options.drape_opacity) {
-        ORO_TRY(view.drape_opacity,
-                within("--drape-opacity", *options.drape_opacity, view_limits::drape_opacity));
-    }
-    if (options.drape_values) {
-        ORO_TRY(view.drape_values, drape_values_named(*options.drape_values));
-    }
     return {};
-}
-
-Result<bool> switch_named(const std::string& option, const std::string& word) {
-    if (word != "on" && word != "off")
-        return Error{ErrorKind::usage, option, "'" + word + "' is neither on nor off"};
-    return word == "on";
-}
-
-// What the ground and the air look like.
-Result<void> apply_colours(View& view, const ViewOptions& options) {
-    if (options.style) view.style = *options.style;
-    if (options.visibility_km) {
-        ORO_TRY(view.visibility_km,
-                within("--visibility", *options.visibility_km, view_limits::visibility_km));
-    }
-    if (options.sea) {
-        ORO_TRY(view.sea, sea_named(*options.sea));
-        view.sea_asked = true;
-    }
-    if (options.rim) {
-        ORO_TRY(view.rim, rim_named(*options.rim));
-        view.rim_asked = true;
-    }
-    if (options.shadows) {
-        ORO_TRY(view.shadows, switch_named("--shadows", *options.shadows));
-    }
-    if (options.sky_openness) {
-        ORO_TRY(view.sky_openness, switch_named("--sky-openness", *options.sky_openness));
-    }
-    if (options.labels) {
-        ORO_TRY(view.labels, switch_named("--labels", *options.labels));
-    }
-    if (options.show) {
-        ORO_TRY(view.show, show_named(*options.show));
-    }
-    if (options.edges) {
-        ORO_TRY(view.edges, edges_named(*options.edges));
-    }
-    ORO_CHECK(choose_vectors(options, view.vectors));
-    return apply_drape(view, options);
 }
 
 // A level of the graph and an error in pixels ask for different clusters: what an option says takes the place
 // of what a view's file has.
-Result<void> apply_mesh(View& view, const ViewOptions& options) {
-    if (options.mesh) view.mesh = *options.mesh;
+Result<void> choose_mesh_level(View& view, const ViewOptions& options) {
     for (const auto& [option, is_given] : {std::pair{"--tau", options.tau_px.has_value()},
                                            {"--accuracy", options.accuracy.has_value()},
                                            {"--tolerance", options.tolerance.has_value()},
@@ -149,10 +75,6 @@ Result<void> apply_mesh(View& view, const ViewOptions& options) {
         if (options.mesh_level) return refused("--mesh-level", "", either_words("--mesh-level", option));
         view.mesh_level.reset();
     }
-    if (options.mesh_level) {
-        ORO_TRY(const double level, within("--mesh-level", *options.mesh_level, view_limits::mesh_level));
-        view.mesh_level = static_cast<int>(level);
-    }
     return {};
 }
 
@@ -160,23 +82,21 @@ Result<void> apply_mesh(View& view, const ViewOptions& options) {
 Result<void> apply_look(View& view, const ViewOptions& options) {
     if (options.legend) view.legend = true;
     if (options.size) ORO_CHECK(set_size(*options.size, view.camera));
-    if (options.exaggeration) {
-        ORO_TRY(view.exaggeration,
-                within("--exaggeration", *options.exaggeration, view_limits::exaggeration));
+    if (options.accuracy) {
+        ORO_TRY(const AccuracyBundle bundle, accuracy_bundle(*options.accuracy));
+        apply_bundle(bundle, view);
     }
-    if (options.samples) {
-        ORO_TRY(const double samples, within("--samples", *options.samples, view_limits::samples));
-        view.samples = static_cast<int>(samples);
-    }
-    ORO_CHECK(apply_colours(view, options));
+    for (const ViewOption& option : view_option_table())
+        if (option.apply && !is_of_eye(option)) ORO_CHECK(option.apply(options, view));
+    view.style = present_name(view.style);
+    view.sea_asked |= options.sea.has_value();
+    view.rim_asked |= options.rim.has_value();
+    ORO_CHECK(check_vectors(options, view.vectors));
+    ORO_CHECK(check_drape(view, options));
     if (view.show && view.samples > 1)
         return refused("--show", "", "is for pictures of one sample, not together with --samples");
-    if (options.pipeline) view.pipeline = *options.pipeline;
-    ORO_CHECK(apply_mesh(view, options));
-    ORO_CHECK(apply_models(view, options));
-    if (options.tau_px) {
-        ORO_TRY(view.tau_px, within("--tau", *options.tau_px, view_limits::tau_px));
-    }
+    ORO_CHECK(choose_mesh_level(view, options));
+    ORO_TRY(view.model.air, air_asked_for(options.refraction_k, options.air, view.model.air));
     forget_other_bundle(view);
     if (options.time) {
         ORO_TRY(const SunTime time, parse_time("--time", *options.time));
@@ -193,7 +113,7 @@ Result<Air> air_asked_for(const std::optional<double>& refraction_k, const std::
         ORO_TRY(const double k, within("--refraction", *refraction_k, view_limits::refraction_k));
         return Air{k, AirLaw::constant};
     }
-    return air ? air_named(*air) : Result<Air>(usual);
+    return air ? choice_named("--air", air_names, *air) : Result<Air>(usual);
 }
 
 std::int64_t time_now_s() {
@@ -247,21 +167,10 @@ Result<View> view_without_eye(const ViewOptions& options, RegionRequest region) 
         ORO_TRY(view.time_utc_s, picture_time_s());
     }
     ORO_CHECK(apply_look(view, options));
-    if (options.vertical_fov_deg) {
-        ORO_TRY(view.camera.vertical_fov_deg,
-                within("--fov", *options.vertical_fov_deg, view_limits::fov_deg));
-    }
-    Attitude& attitude = view.camera.attitude;
-    if (options.heading_deg) {
-        ORO_TRY(attitude.heading_deg, within("--heading", *options.heading_deg, view_limits::heading_deg));
-        attitude.heading_deg = std::fmod(attitude.heading_deg + 360.0, 360.0);
-    }
-    if (options.pitch_deg) {
-        ORO_TRY(attitude.pitch_deg, within("--pitch", *options.pitch_deg, view_limits::pitch_deg));
-    }
-    if (options.roll_deg) {
-        ORO_TRY(attitude.roll_deg, within("--roll", *options.roll_deg, view_limits::roll_deg));
-    }
+    for (const ViewOption& option : view_option_table())
+        if (option.apply && is_of_eye(option)) ORO_CHECK(option.apply(options, view));
+    double& heading_deg = view.camera.attitude.heading_deg;
+    heading_deg = std::fmod(heading_deg + 360.0, 360.0);
     if (options.look_at && (options.heading_deg || options.pitch_deg))
         return refused("--look-at", "", either_words("--look-at", "--heading and --pitch"));
     if (options.altitude_m) ORO_CHECK(within("--altitude", *options.altitude_m, view_limits::altitude_m));
@@ -276,33 +185,14 @@ Result<View> view_without_eye(const ViewOptions& options, RegionRequest region) 
 }
 
 Result<void> change_view(View& view, const ViewOptions& options) {
-    for (const auto& [option, is_given] : {std::pair{"--at", options.at.has_value()},
-                                           {"--above", options.above_m.has_value()},
-                                           {"--altitude", options.altitude_m.has_value()},
-                                           {"--heading", options.heading_deg.has_value()},
-                                           {"--pitch", options.pitch_deg.has_value()},
-                                           {"--roll", options.roll_deg.has_value()},
-                                           {"--fov", options.vertical_fov_deg.has_value()},
-                                           {"--on-summit", options.on_summit},
-                                           {"--look-at", options.look_at.has_value()}}) {
-        if (is_given) return refused(option, "", "not together with --view, which has an eye of its own");
-    }
+    if (const char* const option = first_given(view_option_table(), options, is_of_eye))
+        return refused(option, "", "not together with --view, which has an eye of its own");
     return apply_look(view, options);
 }
 
 Result<void> change_region(View& view, const RegionOptions& options) {
-    for (const auto& [option, is_given] : {std::pair{"--bbox", !options.bbox.empty()},
-                                           {"--tile", !options.tile.empty()},
-                                           {"--height-unit", !options.height_unit.empty()},
-                                           {"--source-crs", !options.source_crs.empty()},
-                                           {"--source-vertical", !options.source_vertical.empty()},
-                                           {"--strict-datum", options.strict_datum},
-                                           {"--resample", options.resample},
-                                           {"--order", !options.order.empty()},
-                                           {"--feather", options.feather_m.has_value()},
-                                           {"--fill-voids", options.fill_voids}}) {
-        if (is_given) return refused(option, "", "not together with a picture's view, which says it itself");
-    }
+    if (const char* const option = first_given_of_region(options))
+        return refused(option, "", "not together with a picture's view, which says it itself");
     if (!options.paths.empty()) view.region.paths = options.paths;
     return {};
 }

@@ -1,5 +1,5 @@
-// What a new user is shown: `--help` of each command says what every option takes, under the same headings,
-// and lists nothing that has no effect.
+// What a new user is shown: `--help` of each command lists what most people need, and `--help all` says what
+// every option takes, under the same headings, and lists nothing that has no effect.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,13 +23,17 @@ const Words commands{"shot",  "panorama", "view",     "compare", "plan", "trade"
 const std::string exit_line =
     "\nExit code: 0 done, 1 failed, 2 wrong arguments, 3 no data in the region, 4 no suitable GPU.\n";
 
-std::string help_of(const Words& words) {
-    Words all = words;
-    all.emplace_back("--help");
-    const Outcome outcome = run_orograph(all);
+std::string printed(const Words& words) {
+    const Outcome outcome = run_orograph(words);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
     return outcome.out;
+}
+
+// Of all options.
+std::string help_of(Words words) {
+    words.insert(words.end(), {"--help", "all"});
+    return printed(words);
 }
 
 Words lines_of(const std::string& text) {
@@ -99,10 +103,10 @@ TEST(Help, HasTheSameHeadingsInTheSameOrder) {
 
 // A value word for all but flags; a sentence, which begins in the same column and ends with a full stop.
 TEST(Help, ExplainsEachOption) {
-    const Words flags{"--verify",       "--layers",     "--ortho",        "--legend",    "--no-paths",
-                      "--data-changed", "--overwrite",  "--json",         "-q, --quiet", "--check",
-                      "--no-legend",    "--fill-voids", "--strict-datum", "-h, --help",  "--resample",
-                      "--on-summit"};
+    const Words flags{"--verify",       "--layers",       "--ortho",     "--legend",
+                      "--no-paths",     "--data-changed", "--overwrite", "--json",
+                      "-q, --quiet",    "--check",        "--no-legend", "--fill-voids",
+                      "--strict-datum", "-h, --help",     "--resample",  "--on-summit"};
     for (const std::string& command : commands) {
         const auto options = options_in(help_of({command}));
         EXPECT_GE(options.size(), 2U) << command;
@@ -147,8 +151,33 @@ TEST(Help, HidesWhatDoesNothing) {
         << "a command line of shot can be planned";
 }
 
+// Some twenty options first; the last line says how many more there are, and how they are asked for.
+TEST(Help, ListsFirstWhatMostPeopleNeed) {
+    for (const std::string& command : commands) {
+        const auto first = options_in(printed({command, "--help"})), all = options_in(help_of({command}));
+        for (const auto& [name, sentence] : first) EXPECT_TRUE(all.contains(name)) << command << " " << name;
+        EXPECT_LE(first.size(), 25U) << command;
+        const std::string last = lines_of(printed({command, "--help"})).back();
+        const std::size_t more = all.size() - first.size();
+        const std::string wanted =
+            "`orograph " + command + " --help all` lists " + std::to_string(more) + " more options.";
+        EXPECT_EQ(last, more > 0 ? wanted : "More: docs/commands/" + command + ".md");
+        EXPECT_EQ(printed({command, "-h", "all"}), help_of({command}));
+    }
+    const std::string shot = printed({"shot", "--help"});
+    EXPECT_LE(lines_of(shot).size(), 80U);
+    for (const char* name :
+         {"--out", "--view", "--at", "--above", "--heading", "--size", "--style", "--json"})
+        EXPECT_TRUE(lists(shot, name)) << name;
+    for (const char* name : {"--precision", "--memory", "--feather", "--rim", "--time"})
+        EXPECT_FALSE(lists(shot, name)) << name;
+    EXPECT_TRUE(lists(printed({"bake", "--help"}), "--mesh"));
+    EXPECT_TRUE(lists(printed({"plan", "--help"}), "--tolerance"));
+}
+
 TEST(Help, OfTheProgramNamesItsCommands) {
-    const std::string help = help_of({});
+    const std::string help = printed({"--help"});
+    EXPECT_EQ(help_of({}), help);
     for (const std::string& command : commands) EXPECT_TRUE(lists(help, command)) << command;
     for (const char* words : {"COMMAND --help", "README.md", "docs/commands", "orograph info FOLDER"})
         EXPECT_NE(help.find(words), std::string::npos) << words;

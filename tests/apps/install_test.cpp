@@ -20,7 +20,7 @@ TEST(Install, FindsItsDataAndHoldsNoPathOfTheBuildTree) {
     fs::rename(folder / "first", moved);
     const fs::path program = moved / "bin" / "orograph";
     const fs::path data = moved / "share" / "orograph";
-    for (const char* name : {"jacksboro.tif", "README.md", "styles/default.json"})
+    for (const char* name : {"jacksboro.tif", "README.md", "styles/haze.json"})
         EXPECT_TRUE(fs::exists(data / name)) << name;
 
     const std::string bytes = bytes_of(program);

@@ -34,11 +34,11 @@ TEST(RefusedOptions, NoCommandIsOneForHelpEither) {
         "; these are shot, panorama, view, compare, plan, trade, sun, sight, profile, viewshed, bake, info "
         "and "
         "doctor";
-    expect_lines({{{"nonsense", "--help"}, "nonsense: is no command" + these},
-                  {{"nonsense", "-h"}, "nonsense: is no command" + these},
-                  {{"--help", "nonsense"}, "nonsense: is no command" + these},
-                  {{"nonsense", "--version"}, "nonsense: is no command" + these},
-                  {{"shoot", "--help"}, "shoot: is no command: did you mean shot?"}});
+    expect_lines({{{"nonsense", "--help"}, "there is no command \"nonsense\"" + these},
+                  {{"nonsense", "-h"}, "there is no command \"nonsense\"" + these},
+                  {{"--help", "nonsense"}, "there is no command \"nonsense\"" + these},
+                  {{"nonsense", "--version"}, "there is no command \"nonsense\"" + these},
+                  {{"shoot", "--help"}, "there is no command \"shoot\": did you mean shot?"}});
     EXPECT_EQ(run_orograph({"--help"}).exit_code, 0);
     EXPECT_EQ(run_orograph({"--version"}).exit_code, 0);
     EXPECT_EQ(run_orograph({"shot", "nonsense", "--help"}).exit_code, 0);
@@ -149,9 +149,10 @@ TEST(RefusedOptions, NamesThatThereAreNot) {
          {{"--tau", "1", "plan", file}, "--tau: stands before the command: orograph COMMAND --tau"},
          {{"--nonsense"}, "--nonsense: stands before the command: orograph COMMAND --nonsense"},
          {{"info", file, "--json=perhaps"}, "--json: takes no value"},
-         {{"sho", file}, "sho: is no command: did you mean shot?"},
+         {{"sho", file}, "there is no command \"sho\": did you mean shot?"},
          {{"fly"},
-          "fly: is no command; these are shot, panorama, view, compare, plan, trade, sun, sight, profile, "
+          "there is no command \"fly\"; these are shot, panorama, view, compare, plan, trade, sun, sight, "
+          "profile, "
           "viewshed, bake, info and doctor"}});
 }
 

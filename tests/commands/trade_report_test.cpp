@@ -128,7 +128,7 @@ TEST(TradeReport, CsvIsRfc4180WithAllDigits) {
         "skyline_px_max,skyline_px_p9999,skyline_px_p99,skyline_px_mean,skyline_px_count,"
         "skyline_px_at_least,"
         "skyline_in_one_only\r\n"
-        "\"far, over \"\"the\"\" Alps\",\"no full detail, tau 1\",0.1,1000,0.05,400,250000,"
+        "\"far, over \"\"the\"\" Alps\",tau 1,0.1,1000,0.05,400,250000,"
         "5,4,2,0.5,100,0,0.5,0.375,0.25,0.125,100,0,0,0,0,0,0,0,0,0,0,0,0,0,1,1,0.5,0.25,16,0,0\r\n"
         "b,no curve of the Earth,0.3333333333333333,1000,0.16666666666666666,400,250000,"
         "2560,2048,1024,256,100,0,256,192,128,64,100,3,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,7\r\n");
@@ -272,9 +272,8 @@ TEST(TradeReport, FiguresOfTheTextAreAligned) {
     sum_up(report);
     const std::string text = trade_text(report);
     std::vector<std::size_t> units;  // where the units of the times stand
-    for (const auto& [setting, time] : {std::pair{"\n* no full detail, tau 1 ", "1.3"},
-                                        {"\n  no full detail, tau 2 ", "123"},
-                                        {"\n* no full detail, tau 3 ", "12.5"}}) {
+    for (const auto& [setting, time] :
+         {std::pair{"\n* tau 1 ", "1.3"}, {"\n  tau 2 ", "123"}, {"\n* tau 3 ", "12.5"}}) {
         const std::size_t from = text.find(setting);
         ASSERT_NE(from, std::string::npos) << text;
         const std::string line = text.substr(from + 1, text.find('\n', from + 1) - from - 1);
@@ -304,7 +303,7 @@ TEST(TradeReport, TextFitsATerminal) {
         EXPECT_LE(to - from, 120U) << text.substr(from, to - from);
         from = to + 1;
     }
-    EXPECT_NE(text.find("\n* no full detail, tau 2 "), std::string::npos);
+    EXPECT_NE(text.find("\n* tau 2 "), std::string::npos);
     EXPECT_NE(text.find("\n  no ellipsoid "), std::string::npos);
     // Each measure is explained where it is printed.
     for (const char* line :

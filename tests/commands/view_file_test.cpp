@@ -1,6 +1,8 @@
 // Views as files: what is written is what is read back, field by field.
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "apps/view/view.h"
 
 namespace {
@@ -61,6 +63,24 @@ TEST(ViewFile, EveryFieldComesBack) {
         EXPECT_EQ(read->model.air, oro::Air{-0.25});
         EXPECT_FALSE(read->has_geoid);
     }
+}
+
+// Whatever the order of the table of options.
+TEST(ViewFile, KeysStandAsTheyAlwaysDid) {
+    oro::View view = unusual_view();
+    view.shadows = view.sky_openness = true;
+    view.mesh = "clusters";
+    view.vectors.names = {"peaks.gpx"};
+    view.vectors.overlay = {"track.gpx"};
+    const auto json = nlohmann::ordered_json::parse(oro::view_to_json(view, false));
+    std::string keys;
+    for (const auto& [key, value] : json.items()) keys += key + " ";
+    EXPECT_EQ(
+        keys,
+        "orograph_view sources bbox height_unit source_crs source_vertical fill_voids strict_datum eye "
+        "heading_deg pitch_deg roll_deg fov_deg size_px samples exaggeration sun visibility_km style sea "
+        "rim drape names overlay names_field shadows sky_openness labels show edges pipeline mesh "
+        "mesh_level tau_px accuracy earth geoid refraction air precision heights time_utc_s time ");
 }
 
 TEST(ViewFile, PanoramasComeBackAndHaveSomethingInThem) {

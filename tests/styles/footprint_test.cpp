@@ -176,7 +176,7 @@ TEST_F(Footprint, ShadowsOfFarGroundAreNoSpeckle) {
 
 TEST_F(Footprint, HoldsForMaps) {
     const Camera down = middle_of(over(46.5, 7.5, 60000.0, 0.0, -90.0, 45.0));
-    for (const char* name : {"default", "hypsometric", "plain", "relief", "contours", "hillshade", "aspect"})
+    for (const char* name : {"haze", "hypsometric", "plain", "relief", "contours", "hillshade", "aspect"})
         hold(name, down, style(name, 315.0, 45.0), 2.0);
     // Strong contrasts, whichever squares make a pixel: it is 5 to 15 posts wide.
     for (const double h_m : {40000.0, 60000.0, 100000.0, 130000.0})

@@ -78,7 +78,7 @@ TEST_F(Programs, NaturalMakesNoneForWhatIsNotInItsPicture) {
 }
 
 TEST_F(Programs, AnotherStyleMakesWhatIsMissingAndDrawsTheSame) {
-    const std::vector<std::uint8_t> plain = draw(*gpu_, "default");
+    const std::vector<std::uint8_t> plain = draw(*gpu_, "haze");
     ASSERT_FALSE(plain.empty());
     {
         const auto made = made_on(*gpu_);
@@ -88,7 +88,7 @@ TEST_F(Programs, AnotherStyleMakesWhatIsMissingAndDrawsTheSame) {
     const std::vector<std::uint8_t> after = draw(*gpu_, "natural");
     EXPECT_EQ(count(made_on(*gpu_)->air), 6U);
     EXPECT_NE(after, plain);
-    EXPECT_EQ(draw(*gpu_, "default"), plain);
+    EXPECT_EQ(draw(*gpu_, "haze"), plain);
     auto other = Gpu::create(gpu_options_from_environment());
     ASSERT_TRUE(other.ok()) << other.error().line();
     EXPECT_EQ(draw(**other, "natural"), after);

@@ -22,9 +22,9 @@ TEST(StyleFiles, ThoseThatComeWithTheProgramAreRead) {
         const auto style = loaded(text);
         ASSERT_TRUE(style.ok()) << style.error().line();
         EXPECT_NE(text.find("\"licence\": \"CC0-1.0"), std::string::npos) << entry.path();
-        // Maps have no air; default and natural have.
+        // Maps have no air; haze and natural have.
         const std::string name = entry.path().stem();
-        EXPECT_EQ(style->frame.is_map == 0, name == "default" || name == "natural") << entry.path();
+        EXPECT_EQ(style->frame.is_map == 0, name == "haze" || name == "natural") << entry.path();
         EXPECT_EQ(style->frame.air.on == 1, name == "natural") << entry.path();
         ++count;
     }
@@ -41,7 +41,7 @@ TEST(StyleFiles, WithoutWaterOrVoidsRefuseOptionsForThem) {
         return style.error().line();
     };
     View view;
-    for (const char* name : {"default", "plain", "natural"}) {
+    for (const char* name : {"haze", "plain", "natural"}) {
         SCOPED_TRACE(name);
         const std::string none = std::string("; ") + name + " has none";
         const bool refuses = std::string(name) != "natural";

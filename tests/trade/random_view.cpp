@@ -4,9 +4,12 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <optional>
 #include <regex>
 #include <set>
+#include <variant>
 
+#include "apps/view/view_option_table.h"
 #include "core/terrain/ground.h"
 #include "core/truth/oracle.h"
 
@@ -227,35 +230,17 @@ RandomView random_view(Random& random, const RegionToSee& over, const TrueSurfac
 
 std::string command_line(const RegionOptions& region, const ViewOptions& view) {
     std::string line = "orograph shot";
-    const auto add = [&](const char* option, const auto& value) {
-        if (!value) return;
-        if constexpr (std::is_same_v<std::decay_t<decltype(*value)>, std::string>)
-            line += std::string(" ") + option + "=" + *value;
-        else
-            line += std::string(" ") + option + "=" + number(*value);
-    };
     for (const std::string& path : region.paths) line += " '" + path + "'";
     if (!region.bbox.empty()) line += " --bbox=" + region.bbox;
     if (region.fill_voids) line += " --fill-voids";
-    add("--size", view.size);
-    add("--exaggeration", view.exaggeration);
-    add("--at", view.at);
-    add("--above", view.above_m);
-    add("--altitude", view.altitude_m);
-    add("--look-at", view.look_at);
-    add("--heading", view.heading_deg);
-    add("--pitch", view.pitch_deg);
-    add("--roll", view.roll_deg);
-    add("--fov", view.vertical_fov_deg);
-    add("--geoid", view.geoid);
-    add("--earth", view.earth);
-    add("--air", view.air);
-    add("--refraction", view.refraction_k);
-    add("--precision", view.precision);
-    add("--tau", view.tau_px);
-    add("--heights", view.heights);
-    add("--tolerance", view.tolerance);
-    add("--pipeline", view.pipeline);
+    ViewOptions given = view;
+    for (const ViewOption& option : view_option_table()) {
+        const OptionTarget target = option.target(given);
+        if (const auto* const word = std::get_if<std::optional<std::string>*>(&target); word && **word)
+            line += " " + option.name + "=" + ***word;
+        if (const auto* const value = std::get_if<std::optional<double>*>(&target); value && **value)
+            line += " " + option.name + "=" + number(***value);
+    }
     return line + " --verify --out view.png";
 }
 

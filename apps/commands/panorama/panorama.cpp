@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
 #include <string_view>
-#include <tuple>
 #include <utility>
 
 #include "apps/command_line/refusals.h"
@@ -23,6 +23,7 @@
 #include "apps/report/region_json.h"
 #include "apps/report/summit_words.h"
 #include "apps/view/view_changes.h"
+#include "apps/view/view_option_table.h"
 #include "core/base/elapsed.h"
 #include "core/base/file_there.h"
 #include "core/base/parallel.h"
@@ -38,20 +39,16 @@ constexpr double most_pixels = 2.0e8;
 
 // Options of views that say nothing of a panorama, or something that it says in another way.
 Result<void> refuse_others(const ViewOptions& view) {
-    const char* const sector =
-        "a panorama looks around at level height: give --sector FROM,TO and --elevation";
-    for (const auto& [option, is_given, why] :
-         {std::tuple{"--heading", view.heading_deg.has_value(), sector},
-          {"--pitch", view.pitch_deg.has_value(), sector},
-          {"--roll", view.roll_deg.has_value(), sector},
-          {"--look-at", view.look_at.has_value(), sector},
-          {"--fov", view.vertical_fov_deg.has_value(), sector},
-          {"--size", view.size.has_value(), "give --width PX: the height follows from the elevations"},
-          {"--labels", view.labels.has_value(), "a panorama has none"},
-          {"--tolerance", view.tolerance.has_value(),
-           "is for shot: give --accuracy or --tau to a panorama"}}) {
-        if (is_given) return refused(option, "", why);
-    }
+    const auto one_of = [&](std::initializer_list<const char*> names) {
+        return first_given_of(view_option_table(), view, names);
+    };
+    if (const char* const option = one_of({"--heading", "--pitch", "--roll", "--look-at", "--fov"}))
+        return refused(option, "",
+                       "a panorama looks around at level height: give --sector FROM,TO and --elevation");
+    if (view.size) return refused("--size", "", "give --width PX: the height follows from the elevations");
+    if (view.labels) return refused("--labels", "", "a panorama has none");
+    if (view.tolerance)
+        return refused("--tolerance", "", "is for shot: give --accuracy or --tau to a panorama");
     return {};
 }
 

@@ -57,7 +57,7 @@ Result<void> run_sight(const SightOptions& options) {
     for (const auto& [option, text] : {std::pair{"--from", options.from}, std::pair{"--to", options.to}}) {
         if (const auto place = place_at(option, text); !place.ok()) return place.error();
     }
-    ORO_TRY(const Air air, air_asked_for(options.air.refraction_k, options.air.air, standard_air));
+    ORO_TRY(const Air air, air_asked_for(options.view.refraction_k, options.view.air, standard_air));
     ProgressBar bar(options.quiet);
     ORO_TRY(const auto ground, open_sight_ground(options.region, [&](double share, const std::string& what) {
                 bar.show(share, "reading " + what);

@@ -261,7 +261,7 @@ Result<void> run_viewshed(const ViewshedOptions& options) {
     ViewshedReport report;
     report.target_m = options.target_m.value_or(0.0);
     report.radius_km = options.radius_km.value_or(usual_radius_km);
-    ORO_TRY(report.air, air_asked_for(options.air.refraction_k, options.air.air, standard_air));
+    ORO_TRY(report.air, air_asked_for(options.view.refraction_k, options.view.air, standard_air));
     ProgressBar bar(options.quiet);
     ORO_TRY(const auto ground, open_sight_ground(options.region, [&](double share, const std::string& what) {
                 bar.show(share, "reading " + what);

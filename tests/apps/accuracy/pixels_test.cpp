@@ -181,7 +181,7 @@ TEST_F(ComparedPixels, TheOtherWayOfDrawingPasses) {
 // A style file that was edited meanwhile is not taken for edited pixels.
 TEST_F(ComparedPixels, AnotherStyleIsNamed) {
     const fs::path style = folder / "mine.json";
-    std::string text = bytes_of(oro::test::bundled_data() / "styles" / "default.json");
+    std::string text = bytes_of(oro::test::bundled_data() / "styles" / "haze.json");
     write_bytes(style, text);
     ASSERT_EQ(shoot(picture, {"--style", style}).exit_code, 0);
     const std::size_t ambient = text.find("\"ambient\": 0.");

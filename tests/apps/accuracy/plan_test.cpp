@@ -301,7 +301,7 @@ TEST(Plan, NothingInViewIsSaid) {
     const Outcome table = run_orograph(sky);
     EXPECT_EQ(table.exit_code, 0) << table.err;
     EXPECT_EQ(table.out,
-              "Eye: 36.600000 -84.200000, H 688 m, 300 m above the ground, towards 0.\n"
+              "Eye: 36.600000 -84.200000, H 688 m, 300 m above the ground, towards 0 degrees (N).\n"
               "nothing of the region is in view: there is nothing to predict\n");
     Words words = sky;
     words.push_back("--json");

@@ -33,9 +33,9 @@ TEST(Plan, BeginsWithTheEye) {
         return text.substr(0, text.find('\n'));
     };
     EXPECT_EQ(eye_of({"--at", "36.6,-84.2", "--above", "300", "--heading", "200.5", "--pitch", "-5"}),
-              "Eye: 36.600000 -84.200000, H 688 m, 300 m above the ground, towards 200.5.");
+              "Eye: 36.600000 -84.200000, H 688 m, 300 m above the ground, towards 200.5 degrees (SSW).");
     EXPECT_EQ(eye_of({"--at", "36.6,-90.5", "--altitude", "12345", "--heading", "360", "--pitch", "-5"}),
-              "Eye: 36.600000 -90.500000, H 12,345 m, towards 0.");
+              "Eye: 36.600000 -90.500000, H 12,345 m, towards 0 degrees (N).");
 }
 
 // The effective k: that of the air which is taken for true.

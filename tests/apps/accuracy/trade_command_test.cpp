@@ -93,8 +93,7 @@ TEST_F(TradeCommand, WritesATableAndAPage) {
     EXPECT_EQ(table.size() - 1, views.size() * settings.size());
     const std::string page = bytes_of(folder / "trade.html");
     for (const char* setting :
-         {"full detail", "no full detail, tau 0.5", "no full detail, tau 1", "no full detail, tau 2",
-          "no full detail, tau 4", "draft", "balanced", "survey"}) {
+         {"full detail", "tau 0.5", "tau 1", "tau 2", "tau 4", "draft", "balanced", "survey"}) {
         EXPECT_TRUE(settings.contains(setting)) << setting;
         EXPECT_NE(outcome.out.find(setting), std::string::npos) << setting << " in\n" << outcome.out;
         EXPECT_NE(page.find(setting), std::string::npos) << setting;

@@ -180,11 +180,11 @@ TEST_F(BadInput, Styles) {
     expect_refusal(shoot(bundled(), {"--style", "natural", "--visibility", "300"}), usage,
                    {"--visibility 300: must be between 0.05 and 288"});
     expect_refusal(shoot(bundled(), {"--style", "default", "--sea", "low"}), usage,
-                   {"--sea low: is for styles with water; default has none"});
+                   {"--sea low: is for styles with water; haze has none"});
     expect_refusal(shoot(bundled(), {"--style", "plain", "--sea", "voids"}), usage,
                    {"--sea voids: is for styles with water; plain has none"});
     expect_refusal(shoot(bundled(), {"--style", "default", "--rim", "none"}), usage,
-                   {"--rim none: is for styles with voids; default has none"});
+                   {"--rim none: is for styles with voids; haze has none"});
     expect_refusal(shoot(bundled(), {"--style", no_json}), failed, {no_json});
     const auto colourless = file("b.json", R"({"name": "b", "tints": [{"H_m": 0, "colour": "green"}]})");
     expect_refusal(shoot(bundled(), {"--style", colourless}), failed, {colourless, "green"});

@@ -123,7 +123,7 @@ TEST_F(HostileInput, AnInterruptedPictureLeavesNothing) {
 TEST_F(HostileInput, OverwriteSparesWhatThePictureIsMadeFrom) {
     const fs::path terrain = folder / "terrain.tif", style = folder / "style.json";
     fs::copy_file(bundled(), terrain);
-    fs::copy_file(oro::test::bundled_data() / "styles" / "default.json", style);
+    fs::copy_file(oro::test::bundled_data() / "styles" / "haze.json", style);
     const std::string terrain_before = bytes_of(terrain), style_before = bytes_of(style);
     fs::create_symlink("terrain.tif", folder / "link.tif");
     const auto over = [&](const fs::path& out) {
@@ -187,7 +187,7 @@ TEST_F(HostileInput, ViewsWithNumbersThatWouldBeBent) {
 }
 
 TEST_F(HostileInput, StylesWithNumbersThatNoFloatHolds) {
-    const auto style = nlohmann::json::parse(bytes_of(oro::test::bundled_data() / "styles" / "default.json"));
+    const auto style = nlohmann::json::parse(bytes_of(oro::test::bundled_data() / "styles" / "haze.json"));
     const auto refused = [&](const nlohmann::json& changed, const char* name) {
         const fs::path file = folder / "style.json";
         write_bytes(file, changed.dump());

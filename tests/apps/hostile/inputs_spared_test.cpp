@@ -111,7 +111,7 @@ TEST_F(InputsSpared, NamesLinesStylesAndColours) {
     expect_spared({"panorama", land, "--at", "36.53,-84.23", "--overlay", path("other.geojson"), "--out",
                    path("linked.png"), "--width", "400", "--elevation", "-10,10", "-q", "--overwrite"},
                   "other.geojson");
-    fs::copy_file(oro::test::bundled_data() / "styles" / "default.json", path("own.json"));
+    fs::copy_file(oro::test::bundled_data() / "styles" / "haze.json", path("own.json"));
     fs::create_hard_link(path("own.json"), path("own.png"));
     expect_spared(small({"shot", land, "--style", path("own.json"), "--out", path("own.png")}), "own");
 }

@@ -47,20 +47,22 @@ TEST_F(DefaultStyle, IsNatural) {
 }
 
 // Each view since the first has named its style: one of before natural was there keeps the colours that it
-// had, and one that names none is refused, as ever.
+// had, and one that names none is refused, as ever. The style `haze` was called `default` then.
 TEST_F(DefaultStyle, LeavesRecordedViewsAsTheyWere) {
     const Outcome drawn = shoot("a.png", {land, "--style", "default"});
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
     EXPECT_EQ(json::parse(drawn.out).at("footprint"), "point");
     json old = view_of("a.png");
     const std::string pixels = old.at("fingerprints").at("pixels");
-    EXPECT_EQ(old.at("style"), "default");
+    EXPECT_EQ(old.at("style"), "haze");
+    old["style"] = "default";
     for (const char* newer : {"sea", "rim", "pipeline", "paths_from", "fingerprints"}) old.erase(newer);
     old["sources"] = {land};
     oro::test::write_bytes(folder / "old.json", old.dump());
     const Outcome again = shoot("again.png", {"--view", folder / "old.json"});
     ASSERT_EQ(again.exit_code, 0) << again.err;
     EXPECT_EQ(view_of("again.png").at("fingerprints").at("pixels"), pixels);
+    EXPECT_EQ(view_of("again.png").at("style"), "haze");
     old.erase("style");
     oro::test::write_bytes(folder / "none.json", old.dump());
     oro::test::expect_refusal(shoot("none.png", {"--view", folder / "none.json"}), 1, {"none.json", "style"});

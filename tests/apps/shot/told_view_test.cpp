@@ -95,7 +95,7 @@ TEST_F(ToldView, LimitsAreTheSameOnBothSides) {
 TEST_F(ToldView, NamesThatAreNoUtf8LeadToTheirFiles) {
     const std::string land = data / "land\xff.tif", style = data / "st\xfe.json";
     fs::copy_file(bundled(), land);
-    fs::copy_file(oro::test::bundled_data() / "styles" / "default.json", style);
+    fs::copy_file(oro::test::bundled_data() / "styles" / "haze.json", style);
     const fs::path picture = pictures / "p.png";
     const Outcome drawn = shoot({land, "--style", style, "--out", picture});
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
@@ -167,7 +167,7 @@ TEST_F(ToldView, ViewsOfBeforeStartFromTheWorkingFolder) {
 
 TEST_F(ToldView, NoPathsWhereNoneAreWanted) {
     const fs::path style = data / "mine.json", picture = pictures / "p.png";
-    fs::copy_file(oro::test::bundled_data() / "styles" / "default.json", style);
+    fs::copy_file(oro::test::bundled_data() / "styles" / "haze.json", style);
     const Outcome drawn =
         shoot({data / "land.tif", "--style", style, "--no-paths", "--out", picture, "--json"});
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;

@@ -1,0 +1,106 @@
+#include "apps/options/region_option_table.h"
+
+#include <utility>
+
+namespace oro {
+namespace {
+
+constexpr Limits memory_mb{16, 1000000};
+
+using RegionRows = std::vector<OptionRow<RegionOptions>>;
+
+template <class Value>
+void add(RegionRows& rows, const OptionText& text, Value RegionOptions::*field, const char* help,
+         std::vector<std::string> words = {}) {
+    rows.push_back(option_row<RegionOptions>(option_headings::data, text, field, help, std::move(words)));
+}
+
+// Which files, and which part of them.
+void add_sources(RegionRows& rows) {
+    add(rows, {"PATH ...", shown_first}, &RegionOptions::paths,
+        "Files or folders: SRTM tiles (.hgt), GeoTIFF and other rasters, also in .zip, .tar.gz or .gz; or "
+        "one file that orograph bake wrote (.oro).");
+    add(rows, {"--bbox WEST,SOUTH,EAST,NORTH", shown_first, "all the data"}, &RegionOptions::bbox,
+        "Take only the part between these edges, in degrees. West may be more than east: the part then "
+        "crosses the 180th meridian. Not with --tile.");
+    add(rows, {"--tile CELL", no_trait, "all the data", "", {}, "--bbox"}, &RegionOptions::tile,
+        "Take only a cell of one degree, e.g. N46E008, or a range of them, N46E006:N47E010. Not with "
+        "--bbox.");
+    add(rows, {"--order", no_trait, "finest"}, &RegionOptions::order,
+        "Which file is the ground where several have some: the one with the closest points (finest), or the "
+        "one named first (listed; of a folder by the order of names).",
+        {"finest", "listed"});
+    add(rows, {"--feather METRES", no_trait, "", "", view_limits::feather_m}, &RegionOptions::feather_m,
+        "Let heights go over smoothly to those of a coarser file below, within so many metres inside the rim "
+        "of a finer one; what that changed is told. Without this they meet in a step as high as they "
+        "differ.");
+}
+
+// How files are read.
+void add_reading(RegionRows& rows) {
+    add(rows, {"--height-unit UNIT", no_trait, "the file's, or metres where it says nothing"},
+        &RegionOptions::height_unit,
+        "Take heights in this unit, whatever a file says: m, ft, us-ft, cm, dm or mm. ft is the "
+        "international foot, us-ft the US survey foot.",
+        {"m", "ft", "us-ft", "cm", "dm", "mm"});
+    add(rows, {"--source-crs CRS", no_trait}, &RegionOptions::source_crs,
+        "Where files lie that state no coordinate reference system: EPSG:2056, or another that PROJ knows. "
+        "Files that state one keep it.");
+    add(rows,
+        {"--source-vertical CRS", no_trait, "what the product is known to have, else sea level (EGM96)"},
+        &RegionOptions::source_vertical,
+        "What heights refer to, of files that do not say it: EPSG:5728 (Switzerland, LN02), EPSG:5703 "
+        "(NAVD88), EPSG:4979 (above the ellipsoid), or another.");
+    add(rows, {"--strict-datum", no_trait}, &RegionOptions::strict_datum,
+        "Stop where heights cannot be converted from a file's vertical datum (what they are heights above), "
+        "or where PROJ lacks a grid or a way for its horizontal datum. Without this they count as heights "
+        "above sea level (EGM96), places are as good as they can be, and a note says so.");
+    add(rows, {"--resample", no_trait}, &RegionOptions::resample,
+        "Bring the points of files in a CRS of their own (a projected one, say) onto latitudes and "
+        "longitudes. Without this they stay where that CRS has them, with the heights of their file; "
+        "resampled, summits lose some metres. For --earth, --precision, and to compare.");
+    add(rows, {"--fill-voids", no_trait}, &RegionOptions::fill_voids,
+        "Give void posts (points that a file leaves empty) a height from their neighbours. Without this they "
+        "are holes. Not for what lies outside a raster, nor for missing tiles.");
+}
+
+RegionRows made_region_table() {
+    RegionRows rows;
+    add_sources(rows);
+    add_reading(rows);
+    return rows;
+}
+
+std::vector<OptionRow<MemoryOptions>> made_memory_table() {
+    std::vector<OptionRow<MemoryOptions>> rows;
+    rows.push_back(option_row<MemoryOptions>(
+        option_headings::detail, {"--gpu-memory MB", no_trait, "half of it, at most 2147", "", memory_mb},
+        &MemoryOptions::gpu_memory_mb,
+        "How much of the GPU's memory terrain may take, in megabytes, {}. Images over the ground take half "
+        "of what is given."));
+    rows.push_back(option_row<MemoryOptions>(
+        option_headings::detail, {"--memory MB", no_trait, "64", "", memory_mb}, &MemoryOptions::memory_mb,
+        "How much main memory terrain may take on its way to the GPU, in megabytes, {}. Clusters have half "
+        "of it. Files other than .oro need more: all their heights are read at once; so are those of what is "
+        "drawn by clusters."));
+    return rows;
+}
+
+}  // namespace
+
+const std::vector<OptionRow<RegionOptions>>& region_option_table() {
+    static const RegionRows rows = made_region_table();
+    return rows;
+}
+
+const std::vector<OptionRow<MemoryOptions>>& memory_option_table() {
+    static const std::vector<OptionRow<MemoryOptions>> rows = made_memory_table();
+    return rows;
+}
+
+const char* first_given_of_region(const RegionOptions& options) {
+    return first_given(region_option_table(), options,
+                       [](const OptionRow<RegionOptions>& row) { return row.name != "PATH"; });
+}
+
+}  // namespace oro
