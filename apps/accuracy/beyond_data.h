@@ -22,9 +22,10 @@ Result<UnseenGround> unseen_in(const View& view, const Region& region, const Tru
 // The same without a true scene at hand: posts of a baked region stay in their file.
 Result<UnseenGround> unseen_in(const View& view, const Region& region, double ceiling_m);
 
-// "640 of 640 columns look beyond the data (missing: N46E010): ground there, up to 9,000 m, could be up to
-// 312 px higher than drawn"; "" where none does, and where the picture shows all of the data: then it shows
-// where they end. At most 12 cells are named. Nothing is said of ground beyond a part that was chosen.
+// "the view reaches past the data in 640 of 640 columns (missing: N46E010): terrain there, if it is up to
+// 9,000 m high, could rise up to 312 px above what is drawn"; "" where it does in none, and where the picture
+// shows all of the data: then it shows where they end. At most 12 cells are named. Nothing is said of ground
+// beyond a part that was chosen.
 std::string unseen_sentence(const UnseenGround& unseen);
 // "In 640 of 640 columns ground beyond the data could be up to 312 px higher (missing: N46E010)."; ""
 // likewise.
