@@ -2,7 +2,7 @@
 // tell of it, in the same words.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "apps/view/truth.h"

@@ -1,7 +1,7 @@
 // Names of files in JSON: bytes, which need not be text.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 namespace oro {

@@ -1,7 +1,7 @@
 // What a region is made of, as JSON and as lines for people.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <vector>

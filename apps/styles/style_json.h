@@ -1,7 +1,7 @@
 // Styles as JSON: data/README.md lists the fields.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "apps/styles/style.h"

@@ -1,5 +1,6 @@
 // The words for ground that is not loaded.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <string>
 
