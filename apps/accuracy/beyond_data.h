@@ -19,7 +19,7 @@ Result<double> unseen_ceiling(const std::optional<double>& option_m);
 // cannot be read (posts are read where they are asked for).
 Result<UnseenGround> unseen_in(const View& view, const Region& region, const TrueScene& truth,
                                double ceiling_m);
-// The same without a true scene at hand: posts of a baked region stay in their file.
+// This one works without a true scene at hand: posts of a baked region stay in their file.
 Result<UnseenGround> unseen_in(const View& view, const Region& region, double ceiling_m);
 
 // "the view reaches past the data in 640 of 640 columns (missing: N46E010): terrain there, if it is up to

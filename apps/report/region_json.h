@@ -32,7 +32,7 @@ std::string note_of_assumed_heights(const Region& region);
 std::vector<std::string> own_notes(const Region& region);
 // All of these, of all its grids.
 std::vector<std::string> all_notes(const Region& region);
-// The same on standard error, unless quiet.
+// Prints all_notes() on standard error, unless quiet.
 void say_notes(const Region& region, bool quiet);
 
 // All attributions of a region, each once, joined by "; ".
