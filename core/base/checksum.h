@@ -13,7 +13,7 @@ namespace oro {
 // Source: Y. Collet, xxHash fast digest algorithm, specification 0.1.1, section "XXH64".
 [[nodiscard]] std::uint64_t xxh64(std::span<const std::byte> bytes, std::uint64_t seed = 0);
 
-// The same, with seed 0, of bytes that come piece by piece.
+// The checksum, with seed 0, of bytes that come piece by piece.
 class RunningChecksum {
   public:
     RunningChecksum();
@@ -22,7 +22,7 @@ class RunningChecksum {
     RunningChecksum(RunningChecksum&&) noexcept;
     ~RunningChecksum();
     void add(std::span<const std::byte> bytes);
-    // Of all that was added so far.
+    // The checksum of all that was added so far.
     [[nodiscard]] std::uint64_t sum() const;
 
   private:

@@ -17,8 +17,8 @@ using Way = std::function<Geodetic(double along_m)>;
 // row, a column, or a cell's diagonal. In order; those of one place may be there twice. Nothing outside the
 // grid. Error: 1e-4 of a cell; over a pole, a cell.
 std::vector<double> edge_crossings(const TrueSurface& surface, const Way& way, double from_m, double to_m);
-// The same of all grids of the ground. Where another grid begins to be the ground there is a place on either
-// side of its rim, beside_rim_m from it: heights may differ.
+// The crossings of all grids of the ground. Where another grid begins to be the ground there is a place on
+// either side of its rim, beside_rim_m from it: heights may differ.
 inline constexpr double beside_rim_m = 0.02;
 std::vector<double> edge_crossings(const TrueGround& ground, const Way& way, double from_m, double to_m);
 

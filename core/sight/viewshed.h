@@ -30,7 +30,7 @@ ViewshedWindow window_around(const PostGrid& grid, const Geodetic& place, double
 Geodetic target_over_post(const TrueSurface& surface, int row, int column, double target_m);
 
 struct Viewshed {
-    // Of a post that is void, or farther than the radius.
+    // The value of a post that is void, or farther than the radius.
     static constexpr float unknown = -9999.0F;
 
     ViewshedWindow window;
@@ -70,7 +70,7 @@ Viewshed viewshed(const TrueSurface& surface, const ViewshedRequest& request,
 std::optional<std::size_t> grid_of_most(const TrueGround& ground, const std::vector<Geodetic>& eyes,
                                         double radius_m);
 
-// The same over the ground of several grids, at the posts of one of them: a target stands on what is the
+// The viewshed over the ground of several grids, at the posts of one of them: a target stands on what is the
 // ground at the post's place, whichever grid that is. As exact as Lookout. Where other grids come within the
 // radius, each post takes a line of sight, and a hidden one some thirty.
 Viewshed viewshed_of_grids(const TrueGround& ground, std::size_t grid, const ViewshedRequest& request,
