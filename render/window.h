@@ -66,7 +66,7 @@ class Window {
     // Shows a picture that is in GENERAL layout with its writes done. Returns false when the window changed
     // its size meanwhile.
     Result<bool> show(const Image& picture);
-    // The same for pixels from the host: rows of four bytes each, RGBA, sRGB. They fill the window, whatever
+    // Shows pixels from the host: rows of four bytes each, RGBA, sRGB. They fill the window, whatever
     // their number is beside its own.
     Result<bool> show_pixels(std::span<const std::uint8_t> rgba, VkExtent2D extent);
     void set_title(const std::string& title);

@@ -91,9 +91,9 @@ Result<UnseenGround> unseen_in(const View& view, const Region& region, double ce
 
 std::string unseen_sentence(const UnseenGround& unseen) {
     if (unseen.columns_beyond == 0 || unseen.all_in_view) return {};
-    return columns(unseen, unseen.columns_beyond) + (unseen.columns == 1 ? " looks" : " look") +
-           " beyond the data " + names(unseen) + ": ground there, up to " + whole(unseen.ceiling_m) +
-           " m, could be up to " + whole(unseen.bound_px) + " px higher than drawn";
+    return "the view reaches past the data in " + columns(unseen, unseen.columns_beyond) + " " +
+           names(unseen) + ": terrain there, if it is up to " + whole(unseen.ceiling_m) +
+           " m high, could rise up to " + whole(unseen.bound_px) + " px above what is drawn";
 }
 
 std::string unseen_ending(const UnseenGround& unseen) {

@@ -2,7 +2,7 @@
 // tell of it, in the same words.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "apps/view/truth.h"
@@ -19,9 +19,10 @@ Result<double> unseen_ceiling(const std::optional<double>& option_m);
 // asked for. Errors: a baked region that cannot be read.
 Result<UnseenGround> unseen_in(const View& view, const Region& region, double ceiling_m);
 
-// "640 of 640 columns look beyond the data (missing: N46E010): ground there, up to 9,000 m, could be up to
-// 312 px higher than drawn"; "" where none does, and where the picture shows all of the data: then it shows
-// where they end. At most 12 cells are named. Nothing is said of ground beyond a part that was chosen.
+// "the view reaches past the data in 640 of 640 columns (missing: N46E010): terrain there, if it is up to
+// 9,000 m high, could rise up to 312 px above what is drawn"; "" where it does in none, and where the picture
+// shows all of the data: then it shows where they end. At most 12 cells are named. Nothing is said of ground
+// beyond a part that was chosen.
 std::string unseen_sentence(const UnseenGround& unseen);
 // "In 640 of 640 columns ground beyond the data could be up to 312 px higher (missing: N46E010)."; ""
 // likewise.

@@ -23,10 +23,10 @@ struct MeshForecasts {
     MeshForecast clusters;
 };
 
-// Of a region that was baked with clusters, where the view can be drawn by them; else nothing. pages: the
-// region's own. Frustum and horizon are left out, what other ground hides is not. Blocks are chosen in
-// straight light. Reads all posts (clusters_of_region), and of pages and clusters those in view. Errors:
-// damage.
+// Forecasts for a region that was baked with clusters, where the view can be drawn by them; else nothing.
+// pages: the region's own. Frustum and horizon are left out, what other ground hides is not. Blocks are
+// chosen in straight light. Reads all posts (clusters_of_region), and of pages and clusters those in view.
+// Errors: damage.
 Result<std::optional<MeshForecasts>> mesh_forecasts(const View& view, const Region& region,
                                                     const RegionPages& pages,
                                                     std::size_t most_read_at_once = most_posts_read_at_once);

@@ -1,7 +1,7 @@
 // Whether the pixels of a picture's file are what its view draws.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>

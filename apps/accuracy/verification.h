@@ -1,7 +1,7 @@
 // A view drawn and measured against the truth: what shot --verify and compare tell.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

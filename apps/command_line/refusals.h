@@ -37,7 +37,7 @@ void need_whole_number(const CLI::App& command, CLI::Option& option, int low, in
 // For options that have no value: --json=perhaps.
 void need_no_value(CLI::Option& option);
 
-// Of a command line that asks for help or for the version: the first word that is no option must be a
+// Checks a command line that asks for help or for the version: its first word that is no option must be a
 // command, or the answer is a usage error. Nothing where it is one, or where there is no such word.
 std::optional<Error> refusal_of_command(const CLI::App& app, const std::vector<std::string>& words);
 

@@ -13,9 +13,9 @@ namespace oro {
 // they have in common.
 std::string info_text(const RegionGrid& region);
 
-// The same of files that make no region together, whose posts were not read.
+// The text about files that make no region together, whose posts were not read.
 std::string unread_text(const std::vector<SourceReport>& sources);
-// ... of all that were found, with those that cannot be opened and those to be left out.
+// The text about all files that were found, with those that cannot be opened and those to be left out.
 std::string listing_text(const FileListing& listing);
 // Files without elevation and damaged ones, a line each with the reason; "" where there are none.
 std::string unread_files_text(const FileListing& listing);

@@ -41,7 +41,7 @@ Result<std::optional<SeenPlace>> place_in_middle(const View& view, const RegionG
 }
 
 std::string line_of(const std::optional<SeenPlace>& place) {
-    if (!place) return "nothing there: the sight line meets no ground of this region";
+    if (!place) return "no terrain at this point: it shows sky, or a place without data";
     char text[240];
     std::snprintf(
         text, sizeof text,

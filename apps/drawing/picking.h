@@ -34,7 +34,7 @@ struct SeenPlace {
 // could not be read, now or earlier.
 Result<std::optional<SeenPlace>> place_seen(const View& view, const RegionGround& ground,
                                             glm::dvec2 point_px);
-// The same at the picture's middle.
+// The place that is seen at the picture's middle, as place_seen().
 Result<std::optional<SeenPlace>> place_in_middle(const View& view, const RegionGround& ground);
 
 // On one line for people: latitude and longitude with 6 decimals, both heights, distance along the sight

@@ -44,7 +44,7 @@ inline constexpr std::size_t most_images = 64;
 // "0.1.0 4f1d22a09c3e": the version, and twelve digits of the SHA-256 of all code between files and pixels.
 std::string program_print();
 
-// Of a region that was just opened. Without style and pixels.
+// The fingerprints of a region that was just opened, without style and pixels.
 Fingerprints prints_of(const Region& region);
 std::uint64_t style_print(const Style& style);
 

@@ -1,7 +1,7 @@
 // Fingerprints in the JSON of a view.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "apps/fingerprints/fingerprints.h"

@@ -32,9 +32,9 @@ struct PictureLayers {
 // Errors (usage): a picture of too many pixels for them; to be asked before it is drawn.
 Result<void> check_layers(const Camera& camera);
 
-// Of a view whose picture is drawn with `path`. A pixel's place is where its own ray meets the triangle that
-// the picture shows there, in double (ShownPlaces). ground: of the view's region and exaggeration. Errors:
-// those of the device and of pages; posts that cannot be read.
+// The layers of a view whose picture is drawn with `path`. A pixel's place is where its own ray meets the
+// triangle that the picture shows there, in double (ShownPlaces). ground: of the view's region and
+// exaggeration. Errors: those of the device and of pages; posts that cannot be read.
 Result<PictureLayers> picture_layers(const Gpu& gpu, Scene& scene, const View& view,
                                      const RegionGround& ground, const Style& style, RasterPath path,
                                      const RenderProgress& progress);

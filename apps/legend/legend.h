@@ -24,7 +24,7 @@ bool has_own_legend(const View& view);
 // is less than 200 px wide; those of text and of the map's CRS.
 Result<std::vector<std::uint8_t>> legend_strip(const View& view, const Region& region, const Style& style,
                                                const std::optional<SeenPlace>& middle);
-// The same where the view has a legend, and nothing where it has none; the view is told how high it is.
+// The strip where the view has a legend, and no bytes where it has none; the view keeps how high it is.
 Result<std::vector<std::uint8_t>> strip_of(View& view, const Region& region, const Style& style,
                                            const std::optional<SeenPlace>& middle);
 

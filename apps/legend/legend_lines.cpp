@@ -64,8 +64,8 @@ std::string map_line(const View& view) {
                        " wide";
     const double off_deg = std::remainder(view.camera.attitude.heading_deg, 360.0);
     if (std::abs(off_deg) >= 0.05)
-        line +=
-            text_of("; its up is %.1f° %s of true north", std::abs(off_deg), off_deg > 0.0 ? "east" : "west");
+        line += text_of("; up on the map is %.1f° %s of true north", std::abs(off_deg),
+                        off_deg > 0.0 ? "east" : "west");
     if (view.exaggeration != 1.0) line += "; heights exaggerated " + figure(view.exaggeration) + " times";
     return line;
 }

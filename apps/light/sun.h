@@ -39,7 +39,7 @@ void aim_sun(std::optional<SunDirection>& sun, const Geodetic& eye);
 // What to tell of a sun at a time for which nobody has held it against an ephemeris: years other than 1900 to
 // 2100. "" of others.
 std::string note_of_year(std::int64_t time_utc_s);
-// The same of a view's sun, where it goes by a time.
+// The note on the year of a view's sun, where it goes by a time.
 std::string note_of_year(const std::optional<SunDirection>& sun);
 
 // The share of full direct light that it gives, 0 to 1. By time: the share of its disc that is above the

@@ -18,7 +18,7 @@ struct FilesToSpare {
 // All that a picture is made from: the style, and the files that a view's elevation data, images, names and
 // lines are made of (archives, all that a VRT names, side-cars, world files).
 FilesToSpare files_of_picture(const View& view, const Region& region);
-// The same of elevation data alone: `paths` as they were given.
+// The files of elevation data alone: `paths` as they were given.
 FilesToSpare files_of_ground(const std::vector<std::string>& paths, const Region& region);
 // A view that is only read, the picture it is in, and the ones it may lie beside.
 FilesToSpare files_of_view(const std::string& view_file);

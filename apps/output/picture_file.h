@@ -45,7 +45,7 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
                                   const Style& style, std::span<const std::uint8_t> strip,
                                   const RenderProgress& progress, const RowSink& also = {});
 
-// The same, and gives it its name.
+// Writes a picture as above, and gives the file its name.
 Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
                                     const Region& region, const RegionGround& ground,
                                     const std::optional<SeenPlace>& middle, const Gpu& gpu, Scene& scene,

@@ -36,7 +36,7 @@ nlohmann::json parsed_json(const std::string& text);
 // All of a file. Never waits: a pipe is refused. Errors: the file and the system's reason; no plain file;
 // more bytes than any JSON may have.
 Result<std::string> read_text_file(const std::string& path);
-// The same of one that the program keeps for itself, which is not remembered as read
+// Reads a file that the program keeps for itself, which is not remembered as read
 // (core/base/files_read.h).
 Result<std::string> read_own_text_file(const std::string& path);
 

@@ -161,8 +161,10 @@ std::string note_of_voids(const RegionGrid& region) {
             std::string(" (") + (region.file ? "baking with " : "") +
                 "--fill-voids fills what is near others)");
     add(region.outside, "post outside all rasters is a hole", "posts outside all rasters are holes", "");
-    add(region.in_missing, "post is a hole", "posts are holes",
-        " in " + counted(region.missing_cells.size(), "missing tile", "missing tiles"));
+    if (region.in_missing > 0)
+        note += (note.empty() ? "" : "; ") +
+                counted(region.missing_cells.size(), "tile is missing: ", "tiles are missing: ") +
+                counted(region.in_missing, "post has no height there", "posts have no height there");
     return note;
 }
 

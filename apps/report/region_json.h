@@ -1,7 +1,7 @@
 // What a region is made of, as JSON and as lines for people.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <string>
 #include <vector>
@@ -33,7 +33,7 @@ std::string note_of_assumed_heights(const RegionGrid& grid);
 std::vector<std::string> own_notes(const RegionGrid& grid);
 // All of these, of all grids of a region.
 std::vector<std::string> all_notes(const Region& region);
-// The same on standard error, unless quiet.
+// Prints all_notes() on standard error, unless quiet.
 void say_notes(const Region& region, bool quiet);
 
 // All attributions of a region, each once, joined by "; ".

@@ -1,7 +1,7 @@
 // What was done where somebody asked to stand on a summit, for people and for programs.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 

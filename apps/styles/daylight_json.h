@@ -2,7 +2,7 @@
 // fields.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "apps/options/view_limits.h"
 #include "shaders/shared.h"

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string_view>
 

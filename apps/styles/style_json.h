@@ -1,7 +1,7 @@
 // Styles as JSON: data/README.md lists the fields.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "apps/styles/style.h"
@@ -12,7 +12,7 @@ namespace oro {
 // A style, with its own sun. Throws a JsonFault (apps/report/json_fields.h): a field that is missing, unknown
 // or bad.
 Style style_of_json(const nlohmann::json& json);
-// The same of a file's text. Errors: as above, or no JSON at all; `path` is named in them.
+// The style of a file's text. Errors: as style_of_json(), or no JSON at all; they name `path`.
 Result<Style> style_of_text(const std::string& text, const std::string& path);
 
 }  // namespace oro

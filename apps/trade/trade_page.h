@@ -2,7 +2,7 @@
 // Not for use outside trade_page.cpp and tests.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "apps/trade/trade_report.h"

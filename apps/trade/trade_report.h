@@ -31,12 +31,12 @@ struct TradeShot {
     TradeCost first, settled;
     std::uint64_t bytes{};  // of the pages and clusters that the first picture reads, on the GPU
     ErrorSummary displacement_m, displacement_px, surface_px, seen_px, skyline_px;
-    // Of all of them, edges less what they are found to.
+    // The largest error of all of them in pixels; of edges less what they are found to.
     [[nodiscard]] double largest_px() const {
         return std::max({displacement_px.largest, surface_px.largest, seen_px.largest - seen_resolution_px,
                          skyline_px.largest - seen_resolution_px});
     }
-    // Of each of them: tau and what drawing rounds off, where all else is there.
+    // What each of them may be: tau and what drawing rounds off, where all else is there.
     std::optional<double> limit_px;
     [[nodiscard]] bool over_limit() const { return limit_px && !(largest_px() <= *limit_px); }
     std::uint64_t skyline_in_one_only{};

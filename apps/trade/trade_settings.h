@@ -25,7 +25,7 @@ struct TradeCase {
 // Earth, nor placed in float32. With `clusters` each tau is tried with them, too (draws_clusters()); all else
 // is drawn by blocks, as it is where there are none.
 std::vector<TradeCase> trade_cases(bool own_posts, bool clusters);
-// Of a region, in a view's size and models.
+// The cases of a region, in a view's size and models.
 std::vector<TradeCase> trade_cases(const View& view, const Region& region);
 
 }  // namespace oro

@@ -103,17 +103,17 @@ std::string title_of(const Viewer& viewer) {
     const Camera& camera = viewer.view.camera;
     const double N_m = field_below(viewer).undulation.at_m(camera.eye.lat_deg, camera.eye.lon_deg);
     char text[160];
-    std::snprintf(text, sizeof text, "%.6f° %.6f°  H %.1f m  heading %.1f°", camera.eye.lat_deg,
+    std::snprintf(text, sizeof text, "%.6f° %.6f°  %.1f m above sea level  heading %.1f°", camera.eye.lat_deg,
                   camera.eye.lon_deg, camera.eye.h_m - N_m, camera.attitude.heading_deg);
     // Done is what is shown, not what is measured: 100 % is never said.
     char coarse[60] = "";
     if (viewer.waits_for_ground)
         std::snprintf(coarse, sizeof coarse, "loading  |  ");
     else if (viewer.finer && viewer.finer->share() < 0.99)
-        std::snprintf(coarse, sizeof coarse, "coarse: finer detail is measured, %.0f %%  |  ",
+        std::snprintf(coarse, sizeof coarse, "preparing full detail, %.0f %%  |  ",
                       std::floor(100.0 * viewer.finer->share()));
     else if (viewer.finer || viewer.coming)
-        std::snprintf(coarse, sizeof coarse, "coarse: finer detail comes  |  ");
+        std::snprintf(coarse, sizeof coarse, "loading full detail  |  ");
     return coarse + (viewer.message.empty() ? "" : viewer.message + "  |  ") + text;
 }
 

@@ -17,7 +17,7 @@ namespace oro {
 // What an error says of bytes whose checksum is another: "has checksum 0123..., expected 4567...".
 [[nodiscard]] std::string other_checksum(std::uint64_t found, std::uint64_t expected);
 
-// XXH64, with seed 0, of bytes that come piece by piece.
+// The checksum, with seed 0, of bytes that come piece by piece.
 class RunningChecksum {
   public:
     RunningChecksum();
@@ -27,7 +27,7 @@ class RunningChecksum {
     RunningChecksum& operator=(RunningChecksum&&) noexcept;
     ~RunningChecksum();
     void add(std::span<const std::byte> bytes);
-    // Of all that was added so far.
+    // The checksum of all that was added so far.
     [[nodiscard]] std::uint64_t sum() const;
 
   private:

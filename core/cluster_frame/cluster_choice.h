@@ -26,7 +26,7 @@ struct ClusterChoice {
 // clusters that it uses; where its sphere cannot be seen, nothing below it is looked at. So the cost is that
 // of the groups above the cut, in view. Waits for all that it must read. Errors: damage.
 Result<ClusterChoice> choose_clusters(RegionClusters& clusters, const ClusterView& view);
-// The same of a view that is used once.
+// Chooses the clusters of a view that is used once.
 Result<ClusterChoice> choose_clusters(RegionClusters& clusters, const Camera& camera, const Tile& tile,
                                       double tau_px, const WorldModel& model, const HorizonOccluder& occluder,
                                       const HeightQuantization& coding,

@@ -32,7 +32,7 @@ struct ClusterOffer {
 // Gathers one. Groups that do not give way are not asked: what they use is not offered.
 class OfferedCut {
   public:
-    // Both outlive it.
+    // The clusters and the view outlive the cut.
     OfferedCut(const RegionClusters& clusters, const ClusterView& view)
         : clusters_(clusters),
           view_(view),

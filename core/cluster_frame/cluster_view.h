@@ -21,7 +21,7 @@ class ClusterView {
                 const HorizonOccluder& occluder, const HeightQuantization& coding,
                 std::optional<std::uint32_t> level = {});
 
-    // The same eye with a coarser cut (GroupRule::coarser).
+    // The view of this eye with a coarser cut (GroupRule::coarser).
     [[nodiscard]] ClusterView coarser(unsigned steps) const;
 
     [[nodiscard]] bool stands(const ClusterGroup& group) const { return rule_.stands(group); }

@@ -32,8 +32,8 @@ class GroupRule {
     // What the GPU needs for the same answer.
     [[nodiscard]] gpu::AskedGroup measured(const ClusterGroup& group) const;
     [[nodiscard]] const gpu::CutRule& cut_rule() const { return rule_; }
-    // The same eye where less is asked for: each step is sqrt(2) times the tau, of at least 1/16 px, or one
-    // level more. After the last all groups stand.
+    // The rule of this eye where less is asked for: each step is sqrt(2) times the tau, of at least 1/16 px,
+    // or one level more. After the last all groups stand.
     [[nodiscard]] GroupRule coarser(unsigned steps) const;
     static constexpr unsigned most_coarser_steps = 64;
     // The bound itself, in double, pixels; infinite where nothing can be promised. At most tau where a group

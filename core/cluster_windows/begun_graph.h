@@ -21,10 +21,10 @@ struct BegunGraph {
     [[nodiscard]] PostCounts posts() const { return {window.rows, window.columns}; }
 };
 
-// Of all groups, over all posts of the region.
+// The graph of all groups, over all posts of the region.
 Result<BegunGraph> begun_graph(const JoinedWindows& joined, const PostCounts& region, int threads);
-// Of those that reach into a window; those that also reach out of it are not whole. Its posts may reach
-// beyond the window. No groups: there is no ground.
+// The graph of groups that reach into a window; those that also reach out of it are not complete. Its posts
+// may reach beyond the window. No groups: there is no ground.
 Result<BegunGraph> begun_graph_in(const JoinedWindows& joined, const PostCounts& region,
                                   const RegionWindow& window, int threads);
 

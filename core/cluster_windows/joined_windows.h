@@ -22,7 +22,7 @@ class JoinedWindows {
     // Of the levels, without the clusters of the last.
     [[nodiscard]] const std::vector<GraphLevel>& levels() const { return levels_; }
     [[nodiscard]] std::uint32_t groups() const { return static_cast<std::uint32_t>(groups_.size()); }
-    // The first group of a level, 1 .. levels; of the one after: groups().
+    // The number of a level's first group, 1 .. levels; of the level after the last: groups().
     [[nodiscard]] std::uint32_t first_group(std::size_t level) const { return first_groups_[level - 1]; }
     // The first cluster that a group made; of groups(): those of the last level's groups begin with none but
     // what all before it have made.

@@ -28,7 +28,7 @@ struct WindowedRegion {
 // depends on what lies beyond. Then nothing is written. plan: WindowIndex. Errors: those of writing.
 Result<bool> build_window(const WindowedRegion& region, const RegionWindow& window, std::uint64_t plan,
                           const std::string& path);
-// The same from what other windows have left (begun_graph_in()).
+// Builds a window from what other windows have left (begun_graph_in()).
 Result<bool> build_window_from(const WindowedRegion& region, BegunGraph begun, std::uint64_t plan,
                                const std::string& path);
 

@@ -19,7 +19,7 @@ struct GraphOptions {
     int threads{1};
     double kept_share{0.65};  // of a group's triangles, in what comes out of it
     int last_level{80};       // stop after it; what it made is then used by none
-    // Of a window: groups that are not whole stay as fine as they come, as nobody takes them from it.
+    // For a window: groups that are not complete stay as fine as they come, as nobody takes them from it.
     bool whole_alone{false};
     std::vector<GroupTile>* tiles{};  // told the tile of each group that is added
 };

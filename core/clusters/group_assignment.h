@@ -47,9 +47,9 @@ class VertexLocks {
     std::size_t locked_twice_{};
 };
 
-// Of all triangles of a level, part by part. A triangle goes to the tile that its middle lies in, but where
-// it has a vertex that was on borders of both levels before: the triangles around such a vertex all go to one
-// tile, so that it is on no border now. Vertices of that kind that share a triangle go together.
+// The groups of all triangles of a level, part by part. A triangle goes to the tile that its middle lies in,
+// but where it has a vertex that was on borders of both levels before: the triangles around such a vertex all
+// go to one tile, so that it is on no border now. Vertices of that kind that share a triangle go together.
 class GroupAssignment {
   public:
     using Parts = std::span<const std::vector<VertexTriangle>>;

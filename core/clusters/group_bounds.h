@@ -15,9 +15,9 @@ struct GroupBounds {
     double radius_m{};
 };
 
-// Of a group whose members are known, from what came out of it and how far that is from the original, in
-// height (steps). A group of leaves gets a sphere around their vertices; others get one around the spheres of
-// the groups below, so that it holds all that is drawn there at any detail.
+// The bounds of a group whose members are known, from what came out of it and how far that is from the
+// original, in height (steps). A group of leaves gets a sphere around their vertices; others get one around
+// the spheres of the groups below, so that it holds all that is drawn there at any detail.
 [[nodiscard]] GroupBounds group_bounds(const OriginalSurface& surface, const GroundBounds& ground,
                                        const ClusterGraph& graph, std::uint32_t group,
                                        std::span<const VertexTriangle> made, double difference);

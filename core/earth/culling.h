@@ -43,7 +43,7 @@ struct HorizonPoint {
     double scale;    // one over its distance from the centre and the larger of that and 1
 };
 HorizonPoint horizon_point(const glm::dvec3& scaled);
-// The same cone, in the points' frame.
+// The cone as horizon_cone() above has it, in the points' frame.
 HorizonCone horizon_cone(std::span<const HorizonPoint> points);
 
 // The eye as horizon tests need it. angle_rad is pi (nothing hidden) for an eye below the occluder.

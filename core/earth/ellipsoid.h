@@ -52,7 +52,7 @@ struct SineCosine {
 // place.
 SineCosine sine_cosine_deg(double angle_deg);
 
-// The same longitude in (-180, 180].
+// A longitude in degrees turned into (-180, 180].
 double normalised_lon_deg(double lon_deg);
 
 // Radius of curvature across the meridian at a latitude, in metres.
@@ -64,10 +64,10 @@ double meridian_radius_m(double lat_deg);
 // Position of a geodetic point. Error: below 4 nm up to heights of 10 km (against GeographicLib).
 Ecef ecef_from_geodetic(const Geodetic& point);
 
-// The inverse. Valid from 6,300 km below the surface (not at the centre) to beyond the Moon; error: below
-// 1e-6 m and 1e-13 degree wherever |h| < 1,000 km. At a pole the longitude is 0; on the axis the nearer pole
-// is given. Source: H. Vermeille, An analytical method to transform geocentric into geodetic coordinates, J.
-// Geodesy 85, 2011, refined by Newton steps.
+// The inverse of ecef_from_geodetic(). Valid from 6,300 km below the surface (not at the centre) to beyond
+// the Moon; error: below 1e-6 m and 1e-13 degree wherever |h| < 1,000 km. At a pole the longitude is 0; on
+// the axis the nearer pole is given. Source: H. Vermeille, An analytical method to transform geocentric into
+// geodetic coordinates, J. Geodesy 85, 2011, refined by Newton steps.
 Geodetic geodetic_from_ecef(const Ecef& point);
 
 // Columns east, north, up at a place, in ECEF axes: ecef offset = ecef_from_enu * enu offset. Orthonormal to

@@ -70,7 +70,8 @@ class Refraction {
     [[nodiscard]] glm::dvec3 apparent_m(const glm::dvec3& offset_m) const {
         return offset_m + lift_m(offset_m) * up_;
     }
-    // The inverse, exact but for rounding: the lift does not change the distance across the vertical.
+    // The inverse of apparent_m(), exact but for rounding: the lift does not change the distance across the
+    // vertical.
     [[nodiscard]] glm::dvec3 true_m(const glm::dvec3& apparent_m) const {
         return apparent_m - lift_m(apparent_m) * up_;
     }
@@ -90,10 +91,11 @@ Ecef model_eye_ecef(Earth earth, const Geodetic& eye);
 // eye, metres. The eye is on the same model by its own latitude, longitude and height. Error: rounding of
 // doubles, 3e-9 m near the Earth. Flat: east and west part at the meridian opposite to the eye.
 glm::dvec3 model_offset_m(Earth earth, const Geodetic& eye, const Geodetic& point);
-// The inverse: what that model of the Earth has at an offset from the eye. Error: as above, and 1e-9 degree.
-// Nothing where the model has no place: on the flat one beyond the poles and the opposite meridian.
+// The inverse of model_offset_m(): what that model of the Earth has at an offset from the eye. Error: as
+// above, and 1e-9 degree. Nothing where the model has no place: on the flat one beyond the poles and the
+// opposite meridian.
 std::optional<Geodetic> model_point(Earth earth, const Geodetic& eye, const glm::dvec3& offset_m);
-// The same as it is seen through the model's air. Precision is left out.
+// The offset as it is seen through the model's air. Precision is left out.
 glm::dvec3 model_offset_m(const WorldModel& model, const Geodetic& eye, const Geodetic& point);
 
 }  // namespace oro

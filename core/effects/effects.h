@@ -70,7 +70,7 @@ class EffectPrediction {
     [[nodiscard]] EffectSize interpolation(int apart) const;
     // one of each grid.
     [[nodiscard]] EffectSize heights_off(std::span<const HeightsOff> of_grids) const;
-    // The same as a guess of what lies between them, with a margin: nobody has looked there.
+    // An estimate of what lies between posts, with a margin: nobody has looked there.
     [[nodiscard]] EffectSize interpolation_estimate(int apart) const;
 
     // Bound of the whole error of a picture that is drawn so: the sum of the effects that are in it, but for

@@ -30,7 +30,7 @@ class AskedPages : public PyramidPages {
 
     // Pages that were asked for.
     [[nodiscard]] std::size_t kept() const { return kept_.size(); }
-    // The first error of a page.
+    // The first error that a page had when it was loaded.
     [[nodiscard]] Result<void> health() const { return fault_ ? Result<void>(*fault_) : Result<void>(); }
 
   private:

@@ -37,7 +37,7 @@ class CastMap {
     // Ground that is seen (CastReceiver says of what), and then what all of it needs.
     void receive(const Patch& patch, double error_per_slope_m, double lowest_m);
     void cast();
-    // The same of ground that is another grid's: where lines from there pass over this one.
+    // Marks what hides the sun from another grid's ground: where lines from there pass over this one.
     void cast_from_other_grid(const CastReceiver& receiver);
     // Whether any line passes over the region.
     [[nodiscard]] bool any() const { return any_; }

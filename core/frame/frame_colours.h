@@ -7,11 +7,11 @@ namespace oro {
 
 // sRGB, 0 to 1. Of a level of pages, or of a cluster graph.
 gpu::vec3 colour_of_level(gpu::uint level);
-// Of a meshlet that the frame's last round drew, or one before it.
+// The colour of a meshlet that the frame's last round drew, or one before it.
 gpu::vec3 colour_of_round(bool before_last);
-// Of a pixel that so many triangles cover.
+// The colour of a pixel that so many triangles cover.
 gpu::vec3 colour_of_overdraw(gpu::uint triangles);
-// Of a meshlet or a triangle by its number.
+// The colour of a meshlet or a triangle by its number.
 gpu::vec3 colour_of_number(gpu::uint number);
 
 }  // namespace oro

@@ -45,7 +45,7 @@ class RegionPages {
     [[nodiscard]] virtual Result<PageRecord> record(const PageIndex& page) const = 0;
     // Fills the page's block. Errors: as record().
     virtual Result<void> load(const PageIndex& page, gpu::PageBlock& block) const = 0;
-    // The same for what pixels that cover many posts are coloured from (core/lod/ground_means.h), where it is
+    // Loads what pixels that cover many posts are coloured from (core/lod/ground_means.h), where it is
     // known. The first call takes all posts.
     [[nodiscard]] virtual bool knows_means() const { return false; }
     virtual Result<void> load_means(const PageIndex& page, gpu::PageMeans& means) const;

@@ -1,8 +1,10 @@
 #include "core/light/sun_position.h"
 
-#include <algorithm>
+#include <erfa.h>
+
+#include <array>
 #include <cmath>
-#include <cstddef>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -10,9 +12,11 @@
 namespace oro {
 namespace {
 
-constexpr double day_s = 86400.0;
+constexpr double day_s = 86400.0, hour_s = 3600.0;
 constexpr double j2000_utc_s = 946728000.0;  // 2000-01-01T12:00:00Z
-constexpr double au_m = 149597870700.0;      // IAU 2012, resolution B2
+constexpr double j2000_jd = 2451545.0;
+constexpr double au_m = 149597870700.0;  // IAU 2012, resolution B2
+constexpr double light_m_s = 299792458.0;
 constexpr double arcsec_deg = 1.0 / 3600.0;
 
 double turned_deg(double angle_deg) {
@@ -20,118 +24,70 @@ double turned_deg(double angle_deg) {
     return turned < 0.0 ? turned + 360.0 : turned;
 }
 
-double sine_of_deg(double angle_deg) {
-    return std::sin(radians_from_deg(angle_deg).rad);
-}
-double cosine_of_deg(double angle_deg) {
-    return std::cos(radians_from_deg(angle_deg).rad);
+// Days since J2000.0, on the scale of the time: the second part of a Julian date of two.
+double days_of(double time_s) {
+    return (time_s - j2000_utc_s) / day_s;
 }
 
-// Julian centuries since J2000.0.
-double centuries(double time_s) {
-    return (time_s - j2000_utc_s) / (36525.0 * day_s);
+// The sun seen from the Earth's centre at a time, and what nutation is then.
+struct SunOfDate {
+    glm::dvec3 towards;  // unit, along axes of the true equator and equinox of date
+    double distance_au;
+    double nutation_rad;   // in longitude
+    double obliquity_rad;  // mean
+    double tilt_rad;       // nutation in obliquity
+};
+SunOfDate computed_sun(double time_tt_s) {
+    const double days = days_of(time_tt_s);
+    // TDB is within 2 ms of TT. The status tells that a time is outside 1900 to 2100.
+    double of_sun[2][3], of_barycentre[2][3];
+    eraEpv00(j2000_jd, days, of_sun, of_barycentre);
+    SunOfDate sun{};
+    double away[3], towards[3], velocity[3], apparent[3], of_date[3];
+    eraPn(of_sun[0], &sun.distance_au, away);
+    eraSxp(-1.0, away, towards);
+    eraSxp(au_m / (day_s * light_m_s), of_barycentre[1], velocity);
+    eraAb(towards, velocity, sun.distance_au, std::sqrt(1.0 - eraPdp(velocity, velocity)), apparent);
+    double bias[3][3], precession[3][3], both[3][3], nutation[3][3], of_date_from_gcrs[3][3];
+    eraPn00b(j2000_jd, days, &sun.nutation_rad, &sun.tilt_rad, &sun.obliquity_rad, bias, precession, both,
+             nutation, of_date_from_gcrs);
+    eraRxp(of_date_from_gcrs, apparent, of_date);
+    sun.towards = {of_date[0], of_date[1], of_date[2]};
+    return sun;
 }
 
-// Nutation in longitude and the true obliquity of the ecliptic. Error: 0.5 and 0.1 seconds of arc.
-// Source: Meeus 1998, chapter 22, eq. 22.2 and the formulae after it.
-struct Ecliptic {
-    double nutation_deg;
-    double obliquity_deg;
-};
-Ecliptic true_ecliptic(double t) {
-    const double node_deg = 125.04452 - 1934.136261 * t;
-    const double sun_deg = 280.4665 + 36000.7698 * t;
-    const double moon_deg = 218.3165 + 481267.8813 * t;
-    const double nutation = -17.20 * sine_of_deg(node_deg) - 1.32 * sine_of_deg(2.0 * sun_deg) -
-                            0.23 * sine_of_deg(2.0 * moon_deg) + 0.21 * sine_of_deg(2.0 * node_deg);
-    const double tilt = 9.20 * cosine_of_deg(node_deg) + 0.57 * cosine_of_deg(2.0 * sun_deg) +
-                        0.10 * cosine_of_deg(2.0 * moon_deg) - 0.09 * cosine_of_deg(2.0 * node_deg);
-    const double mean = 84381.448 - 46.8150 * t - 0.00059 * t * t + 0.001813 * t * t * t;
-    return {nutation * arcsec_deg, (mean + tilt) * arcsec_deg};
-}
-
-// A cos(B + C tau), A in 1e-8, tau in thousands of Julian years since J2000.0.
-struct Term {
-    double amplitude;
-    double phase_rad;
-    double rate_rad;
-};
-
-template <std::size_t count>
-double sum_of(const Term (&terms)[count], double tau) {
-    double sum = 0.0;
-    for (const Term& term : terms) sum += term.amplitude * std::cos(term.phase_rad + term.rate_rad * tau);
-    return sum;
-}
-
-// The Earth's heliocentric longitude, by powers of tau: terms of 1e-6 rad (0.2 seconds of arc) and more. What
-// the tables print beyond them is below 4 seconds of arc even if all of it adds up.
-constexpr Term longitude_0[] = {
-    {175347046, 0, 0},           {3341656, 4.6692568, 6283.07585},
-    {34894, 4.6261, 12566.1517}, {3497, 2.7441, 5753.3849},
-    {3418, 2.8289, 3.5231},      {3136, 3.6277, 77713.7715},
-    {2676, 4.4181, 7860.4194},   {2343, 6.1352, 3930.2097},
-    {1324, 0.7425, 11506.7698},  {1273, 2.0371, 529.691},
-    {1199, 1.1096, 1577.3435},   {990, 5.233, 5884.927},
-    {902, 2.045, 26.298},        {857, 3.508, 398.149},
-    {780, 1.179, 5223.694},      {753, 2.533, 5507.553},
-    {505, 4.583, 18849.228},     {492, 4.205, 775.523},
-    {357, 2.92, 0.067},          {317, 5.849, 11790.629},
-    {284, 1.899, 796.298},       {271, 0.315, 10977.079},
-    {243, 0.345, 5486.778},      {206, 4.806, 2544.314},
-    {205, 1.869, 5573.143},      {202, 2.458, 6069.777},
-    {156, 0.833, 213.299},       {132, 3.411, 2942.463},
-    {126, 1.083, 20.775},        {115, 0.645, 0.98},
-    {103, 0.636, 4694.003},      {102, 0.976, 15720.839},
-    {102, 4.267, 7.114},
-};
-constexpr Term longitude_1[] = {
-    {628331966747.0, 0, 0}, {206059, 2.678235, 6283.07585}, {4303, 2.6351, 12566.1517},
-    {425, 1.59, 3.523},     {119, 5.796, 26.298},           {109, 2.966, 1577.344},
-};
-constexpr Term longitude_2[] = {
-    {52919, 0, 0},
-    {8720, 1.0721, 6283.0758},
-    {309, 0.867, 12566.152},
-};
-constexpr Term longitude_3[] = {
-    {289, 5.844, 6283.076},
-};
-// Its heliocentric latitude, which the Moon and the planets make: terms of 3e-7 rad and more.
-constexpr Term latitude_0[] = {
-    {280, 3.199, 84334.662}, {102, 5.422, 5507.553}, {80, 3.88, 5223.69},
-    {44, 3.7, 2352.87},      {32, 4.0, 1577.34},
-};
-// Its distance from the sun, in au: to 1e-5 of it, which is 0.0001 seconds of arc of parallax.
-constexpr Term distance_0[] = {
-    {100013989, 0, 0},          {1670700, 3.0984635, 6283.07585}, {13956, 3.05525, 12566.1517},
-    {3084, 5.1985, 77713.7715}, {1628, 1.1739, 5753.3849},        {1576, 2.8469, 7860.4194},
-};
-constexpr Term distance_1[] = {
-    {103019, 1.10749, 6283.07585},
-    {1721, 1.0644, 12566.1517},
-};
-
-// Apparent sidereal time at Greenwich. Source: Meeus 1998, eq. 12.4 and the correction after it.
-double sidereal_deg(double time_ut_s, const Ecliptic& ecliptic) {
-    const double days = (time_ut_s - j2000_utc_s) / day_s;
-    const double t = days / 36525.0;
-    // The whole days turn whole times: taken out first, so that no digits are lost.
-    const double whole_turns = 360.0 * (days - std::floor(days));
-    const double mean =
-        280.46061837 + 0.98564736629 * days + whole_turns + t * t * (0.000387933 - t / 38710000.0);
-    return turned_deg(mean + ecliptic.nutation_deg * cosine_of_deg(ecliptic.obliquity_deg));
+// Linear between whole hours, which is right within 0.001 seconds of arc; each thread keeps the last two of
+// them, for whoever asks for many times of a day.
+SunOfDate sun_of_date(double time_tt_s) {
+    thread_local double hour = std::nan("");
+    thread_local std::array<SunOfDate, 2> ends;
+    const double asked = std::floor(time_tt_s / hour_s);
+    if (asked != hour) {
+        ends[0] = asked == hour + 1.0 ? ends[1] : computed_sun(asked * hour_s);
+        ends[1] = computed_sun((asked + 1.0) * hour_s);
+        hour = asked;
+    }
+    const double share = time_tt_s / hour_s - asked;
+    const auto between = [&](double SunOfDate::*member) {
+        return std::lerp(ends[0].*member, ends[1].*member, share);
+    };
+    return {glm::normalize(glm::mix(ends[0].towards, ends[1].towards, share)),
+            between(&SunOfDate::distance_au), between(&SunOfDate::nutation_rad),
+            between(&SunOfDate::obliquity_rad), between(&SunOfDate::tilt_rad)};
 }
 
 // The sun's middle from the place, in metres east, north and up.
 glm::dvec3 sun_enu_m(double time_utc_s, const Geodetic& place) {
-    const double time_tt_s = time_utc_s + delta_t_s(time_utc_s);
-    const GeocentricSun sun = geocentric_sun(time_tt_s);
-    const double lon_deg =
-        sun.right_ascension_deg - sidereal_deg(time_utc_s, true_ecliptic(centuries(time_tt_s)));
-    const SineCosine lat = sine_cosine_deg(sun.declination_deg), lon = sine_cosine_deg(lon_deg);
+    const double time_tt_s = time_utc_s + delta_t_s(time_utc_s), tt_days = days_of(time_tt_s);
+    const SunOfDate sun = sun_of_date(time_tt_s);
+    // Apparent sidereal time at Greenwich.
+    const double turn_rad = eraGmst00(j2000_jd, days_of(time_utc_s), j2000_jd, tt_days) +
+                            eraEe00(j2000_jd, tt_days, sun.obliquity_rad, sun.nutation_rad);
+    const double sine = std::sin(turn_rad), cosine = std::cos(turn_rad);
+    const glm::dvec3& of_date = sun.towards;
     const glm::dvec3 sun_ecef_m =
-        sun.distance_au * au_m * glm::dvec3(lat.cosine * lon.cosine, lat.cosine * lon.sine, lat.sine);
+        sun.distance_au * au_m *
+        glm::dvec3(cosine * of_date.x + sine * of_date.y, cosine * of_date.y - sine * of_date.x, of_date.z);
     return glm::transpose(ecef_from_enu(place.lat_deg, place.lon_deg)) *
            (sun_ecef_m - ecef_from_geodetic(place).m);
 }
@@ -143,29 +99,17 @@ double elevation_of_deg(const glm::dvec3& enu) {
 }  // namespace
 
 GeocentricSun geocentric_sun(double time_tt_s) {
-    const double t = centuries(time_tt_s), tau = t / 10.0;
-    const double earth_rad =
-        1e-8 * (sum_of(longitude_0, tau) +
-                tau * (sum_of(longitude_1, tau) +
-                       tau * (sum_of(longitude_2, tau) + tau * sum_of(longitude_3, tau))));
-    GeocentricSun sun;
-    sun.distance_au = 1e-8 * (sum_of(distance_0, tau) + tau * sum_of(distance_1, tau));
-    const Ecliptic ecliptic = true_ecliptic(t);
-    // Seen from the Earth; in the FK5 system; carried by aberration (Meeus 1998, eq. 25.9 and 25.10).
-    sun.longitude_deg = turned_deg(deg_from_radians(Radians{earth_rad}) + 180.0 - 0.09033 * arcsec_deg +
-                                   ecliptic.nutation_deg - 20.4898 * arcsec_deg / sun.distance_au);
-    const double latitude_rad = -1e-8 * sum_of(latitude_0, tau);  // so small that it is its own sine
-    const double sine = sine_of_deg(sun.longitude_deg), cosine = cosine_of_deg(sun.longitude_deg);
-    const double tilt_sine = sine_of_deg(ecliptic.obliquity_deg);
-    const double tilt_cosine = cosine_of_deg(ecliptic.obliquity_deg);
-    sun.right_ascension_deg = turned_deg(
-        deg_from_radians(Radians{std::atan2(sine * tilt_cosine - latitude_rad * tilt_sine, cosine)}));
-    sun.declination_deg = deg_from_radians(Radians{std::asin(sine * tilt_sine + latitude_rad * tilt_cosine)});
-    return sun;
+    const SunOfDate sun = sun_of_date(time_tt_s);
+    const glm::dvec3& of_date = sun.towards;
+    const double tilt_rad = sun.obliquity_rad + sun.tilt_rad;
+    const double along = of_date.y * std::cos(tilt_rad) + of_date.z * std::sin(tilt_rad);
+    return {turned_deg(deg_from_radians(Radians{std::atan2(along, of_date.x)})),
+            turned_deg(deg_from_radians(Radians{std::atan2(of_date.y, of_date.x)})),
+            deg_from_radians(Radians{std::asin(of_date.z)}), sun.distance_au};
 }
 
 double delta_t_s(double time_utc_s) {
-    const double year = 2000.0 + 100.0 * centuries(time_utc_s);
+    const double year = 2000.0 + days_of(time_utc_s) / 365.25;
     if (year >= 1900.0 && year < 1920.0) {
         const double t = year - 1900.0;
         return -2.79 + t * (1.494119 + t * (-0.0598939 + t * (0.0061966 - t * 0.000197)));

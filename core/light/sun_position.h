@@ -18,19 +18,18 @@ namespace oro {
 // Canon of Solar Eclipses, NASA/TP-2006-214141, 2006, section 2.2. Outside 1900 to 2150 its parabola only.
 double delta_t_s(double time_utc_s);
 
-// Seen from the Earth's centre, apparent (nutation and aberration counted), in the equator and equinox of
-// date.
+// The sun as seen from the Earth's centre, apparent (nutation and aberration counted), in the equator and
+// equinox of date.
 struct GeocentricSun {
     double longitude_deg{};  // along the ecliptic, [0, 360)
     double right_ascension_deg{};
     double declination_deg{};
     double distance_au{};
 };
-// Right within 0.001 degree from 1900 to 2100. time_tt_s counts like the times above, on the scale TT.
-// Source: J. Meeus, Astronomical Algorithms, 2nd ed. 1998, chapter 25 (higher accuracy): the Earth's place by
-// the larger terms of VSOP87 (appendix III; the same as in I. Reda & A. Andreas, Solar Position Algorithm for
-// Solar Radiation Applications, NREL/TP-560-34302, revised 2008, table A4.2), nutation and obliquity by
-// chapter 22.
+// Gives the sun right within 0.0001 degree from 1900 to 2100, and less exactly before and after. time_tt_s
+// counts like the times above, on the scale TT. For any threads at once. Source: the library ERFA, which has
+// the IAU's models: the Earth's place and velocity by eraEpv00 (VSOP2000 fitted to DE405), aberration by
+// eraAb, precession and nutation by eraPn00b (IAU 2000B).
 GeocentricSun geocentric_sun(double time_tt_s);
 
 struct SunPosition {
@@ -39,11 +38,12 @@ struct SunPosition {
     double elevation_deg{};          // with refraction
     double radius_deg{};             // of the disc, without refraction; 0.262 to 0.271
 };
-// As seen from the place itself, parallax counted: 8.8 seconds of arc at the horizon. Right within 0.005
-// degree from 1900 to 2100 when the time is UT1, elevations without air. Deflections of the vertical, polar
-// motion and diurnal aberration (together below 0.001 degree but for the first) are left out. At a pole north
-// is where the place's longitude puts it. Source: as geocentric_sun; sidereal time by Meeus 1998, eq. 12.4;
-// radius 959.63 seconds of arc at 1 au (ibid., chapter 55).
+// The sun as seen from the place itself, parallax counted: 8.8 seconds of arc at the horizon. Right within
+// 0.005 degree from 1900 to 2100 when the time is UT1, elevations without air. Deflections of the vertical,
+// polar motion and diurnal aberration (together below 0.001 degree but for the first) are left out. At a pole
+// north is where the place's longitude puts it. Source: as geocentric_sun(); sidereal time by eraGmst00 and
+// eraEe00; radius 959.63 seconds of arc at 1 au (J. Meeus, Astronomical Algorithms, 2nd ed. 1998, chapter
+// 55).
 SunPosition sun_position(double time_utc_s, const Geodetic& place, const Weather& weather = {});
 
 // The elevation of the sun's middle, without air, when its upper limb shows at a plain horizon: 34 minutes of

@@ -22,7 +22,7 @@ class GroundMeans {
     // outlive it.
     GroundMeans(const PostGrid& grid, const DrawnHeights& heights, double exaggeration, int threads);
 
-    // Those of a page; squares without a post have 0.
+    // Puts the means of a page into `means`; squares without a post have 0.
     void page(const PageIndex& index, gpu::PageMeans& means) const;
 
   private:
@@ -49,7 +49,7 @@ class GroundMeans {
         float right_per_m;  // ... east
     };
     std::vector<RowScale> rows_;
-    // The same on a net: of every scale_posts-th post each way, bilinear between.
+    // The scale on a net: of every scale_posts-th post each way, bilinear between.
     struct NetScale {
         float down_per_m;
         float right_per_m;

@@ -109,11 +109,11 @@ struct PyramidHooks {
 // time.
 LevelPyramid build_pyramid(const HeightField& field, const RegionShape& shape, int threads,
                            const PageSink& sink = {});
-// The same from heights that are there already: the field's own, with the shape's exaggeration.
+// Builds a pyramid from heights that are there already: the field's own, with the shape's exaggeration.
 LevelPyramid build_pyramid(const PostGrid& grid, const RegionShape& shape, const DrawnHeights& heights,
                            int threads, const PageSink& sink = {});
-// The same with hooks. keep_levels: false drops the pages of a level once those of the next are built, so
-// that only the last two levels are in memory. Errors: the sink's.
+// Builds a pyramid with hooks. keep_levels: false drops the pages of a level once those of the next are
+// built, so that only the last two levels are in memory. Errors: the sink's.
 Result<LevelPyramid> build_pyramid_with(const PostGrid& grid, const RegionShape& shape,
                                         const DrawnHeights& heights, int threads, const PyramidHooks& hooks,
                                         bool keep_levels = true);

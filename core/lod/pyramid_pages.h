@@ -29,7 +29,7 @@ class PyramidPages {
     }
 };
 
-// Those of a pyramid that is there whole, which outlives them.
+// The pages of a pyramid that is there whole, which outlives them.
 class PagesOfPyramid : public PyramidPages {
   public:
     explicit PagesOfPyramid(const LevelPyramid& pyramid) : pyramid_(pyramid) {}

@@ -43,7 +43,8 @@ class GroundMeter {
     // the metres between them would reach at the other's distance, if they lay across. At most the picture's
     // diagonal: beyond, towards the picture's plane, pixels grow without end and say nothing.
     [[nodiscard]] double apart_px(const glm::dvec3& drawn_m, const glm::dvec3& seen_m) const;
-    // The same without an end, of two that are before the picture's plane; of others at least apart_px().
+    // The distance without an end, of two points that are before the picture's plane; of others at least
+    // apart_px().
     struct Apart {
         double px{};
         bool at_least{};
@@ -52,9 +53,9 @@ class GroundMeter {
     // The picture's diagonal.
     [[nodiscard]] double diagonal_px() const;
 
-    // Of a pixel that shows `point`, from where its ground point (the row and column of its triangle) truly
-    // is: sideways, up and along the line of sight. Nothing where that lies over no data. Error: rounding of
-    // doubles, and that of the drawn point: 6e-8 of its distance.
+    // The displacement of a pixel that shows `point`, from where its ground point (the row and column of its
+    // triangle) truly is: sideways, up and along the line of sight. Nothing where that lies over no data.
+    // Error: rounding of doubles, and that of the drawn point: 6e-8 of its distance.
     [[nodiscard]] std::optional<Distance> displacement(const glm::dvec2& point_px,
                                                        const DrawnPoint& point) const;
     // From the true surface: no farther than this, to 0.2 % where the ground is even around it, and no
@@ -74,7 +75,8 @@ class GroundMeter {
     double pixels_per_tangent_;
 };
 
-// Of all pixels, each at its centre, row by row; not_measured where nothing is drawn, or over no data.
+// The errors of all pixels, each at its centre, row by row; not_measured where nothing is drawn, or over no
+// data.
 struct GroundErrors {
     std::vector<float> displacement_m, displacement_px;
     std::vector<float> surface_m, surface_px;

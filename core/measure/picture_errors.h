@@ -42,7 +42,7 @@ struct PictureErrors {
     SkylineError skyline;
     double nearest_m{};  // along the view axis, of what is drawn; 0: nothing is
     double slack_px{};   // drawing_slack_px() of the ground that has most
-    // Of all four, edges less what they are found to (seen_resolution_px).
+    // The largest of all four in pixels; of edges less what they are found to (seen_resolution_px).
     [[nodiscard]] double largest_px() const;
     // Some of what that is of is only known to be no smaller than it says (ErrorSummary::at_least).
     [[nodiscard]] bool largest_px_at_least() const;

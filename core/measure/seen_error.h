@@ -14,7 +14,7 @@
 
 namespace oro {
 
-// Of each pixel, at its centre, row by row.
+// The errors of each pixel, at its centre, row by row.
 struct SeenErrors {
     // How far away on the picture the truth has what is drawn: ground at that distance, or an edge of ground
     // between nearer and farther ground (sky is farther than all ground). So it counts what moves, what is

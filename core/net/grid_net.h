@@ -85,9 +85,9 @@ class GridNet {
     };
     static constexpr int coefficients_a_patch = 81;
     [[nodiscard]] Stored stored() const;
-    // The inverse; any numbers may be given. Errors (of a "grid of posts"): what makes them no net: counts
-    // that do not fit each other, normals that are none, patches that do not meet, a fold, corrections that
-    // are none.
+    // The inverse of stored(); any numbers may be given. Errors (of a "grid of posts"): what makes them no
+    // net: counts that do not fit each other, normals that are none, patches that do not meet, a fold,
+    // corrections that are none.
     static Result<std::shared_ptr<const GridNet>> from(const Stored& stored);
 
     [[nodiscard]] PostPlace place_at(double row, double column) const;
@@ -97,7 +97,7 @@ class GridNet {
 
     // Unit normal.
     [[nodiscard]] glm::dvec3 normal_at(double row, double column) const;
-    // The same of posts first_column ... of a row.
+    // Puts the unit normals of posts first_column ... of a row into `normals`.
     void normals_of_row(int row, int first_column, std::span<glm::dvec3> normals) const;
 
     // How rows and columns lie on the ground at a post: metres from it to the next, and by how much the way
@@ -201,7 +201,7 @@ class GridNet {
         [[nodiscard]] double in_patch(double number, int patch) const {
             return 2.0 * (number + first - static_cast<double>(patch) * patch_posts) / patch_posts - 1.0;
         }
-        // The inverse.
+        // The number of a place in a patch: the inverse of the above.
         [[nodiscard]] double number(int patch, double place) const {
             return 0.5 * (place + 1.0) * patch_posts + static_cast<double>(patch) * patch_posts - first;
         }

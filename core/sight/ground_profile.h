@@ -32,7 +32,7 @@ ProfilePoint profile_point(const TrueGround& ground, const Geodetic& place, doub
 struct ProfileSums {
     double ascent_m{};   // of H, from point to point where both have ground
     double descent_m{};  // 0 or more
-    // The same of rises and falls of climb_threshold_m or more alone (climb_over()).
+    // The ascent and descent by rises and falls of climb_threshold_m or more alone (climb_over()).
     double climb_threshold_m{};
     double climbed_m{};
     double went_down_m{};

@@ -30,7 +30,7 @@ ViewshedWindow window_around(const PostGrid& grid, const Geodetic& place, double
 Geodetic target_over_post(const TrueSurface& surface, int row, int column, double target_m);
 
 struct Viewshed {
-    // Of a post that is void, or farther than the radius.
+    // The value of a post that is void, or farther than the radius.
     static constexpr float unknown = -9999.0F;
 
     ViewshedWindow window;

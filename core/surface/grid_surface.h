@@ -62,7 +62,7 @@ class GridSurface final : public OriginalSurface {
     [[nodiscard]] double crossing_difference(const SurfaceVertex& from, const SurfaceVertex& to,
                                              const Lines& lines, double limit) const;
 
-    // Of a place in the region.
+    // Points to the height of a post, in steps, by its row and column in the region.
     [[nodiscard]] const std::int32_t* post(int row, int column) const {
         return heights_.row(row - window_.first_row) + (column - window_.first_column);
     }

@@ -31,7 +31,7 @@ class GroundBounds {
     [[nodiscard]] virtual double flat_m(const GroundExtent& triangle, const GroundExtent& group) const = 0;
 };
 
-// Of a grid's posts.
+// The bounds of a grid's posts.
 class GridBounds final : public GroundBounds {
   public:
     // highest_steps: of all posts. Keeps `grid`.

@@ -37,7 +37,7 @@ class OriginalSurface {
     // that is not above the difference.
     [[nodiscard]] virtual double edge_difference(const SurfaceVertex& from, const SurfaceVertex& to,
                                                  double limit) const = 0;
-    // The same over the original's vertices within a triangle, its edges left out or not.
+    // The largest difference over the original's vertices within a triangle, its edges left out or not.
     [[nodiscard]] virtual double inner_difference(const SurfaceVertex& a, const SurfaceVertex& b,
                                                   const SurfaceVertex& c, double limit) const = 0;
 };

@@ -7,8 +7,8 @@
 
 namespace oro {
 
-// The same surface to be measured against. Numbers keep their order, so what is built over it is what would
-// be built over the surface itself. It has no triangles of its own.
+// A part of a surface's vertices, with that surface to be measured against. Numbers keep their order, so what
+// is built over it is what would be built over the surface itself. It has no triangles of its own.
 class VertexSubset final : public OriginalSurface {
   public:
     // vertices: of `whole`, rising. Both are kept where they are.

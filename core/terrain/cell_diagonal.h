@@ -38,7 +38,7 @@ struct CellPlane {
     double change_down;
     double change_right;
 };
-// Of a cell with all four posts.
+// The plane of a triangle of a cell with all four posts.
 [[nodiscard]] constexpr CellPlane cell_plane(Diagonal diagonal, bool west, double north_west,
                                              double north_east, double south_west, double south_east) {
     if (diagonal == Diagonal::falls)
@@ -84,8 +84,8 @@ inline constexpr std::int64_t no_weighed_steps = INT64_MIN;
     return (rises < 0 ? -rises : rises) < (falls < 0 ? -falls : falls) ? Diagonal::rises : Diagonal::falls;
 }
 
-// Of a cell by its north-west post, where the posts' H come from steps(row, column), which are asked -1 .. 2
-// from there on: decisive_steps(), or no_decisive_steps outside the region.
+// The diagonal of a cell by its north-west post, where the posts' H come from steps(row, column), which are
+// asked -1 .. 2 from there on: decisive_steps(), or no_decisive_steps outside the region.
 template <class Steps>
 [[nodiscard]] Diagonal diagonal_of(const Steps& steps, int row, int column) {
     std::array<std::array<std::int32_t, 4>, 4> posts{};
@@ -106,7 +106,7 @@ template <class Steps>
 // nothing.
 [[nodiscard]] std::int32_t decisive_steps_at(const HeightField& field, int row, int column,
                                              const std::vector<char>* left_out = nullptr);
-// Of a cell of the full resolution.
+// The diagonal of a cell of the full resolution.
 [[nodiscard]] Diagonal cell_diagonal(const HeightField& field, int row, int column,
                                      const std::vector<char>* left_out = nullptr);
 

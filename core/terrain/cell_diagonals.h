@@ -20,12 +20,12 @@ class CellDiagonals {
     // number: some 5 ns a post.
     static std::shared_ptr<const CellDiagonals> of(const HeightField& field, int threads);
 
-    // Those of a part of level 0, whose first column is a whole multiple of 8: what GridSurface needs of a
-    // window.
+    // The diagonals of a part of level 0, whose first column is a whole multiple of 8: what GridSurface needs
+    // of a window.
     [[nodiscard]] std::shared_ptr<const CellDiagonals> part(int first_row, int first_column, int rows,
                                                             int columns) const;
 
-    // Of a cell of a level, by the level's own rows and columns.
+    // The diagonal of a cell of a level, by the level's own rows and columns.
     [[nodiscard]] Diagonal at(int level, int row, int column) const {
         return (eight(level, row, column) >> (column % 8) & 1) != 0 ? Diagonal::rises : Diagonal::falls;
     }

@@ -20,8 +20,8 @@ inline constexpr double height_step_m = 1.0 / 2048.0;
 inline constexpr std::int32_t void_height_steps = std::numeric_limits<std::int32_t>::min();
 inline constexpr std::int32_t highest_height_steps = 1 << 30;  // and as far down
 
-// Those of a whole region, row by row. Posts that are one point (a meridian's two columns, a pole) have one
-// height.
+// The drawn heights of a whole region, row by row. Posts that are one point (a meridian's two columns, a
+// pole) have one height.
 struct DrawnHeights {
     int rows{};
     int columns{};
@@ -33,7 +33,7 @@ struct DrawnHeights {
         return steps.data() + static_cast<std::size_t>(number) * static_cast<std::size_t>(columns);
     }
     [[nodiscard]] std::int32_t at(int row_number, int column) const { return row(row_number)[column]; }
-    // Of a cell of a level, by the level's own rows and columns.
+    // The diagonal of a cell of a level, by the level's own rows and columns.
     [[nodiscard]] Diagonal diagonal(int level, int row_number, int column) const {
         return diagonals ? diagonals->at(level, row_number, column) : Diagonal::falls;
     }

@@ -15,10 +15,10 @@ struct FlatTriangle {
     double sideways_m;
 };
 
-// Of a triangle whose legs are so many posts long, by the sine and cosine of its latitude; steepness: how
-// much it rises, metres a metre. Between its corners X(lat, lon, h) is off the straight line by at most an
-// eighth of its second derivatives: of the ellipsoid's bulge, of meridians that come together, and of
-// verticals that are not parallel: the foot and the head of a wall.
+// The bounds of a triangle whose legs are so many posts long, by the sine and cosine of its latitude;
+// steepness: how much it rises, metres a metre. Between its corners X(lat, lon, h) is off the straight line
+// by at most an eighth of its second derivatives: of the ellipsoid's bulge, of meridians that come together,
+// and of verticals that are not parallel: the foot and the head of a wall.
 inline FlatTriangle flat_triangle(const PostGrid& grid, const SineCosine& lat, double h_m, double steepness,
                                   double posts) {
     const double tall = posts * grid.row_step_rad();

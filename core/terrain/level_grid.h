@@ -14,7 +14,7 @@ struct PageLayout {
     int rows{};
     int columns{};
 
-    // Of all pages: up to 2^48.
+    // The number of all pages: up to 2^48.
     [[nodiscard]] std::uint64_t count() const {
         return static_cast<std::uint64_t>(rows) * static_cast<std::uint64_t>(columns);
     }

@@ -61,7 +61,7 @@ struct PageHeights {
 };
 PageHeights page_heights(const PostGrid& grid, const DrawnHeights& heights, PageIndex index);
 
-// The same posts as the source gives them: H in metres, void_height_m where there is none. Posts that are one
+// A page's posts as the source gives them: H in metres, void_height_m where there is none. Posts that are one
 // point (a meridian's two columns, a pole) have the H that is drawn for all of them. Where a region that goes
 // round the Earth ends within the page, one more column, which only diagonals are decided by.
 struct PageElevations {
@@ -79,7 +79,7 @@ enum class MeshletBounding { whole, spheres };
 PageSummary build_page(const PostGrid& grid, const RegionShape& shape, const PageHeights& heights,
                        PageIndex index, gpu::PageBlock& block,
                        MeshletBounding bounding = MeshletBounding::whole);
-// The same from the field's own posts.
+// Builds a page from the field's own posts.
 PageSummary build_page(const HeightField& field, const RegionShape& shape, PageIndex index,
                        gpu::PageBlock& block);
 

@@ -24,7 +24,7 @@ class PagePosts {
         const int level_row = first_row_ + row;
         return level_row < 0 || level_row > level_.row.quads ? -1 : level_.row.region_post(level_row);
     }
-    // The same of a column. The apron goes on round the Earth.
+    // The column in the region of a column of the page. The apron goes on round the Earth.
     [[nodiscard]] int region_column(int column) const {
         int level_column = first_column_ + column;
         const int quads_round = level_.column.quads;

@@ -51,7 +51,7 @@ struct PostSphere {
 // Around points, with the centre already rounded to float. Slack for the rounding of the points themselves
 // when the GPU places them in float.
 PostSphere sphere_around(std::span<const glm::dvec3> points);
-// The same around the first `count` posts, at least one; and around the 9 x 9 of each meshlet.
+// The sphere around the first `count` posts, at least one; and those around the 9 x 9 of each meshlet.
 PostSphere sphere_around(const PlacedPosts& posts, std::size_t count);
 void spheres_of_meshlets(const PlacedPosts& posts, std::array<PostSphere, gpu::meshlets_per_page>& spheres);
 

@@ -145,7 +145,7 @@ struct HeightField {
     [[nodiscard]] double h_at_post_m(int row, int column) const;
     // H of the surface at a place, or void_height_m outside the region and on triangles with a void post.
     [[nodiscard]] float H_at_m(double lat_deg, double lon_deg) const;
-    // The same in double, before it is rounded to 0.5 mm.
+    // H of the surface in double, before it is rounded to 0.5 mm.
     // left_out: by post, 1 where it is cut out, and so decides no diagonal (core/terrain/cell_diagonal.h).
     [[nodiscard]] std::optional<double> surface_H_m(double lat_deg, double lon_deg,
                                                     const std::vector<char>* left_out = nullptr) const;
@@ -153,7 +153,7 @@ struct HeightField {
 
 // N at the place of a net's post with that normal, in whichever way it is asked for: rounded to float.
 float N_on_net_m(const UndulationField& undulation, const glm::dvec3& normal);
-// The same of all posts; nothing where N is 0 everywhere.
+// N of all posts of a net in metres; empty where N is 0 everywhere.
 std::vector<float> N_of_net_m(const GridNet& net, const UndulationField& undulation, int threads);
 
 // Lowest and highest H and the number of void posts; 0..0 when all are void.

@@ -19,7 +19,7 @@ inline PostSpacing post_spacing(const PostGrid& grid, double lat_deg) {
             std::max(1.0e-3, prime_vertical_radius_m(lat_deg) * sine_cosine_deg(lat_deg).cosine *
                                  radians_from_deg(grid.lon.spacing_deg()).rad)};
 }
-// The same at a fractional row and column.
+// The spacing of posts at a fractional row and column.
 inline PostSpacing post_spacing_at(const PostGrid& grid, double row, double column) {
     if (!grid.net) return post_spacing(grid, grid.north_deg() - row * grid.lat.spacing_deg());
     const GridNet::Lie lie = grid.net->lie_at(row, column);

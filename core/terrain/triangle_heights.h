@@ -41,7 +41,7 @@ std::optional<double> h_in_cell_m(const PostHeight& post_h_m, const DiagonalAt& 
     return *north_west + right * (*north_east - *north_west) + down * (*south_east - *north_east);
 }
 
-// The same at a fractional row and column of the region; nothing outside it.
+// The height at a fractional row and column of the region; nothing outside it.
 template <class PostHeight, class DiagonalAt>
 std::optional<double> h_at_row_column_m(const PostGrid& grid, const PostHeight& post_h_m,
                                         const DiagonalAt& diagonal_at, double y, double x) {
@@ -66,7 +66,7 @@ std::optional<double> h_at_row_column_m(const PostGrid& grid, const PostHeight& 
     return std::nullopt;
 }
 
-// The same at a place.
+// The height at a place; nothing where there is no triangle.
 template <class PostHeight, class DiagonalAt>
 std::optional<double> h_on_grid_m(const PostGrid& grid, const PostHeight& post_h_m,
                                   const DiagonalAt& diagonal_at, double lat_deg, double lon_deg) {

@@ -65,8 +65,8 @@ class Oracle {
     // through.
     [[nodiscard]] std::optional<SightHit> first_hit(const glm::dvec3& direction, double reach_m) const;
 
-    // The same of a straight line that begins elsewhere; for an oracle of straight light over the ellipsoid.
-    // So lines from many places, towards the sun say, share what an oracle has to work out.
+    // The first hit of a straight line that begins elsewhere; for an oracle of straight light over the
+    // ellipsoid. So lines from many places, towards the sun say, share what an oracle has to work out.
     [[nodiscard]] std::optional<SightHit> first_hit_from(const Ecef& from, const glm::dvec3& direction,
                                                          double reach_m) const;
 

@@ -60,7 +60,8 @@ class Oracle::Scenery {
         bool holds_ground{};
         glm::dvec3 low{}, high{};
     };
-    // The same, remembered: neighbouring sight lines meet the same blocks. Good until this thread asks again.
+    // The box of a block, remembered: neighbouring sight lines meet the same blocks. Good until this thread
+    // asks again.
     [[nodiscard]] const Box& remembered_box(const TrueSurface::Block& block) const;
 
   private:

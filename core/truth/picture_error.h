@@ -26,8 +26,8 @@ struct ErrorSummary {
     }
 };
 ErrorSummary summary_of(std::vector<double> values);
-// The same of floats, those that are not_measured left out. at_least: not 0 for values that are only known to
-// be no smaller; empty: none.
+// The summary of floats, those that are not_measured left out. at_least: not 0 for values that are only known
+// to be no smaller; empty: none.
 ErrorSummary summary_of(std::span<const float> values, std::span<const std::uint8_t> at_least = {});
 
 // A drawn picture's depths: reversed (near_plane_m / distance along the view axis), 0 for the background, row
@@ -37,7 +37,7 @@ struct DrawnDepths {
     glm::dvec2 sample_px{0.5, 0.5};
 };
 
-// Of a pixel that has no such error.
+// The value of a pixel that has no such error.
 inline constexpr float not_measured = -1.0e30F;
 
 }  // namespace oro

@@ -35,7 +35,7 @@ class TrueSurface {
     // a void post. Error: rounding, below 1e-8 m for slopes up to 45 degrees.
     [[nodiscard]] std::optional<double> h_m(double lat_deg, double lon_deg) const;
 
-    // The same at a fractional row and column of the grid, without a place's rounding.
+    // The height above the ellipsoid at a fractional row and column of the grid, without a place's rounding.
     [[nodiscard]] std::optional<double> h_at_m(double row, double column) const;
 
     // How steep the triangle there is, metres of height a metre along the ellipsoid. Nothing where h_at_m()
@@ -47,9 +47,9 @@ class TrueSurface {
     };
     [[nodiscard]] std::optional<Slope> slope_at(double row, double column) const;
 
-    // Of a cell, by its north-west post.
+    // The diagonal of a cell, by its north-west post.
     [[nodiscard]] Diagonal diagonal_at(int row, int column) const;
-    // The same for who asks for most cells of a part: looks at 128 x 128 of them at once.
+    // The diagonal for who asks for most cells of a part: this looks at 128 x 128 of them at once.
     [[nodiscard]] Diagonal diagonal_of_many(int row, int column) const;
 
     // Height above the ellipsoid of a post; nothing where it is void. Posts that are one point (a meridian's
@@ -76,7 +76,7 @@ class TrueSurface {
     // Number of blocks of a level, (rows, columns).
     [[nodiscard]] std::pair<int, int> blocks(int level) const;
 
-    // Of a grid on a net: the ellipsoid's normals at the corners of level 0's blocks, row by row; else empty.
+    // The ellipsoid's normals at the corners of level 0's blocks, row by row, of a grid on a net; else empty.
     struct Corners {
         int rows{}, columns{};
         std::vector<glm::dvec3> normals;

@@ -22,7 +22,7 @@ Camera made_camera(std::mt19937_64& random, const HeightField& field, int width_
 // find such a one.
 std::vector<Camera> made_cameras(std::uint64_t seed, const HeightField& field, int count, int width_px,
                                  int height_px, double exaggeration = 1.0);
-// The same over a ground: of several grids, each is as likely to be below the eye as another. Of one, the
+// Cameras over a ground: of several grids, each is as likely to be below the eye as another. Of one, the
 // cameras are those of its field.
 std::vector<Camera> made_cameras(std::uint64_t seed, const TrueGround& ground, int count, int width_px,
                                  int height_px);

@@ -56,7 +56,7 @@ class KnownGround {
     // True of a place outside the part that was chosen: there may be data, which nobody asked for. A side of
     // the part is where the grid ends, when that is within two posts of it.
     [[nodiscard]] bool is_beyond_part(double lat_deg, double lon_deg) const;
-    // Of a place without data.
+    // The cell of a place without data, and whether it is beyond the chosen part.
     [[nodiscard]] UnseenPlace unseen_at(double lat_deg, double lon_deg) const {
         return {degree_cell_at(lat_deg, lon_deg), is_beyond_part(lat_deg, lon_deg)};
     }

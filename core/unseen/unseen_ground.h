@@ -77,8 +77,8 @@ struct UnseenGround {
                         // what `unseen_picture` may miss; up to two pixels above it
     std::vector<UnseenCell>
         missing;  // largest bound first, then most columns; each without data where it is entered
-    // The same three of columns that look beyond the part of the data that was chosen. A column may look
-    // beyond both; its bound then counts for both.
+    // Columns, bound and cells of the columns that look beyond the part of the data that was chosen. A column
+    // may look beyond both; its bound then counts for both.
     int columns_beyond_part{};
     double part_bound_px{};
     std::vector<UnseenCell> beyond_part;

@@ -28,7 +28,7 @@ class ImagePlacing {
     // given in the turn that is nearest to `near_lon_deg`.
     void place(std::vector<double>& lon_deg, std::vector<double>& lat_deg, double near_lon_deg,
                std::vector<PixelPlace>& places) const;
-    // The other way, of one place: WGS84 degrees, x the longitude; nothing where PROJ has none.
+    // The place on the Earth of one pixel, WGS84 degrees; nothing where PROJ has none.
     struct Spot {
         double lon_deg;
         double lat_deg;

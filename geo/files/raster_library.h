@@ -19,7 +19,7 @@ void start_gdal();
 // reading was seen to report it when a file is cut, at every place; and whose files GDAL reads itself, so
 // that guard_files sees them.
 const char* const* trusted_drivers();
-// The same for people: "GeoTIFF, VRT, ...".
+// The names of these formats for people: "GeoTIFF, VRT, ...".
 std::string trusted_formats();
 
 // While it lives, GDAL's messages on this thread go here instead of standard error.

@@ -22,7 +22,8 @@ struct SourcePath {
 // files whose ending says that they may hold elevation are taken; a file that is named itself is always
 // taken. Errors: a path that is not there or cannot be read, a damaged archive, a path with nothing in it.
 Result<std::vector<SourcePath>> find_sources(const std::vector<std::string>& paths);
-// The same; files in folders that cannot be read, and damaged archives there, go to `unreadable` instead.
+// Finds sources as above; files in folders that cannot be read, and damaged archives there, go to
+// `unreadable` instead.
 Result<std::vector<SourcePath>> find_sources(const std::vector<std::string>& paths,
                                              std::vector<Error>& unreadable);
 

@@ -30,10 +30,10 @@ class PostPlaces {
     PostPlaces& operator=(PostPlaces&&) noexcept;
     ~PostPlaces();
 
-    // Of all posts of a lattice, row by row; not a number where a post has no place. Longitudes may be a
-    // whole turn from those of the region. PROJ is asked for 16 posts, and the others lie on the cubics
-    // through these; 4 more show whether that is as PROJ has them to 1e-9 degree (0.1 mm). Where it is not,
-    // parts are placed by themselves, and small ones post by post.
+    // Puts the places of all posts of a lattice into `places`, row by row; not a number where a post has no
+    // place. Longitudes may be a whole turn from those of the region. PROJ is asked for 16 posts, and the
+    // others lie on the cubics through these; 4 more show whether that is as PROJ has them to 1e-9 degree
+    // (0.1 mm). Where it is not, parts are placed by themselves, and small ones post by post.
     void of(const PostLattice& lattice, std::vector<LatLon>& places) const;
 
   private:

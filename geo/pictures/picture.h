@@ -23,7 +23,7 @@ struct DestinationTag {
     double distance_m{};   // along the ellipsoid (geodesic), as GPSDestDistance wants it
 };
 
-// Of a panorama on a cylinder. Rows count from the picture's top.
+// What a picture says of a panorama on a cylinder. Rows count from the picture's top.
 struct PanoramaTag {
     double sweep_deg{};  // from its left border to its right one
     int level_row_px{};  // the level line is this row's upper border
@@ -80,7 +80,7 @@ class PictureWriter {
 Result<std::unique_ptr<PictureWriter>> create_picture(const std::string& path, const Geotags& tags,
                                                       bool overwrite);
 
-// The same of a map: a TIFF is a GeoTIFF. Errors: a CRS that a GeoTIFF cannot hold (usage), too.
+// Creates the picture of a map: a TIFF is a GeoTIFF. Errors: a CRS that a GeoTIFF cannot hold (usage), too.
 Result<std::unique_ptr<PictureWriter>> create_map(const std::string& path, const Geotags& tags,
                                                   const MapFrame& map, bool overwrite);
 // Bytes of a map's pixel: red, green, blue and opacity; a JPEG has no opacity.

@@ -26,7 +26,7 @@ Result<std::string> find_view_json(PictureBytes& bytes, const std::string& path)
 struct XmpPlace {
     std::uint64_t at{};
     std::string packet;
-    // Of a PNG's chunk: from its type on, so many bytes, and the CRC behind them; 0 bytes elsewhere.
+    // Where a PNG's chunk is: from its type on, so many bytes, and the CRC behind them; 0 bytes elsewhere.
     std::uint64_t chunk_at{}, chunk_bytes{};
 };
 Result<XmpPlace> find_xmp(PictureBytes& bytes, const std::string& path);

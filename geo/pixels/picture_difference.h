@@ -26,8 +26,8 @@ class PixelPrint {
   private:
     RunningChecksum sum_;
 };
-// Of a file's pixels as they come out of it; nothing of a lossy file's, which are not those that were put in.
-// Errors: those of open_picture_rows.
+// The fingerprint of a file's pixels as they come out of it; nothing of a lossy file's, which are not those
+// that were put in. Errors: those of open_picture_rows.
 Result<std::optional<std::uint64_t>> print_of_pixels(const std::string& path, int width_px, int height_px);
 
 // Pixels of which one of three colours differs by more than so much, of 255.

@@ -21,7 +21,8 @@ struct BoundingBox {
 // "west,south,east,north". Usage errors for anything else: not four numbers, not finite, out of range, south
 // >= north, no width; numbers that would be a box with latitude first get the hint that it may be meant.
 Result<BoundingBox> parse_bounding_box(const std::string& text);
-// The same numbers as south,west,north,east, the order of places: nothing where they are no such box.
+// The box whose numbers were meant as south,west,north,east, the order of places: nothing where they are no
+// such box.
 std::optional<BoundingBox> with_latitude_first(const BoundingBox& box);
 // As it is written: "8,46,9,47".
 std::string bounding_box_text(const BoundingBox& box);

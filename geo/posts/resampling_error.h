@@ -53,7 +53,7 @@ class ResamplingError {
         LatLon place;
         float H_m;
     };
-    // Of a rectangle of the region's posts, whether their height is this source's.
+    // Whether the height of posts in a rectangle of the region is this source's.
     struct Own {
         GridRect rect;
         std::vector<bool> posts;

@@ -21,7 +21,7 @@ struct Precedence {
     double lon_spacing_deg{};
     std::string_view path;  // as found
 };
-// Of a source.
+// The precedence of a source.
 Precedence precedence_of(const SourceReport& source);
 // The order in which sources take posts: as they are listed, where that counts; else the finer spacing first
 // (the geometric mean of both axes' degrees; equal when within a millionth), among equals by the byte order

@@ -12,8 +12,8 @@
 
 namespace oro {
 
-// Of a horizontal CRS (WKT) at a place: x and y there, longitude (or east) first. `unwrapped`: the box that
-// the operation is for, degrees of WGS84. Without coordinate_epoch, which a CRS does not hold.
+// The datum of a horizontal CRS (WKT) at a place: x and y there, longitude (or east) first. `unwrapped`: the
+// box that the operation is for, degrees of WGS84. Without coordinate_epoch, which a CRS does not hold.
 HorizontalDatum horizontal_datum(const std::string& crs_wkt, double x, double y,
                                  const BoundingBox& unwrapped);
 

@@ -12,11 +12,11 @@ namespace oro {
 
 // A VRT may be made of VRTs so deep, ...
 inline constexpr int deepest_vrt = 4;
-// ... name so many sources, those of its sources counted each time they are named, ...
+// A VRT may name so many sources, those of its sources counted each time they are named.
 inline constexpr std::uint64_t most_vrt_sources = 100'000;
-// ... name each so many times where it names more than a thousand, ...
+// A VRT may name each source so many times where it names more than a thousand.
 inline constexpr std::uint64_t most_times_named = 16;
-// ... and be so long.
+// A VRT may have so many bytes.
 inline constexpr std::uint64_t most_vrt_bytes = std::uint64_t{64} << 20U;
 
 struct RasterParts {

@@ -121,8 +121,9 @@ Result<Opened> open_source(const SourcePath& path, const GdalMessages& messages)
                          "is no raster that GDAL can open: " + messages.last("unknown format")};
         std::string why = mark_words(path.file);
         if (why.empty())
-            why = "is no raster of a format that is trusted to tell when it is cut (" + trusted_formats() +
-                  "); gdal_translate makes a GeoTIFF of others";
+            why = "is not a raster in an accepted format (" + trusted_formats() +
+                  "): in others a file that is cut short may pass unnoticed; gdal_translate converts them to "
+                  "GeoTIFF";
         opened.unfit = {ErrorKind::failed, "", std::move(why)};
         return opened;
     }

@@ -59,8 +59,8 @@ struct NoHeights {
     float code_m{};  // the height that the no-data value has which they are or come from
 };
 
-// Those of a whole file, found once, so that every window of it gives the same posts; unset until then. Copies
-// of a source share it.
+// Undeclared voids of a whole file, found once, so that every window of it gives the same posts; unset until
+// then. Copies of a source share it.
 struct UndeclaredVoids {
     std::mutex mutex;
     std::optional<std::vector<NoHeights>> ranges;

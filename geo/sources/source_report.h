@@ -108,7 +108,7 @@ struct Resampling {
     std::uint64_t hidden{};    // of those looked at: another source that wins has the ground there
     double rms_m{};
     std::optional<PostShown> worst;  // nothing where none was compared
-    // Of all posts that were read and lie in the region's box.
+    // The highest and the lowest of all posts that were read and lie in the region's box.
     std::optional<PostShown> highest, lowest;
 };
 

@@ -20,7 +20,7 @@ std::string unit_words(const HeightUnit& unit);           // "m", "ft (as told)"
 std::string placement_words(const SourceReport& source);  // "posts copied"; "" where it was not laid
 std::string void_method_words(VoidMethod method);         // "holes"
 
-// The same facts again from words that are theirs. Words of no other kind: a raster's format, a datum's name
+// Takes the facts back from words that are theirs. Words of no other kind: a raster's format, a datum's name
 // and a unit's name are any text; the others give nothing.
 void set_format(SourceReport& source, const std::string& words);
 HeightDatum datum_of_words(const std::string& words);

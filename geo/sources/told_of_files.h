@@ -18,14 +18,15 @@ struct ToldOfFiles {
     std::string vertical_crs;  // what heights refer to, of those that do not say; "" for nothing
     StatedDatum vertical;      // likewise
 
-    // Of a source that does not say it: puts what its heights refer to into it, where that was told, or else
+    // Puts what its heights refer to into a source that does not say it, where that was specified, or else
     // where the file's name is one of a known product.
     StatedDatum heights_of(Source& source) const;
 };
 
 // Errors (usage): a CRS that PROJ does not know; one that places nothing on the Earth; one without heights.
 Result<ToldOfFiles> told_of_files(const RegionRequest& request);
-// The same two checks alone, each with the reason for people; nothing where all is well, or nothing is told.
+// What is wrong with a specified CRS and with a vertical one, for people; nothing where all is well, or none
+// is specified.
 std::optional<std::string> fault_of_source_crs(const std::string& crs);
 std::optional<std::string> fault_of_source_vertical(const std::string& crs);
 

@@ -35,7 +35,7 @@ class LeftOut {
             known->part.count += part.count;
     }
     [[nodiscard]] bool empty() const { return reasons_.empty(); }
-    // Of all places that are lost.
+    // The number of all places that are lost.
     [[nodiscard]] std::size_t places() const { return places_; }
     // "FILE: left out 3 features without a geometry, the first in line 5"; lines are counted in the text.
     [[nodiscard]] std::vector<std::string> notes(const std::string& file, std::string_view text) const {

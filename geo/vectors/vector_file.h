@@ -68,7 +68,7 @@ struct VectorFile {
 
 // A file of text may be so long, ...
 inline constexpr std::uint64_t longest_vector_text = std::uint64_t{1} << 30U;
-// ... and all shapes of a file have so many places.
+// All shapes of a file may have so many places.
 inline constexpr std::size_t most_vector_places = 50'000'000;
 
 // Reads all of a file: GPX (waypoints, routes, tracks), KML (with Google's tracks; packed as KMZ, too),

@@ -6,7 +6,7 @@
 
 namespace oro {
 
-// As start_gdal(), and registers the driver of GeoPackages. From then on a query of SQLite ends
+// Does what start_gdal() does, and registers the driver of GeoPackages. From then on a query of SQLite ends
 // when the time of the FileWatch of its thread is spent: a GeoPackage may hold queries that never end.
 // To be called before each file: libraries may forget what SQLite is to do.
 void start_vectors();

@@ -41,7 +41,7 @@ class ShapeSplitter {
 
     // What heights count from as the CRS says it; nothing where it says nothing.
     [[nodiscard]] HeightAbove heights() const { return heights_; }
-    // Of all shapes until now.
+    // The number of places of all shapes until now.
     [[nodiscard]] std::size_t places() const { return places_; }
     // Places that told the first of a ring again at its end, of all polygons until now.
     [[nodiscard]] std::size_t ring_ends() const { return ring_ends_; }

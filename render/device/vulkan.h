@@ -13,7 +13,7 @@ namespace oro {
 // The name of a VkResult as the specification writes it, or its number.
 std::string vulkan_result_name(VkResult result);
 
-// The same with what it means to whoever runs the program, where that helps.
+// The name of a result with what it means to whoever runs the program, where that helps.
 std::string vulkan_reason(VkResult result);
 
 // Whether a result tells that there is no memory left, on the device or for its driver.

@@ -77,8 +77,8 @@ class FrameRenderer {
 
     // The picture's top left width x height pixels as RGBA rows, sRGB.
     Result<std::vector<std::uint8_t>> read_picture(std::uint32_t width, std::uint32_t height);
-    // The inverse: puts such rows, four bytes a pixel, where the frame's own were. For what is written over a
-    // picture before a window shows it.
+    // Puts rows as read_picture() gives them, four bytes a pixel, where the frame's own were. For what is
+    // written over a picture before a window shows it.
     Result<void> replace_picture(std::span<const std::uint8_t> rgba, std::uint32_t width,
                                  std::uint32_t height);
     // Triangle ids of the last frame, which was that large (for tests and picking).
@@ -90,12 +90,12 @@ class FrameRenderer {
     // triangle_rows(), which is the most that are read at a time.
     Result<std::vector<ShownTriangle>> read_triangles(std::uint32_t first_row, std::uint32_t rows);
     [[nodiscard]] std::uint32_t triangle_rows() const;
-    // Of each page of the last frame, 256 x 4 bits: the edges (shaders/choose/levels.glsl) of the nodes that
-    // were drawn.
+    // Gives 256 x 4 bits for each page of the last frame: the edges (shaders/choose/levels.glsl) of the nodes
+    // that were drawn.
     Result<std::vector<std::uint32_t>> read_edges(std::size_t pages);
-    // ... and 256 bits: the nodes that may stand for what they cover.
+    // Gives 256 bits for each page: the nodes that may stand for what they cover.
     Result<std::vector<std::uint32_t>> read_accepted(std::size_t pages);
-    // Of each cluster that the last frame was offered: cluster_... bits (shaders/shared_clusters.h).
+    // Gives cluster_... bits for each cluster that the last frame was offered (shaders/shared_clusters.h).
     Result<std::vector<std::uint32_t>> read_cluster_states(std::size_t clusters);
     // The tables of the air (shaders/shared.h, AirModel) of the last frame, as floats; its style had air.
     Result<std::vector<float>> read_air();

@@ -58,7 +58,7 @@ class PictureRenderer {
     // `camera` and `style`: of the size and the kind of all pictures. Errors: those of the device.
     static Result<PictureRenderer> create(const Gpu& gpu, const Camera& camera, const gpu::FrameStyle& style,
                                           const PictureOptions& options);
-    // As render_picture().
+    // Draws a picture as render_picture() does.
     Result<PictureReport> draw(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
                                const RowSink& sink, const RenderProgress& progress = {});
     // With keep_depths, of the last picture: reversed depths of its pixels (of their last samples), row by

@@ -20,7 +20,7 @@ Result<void> shown_ground(const Gpu& gpu, Scene& scene, const Camera& camera, co
 // Takes what some whole rows of a tile show, row by row, the first of them so many below the tile's top.
 using TriangleSink = std::function<void(const Tile& tile, int first_row, int rows,
                                         const std::vector<ShownTriangle>& triangles)>;
-// The same by triangles.
+// Gives the triangles that pixels show to `sink`.
 Result<void> shown_triangles(const Gpu& gpu, Scene& scene, const Camera& camera,
                              const PictureOptions& options, const TriangleSink& sink);
 

@@ -33,15 +33,15 @@ std::array<std::size_t, 3> share_programs(const ShareOptions& how);
 
 // What fills the tables that it reads, as far as that is not there: of air,
 Result<void> add_air_pipelines(const Gpu& gpu, Pipelines& pipelines);
-// ... of what casts shadows and of how open the sky is,
+// Adds the pipelines of what casts shadows and of how open the sky is.
 Result<void> add_cast_pipelines(const Gpu& gpu, Pipelines& pipelines);
-// ... of what pixels see of the sun: in a frame of one grid,
+// Adds the pipelines of what pixels see of the sun, in a frame of one grid.
 Result<void> add_share_pipelines(const Gpu& gpu, const ShareOptions& how, bool on_net, bool on_clusters,
                                  Pipelines& pipelines);
-// ... and in one of several, where the grid casts shadows or only gets them,
+// Adds these of a frame of several grids, where the grid casts shadows or only gets them.
 Result<void> add_joined_pipelines(const Gpu& gpu, const ShareOptions& how, bool on_net, bool casts,
                                   Pipelines& pipelines);
-// ... and of the image tiles that a frame wants.
+// Adds the pipelines of the image tiles that a frame wants.
 Result<void> add_drape_pipelines(const Gpu& gpu, RasterPath path, bool on_clusters, Pipelines& pipelines);
 
 }  // namespace oro

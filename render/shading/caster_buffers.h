@@ -23,7 +23,7 @@ class SharedShares {
     [[nodiscard]] bool is_on() const { return is_on_; }
     [[nodiscard]] VkDeviceAddress places() const { return is_on_ ? places_.address : 0; }
     [[nodiscard]] VkDeviceAddress shares() const { return shares_.address; }
-    // Those of one grid after the other, with room for a list (shares.comp).
+    // The shares of one grid after the other, with room for a list (shares.comp).
     [[nodiscard]] const Buffer& of_one_grid() const { return of_one_grid_; }
     // All of the sun in all pixels.
     void record_clear(VkCommandBuffer commands) const;

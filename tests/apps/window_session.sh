@@ -28,7 +28,7 @@ says() {
 holds() { xdotool keydown "$1"; sleep 0.7; xdotool keyup "$1"; sleep 0.3; }
 
 says start 'heading 30'
-xdotool mousemove --window "$window" 160 2 click 3; says sky '^nothing there'
+xdotool mousemove --window "$window" 160 2 click 3; says sky '^no terrain'
 xdotool windowfocus --sync "$window"
 holds w; says forward 'heading'
 holds e; says turned 'heading'

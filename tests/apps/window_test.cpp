@@ -35,8 +35,8 @@ std::map<std::string, Title> titles_of(const std::string& session) {
         if (colon == std::string::npos) continue;
         const std::string text = line.substr(bar == std::string::npos ? colon + 2 : bar + 5);
         Title title;
-        title.read = std::sscanf(text.c_str(), "%lf° %lf°  H %lf m  heading %lf", &title.lat_deg,
-                                 &title.lon_deg, &title.H_m, &title.heading_deg) == 4;
+        title.read = std::sscanf(text.c_str(), "%lf° %lf°  %lf m above sea level  heading %lf",
+                                 &title.lat_deg, &title.lon_deg, &title.H_m, &title.heading_deg) == 4;
         titles[line.substr(0, colon)] = title;
     }
     return titles;
@@ -72,7 +72,7 @@ void expect_picked(const fs::path& folder, const json& destination) {
     std::getline(lines, aimed);
     std::getline(lines, ground);
     EXPECT_FALSE(std::getline(lines, more)) << more;
-    EXPECT_EQ(sky, "nothing there: the sight line meets no ground of this region");
+    EXPECT_EQ(sky, "no terrain at this point: it shows sky, or a place without data");
     // Half a pixel beside it, 10 km away, on ground that is seen from 20 degrees up: some 50 m.
     const std::optional<Picked> aim = picked_of(aimed);
     ASSERT_TRUE(aim) << aimed;

@@ -110,7 +110,7 @@ TEST(Picking, BendsLightAsThePictureDoes) {
 TEST(Picking, TheSkyIsNothing) {
     const auto place = seen_in_middle(view_from(1150.0, {0.0, 90.0, 0.0}), flat_region());
     EXPECT_FALSE(place);
-    EXPECT_EQ(line_of(place), "nothing there: the sight line meets no ground of this region");
+    EXPECT_EQ(line_of(place), "no terrain at this point: it shows sky, or a place without data");
 }
 
 // Posts of a flat region that cannot all be read.

@@ -1,5 +1,6 @@
 // Notes on a region that every command says, on standard error and in --json.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "apps/report/region_json.h"
 

@@ -1,5 +1,6 @@
 // The words for ground that is not loaded.
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <string>
 
@@ -19,10 +20,10 @@ UnseenGround beyond(int cells) {
 }
 
 TEST(UnseenWords, OneSentenceForEachPlace) {
-    EXPECT_EQ(unseen_sentence(beyond(1)),
-              "640 of 640 columns look beyond the data (missing: N46E010): ground there, up to 9,000 m, "
-              "could be up "
-              "to 312 px higher than drawn");
+    EXPECT_EQ(
+        unseen_sentence(beyond(1)),
+        "the view reaches past the data in 640 of 640 columns (missing: N46E010): terrain there, if it is "
+        "up to 9,000 m high, could rise up to 312 px above what is drawn");
     EXPECT_EQ(unseen_ending(beyond(2)),
               "In 640 of 640 columns ground beyond the data could be up to 312 px higher (missing: N46E010, "
               "N46E011).");
@@ -30,10 +31,10 @@ TEST(UnseenWords, OneSentenceForEachPlace) {
     one.columns = one.columns_beyond = 1;
     one.ceiling_m = -300.0;
     one.missing[0].cell = {-90, -180};
-    EXPECT_EQ(
-        unseen_sentence(one),
-        "1 of 1 column looks beyond the data (missing: S90W180): ground there, up to -300 m, could be up to "
-        "312 px higher than drawn");
+    EXPECT_EQ(unseen_sentence(one),
+              "the view reaches past the data in 1 of 1 column (missing: S90W180): terrain there, if it is "
+              "up to -300 "
+              "m high, could rise up to 312 px above what is drawn");
 }
 
 TEST(UnseenWords, TwelveCellsAreNamed) {

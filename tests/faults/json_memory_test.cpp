@@ -8,6 +8,7 @@
 #include <exception>
 #include <functional>
 #include <new>
+#include <nlohmann/json.hpp>
 
 #include "apps/accuracy/verification.h"
 #include "apps/report/region_json.h"

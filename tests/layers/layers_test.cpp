@@ -29,9 +29,9 @@ const std::map<std::string, Layer>& layers() {
     static const std::map<std::string, Layer> table = {
         {"shaders", {{standard_library, "glm/.*", "shaders/.*\\.(glsl|h)"}, {}}},
         {"core",
-         {{standard_library, "(fcntl|unistd|sys/[a-z]+|zstd|zstd_errors|xxhash)\\.h", "glm/.*",
+         {{standard_library, "(fcntl|unistd|sys/[a-z]+|zstd|zstd_errors|xxhash|erfa)\\.h", "glm/.*",
            "meshoptimizer\\.h", "core/.*", "shaders/.*\\.(glsl|h)"},
-          {"orograph_options", "glm::glm", "meshoptimizer(::meshoptimizer)?", "zstd::static"}}},
+          {"orograph_options", "glm::glm", "meshoptimizer(::meshoptimizer)?", "(zstd|erfa)::static"}}},
         {"geo",
          {{standard_library, "(fcntl|unistd|sys/[a-z]+|zlib)\\.h", "glm/.*", "core/.*", "geo/.*",
            "(cpl|gdal|ogr|vrt)[a-z_]*\\.h", "proj\\.h", "GeographicLib/.*", "libexif/.*",

@@ -1,6 +1,7 @@
 #include "apps/bench/times/bench_times.h"
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "apps/bench/times/bench_terrain.h"

@@ -1,7 +1,7 @@
 // Frames of one eye, timed: what each mode of the benchmark does with an eye.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 #include "apps/bench/times/bench_options.h"

@@ -230,8 +230,8 @@ void tell(const PanoramaOptions& options, const Style& style, const PanoramaRepo
             "note: " + counted(static_cast<std::uint64_t>(names.without_letters), "name is", "names are") +
                 " left out: the font has not all of their letters");
     if (!names.without_room.empty())
-        say(options.quiet, "note: " + counted(names.without_room.size(), "name has", "names have") +
-                               " no room beside greater ones (a larger --width has more)");
+        say(options.quiet, "note: " + counted(names.without_room.size(), "name is", "names are") +
+                               " left out: more important names take the room (a larger --width has more)");
     if (!options.json) return;
     nlohmann::ordered_json json = panorama_json(report, options.out, style);
     json["notes"] = all_notes(report.region);

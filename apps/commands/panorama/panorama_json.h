@@ -1,7 +1,7 @@
 // What orograph panorama found out, and tells with --json.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 
 #include "apps/accuracy/beyond_data.h"
@@ -34,7 +34,7 @@ struct LayersReport {
     std::uint64_t beside_px{};  // whose rays pass beside what was drawn there
 };
 
-// Of a picture that is drawn by clusters.
+// What clusters take in memory, of a picture that is drawn by them.
 struct ClustersHeld {
     std::uint64_t on_gpu{};
     std::uint64_t bytes_on_gpu{};
@@ -61,7 +61,7 @@ struct ShotResult {
     std::optional<Verification> verification;
     std::optional<LayersReport> layers;
     std::optional<AccuracyChoice> choice;  // with --tolerance
-    // Of a picture that is only drawn again and compared: its pixels, where they can be read.
+    // How the pixels of a picture that is only drawn again and compared differ, where they can be read.
     std::optional<PictureDifference> beside;
     bool same_bytes{};
     ShotTimes times;

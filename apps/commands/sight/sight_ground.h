@@ -3,7 +3,7 @@
 
 #include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -33,7 +33,7 @@ Result<void> check_above(const char* option, const std::optional<double>& above_
 // Where somebody stands, or what is looked at. On the ground means least_above_m over it. Errors: those of
 // stand(), and a point under the ground (usage).
 Result<Standpoint> stand_over_ground(const Standing& standing, const SightGround& ground);
-// The same without how it came there.
+// The point of stand_over_ground() alone, without how it came there.
 Result<Geodetic> point_over_ground(const Standing& standing, const SightGround& ground);
 
 // {"lat_deg", "lon_deg", "h_m", "H_m"}

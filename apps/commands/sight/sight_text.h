@@ -1,7 +1,7 @@
 // What orograph sight found, as people and as programs read it.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 

@@ -44,13 +44,13 @@ Told told_of(const Words& data, const Words& view, const Words& more = {}) {
     };
     Told told;
     const Outcome shot = run(joined(joined(joined({"shot", "--json"}, data), view), out));
-    told.note = line_with(shot.err, "beyond the data");
+    told.note = line_with(shot.err, "past the data");
     told.shot = json::parse(shot.out).at("unseen");
     const Outcome verified = run(joined(joined(joined({"shot", "--verify"}, data), view), out));
-    told.verified = line_with(verified.err, "beyond the data");
+    told.verified = line_with(verified.err, "past the data");
     EXPECT_FALSE(says(told.verified, "note: ")) << verified.err << "said twice";
     const Outcome compared = run(joined({"compare", picture, "--json"}, more));
-    told.compared = line_with(compared.err, "beyond the data");
+    told.compared = line_with(compared.err, "past the data");
     told.comparison = json::parse(compared.out).at("unseen");
     told.planned = run(joined(joined(joined({"plan"}, data), view), more)).out;
     told.plan =
@@ -75,9 +75,9 @@ TEST(Unseen, TheTileThatIsMissingIsNamedWithItsBound) {
     }
     const std::string px = std::to_string(told.plan.at("bound_px").get<int>());
     const std::string words =
-        "640 of 640 columns look beyond the data (missing: N46E010): ground there, up to "
-        "9,000 m, could be up to " +
-        px + " px higher than drawn";
+        "the view reaches past the data in 640 of 640 columns (missing: N46E010): terrain there, if it is up "
+        "to 9,000 m high, could rise up to " +
+        px + " px above what is drawn";
     EXPECT_EQ(told.note, "orograph: note: " + words);
     EXPECT_EQ(told.verified, "Where the data end: " + words);
     EXPECT_EQ(told.compared, told.verified);
@@ -98,7 +98,8 @@ TEST(Unseen, TheBundledRegionEndsToo) {
     EXPECT_EQ(told.shot.at("missing"), json::array({"N36W085"}));
     EXPECT_EQ(told.shot, told.plan);
     EXPECT_EQ(told.shot, told.comparison);
-    EXPECT_TRUE(says(told.note, "note: 200 of 200 columns look beyond the data (missing: N36W085)"))
+    EXPECT_TRUE(
+        says(told.note, "note: the view reaches past the data in 200 of 200 columns (missing: N36W085)"))
         << told.note;
     EXPECT_EQ(told.verified, told.compared);
     // Whoever knows how high the ground is near there knows more.
@@ -131,7 +132,7 @@ TEST(Unseen, APartThatWasChosenEndsAndMissesNothing) {
     const Told larger =
         told_of({bundled(), "--bbox", "-86,35,-83,38"},
                 {"--at", "36.5,-84.2", "--above", "300", "--heading", "200", "--size", "64x32"});
-    EXPECT_TRUE(says(larger.note, "64 of 64 columns look beyond the data (missing: N36W085)")) << larger.note;
+    EXPECT_TRUE(says(larger.note, "past the data in 64 of 64 columns (missing: N36W085)")) << larger.note;
 }
 
 // Found: every overview said "up to 720 px higher".
