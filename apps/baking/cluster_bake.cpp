@@ -57,6 +57,14 @@ Result<void> build(const HeightField& field, const std::string& path, std::uint6
 
 }  // namespace
 
+Result<BakeReport> bake_part(const HeightField& field, const BakeOptions& how, const BakeProgress& progress) {
+    ORO_CHECK(check_path_of_part(how.path));
+    if (!is_baked_grid(how.path, how.fingerprint, how.description))
+        return bake_region(field, how, progress);
+    ORO_TRY(const RegionFile file, RegionFile::open(how.path));
+    return BakeReport{file.order().count(), file.order().count(), file.outline().triangles};
+}
+
 Result<ClusterBakeReport> bake_clusters(const HeightField& field, const BakeOptions& how,
                                         const std::function<void(double, const char*)>& told) {
     const std::string clusters_path = path_of_clusters(how.path);
@@ -66,16 +74,10 @@ Result<ClusterBakeReport> bake_clusters(const HeightField& field, const BakeOpti
     grid.path = path_of_grid(how.path, 0);
     grid.overwrite = true;
     ClusterBakeReport report;
-    ORO_CHECK(check_path_of_part(grid.path));
-    if (is_baked_grid(grid.path, grid.fingerprint, grid.description)) {
-        ORO_TRY(const RegionFile file, RegionFile::open(grid.path));
-        report.region = {file.order().count(), file.order().count(), file.outline().triangles};
-    } else {
-        ORO_TRY(report.region, bake_region(field, grid, [&](double share) {
-                    told(share, "baking");
-                    return true;
-                }));
-    }
+    ORO_TRY(report.region, bake_part(field, grid, [&](double share) {
+                told(share, "baking");
+                return true;
+            }));
     const auto building = Clock::now();
     told(0.0, "building clusters");
     if (!are_baked_clusters(clusters_path, how.fingerprint))

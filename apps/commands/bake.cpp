@@ -167,16 +167,6 @@ void add(BakeReport& sum, const BakeReport& part) {
     sum.triangles += part.triangles;
 }
 
-// One grid of several into a file of its own, which is there when a bake was broken off after it.
-Result<BakeReport> bake_grid(const RegionGrid& grid, const BakeOptions& how, const BakeProgress& progress) {
-    ORO_CHECK(check_path_of_part(how.path));
-    if (is_baked_grid(how.path, how.fingerprint, how.description)) {
-        ORO_TRY(const RegionFile file, RegionFile::open(how.path));
-        return BakeReport{file.order().count(), file.order().count(), file.outline().triangles};
-    }
-    return bake_region(grid.field, how, progress);
-}
-
 // Each grid by itself, then all of them into one file.
 Result<BakeReport> bake_grids(const Region& region, const BakingOptions& options, ProgressBar& bar) {
     const std::vector<RegionGrid>& grids = region.grids;
@@ -187,7 +177,7 @@ Result<BakeReport> bake_grids(const Region& region, const BakingOptions& options
         ORO_TRY(const BakeOptions how, options_for(grids[i], path_of_grid(options.out, i), true));
         const std::string what =
             "baking grid " + std::to_string(i + 1) + " of " + std::to_string(grids.size());
-        ORO_TRY(const BakeReport baked, bake_grid(grids[i], how, [&](double share) {
+        ORO_TRY(const BakeReport baked, bake_part(grids[i].field, how, [&](double share) {
                     bar.show(share, what);
                     return true;
                 }));

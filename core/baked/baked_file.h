@@ -1,4 +1,4 @@
-// What a baked file holds: one grid of posts or several, and of one its cluster graph, too.
+// A baked file as a whole: it holds one grid of posts or several, and of a grid its cluster graph, too.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,14 @@
 
 namespace oro {
 
+// This is one grid of a baked file.
 struct BakedGrid {
     std::shared_ptr<const RegionFile> region;
     std::shared_ptr<const ClusterFile> clusters;  // null: it has none
     std::uint32_t rank{};                         // 0 is the ground where several have some (Region::rank)
 };
-// Opens a file with all its grids, at least one, in their order. Errors: those of Container, RegionFile and
-// ClusterFile; clusters over other posts; chunks that are no grid's.
+// This opens a file with all its grids, at least one, in their order. Errors: those of Container, RegionFile
+// and ClusterFile; clusters over other posts; chunks that are no grid's.
 [[nodiscard]] Result<std::vector<BakedGrid>> open_baked_file(const std::string& path);
 
 }  // namespace oro

@@ -31,7 +31,7 @@ inline constexpr std::size_t record_bytes = 444;
 inline constexpr std::uint64_t longest_description = 64U << 20U;
 inline constexpr std::uint64_t largest_file = (std::uint64_t{1} << 63U) - 1;
 
-// What the outline holds, in this order.
+// These are the numbers of an outline, in the order in which they are stored.
 struct OutlineNumbers {
     std::uint64_t fingerprint{};
     // Of a grid on a net only step and count mean anything, and all else is 0.
@@ -45,10 +45,10 @@ struct OutlineNumbers {
     std::uint64_t voids{};
     std::uint64_t triangles{};
 };
+// These turn an outline into its numbers, and numbers into bytes and back.
 [[nodiscard]] OutlineNumbers numbers_of(const RegionOutline& outline, std::uint64_t fingerprint);
 [[nodiscard]] std::vector<std::byte> numbers_to_bytes(const OutlineNumbers& numbers);
-// bytes: outline_bytes of them.
-[[nodiscard]] OutlineNumbers numbers_from_bytes(std::span<const std::byte> bytes);
+[[nodiscard]] OutlineNumbers numbers_from_bytes(std::span<const std::byte> bytes);  // outline_bytes of them
 
 // A number that no region has: at which byte of its chunk, and in words which, and what was expected.
 struct Implausible {

@@ -265,6 +265,9 @@ Result<void> join_containers(std::span<const ContainerPart> parts,
         }
         opened.push_back(std::move(container));
     }
+    if (table.chunks.size() > ChunkTable::most_chunks)
+        return Error{ErrorKind::failed, parts.front().path,
+                     "is one of " + std::to_string(parts.size()) + " grids, which are too many for one file"};
     table.file_bytes = table.place();
     ORO_CHECK(write(table.to_bytes()));
     for (const auto& container : opened) {

@@ -28,7 +28,7 @@
 
 namespace oro {
 
-// The type is its four letters, the first in the lowest byte.
+// A chunk's type is four letters; this gives their number, with the first letter in the lowest byte.
 constexpr std::uint32_t four_letters(const char (&letters)[5]) {
     std::uint32_t number = 0;
     for (std::size_t i = 4; i-- > 0;) number = number << 8U | static_cast<unsigned char>(letters[i]);
@@ -48,18 +48,18 @@ enum class ChunkType : std::uint32_t {
     blocks = four_letters("WBLK")        // of clusters that are being built: what its groups made
 };
 
-// A line of the table.
+// A chunk is one line of the table.
 struct Chunk {
     ChunkType type{};
-    // Which grid it is of. Grids are told in the order of the table, and numbered as they win where several
-    // have ground: number 0 wins over all (Region::rank).
+    // The number of the grid that it belongs to. Grids come in the order of the table, and are numbered as
+    // they win where several have ground: number 0 wins over all (Region::rank).
     std::uint32_t grid{};
-    std::uint64_t offset{};  // in the file
-    std::uint64_t bytes{};
-    std::uint64_t checksum{};
+    std::uint64_t offset{};    // in the file
+    std::uint64_t bytes{};     // its size
+    std::uint64_t checksum{};  // of all its bytes
 };
 
-// What a container's first bytes say.
+// A chunk table is what the first bytes of a container say.
 struct ChunkTable {
     static constexpr std::array<unsigned char, 8> magic = {0x89, 'O', 'R', 'O', '1', '\r', '\n', 0x1a};
     static constexpr std::uint32_t version = 1;
@@ -69,20 +69,21 @@ struct ChunkTable {
     std::uint64_t file_bytes{};  // 0: unfinished
     std::vector<Chunk> chunks;
 
-    // The size of the header and the table.
+    // This is the size of the header and the table.
     [[nodiscard]] std::uint64_t bytes() const { return header_bytes + entry_bytes * chunks.size(); }
-    // Puts the chunks one after another; gives where the last ends.
+    // It puts the chunks one after another, and gives the byte at which the last one ends.
     std::uint64_t place();
-    // The chunk of that type and grid; null where there is none.
+    // It gives the chunk of that type and grid, owned by the table; null where there is none.
     [[nodiscard]] const Chunk* find(ChunkType type, std::uint32_t grid) const;
     [[nodiscard]] std::vector<std::byte> to_bytes() const;
 };
-// Reads a table whose checksum is right, of a file that may be unfinished; whether it fits the file is not
-// asked. Errors: no container, one of another version, cut off within its table, damage.
+// This reads the table of a file, which may be unfinished. The checksum is right then; whether the table fits
+// the file is not asked. Errors: no container, one of another version, cut off within its table, damage.
 [[nodiscard]] Result<ChunkTable> read_chunk_table(const OpenFile& file);
 
-// A finished container that is read. Opening reads the table and holds it against the file's size; chunks are
-// read when they are asked for, by any number of threads at once. Errors name the file and the byte.
+// This is a finished container that is read. Opening reads the table and holds it against the file's size;
+// chunks are read when they are asked for, by any number of threads at once. Errors name the file and the
+// byte.
 class Container {
   public:
     // Errors: those of read_chunk_table; unfinished, cut off, longer than it says; chunks that are not one
@@ -92,15 +93,15 @@ class Container {
     [[nodiscard]] const OpenFile& file() const { return file_; }
     [[nodiscard]] const std::string& path() const { return file_.path(); }
     [[nodiscard]] const ChunkTable& table() const { return table_; }
-    // Errors: there is none of that type and grid.
+    // This gives the chunk of that type and grid. Errors: there is none.
     [[nodiscard]] Result<Chunk> chunk(ChunkType type, std::uint32_t grid) const;
-    // All of a chunk. Memory is taken for what bears its checksum, which is read once more then: a table may
-    // state any size, and a file with holes has it at no cost.
+    // This reads all of a chunk. It takes memory only for what bears its checksum, and reads that once more
+    // then: a table may state any size, and a file with holes has it at no cost.
     [[nodiscard]] Result<std::vector<std::byte>> read(const Chunk& chunk) const;
-    // Reads a chunk, and holds it against its checksum.
+    // This reads a chunk and holds it against its checksum.
     [[nodiscard]] Result<void> check(const Chunk& chunk) const;
-    // A file that others write into may hold whole parts of another one by now, whose checksums are right:
-    // asks for the header once more.
+    // A file that others write into may hold whole parts of another one by now, whose checksums are right.
+    // This reads the header once more. Errors: it is another.
     [[nodiscard]] Result<void> check_unchanged() const;
 
   private:
@@ -111,23 +112,24 @@ class Container {
     Header header_;  // as it was when the file was opened
 };
 
-// How a file begins, as far as it goes: one of few bytes is what it may become.
+// This says how a file begins, as far as it goes: one of few bytes is what it may become.
 enum class FileBeginning {
     foreign,   // as no file that a bake writes
     older,     // as a file that an older Orograph baked
     container  // as a container
 };
+// This reads the first bytes of a file. Errors: those of reading.
 [[nodiscard]] Result<FileBeginning> file_beginning(const OpenFile& file);
-// True for a plain file that begins as a baked one does, of whatever version and in whatever state.
+// This is true for a plain file that begins as a baked one does, of whatever version and in whatever state.
 [[nodiscard]] bool looks_baked(const std::string& path);
 
-// A file whose chunks go into a larger container, as those of a grid.
+// A part is a file whose chunks go into a larger container, as those of the grid of that number.
 struct ContainerPart {
     std::string path;
     std::uint32_t grid{};
 };
-// Writes one container with all chunks of some, in their order. write: appends. Errors: those of reading the
-// parts and of `write`.
+// This writes one container with the chunks of all parts, in their order; `write` appends bytes to it.
+// Errors: those of reading the parts and of `write`; more chunks than a table holds.
 Result<void> join_containers(std::span<const ContainerPart> parts,
                              const std::function<Result<void>(std::span<const std::byte>)>& write);
 

@@ -19,8 +19,8 @@ Result<unsigned> check_target(std::string& path, bool overwrite);
 // that was taken meanwhile.
 [[nodiscard]] int take_file_name(const std::string& from, const std::string& to, bool overwrite);
 
-// The same for a file that was written as `partial`. Errors: the name was taken meanwhile, and what has it is
-// left; those of the system.
+// This gives the file that was written as `partial` the name `to`, as take_file_name() does. Errors: the name
+// was taken meanwhile, and what has it is left; those of the system.
 Result<void> give_name(const std::string& partial, const std::string& to, bool overwrite);
 
 // From here on a write past the file size limit (ulimit -f) fails with EFBIG; the signal's default is to end

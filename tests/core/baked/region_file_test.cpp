@@ -384,12 +384,12 @@ TEST(RegionFile, SurvivesRandomHeaders) {
     std::printf("seed %u\n", seed);
     std::mt19937_64 random(seed);
     int refused = 0;
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < 1000; ++i) {
         const std::size_t byte = 12 + 4 * (random() % ((made_description_at - 12) / 4));
         const auto number = static_cast<std::uint32_t>(random() % 2 == 0 ? random() : random() % 512);
         refused += refusal_with(path, whole, byte, number).empty() ? 0 : 1;
     }
-    EXPECT_GE(refused, 1000);
+    EXPECT_GE(refused, 500);
 }
 
 }  // namespace
