@@ -31,8 +31,6 @@ class TrueScene {
     TrueScene& operator=(const TrueScene&) = delete;
 
     [[nodiscard]] const TrueGround& ground() const { return ground_->ground(); }
-    // Of a region of one grid; the first of several.
-    [[nodiscard]] const TrueSurface& surface() const { return ground().surface(0); }
     [[nodiscard]] const Sight& sight() const { return sight_; }
 
   private:

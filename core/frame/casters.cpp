@@ -130,12 +130,12 @@ struct SeenQuarter {
     std::int64_t row, column, posts;  // its first post in the region, and how many along a side
     CastReceiver ground;
 };
-Result<void> look_for_quarters(const RegionPages& pages, const Camera& camera, const Tile& tile,
-                               const GridPlan& plan, const std::function<void(const SeenQuarter&)>& found) {
+Result<void> look_for_quarters(const RegionPages& pages, const FrameView& view, const GridPlan& plan,
+                               const std::function<void(const SeenQuarter&)>& found) {
     const double error_per_m = error_per_metre(plan);
-    const glm::dmat3 view_from_ecef = camera.view_from_ecef();
-    const glm::dvec3 eye = camera.eye_ecef().m;
-    const auto planes = frustum_planes_view(projection_of_tile(camera, tile));
+    const glm::dmat3 view_from_ecef = view.camera.view_from_ecef();
+    const glm::dvec3 eye = view.camera.eye_ecef().m;
+    const auto planes = frustum_planes_view(projection_of_tile(view.camera, view.tile));
     for (std::size_t i = 0; i < plan.pages.size(); ++i) {
         const gpu::FramePage& page = plan.pages[i];
         const PageIndex& index = plan.page_indices[i];
@@ -207,13 +207,13 @@ Result<double> region_top_m(const RegionPages& pages) {
 }
 
 // The ground of a seam lies along the rims of grids, a few of their posts wide.
-Result<std::vector<CastReceiver>> cast_receivers(const RegionPages& pages, const Camera& camera,
-                                                 const Tile& tile, const GridPlan& plan) {
+Result<std::vector<CastReceiver>> cast_receivers(const RegionPages& pages, const FrameView& view,
+                                                 const GridPlan& plan) {
     constexpr double rim_posts = 3.0;
     std::vector<CastReceiver> all;
     if (pages.is_seam()) return all;
     const double rim_m = rim_posts * mean_radius_m * pages.facts().grid.row_step_rad();
-    ORO_CHECK(look_for_quarters(pages, camera, tile, plan, [&](const SeenQuarter& quarter) {
+    ORO_CHECK(look_for_quarters(pages, view, plan, [&](const SeenQuarter& quarter) {
         all.push_back(quarter.ground);
         all.back().radius_m += rim_m;
     }));
@@ -222,15 +222,16 @@ Result<std::vector<CastReceiver>> cast_receivers(const RegionPages& pages, const
 
 Result<void> plan_casters(const RegionPages& pages,
                           const std::function<std::uint64_t(const PageIndex&)>& residency,
-                          const Camera& camera, const Tile& tile, const CastRequest& request, double top_m,
-                          GridPlan& plan, std::span<const CastReceiver> others) {
+                          const FrameView& view, const CastRequest& request, double top_m, GridPlan& plan,
+                          std::span<const CastReceiver> others) {
     const int top = pages.levels() - 1;
     if (pages.layout(top).count() == 0) return {};
     CasterChoice choice(pages, residency);
     bool for_shadows = request.sun_enu.has_value();
     if (for_shadows) {
-        CastMap map(pages, ecef_from_enu(camera.eye.lat_deg, camera.eye.lon_deg) * *request.sun_enu, top_m);
-        ORO_CHECK(look_for_quarters(pages, camera, tile, plan, [&](const SeenQuarter& quarter) {
+        CastMap map(pages, ecef_from_enu(view.camera.eye.lat_deg, view.camera.eye.lon_deg) * *request.sun_enu,
+                    top_m);
+        ORO_CHECK(look_for_quarters(pages, view, plan, [&](const SeenQuarter& quarter) {
             map.receive(map.patch(quarter.row, quarter.column, quarter.posts),
                         quarter.ground.error_per_slope_m, quarter.ground.lowest_m);
         }));

@@ -175,11 +175,7 @@ void find_obstacle(const RegionRequest& request, std::vector<Source> sources, Fi
         listing.error = Error{ErrorKind::failed, damaged->path, damaged->reason};
     const auto extent = choose_extent(sources, request.box);
     if (!extent) return;
-    std::vector<std::vector<Source>> groups;
-    if (request.grids_apart)
-        groups = grids_of_sources(std::move(sources), request);
-    else
-        groups.push_back(std::move(sources));
+    const std::vector<std::vector<Source>> groups = grids_of_sources(std::move(sources), request);
     std::vector<std::pair<std::string, std::string>> away;
     bool any_stay = false;
     for (const std::vector<Source>& group : groups) {

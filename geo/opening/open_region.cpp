@@ -216,11 +216,7 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
     if (!extent)
         return Error{ErrorKind::no_data, list_of(request.paths),
                      "its posts lie on a line or a point, and cover no area"};
-    std::vector<std::vector<Source>> groups;
-    if (request.grids_apart)
-        groups = grids_of_sources(std::move(found.sources), request);
-    else
-        groups.push_back(std::move(found.sources));
+    std::vector<std::vector<Source>> groups = grids_of_sources(std::move(found.sources), request);
     Region region;
     const std::vector<std::size_t> rank_of = ranks_of(groups);
     std::vector<Error> empty;

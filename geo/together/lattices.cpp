@@ -55,6 +55,7 @@ std::vector<std::vector<Source>> by_lattice(std::vector<Source> sources,
 }
 
 std::vector<std::vector<Source>> grids_of_sources(std::vector<Source> sources, const RegionRequest& request) {
+    if (!request.grids_apart) return {std::move(sources)};
     std::vector<std::vector<Source>> grids;
     for (std::vector<Source>& near : lying_apart(std::move(sources), request.box)) {
         if (request.resample) {

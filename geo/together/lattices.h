@@ -21,7 +21,8 @@ std::vector<std::vector<Source>> by_lattice(std::vector<Source> sources,
                                             const std::optional<BoundingBox>& box);
 
 // Sources that are to be a grid each: those that lie far apart, and of those that lie together those whose
-// posts are not each other's; all of them one where there would be more than groups_max.
+// posts are not each other's; all of them one where there would be more than groups_max, or the request wants
+// one (grids_apart).
 std::vector<std::vector<Source>> grids_of_sources(std::vector<Source> sources, const RegionRequest& request);
 
 }  // namespace oro

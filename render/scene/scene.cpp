@@ -108,8 +108,8 @@ Result<void> GridScene::add_casters(const FrameView& view, GridPlan& plan) {
     const std::vector<PageIndex> hidden(first_hidden, plan.missing.end());
     plan.missing.erase(first_hidden, plan.missing.end());
     ORO_CHECK(plan_casters(
-        *pages_, [&](const PageIndex& page) { return store_.address(page); }, view.camera, view.tile, cast_,
-        *top_m_, plan, receivers_));
+        *pages_, [&](const PageIndex& page) { return store_.address(page); }, view, cast_, *top_m_, plan,
+        receivers_));
     plan.missing_hidden = 0;
     std::set<std::tuple<int, int, int>> wanted;
     for (const PageIndex& page : plan.missing) wanted.insert({page.level, page.row, page.column});
@@ -329,8 +329,7 @@ Result<void> Scene::tell_receivers(const FrameView& view, std::span<const GridPl
     for (GridScene& grid : grids_) grid.receivers_.clear();
     if (!cast_.sun_enu || grids_.size() == 1) return {};
     for (std::size_t i = 0; i < plans.size(); ++i) {
-        ORO_TRY(const std::vector<CastReceiver> shown,
-                cast_receivers(*grids_[i].pages_, view.camera, view.tile, plans[i]));
+        ORO_TRY(const std::vector<CastReceiver> shown, cast_receivers(*grids_[i].pages_, view, plans[i]));
         for (std::size_t j = 0; j < grids_.size(); ++j)
             if (j != i) std::ranges::copy(shown, std::back_inserter(grids_[j].receivers_));
     }

@@ -92,7 +92,7 @@ struct Opened {
     std::unique_ptr<TrueScene> truth;
     std::map<HeightStorage, Scene> scenes;
 
-    [[nodiscard]] const TrueSurface& surface() const { return truth->surface(); }
+    [[nodiscard]] const TrueSurface& surface() const { return truth->ground().surface(0); }
     Result<Scene*> scene(const Gpu& gpu, HeightStorage heights) {
         if (const auto found = scenes.find(heights); found != scenes.end()) return &found->second;
         ORO_TRY(Scene made,

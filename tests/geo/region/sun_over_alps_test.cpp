@@ -24,7 +24,7 @@ TEST(SunOverAlps, WithinTenSecondsOfBruteForce) {
     const auto box = oro::parse_tile_range("N46E007:N46E008");
     ASSERT_TRUE(box.ok());
     request.box = *box;
-    const auto region = test::open_grid(request);
+    const auto region = oro::test::open_grid(request);
     ASSERT_TRUE(region.ok()) << region.error().line();
     const oro::TrueSurface surface(region->field, 1.0, oro::thread_count());
     const struct {

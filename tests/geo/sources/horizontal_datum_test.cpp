@@ -41,7 +41,7 @@ class HorizontalDatums : public testing::Test {
         std::string reason;
         const auto region = opened(request_for({file}), &reason);
         EXPECT_TRUE(region) << reason;
-        return region ? *region : Region{};
+        return region ? *region : RegionGrid{};
     }
     std::string refusal_of(const std::string& file) {
         RegionRequest request = request_for({file});
