@@ -165,9 +165,9 @@ Result<bool> FrameRenderer::bring_images(const GridFrame& grid, const GridPlan& 
     store.begin_frame();
     for (std::uint32_t turn = 1;; ++turn) {
         const bool missing = grid.drape.is_missing_any();
-        ORO_TRY(const DrapeStore::Served served, store.serve(grid.drape.wanted(), options_.waits_for_images));
+        ORO_TRY(const bool has_capacity, store.serve(grid.drape.wanted(), options_.waits_for_images));
         if (!missing) return true;
-        if (served.is_full || !options_.waits_for_images || turn == most_tries) return false;
+        if (!has_capacity || !options_.waits_for_images || turn == most_tries) return false;
         ORO_CHECK(ask_again(grid, plan, turn));
     }
 }

@@ -96,23 +96,20 @@ std::vector<ImageTile> DrapeStore::missing_of(std::span<const ImageTile> wanted)
     return missing;
 }
 
-Result<DrapeStore::Served> DrapeStore::serve(std::span<const ImageTile> wanted, bool all) {
+Result<bool> DrapeStore::serve(std::span<const ImageTile> wanted, bool all) {
     const std::vector<ImageTile> missing = missing_of(wanted);
+    if (missing.empty()) return true;
     forget_empty();
-    Served served;
     const auto step = all ? tiles_in_staging : static_cast<std::size_t>(thread_count());
-    std::size_t done = 0;
-    for (; done < missing.size() && !served.is_full; done += step) {
-        if (!all && done > 0) break;
-        const std::size_t count = std::min(step, missing.size() - done);
-        ORO_TRY(const std::vector<Loaded> loaded, load(std::span(missing).subspan(done, count)));
-        ORO_TRY(const bool found_slots, send(loaded));
-        served.is_full = !found_slots;
-        served.changed = true;
+    const std::size_t end = all ? missing.size() : std::min(step, missing.size());
+    bool has_capacity = true;
+    for (std::size_t done = 0; done < end && has_capacity; done += step) {
+        ORO_TRY(const std::vector<Loaded> loaded,
+                load(std::span(missing).subspan(done, std::min(step, end - done))));
+        ORO_TRY(has_capacity, send(loaded));
     }
-    served.settled = !served.is_full && done >= missing.size();
-    if (served.changed) ORO_CHECK(send_table());
-    return served;
+    ORO_CHECK(send_table());
+    return has_capacity;
 }
 
 // All of them, in their order.
@@ -129,7 +126,7 @@ Result<std::vector<DrapeStore::Loaded>> DrapeStore::load(std::span<const ImageTi
     return loaded;
 }
 
-// False where there are too few slots for all of them.
+// False where some find no capacity.
 Result<bool> DrapeStore::send(std::span<const Loaded> tiles) {
     bool found_slot = true;
     Result<void> done;

@@ -35,15 +35,10 @@ class DrapeStore {
     // From here on tiles are used by the next frame. All frames before are completed on the GPU.
     void begin_frame() { cache_.items().begin_frame(); }
 
-    // What came of a list of wanted tiles.
-    struct Served {
-        bool changed{};      // tiles were sent: the table is another
-        bool settled{true};  // all of them are here
-        bool is_full{};      // ... and those that are not find no capacity
-    };
     // Reads the tiles that are not here and uploads them; `all`: every one, else as many as can be read at a
-    // time. Waits for the GPU. Errors: a file that cannot be read, the device.
-    Result<Served> serve(std::span<const ImageTile> wanted, bool all);
+    // time. False where some find no capacity. Waits for the GPU. Errors: a file that cannot be read, the
+    // device.
+    Result<bool> serve(std::span<const ImageTile> wanted, bool all);
 
     // Number of tiles that are here.
     [[nodiscard]] std::size_t size() const { return cache_.items().size() + empty_.size(); }

@@ -65,12 +65,6 @@ PageStore::PageStore(const Gpu& gpu, std::shared_ptr<MemoryBudget> budget, const
       most_bytes_(page_bytes(coding, parts)),
       cache_(gpu, page_cache_layout(budget->bytes(), coding, parts), budget) {}
 
-PageStore::PageStore(const Gpu& gpu, std::size_t capacity, const HeightQuantization& coding,
-                     const PageParts& parts)
-    : PageStore(
-          gpu, std::make_shared<MemoryBudget>(std::max<std::size_t>(1, capacity) * page_bytes(coding, parts)),
-          coding, parts) {}
-
 double PageStore::bytes_a_post() const {
     constexpr double posts = gpu::page_quads * gpu::page_quads;
     if (sent_pages_ == 0) return static_cast<double>(oro::height_bytes(coding_)) / posts;

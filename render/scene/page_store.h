@@ -39,9 +39,6 @@ class PageStore {
     // device has too little memory. Their heights lie there as `coding` says, with `parts` before them.
     PageStore(const Gpu& gpu, std::shared_ptr<MemoryBudget> budget, const HeightQuantization& coding = {},
               const PageParts& parts = {});
-    // A budget of so many pages (of page_bytes()).
-    PageStore(const Gpu& gpu, std::size_t capacity, const HeightQuantization& coding = {},
-              const PageParts& parts = {});
 
     // Device address of a page's block, 0 where it is not here. Asking counts as use in the current frame,
     // and as being shown by it.

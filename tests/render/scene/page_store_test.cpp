@@ -12,6 +12,9 @@ namespace {
 
 class Store : public test::GpuTest {
   protected:
+    static std::shared_ptr<MemoryBudget> budget_of(std::size_t count) {
+        return std::make_shared<MemoryBudget>(count * sizeof(gpu::PageBlock));
+    }
     static std::vector<LoadedPage> some(int first, int count, bool hidden = false) {
         std::vector<LoadedPage> pages;
         for (int i = first; i < first + count; ++i)
@@ -21,7 +24,7 @@ class Store : public test::GpuTest {
 };
 
 TEST_F(Store, NeverHoldsMoreThanItsCapacity) {
-    PageStore store(*gpu_, 150);
+    PageStore store(*gpu_, budget_of(150));
     EXPECT_EQ(*store.send(some(0, 100)), 100U);
     store.begin_frame();
     EXPECT_EQ(*store.send(some(100, 100)), 100U);
@@ -38,7 +41,7 @@ TEST_F(Store, NeverHoldsMoreThanItsCapacity) {
 }
 
 TEST_F(Store, TellsWhatMeansTakeBesides) {
-    const PageStore plain(*gpu_, 5), with(*gpu_, 5, {}, {.means = true});
+    const PageStore plain(*gpu_, budget_of(5)), with(*gpu_, budget_of(5), {}, {.means = true});
     EXPECT_EQ(plain.means_bytes_a_post(), 0.0);
     EXPECT_EQ(with.means_bytes_a_post(), 136.0 * 136 * 12 / (128 * 128)) << "136 x 136 squares of 12 bytes";
     EXPECT_EQ(with.bytes_a_post(), plain.bytes_a_post());
@@ -46,7 +49,7 @@ TEST_F(Store, TellsWhatMeansTakeBesides) {
 
 // What other ground hides is evicted before what shows, and evicts nothing that was shown lately.
 TEST_F(Store, EvictsHiddenPagesFirst) {
-    PageStore store(*gpu_, 20);
+    PageStore store(*gpu_, budget_of(20));
     EXPECT_EQ(*store.send(some(0, 20)), 20U);
     EXPECT_FALSE(store.has_capacity());
     for (int frame = 0; frame < 5; ++frame) {
@@ -105,7 +108,7 @@ TEST_F(Store, HoldsPagesOfSeveralSizes) {
 
 // Two regions' pages in the memory of one: who looks elsewhere leaves it to the other.
 TEST_F(Store, SharesItsBudgetWithOthers) {
-    const auto budget = std::make_shared<MemoryBudget>(64 * sizeof(gpu::PageBlock));
+    const auto budget = budget_of(64);
     PageStore one(*gpu_, budget), other(*gpu_, budget);
     EXPECT_EQ(one.capacity(), 64U);
     EXPECT_EQ(*one.send(some(0, 64)), 64U);
