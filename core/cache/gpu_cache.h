@@ -242,7 +242,7 @@ class GpuCache {
     }
     // The item takes the begin of a free piece.
     Handle place(Handle piece, const Key& key, std::size_t bytes) {
-        free_.erase({position(piece), piece});
+        auto node = free_.extract({position(piece), piece});
         const auto length = static_cast<std::uint32_t>(bytes);
         if (slots_[piece].bytes > length) {
             const Handle rest = new_slot();
@@ -255,7 +255,8 @@ class GpuCache {
                             .next = slot.next};
             if (slot.next != none) slots_[slot.next].previous = rest;
             slots_[piece].next = rest;
-            free_.emplace(position(rest), rest);
+            node.value() = {position(rest), rest};
+            free_.insert(std::move(node));
             run_bytes_ = 0;
         }
         const Slot& slot = slots_[piece];
