@@ -41,8 +41,7 @@ TEST_P(Choice, IsThatOfCore) {
                                     test::Region(test::patchy_field(900, 700))};
     std::size_t nodes = 0, pixels = 0, coarse = 0;
     for (const test::Region& region : regions) {
-        test::DrawnScene drawn(*gpu_, pages_in_memory(region.grids[0].field, 1.0, 2), GetParam(), width_px,
-                               height_px);
+        test::DrawnScene drawn(*gpu_, pages_in_memory(region.field, 1.0, 2), GetParam(), width_px, height_px);
         for (int i = 0; i < 60; ++i) {
             const Camera camera = sized(test::random_camera(random, region));
             const double tau_px = test::taus_px[i % 3];

@@ -83,15 +83,17 @@ TEST_F(HeightsOnGpu, TakeHalfTheBytes) {
     const Camera eye = camera(20000.0, 0.0, -90.0);
     plan(whole, eye, 0.0);
     plan(half, eye, 0.0);
-    ASSERT_EQ(whole.store().size(), half.store().size());
+    ASSERT_EQ(whole.grids()[0].store().size(), half.grids()[0].store().size());
     const auto ratio = [](std::uint64_t a, std::uint64_t b) {
         return static_cast<double>(a) / static_cast<double>(b);
     };
     const double expected = ratio(page_bytes(sixteen), sizeof(gpu::PageBlock));
     EXPECT_NEAR(expected, 0.581, 0.001);  // spheres, cones, boxes and diagonals of nodes stay
-    EXPECT_NEAR(ratio(half.bytes_sent(), whole.bytes_sent()), expected, 1e-9);
-    EXPECT_NEAR(ratio(half.store().bytes(), whole.store().bytes()), expected, 1e-9);
-    EXPECT_GT(half.store().capacity(), 1.7 * static_cast<double>(whole.store().capacity()));
+    EXPECT_NEAR(ratio(half.grids()[0].store().bytes_sent(), whole.grids()[0].store().bytes_sent()), expected,
+                1e-9);
+    EXPECT_NEAR(ratio(half.grids()[0].store().bytes(), whole.grids()[0].store().bytes()), expected, 1e-9);
+    EXPECT_GT(half.grids()[0].store().capacity(),
+              1.7 * static_cast<double>(whole.grids()[0].store().capacity()));
     EXPECT_EQ(whole.height_step_m(), 1.0 / 2048.0);
     EXPECT_EQ(half.height_step_m(), 0.0625);  // some 3,500 m of heights; 65,534 / 32 = 2,048 m
 }
@@ -176,8 +178,8 @@ TEST_F(HeightsOnGpu, PackedDrawTheSamePictures) {
         }
     }
     EXPECT_LT(background, 48 * side_px * side_px / 2);
-    EXPECT_LT(packed.store().bytes_a_post(), 2.6) << "a fifth of the posts have no whole metres";
-    EXPECT_EQ(whole.store().bytes_a_post(), 4.0 * 17161 / 16384);
+    EXPECT_LT(packed.grids()[0].store().bytes_a_post(), 2.6) << "a fifth of the posts have no whole metres";
+    EXPECT_EQ(whole.grids()[0].store().bytes_a_post(), 4.0 * 17161 / 16384);
     EXPECT_EQ(packed.height_step_m(), 1.0 / 2048.0);
 }
 

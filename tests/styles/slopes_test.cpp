@@ -9,6 +9,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "geo/opening/open_region.h"
 #include "tests/styles/drawn_style.h"
 
 namespace oro {
@@ -238,9 +239,8 @@ TEST_F(Slopes, AreThoseOfGdaldemOnTheSamePosts) {
 TEST_F(Slopes, AreThoseOfGdaldemOnTheBundledRegion) {
     RegionRequest request = test::request_for({(test::bundled_data() / "jacksboro.tif").string()});
     request.box = BoundingBox{-84.36, 36.50, -84.28, 36.58};
-    std::string reason;
-    const auto region = test::opened(request, &reason);
-    ASSERT_TRUE(region) << reason;
+    const auto region = open_region(request);
+    ASSERT_TRUE(region.ok()) << region.error().line();
     const PostGrid& grid = region->grids[0].field.grid;
     const test::MetresPerDegree degree =
         test::metres_per_degree(0.5 * (grid.north_deg() + grid.south_deg()), 500.0);
@@ -278,9 +278,8 @@ std::filesystem::path projected_file(const test::Raster& raster) {
 // Its posts are the region's.
 TEST_F(Slopes, AreThoseOfGdaldemOnARastersOwnPosts) {
     const std::filesystem::path file = projected_file(projected_raster());
-    std::string reason;
-    const auto region = test::opened(test::request_for({file.string()}), &reason);
-    ASSERT_TRUE(region) << reason;
+    const auto region = open_region(test::request_for({file.string()}));
+    ASSERT_TRUE(region.ok()) << region.error().line();
     ASSERT_TRUE(region->grids[0].field.grid.net);
     look("a raster's own posts", *region,
          test::straight_down(region->grids[0].field, projected_m, 180.0, 1000), GdalSlopes(file),
@@ -293,11 +292,10 @@ TEST_F(Slopes, AreThoseOfGdaldemOnAProjectedRaster) {
     const std::string crs = projected_crs;
     const test::Raster raster = projected_raster();
     const std::filesystem::path file = projected_file(raster);
-    std::string reason;
     RegionRequest request = test::request_for({file.string()});
     request.resample = true;
-    const auto region = test::opened(request, &reason);
-    ASSERT_TRUE(region) << reason;
+    const auto region = open_region(request);
+    ASSERT_TRUE(region.ok()) << region.error().line();
     const OGRSpatialReferenceH to = OSRNewSpatialReference(nullptr), from = OSRNewSpatialReference(nullptr);
     OSRSetFromUserInput(to, crs.c_str());
     OSRSetFromUserInput(from, "EPSG:4326");
