@@ -110,8 +110,11 @@ std::set<std::string> names_in(const std::string& text) {
         } else if (is_letter(text[at]) || text[at] == '_') {
             const std::size_t end = end_of_word(text, at);
             const std::string name = text.substr(at, end - at);
-            at = name.ends_with('R') && end < text.size() && text[end] == '"' ? end_of_raw_string(text, end)
-                                                                              : end;
+            if (name.ends_with('R') && end < text.size() && text[end] == '"') {
+                at = end_of_raw_string(text, end);
+                continue;
+            }
+            at = end;
             if (names_of_test == 0 || --names_of_test > 0) names.insert(name);
             if (name == "TEST" || name == "TEST_F" || name == "TEST_P" || name == "TYPED_TEST")
                 names_of_test = 2;
