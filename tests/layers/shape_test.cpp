@@ -36,7 +36,7 @@ struct Function {
 // what may stand between), and ends with a brace below its own first letter. Lines of a table in it ("= {" or
 // "name{" to "};") do not count.
 std::vector<Function> functions_in(const std::string& text) {
-    static const std::regex head(R"(^( {0,4})[^ #/}].*\)( const| noexcept| override|( -> [\w:<>]+))* \{$)");
+    static const std::regex head(R"(^( {0,4})[^ #/}:].*\)( const| noexcept| override|( -> [\w:<>]+))* \{$)");
     static const std::regex open_signature(R"(^( {0,4})[A-Za-z~].*[(,]$)");
     static const std::regex end_of_signature(R"(^ +.*\)( const| noexcept| override| : .*)* \{$)");
     static const std::regex statement(

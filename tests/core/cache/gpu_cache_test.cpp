@@ -201,6 +201,48 @@ struct Model {
     }
 };
 
+// Each item of the cache is where the model has it, nothing else is in the cache, and the budget is kept.
+template <class Key, class KeyOf>
+void expect_as_in_model(const GpuCache<Key>& cache, const MemoryBudget& budget, const Model& model,
+                        const KeyOf& key_of, int step) {
+    std::size_t size = 0, held = 0;
+    for (const Model::Piece& piece : model.pieces()) {
+        if (piece.owner < 0) continue;
+        ++size;
+        const auto handle = cache.find(key_of(piece.owner));
+        ASSERT_NE(handle, cache.none) << "step " << step;
+        const auto& slot = cache.at(handle);
+        ASSERT_EQ(std::tuple(slot.bin, slot.offset, slot.offset + slot.bytes),
+                  std::tuple(piece.bin, piece.begin, piece.end));
+    }
+    for (const auto& bin : model.bins) held += bin.size();
+    ASSERT_EQ(cache.size(), size);
+    ASSERT_EQ(budget.left(), budget.bytes() - held) << "the budget is kept";
+}
+
+// Now and then a next frame begins, a bin is added, and what is unused or all is released.
+template <class Key>
+void change_frame_or_bins(GpuCache<Key>& cache, const MemoryBudget& budget, Model& model,
+                          std::mt19937& random) {
+    if (random() % 6 == 0) {
+        const std::uint64_t last = std::exchange(model.frame, model.frame + 1 + random() % 2);
+        model.completed = std::max(model.completed, last - std::min<std::uint64_t>(last, random() % 4));
+        cache.begin_frame(model.frame, model.completed);
+    }
+    if (const std::size_t bytes = 20 + random() % 40; random() % 50 == 0 && budget.left() >= bytes) {
+        cache.add_bin(bytes);
+        model.bins.emplace_back(bytes);
+    }
+    if (random() % 200 == 0) {
+        cache.release_unused();
+        model.release_unused();
+    }
+    if (random() % 500 == 0) {
+        cache.clear();
+        for (std::size_t i = 0; i < model.rank.size(); ++i) model.erase(static_cast<int>(i));
+    }
+}
+
 // Random use by frames of which up to three are in flight. most_bytes: of an item; 0: all take 7.
 template <class Key, class KeyOf>
 void follow_model(unsigned seed, std::size_t most_bytes, const KeyOf& key_of) {
@@ -213,23 +255,7 @@ void follow_model(unsigned seed, std::size_t most_bytes, const KeyOf& key_of) {
     model.rank.resize(items);
     int placed = 0, evicted = 0, refused = 0;
     for (int step = 0; step < steps && !testing::Test::HasFailure(); ++step) {
-        if (random() % 6 == 0) {
-            const std::uint64_t last = std::exchange(model.frame, model.frame + 1 + random() % 2);
-            model.completed = std::max(model.completed, last - std::min<std::uint64_t>(last, random() % 4));
-            cache.begin_frame(model.frame, model.completed);
-        }
-        if (const std::size_t bytes = 20 + random() % 40; random() % 50 == 0 && budget->left() >= bytes) {
-            cache.add_bin(bytes);
-            model.bins.emplace_back(bytes);
-        }
-        if (random() % 200 == 0) {
-            cache.release_unused();
-            model.release_unused();
-        }
-        if (random() % 500 == 0) {
-            cache.clear();
-            for (int i = 0; i < items; ++i) model.erase(i);
-        }
+        change_frame_or_bins(cache, *budget, model, random);
         const int item = static_cast<int>(random() % items);
         const Key key = key_of(item);
         const std::size_t bytes = most_bytes == 0 ? 7 : 1 + random() % most_bytes;
@@ -261,20 +287,8 @@ void follow_model(unsigned seed, std::size_t most_bytes, const KeyOf& key_of) {
                     << "step " << step;
             }
         }
-        std::size_t size = 0, held = 0;
-        for (const Model::Piece& piece : model.pieces()) {
-            if (piece.owner < 0) continue;
-            ++size;
-            const auto handle = cache.find(key_of(piece.owner));
-            ASSERT_NE(handle, cache.none) << "step " << step;
-            const auto& slot = cache.at(handle);
-            ASSERT_EQ(std::tuple(slot.bin, slot.offset, slot.offset + slot.bytes),
-                      std::tuple(piece.bin, piece.begin, piece.end));
-        }
-        for (const auto& bin : model.bins) held += bin.size();
-        ASSERT_EQ(cache.size(), size);
+        expect_as_in_model(cache, *budget, model, key_of, step);
         ASSERT_EQ(cache.fitting(bytes), model.fitting(bytes));
-        ASSERT_EQ(budget->left(), budget->bytes() - held) << "the budget is kept";
     }
     EXPECT_GT(placed, 200);
     EXPECT_GT(evicted, 200);
