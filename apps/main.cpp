@@ -28,20 +28,20 @@ namespace {
 constexpr const char* about =
     "Orograph draws real terrain at its true place on the Earth, and says how accurate each picture is.";
 
-int told(const oro::Error& error) {
+int reported(const oro::Error& error) {
     std::fprintf(stderr, "orograph: %s\n", error.line().c_str());
     return static_cast<int>(error.kind);
 }
 
 // What a command printed has arrived, or the command has failed: `orograph info > file` on a full disk.
 int exit_code(const oro::Result<void>& result) {
-    if (!result.ok()) return told(result.error());
+    if (!result.ok()) return reported(result.error());
     std::cout.flush();
     errno = 0;
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout) return 0;
     oro::end_if_reader_has_gone();
-    return told({oro::ErrorKind::failed, "standard output",
-                 "cannot be written: " + std::generic_category().message(errno != 0 ? errno : EIO)});
+    return reported({oro::ErrorKind::failed, "standard output",
+                     "cannot be written: " + std::generic_category().message(errno != 0 ? errno : EIO)});
 }
 
 // Where standard streams are closed, the next file opened would be taken for one, and messages written into
@@ -54,7 +54,7 @@ void fill_standard_streams() {
     }
 }
 
-int told_unforeseen(const char* what) {
+int reported_unforeseen(const char* what) {
     std::fprintf(stderr, "orograph: failed: %s\n", oro::one_line(what).c_str());
     return static_cast<int>(oro::ErrorKind::failed);
 }
@@ -69,7 +69,7 @@ int told_unforeseen(const char* what) {
         oro::end_out_of_memory();
     } catch (const std::exception& error) {
         oro::remove_unfinished_files();
-        _exit(told_unforeseen(error.what()));
+        _exit(reported_unforeseen(error.what()));
     } catch (...) {
     }
     std::abort();
@@ -114,8 +114,8 @@ int run_command_line(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() != 0) return told(oro::refusal_of(app, e, words));
-        if (const auto no_command = oro::refusal_of_command(app, words)) return told(*no_command);
+        if (e.get_exit_code() != 0) return reported(oro::refusal_of(app, e, words));
+        if (const auto no_command = oro::refusal_of_command(app, words)) return reported(*no_command);
         if (e.get_name() == "CallForHelp" && oro::asks_for_all_options(words))
             app.exit(CLI::CallForAllHelp());
         else
@@ -141,8 +141,8 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         return oro::tell_out_of_memory();
     } catch (const std::exception& error) {
-        return told_unforeseen(error.what());
+        return reported_unforeseen(error.what());
     } catch (...) {
-        return told_unforeseen("for a reason that nobody told");
+        return reported_unforeseen("for a reason that nobody told");
     }
 }

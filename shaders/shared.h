@@ -117,7 +117,7 @@ struct PageBlock {
     // A bit for each quad: 1 where it is split from its south-west to its north-east post, 0 where from its
     // north-west to its south-east (core/terrain/cell_diagonal.h). Two words a meshlet, row by row, the first
     // the lowest bit.
-    uint rises[512];
+    uint sw_ne[512];
     // Drawn heights row by row from post (-1, -1), in steps; void_height where there is none. With
     // FrameConstants.height_bits 16 two codes a word, the first in the low bits, and so half as many words
     // (core/frame/height_quantization.h). Packed ones lie as shared_heights.h says.
@@ -151,7 +151,7 @@ struct FramePage {
     uvec3 from_eye_low;
     uvec3 from_eye_high;
     uint cull;  // bits: 1 the frustum, 2 the horizon may hide some meshlets of it; 4 none of its
-                // nodes may stand for finer ones; 8 closes_gaps; 16 places_from_plane;
+                // nodes may stand for finer ones; 8 is_skirt; 16 places_from_plane;
                 // 32 cull_by_occlusion
     uint level;
     uint first_row;  // number in the region of the page's first post
@@ -167,7 +167,7 @@ struct FramePage {
     uint west_column;  // parent of the node beyond the west rim: its column in that page
     // Bits of the quarters whose nodes are drawn whatever their error: nothing finer is there. Four bits up
     // those of them where something finer is needed.
-    uint stand_in;
+    uint fallback_quarters;
 };
 ORO_CONST uint stands_for_missing = 4u;  // the first of these bits
 // Slopes are shaded from the coarsest page whose posts are at most so many pixels apart, whatever level the
@@ -183,12 +183,12 @@ ORO_CONST uint no_page = 0xffffffffu;
 ORO_CONST uint no_column = 0xffffffffu;
 ORO_CONST uint pages_max = 131071u;  // of a frame, all its grids together: what triangle ids can number
 ORO_CONST uint accepted_words = 8u;  // a page: a bit for each node
-ORO_CONST uint sight_words = 24u;    // a page: FrameConstants.sights
+ORO_CONST uint feedback_words = 24u;    // a page: FrameConstants.feedback
 ORO_CONST uint edges_words = 32u;    // a page: four bits for each node
 ORO_CONST uint cull_by_frustum = 1u;
 ORO_CONST uint cull_by_horizon = 2u;
-ORO_CONST uint stands_never = 4u;
-ORO_CONST uint closes_gaps =
+ORO_CONST uint never_coarsen = 4u;
+ORO_CONST uint is_skirt =
     8u;  // a page of a seam (core/seam) whose quads reach out by pixels, at least so many
 ORO_CONST uint places_from_plane = 16u;  // see PagePlaces
 ORO_CONST uint cull_by_occlusion =
@@ -282,7 +282,7 @@ struct EyePost {
 };
 #include "shaders/shared_drape.h"
 
-// From places to posts of a grid on a net (core/net/grid_net.h, GridNet::Inverse): row and column as a
+// From places to posts of a grid on a net (core/net/lattice_georeference.h, LatticeGeoreference::Inverse): row and column as a
 // polynomial of (u, v), the ellipsoid's normal along two axes.
 struct NetMap {
     vec3 along_u;  // in the eye's meridian frame
@@ -385,7 +385,7 @@ struct FrameConstants {
     ClusterTable clusters;
     // Three bits for each node, accepted_words of any a page: whether it was asked if it shows, whether it may,
     // and whether anything finer may that it stands for, because that is missing. 0: nobody wants to know.
-    uvec2 sights;
+    uvec2 feedback;
     uvec2 overdraw;  // uint for each pixel, row by row: triangles that cover it; 0: nobody wants to know
     uvec2 cluster_boxes;   // ClusterBox[clusters.count], of frames in rounds
     uvec2 cluster_states;  // uint[clusters.count]: cluster_..., of the round

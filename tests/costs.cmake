@@ -36,7 +36,7 @@ set_tests_properties(
   Window.FliesJumpsTakesAPictureAndLeaves
   Commands/FailedThreads.EachAndAllFromOneOn/ShotOfBaked
   SmoothEdges.AreThoseOfSixtyFourSamples
-  ToldView.LimitsAreTheSameOnBothSides
+  RecordedView.LimitsAreTheSameOnBothSides
   AirTables.GroundIsSeenThroughWhatBruteForceGives
   GroundProfile.TenThousandLinesLeaveNothingOut
   ClusterFile.AFlippedBitAnywhereIsFound
@@ -44,7 +44,7 @@ set_tests_properties(
   Viewshed.IsTheLookoutsOverHills
   PROPERTIES COST 20)
 set_tests_properties(
-  Lookout.TenThousandPairsAreTheMarchedLines
+  Observer.TenThousandPairsAreTheMarchedLines
   GridsOverEachOther.AreLookedOverTogether
   ShadowsOfPictures.OfRealTerrainAreTheOracles
   AirTables.PlacesAreLitAsBruteForceGives

@@ -13,9 +13,9 @@ set_tests_properties(
   ClustersDrawn.PicturesExplainTheGraph
   ClustersDrawn.WhatDoesNotGoTogetherIsRefused
   ClustersDrawn.WithLittleMemoryForTheirGroups
-  ClustersTold.FiguresOfTheGraph
-  ClustersTold.PlanRefusesWhatIsNotDrawn
-  ClustersTold.TradeHasARowForEachTau
+  ClustersReported.FiguresOfTheGraph
+  ClustersReported.PlanRefusesWhatIsNotDrawn
+  ClustersReported.TradeHasARowForEachTau
   ComparedPixels.GoldenPicturesPass
   ComparedPixels.OtherFormatsPass
   ComparedPixels.TheOtherWayOfDrawingPasses
@@ -76,7 +76,7 @@ set_tests_properties(
   Prints.TheSameDataUnderAnotherNameOrBakedAreTheSame
   Prints.ViewsWithoutAnyOpenAsTheyDid
   RegionWords.VoidsAndMissingTilesAreCountedApart
-  ResamplingTold.WithoutBeingAskedForThereIsNone
+  ResamplingReported.WithoutBeingAskedForThereIsNone
   SameEverywhere.AViewUnderAnImage
   SameEverywhere.AViewWithEveryEffect
   SameEverywhere.EachEffectIsInTheView
@@ -89,9 +89,9 @@ set_tests_properties(
   SunOfAShot.IsTheUsualOneInTheStyleOfDaylight
   SunOfAShot.OlderPicturesKeepTheirs
   SunOfAShot.OtherStylesKeepTheirOwn
-  ToldView.LimitsAreTheSameOnBothSides
-  ToldView.PathsStartFromThePicture
-  ToldView.PictureAndErrorsAreOneStep
+  RecordedView.LimitsAreTheSameOnBothSides
+  RecordedView.PathsStartFromThePicture
+  RecordedView.PictureAndErrorsAreOneStep
   TradeCommand.WritesATableAndAPage
   Unseen.APartThatWasChosenEndsAndMissesNothing
   Unseen.APictureOfAllTheDataSaysNothing
@@ -290,7 +290,7 @@ set_tests_properties(
   GroundProfile.TenThousandLinesLeaveNothingOut
   HostileVectors.AMillionPlacesAreReadAtOnce
   Listing.HeadersOfTenThousandFilesAreReadOnce
-  Lookout.TenThousandPairsAreTheMarchedLines
+  Observer.TenThousandPairsAreTheMarchedLines
   MeshForecasts.AreTheSameOfPostsReadPageByPage
   NetViewshed.IsTheLookoutsTurnedOverTheAntimeridianAndAPole
   NetViewshed.WindowsHoldTheCircle

@@ -6,7 +6,7 @@
 #include "apps/drawing/mesh_choice.h"
 #include "core/cluster_frame/cluster_choice.h"
 #include "core/cluster_frame/group_rule.h"
-#include "core/frame/asked_pages.h"
+#include "core/frame/lazy_pyramid.h"
 #include "core/lod/levels.h"
 
 namespace oro {
@@ -17,7 +17,7 @@ Tile whole_picture(const Camera& camera) {
 }
 
 Result<MeshForecast> forecast_blocks(const RegionPages& all, const Camera& camera, double tau_px) {
-    const AskedPages pages(all);
+    const LazyPyramid pages(all);
     const std::array<Plane, 5> planes =
         frustum_planes_view(projection_of_tile(camera, whole_picture(camera)));
     const glm::dmat3 view_from_ecef = camera.view_from_ecef();

@@ -9,14 +9,15 @@ namespace {
 
 // What pixels that are not as they should be tell of whom.
 std::string reason_of(const View& view, const PictureDifference& difference, bool same_style) {
-    const std::optional<Fingerprints>& told = view.told->prints;
+    const std::optional<Fingerprints>& recorded = view.recorded->fingerprints;
     if (!same_style) return "the style '" + view.style + "' is another than it was drawn with";
-    if (told && told->pixels && difference.file_print == told->pixels)
-        return told->program == view.prints->program
+    if (recorded && recorded->pixels && difference.file_print == recorded->pixels)
+        return recorded->program == view.fingerprints->program
                    ? "nobody changed them since they were drawn, so the device or its driver draws otherwise"
-                   : "nobody changed them since they were drawn, so version " + told->program +
+                   : "nobody changed them since they were drawn, so version " + recorded->program +
                          " of the program drew otherwise";
-    if (told && told->pixels && (difference.file_print || difference.drawn_print == *told->pixels))
+    if (recorded && recorded->pixels &&
+        (difference.file_print || difference.drawn_print == *recorded->pixels))
         return "they were changed after it was drawn";
     return "they were changed after it was drawn, or it was drawn from other data, or by another program or "
            "device";
@@ -49,10 +50,10 @@ Result<PictureDifference> compare_pixels(const std::string& picture, const View&
 
 std::optional<std::string> fault_of_pixels(const View& view, const PictureDifference& difference,
                                            bool same_style) {
-    const std::optional<Fingerprints>& told = view.told->prints;
-    const bool repeats = told && told->pixels && difference.drawn_print == *told->pixels;
+    const std::optional<Fingerprints>& recorded = view.recorded->fingerprints;
+    const bool repeats = recorded && recorded->pixels && difference.drawn_print == *recorded->pixels;
     const bool edited =
-        told && told->pixels && difference.file_print && difference.file_print != told->pixels;
+        recorded && recorded->pixels && difference.file_print && difference.file_print != recorded->pixels;
     // Where the very pixels are drawn again, any that differs was changed; a JPEG's loss is the same then,
     // but other programs lose more when they write it anew.
     if (!edited && is_drawn_one(difference)) return std::nullopt;

@@ -24,31 +24,31 @@ Result<void> check_clusters(const Region& region) {
     const PostGrid& grid = region.grids.front().field.grid;
     if (grid.net)
         return refused("takes posts on latitudes and longitudes, and these lie in a CRS of their own");
-    const std::size_t most = grid.goes_round() ? most_posts_in_one_go : most_clustered_posts;
+    const std::size_t most = grid.wraps_longitude() ? most_posts_in_one_go : most_clustered_posts;
     if (grid.post_count() > most)
         return refused("takes regions of up to " + grouped(most) + " posts" +
-                       (grid.goes_round() ? " where they go round the Earth" : "") + ", and this has " +
+                       (grid.wraps_longitude() ? " where they go round the Earth" : "") + ", and this has " +
                        grouped(grid.post_count()));
     return {};
 }
 
 namespace {
 
-using Told = std::function<void(double, const char*)>;
+using StepProgress = std::function<void(double, const char*)>;
 
 Result<void> build(const HeightField& field, const std::string& path, std::uint64_t fingerprint,
-                   const Told& told) {
+                   const StepProgress& on_progress) {
     if (field.grid.post_count() > most_posts_in_one_go) {
         WindowedBake how;
         how.path = path;
         how.fingerprint = fingerprint;
         how.overwrite = true;
         how.threads = thread_count();
-        how.progress = [&](double share) { told(share, "building clusters"); };
+        how.progress = [&](double share) { on_progress(share, "building clusters"); };
         return bake_in_windows(field, how);
     }
     const DrawnHeights heights = drawn_heights(field, 1.0, thread_count());
-    const GridSurface surface(heights, {.goes_round = field.grid.goes_round()});
+    const GridSurface surface(heights, {.wraps_longitude = field.grid.wraps_longitude()});
     const GridBounds bounds(field.grid, heights.highest_steps);
     const ClusterGraph graph = build_cluster_graph(surface, bounds, {.threads = thread_count()});
     return write_cluster_graph(path, graph, {heights.rows, heights.columns}, fingerprint, true,
@@ -66,7 +66,7 @@ Result<BakeReport> bake_part(const HeightField& field, const BakeOptions& how, c
 }
 
 Result<ClusterBakeReport> bake_clusters(const HeightField& field, const BakeOptions& how,
-                                        const std::function<void(double, const char*)>& told) {
+                                        const std::function<void(double, const char*)>& on_progress) {
     const std::string clusters_path = path_of_clusters(how.path);
     ORO_TRY(const BakeHold hold, BakeHold::take(how.path, how.overwrite));
     ORO_CHECK(check_path_of_part(clusters_path));
@@ -75,13 +75,13 @@ Result<ClusterBakeReport> bake_clusters(const HeightField& field, const BakeOpti
     grid.overwrite = true;
     ClusterBakeReport report;
     ORO_TRY(report.region, bake_part(field, grid, [&](double share) {
-                told(share, "baking");
+                on_progress(share, "baking");
                 return true;
             }));
     const auto building = Clock::now();
-    told(0.0, "building clusters");
+    on_progress(0.0, "building clusters");
     if (!are_baked_clusters(clusters_path, how.fingerprint))
-        ORO_CHECK(build(field, clusters_path, how.fingerprint, told));
+        ORO_CHECK(build(field, clusters_path, how.fingerprint, on_progress));
     report.build_s = seconds_since(building);
     {
         ORO_TRY(const ClusterFile file, ClusterFile::open(clusters_path));

@@ -34,6 +34,6 @@ Result<BakeReport> bake_part(const HeightField& field, const BakeOptions& how, c
 // Bakes the region as bake_region() does, then its graph, and puts both into how.path. What is done already
 // of a bake that was broken off is not done again. told: how far it is, 0..1, and what is being done.
 Result<ClusterBakeReport> bake_clusters(const HeightField& field, const BakeOptions& how,
-                                        const std::function<void(double, const char*)>& told);
+                                        const std::function<void(double, const char*)>& on_progress);
 
 }  // namespace oro

@@ -42,9 +42,9 @@ void add_node(const LevelGrid& grid, const DrawnHeights& heights, int node_row, 
         for (unsigned column = 0; column < quads.y; ++column) {
             const Diagonal own = heights.diagonal(grid.level(), node_row * node_quads + static_cast<int>(row),
                                                   node_column * node_quads + static_cast<int>(column));
-            const bool rises = gpu::drawn_rising(own == Diagonal::rises, {row, column}, quads, edges);
+            const bool sw_ne = gpu::drawn_sw_ne(own == Diagonal::sw_ne, {row, column}, quads, edges);
             for (const bool west : {true, false}) {
-                const CellCorners at = cell_corners(rises ? Diagonal::rises : Diagonal::falls, west);
+                const CellCorners at = cell_corners(sw_ne ? Diagonal::sw_ne : Diagonal::nw_se, west);
                 const auto corner = [&](std::size_t i) {
                     return post(row + static_cast<unsigned>(at[i][0]),
                                 column + static_cast<unsigned>(at[i][1]));
@@ -59,7 +59,7 @@ void add_node(const LevelGrid& grid, const DrawnHeights& heights, int node_row, 
 }  // namespace
 
 BlockMesh block_mesh(const LevelPyramid& pyramid, const DrawnHeights& heights, double error_m) {
-    assert(!pyramid.goes_round);
+    assert(!pyramid.wraps_longitude);
     BlockMesh mesh;
     for (int level = 0; level < static_cast<int>(pyramid.levels.size()); ++level) {
         const LevelGrid& grid = pyramid.levels[static_cast<std::size_t>(level)].grid;

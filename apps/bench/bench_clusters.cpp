@@ -292,7 +292,7 @@ Result<void> report(const ClustersOptions& options) {
         return Error{ErrorKind::usage, options.region, "has voids, around which a TIN cannot be compared"};
     ORO_TRY(const HeightField field, field_in_memory(file));
     const DrawnHeights heights = drawn_heights(field, 1.0, options.threads);
-    const GridSurface surface(heights, {.goes_round = field.grid.goes_round()});
+    const GridSurface surface(heights, {.wraps_longitude = field.grid.wraps_longitude()});
     const GridBounds bounds(field.grid, heights.highest_steps);
     const double before_s = processor_s();
     const ClusterGraph graph = build_cluster_graph(surface, bounds, {options.threads, options.kept_share});

@@ -63,13 +63,13 @@ bool heights_around(const HeightField& field, int row, int column, CellHeights& 
 
 void add_cell(const CellHeights& heights, double truth_m, DiagonalErrors& errors) {
     const auto error_m = [&](Diagonal diagonal) { return std::abs(middle_m(heights, diagonal) - truth_m); };
-    const double falls_m = error_m(Diagonal::falls), rises_m = error_m(Diagonal::rises);
-    const std::array<Diagonal, rule_names.size()> chosen{Diagonal::falls,          Diagonal::rises,
+    const double nw_se_m = error_m(Diagonal::nw_se), sw_ne_m = error_m(Diagonal::sw_ne);
+    const std::array<Diagonal, rule_names.size()> chosen{Diagonal::nw_se,          Diagonal::sw_ne,
                                                          nearest_heights(heights), least_bend(heights),
-                                                         nearest_smooth(heights),  lesser(falls_m, rises_m)};
+                                                         nearest_smooth(heights),  lesser(nw_se_m, sw_ne_m)};
     for (std::size_t rule = 0; rule < chosen.size(); ++rule) {
-        const bool falls = chosen[rule] == Diagonal::falls;
-        errors.rules[rule].add(falls ? falls_m : rises_m, falls ? rises_m : falls_m);
+        const bool nw_se = chosen[rule] == Diagonal::nw_se;
+        errors.rules[rule].add(nw_se ? nw_se_m : sw_ne_m, nw_se ? sw_ne_m : nw_se_m);
     }
     errors.cells += 1.0;
 }

@@ -89,7 +89,7 @@ WorstPlace worst_place(const DrawnHeights& heights, const MeshTriangle& triangle
                 if (beyond == 0.0) continue;  // a post
                 const bool diagonal = along.row != 0 && along.column != 0;
                 if (diagonal && heights.diagonal(0, from.row, from.column - (along.column < 0 ? 1 : 0)) !=
-                                    (along.column < 0 ? Diagonal::rises : Diagonal::falls))
+                                    (along.column < 0 ? Diagonal::sw_ne : Diagonal::nw_se))
                     continue;  // that cell has the other one
                 const MeshPost to{from.row + along.row, from.column + along.column};
                 const double ground = heights.at(from.row, from.column) * (1.0 - beyond) +

@@ -70,7 +70,7 @@ Result<void> check_region(const std::string& path, const RegionOutline& outline)
     const PostGrid& grid = outline.grid;
     std::string reason;
     if (outline.voids > 0) reason = "has voids, around which a triangulation cannot be compared";
-    if (grid.goes_round()) reason = "goes round the Earth, which a triangulation does not";
+    if (grid.wraps_longitude()) reason = "goes round the Earth, which a triangulation does not";
     if (std::max(grid.rows(), grid.columns()) > most_mesh_posts)
         reason = "has more than " + std::to_string(most_mesh_posts) + " posts along an axis";
     if (std::min(grid.rows(), grid.columns()) < 3) reason = "has fewer than 3 posts along an axis";

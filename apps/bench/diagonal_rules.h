@@ -13,11 +13,11 @@ using CellHeights = std::array<std::array<double, 4>, 4>;
 
 // Where the ground in a cell's middle would be, split by one diagonal: half-way between its posts.
 [[nodiscard]] inline double middle_m(const CellHeights& h, Diagonal diagonal) {
-    return 0.5 * (diagonal == Diagonal::falls ? h[1][1] + h[2][2] : h[1][2] + h[2][1]);
+    return 0.5 * (diagonal == Diagonal::nw_se ? h[1][1] + h[2][2] : h[1][2] + h[2][1]);
 }
 
-[[nodiscard]] inline Diagonal lesser(double falls, double rises) {
-    return rises < falls ? Diagonal::rises : Diagonal::falls;
+[[nodiscard]] inline Diagonal lesser(double nw_se, double sw_ne) {
+    return sw_ne < nw_se ? Diagonal::sw_ne : Diagonal::nw_se;
 }
 
 // Joins the two posts whose heights are nearest to each other.
@@ -27,9 +27,9 @@ using CellHeights = std::array<std::array<double, 4>, 4>;
 
 // Takes the diagonal along which the ground, with one more post at either end, bends less.
 [[nodiscard]] inline Diagonal least_bend(const CellHeights& h) {
-    const double falls = h[1][1] + h[2][2] - h[0][0] - h[3][3];
-    const double rises = h[1][2] + h[2][1] - h[0][3] - h[3][0];
-    return lesser(std::abs(falls), std::abs(rises));
+    const double nw_se = h[1][1] + h[2][2] - h[0][0] - h[3][3];
+    const double sw_ne = h[1][2] + h[2][1] - h[0][3] - h[3][0];
+    return lesser(std::abs(nw_se), std::abs(sw_ne));
 }
 
 // What is drawn: the diagonal whose middle is nearer to that of the smooth surface through all sixteen posts.

@@ -29,7 +29,7 @@
 #include "geo/files/whole_file.h"
 #include "geo/opening/open_region.h"
 #include "geo/region/region_description.h"
-#include "geo/region/region_prints.h"
+#include "geo/region/region_fingerprints.h"
 #include "geo/sources/raster_parts.h"
 #include "geo/together/baked_parts.h"
 #include "geo/together/cut_regions.h"
@@ -143,7 +143,7 @@ Result<void> take_into_memory(Region& region) {
     for (RegionGrid& grid : region.grids) {
         if (!grid.file) continue;
         ORO_TRY(grid.field, field_in_memory(*grid.file));
-        grid.posts_print = posts_print(grid.field);
+        grid.posts_hash = posts_hash(grid.field);
     }
     return {};
 }

@@ -42,8 +42,9 @@ nlohmann::ordered_json compare_json(const CompareOptions& options, const View& v
     if (view.mesh_level) json["mesh_level"] = *view.mesh_level;
     json["pipeline"] = name_of(path);
     json["device"] = json_object("name", gpu.report().name, "driver", gpu.report().driver);
-    json["data_checked"] = view.told->prints && view.told->prints->posts && view.prints->posts;
-    json["data_changed"] = view.prints->data_changed;
+    json["data_checked"] =
+        view.recorded->fingerprints && view.recorded->fingerprints->posts && view.fingerprints->posts;
+    json["data_changed"] = view.fingerprints->data_changed;
     json["pixels"] = nullptr;
     if (pixels) json["pixels"] = pixels_json(*pixels);
     json["error"] = verification_json(verification);
@@ -83,12 +84,13 @@ Result<std::optional<PictureDifference>> check_pixels(const CompareOptions& opti
     ORO_TRY(const PictureDifference found,
             compare_pixels(options.view_file, view, ground.ground(), gpu, scene, path, style, strip,
                            [&](double share) { bar.show(share, "drawing"); }));
-    const std::optional<Fingerprints>& told = view.told->prints;
-    const bool same_style =
-        !told || !told->style || told->program != view.prints->program || *told->style == style_print(style);
+    const std::optional<Fingerprints>& recorded = view.recorded->fingerprints;
+    const bool same_style = !recorded || !recorded->style ||
+                            recorded->program != view.fingerprints->program ||
+                            *recorded->style == style_print(style);
     if (const auto fault = fault_of_pixels(view, found, same_style)) {
         const bool was_edited =
-            told && told->pixels && found.file_print && *told->pixels != *found.file_print;
+            recorded && recorded->pixels && found.file_print && *recorded->pixels != *found.file_print;
         if (was_edited || !options.data_changed) return Error{ErrorKind::failed, options.view_file, *fault};
         say(options.quiet, "note: " + options.view_file + ": " + *fault);
     }
@@ -114,8 +116,8 @@ Result<void> run_compare(const CompareOptions& options) {
     ORO_TRY(const Style style, load_style(view, region.grids.front().field));
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     ORO_TRY(const RegionCuts cuts, cut_regions(region));
-    ORO_TRY(GridPages pages, pages_of_grids(region, cuts, view.exaggeration,
-                                            [&](double share) { bar.show(share, "measuring levels"); }));
+    ORO_TRY(GridPages pages, make_grid_pages(region, cuts, view.exaggeration,
+                                             [&](double share) { bar.show(share, "measuring levels"); }));
     ORO_TRY(const bool clusters, draws_clusters(region, view));
     ORO_TRY(RegionScene whole,
             scene_of_region(*gpu, region, cuts, std::move(pages),
@@ -123,7 +125,7 @@ Result<void> run_compare(const CompareOptions& options) {
                              asks_for_means(style.frame), clusters, view.mesh_level}));
     Scene& scene = whole.scene;
     ORO_TRY(const auto ground, RegionGround::of(region, cuts, view.exaggeration));
-    if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
+    if (const std::string note = note_of_missing_footprints(style.frame, scene.pages()); !note.empty())
         say(options.quiet, note);
     ORO_CHECK(lay_images(view, options.memory, *gpu, scene, options.quiet));
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));

@@ -83,7 +83,7 @@ std::string checked_words(const RegionGrid& grid) {
 
 Result<void> run_info(const InfoOptions& options) {
     ORO_TRY(RegionRequest request, region_request(options.region));
-    request.grids_apart = true;
+    request.allow_multiple_grids = true;
     ProgressBar bar(options.quiet);
     const auto listed = listing_of(request, bar);
     if (!listed) return listed.error();

@@ -212,7 +212,7 @@ std::string files_text(const std::vector<SourceReport>& sources, Posts posts) {
 std::string region_voids(const RegionGrid& region) {
     std::string text = region.void_posts() == 0 ? "none" : grouped(region.void_posts());
     if (region.filled > 0) text += " left, " + grouped(region.filled) + " filled from their neighbours";
-    if (!region.tells_voids_apart)
+    if (!region.classifies_voids)
         return text +
                " without a height, void in their file or outside the rasters: which, a baked region's part "
                "and old ones do not tell";
@@ -223,7 +223,7 @@ std::string region_voids(const RegionGrid& region) {
 }
 
 std::string outside_text(const RegionGrid& region) {
-    if (!region.tells_voids_apart) return "not told apart from void posts in this baked region";
+    if (!region.classifies_voids) return "not told apart from void posts in this baked region";
     if (region.outside == 0) return "none";
     return counted(region.outside, "post", "posts") + " of the region's box, beyond the edges of the " +
            (region.sources.size() == 1 ? "raster" : "rasters");

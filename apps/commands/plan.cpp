@@ -170,7 +170,7 @@ Result<void> run_plan(const PlanOptions& options) {
         [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view, region));
     ORO_CHECK(choose_mesh(region, view));
     ORO_TRY(const RegionCuts cuts, cut_regions(region));
-    ORO_TRY(const GridPages pages, pages_of_grids(region, cuts, view.exaggeration, [&](double share) {
+    ORO_TRY(const GridPages pages, make_grid_pages(region, cuts, view.exaggeration, [&](double share) {
                 bar.show(share, "measuring levels");
             }));
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region));
@@ -182,7 +182,7 @@ Result<void> run_plan(const PlanOptions& options) {
     for (const RegionGrid& grid : region.grids)
         if (const std::string sentence = resampling_sentence(grid); !sentence.empty())
             say(options.quiet, "note: " + sentence);
-    const PagesOfGrids of_grids = pointers_to(pages);
+    const RegionPagesList of_grids = pointers_to(pages);
     ORO_TRY(const Budget budget, plan_view(view, region, truth->ground(), of_grids, tolerance_px));
     ORO_TRY(const AccuracyChoice choice,
             choose_accuracy(view, region, truth->ground(), of_grids, tolerance_px));

@@ -183,7 +183,7 @@ Result<void> run_trade(const TradeOptions& options) {
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
     Trade trade(view, region, *gpu, path, style.frame, options.repeats, options.memory);
     ORO_CHECK(trade.prepare());
-    if (const std::string note = note_of_means(style.frame, trade.pages()); !note.empty())
+    if (const std::string note = note_of_missing_footprints(style.frame, trade.pages()); !note.empty())
         say(options.quiet, note);
     const std::vector<Camera> cameras = cameras_of(options, view, region, trade.ground());
     TradeReport report;

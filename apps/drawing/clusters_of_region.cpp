@@ -35,7 +35,7 @@ Result<void> check_clusters_of_region(const RegionGrid& region, std::size_t most
     const DrawnHeights heights = drawn_heights(field, 1.0, thread_count());
     ORO_CHECK(field.health());
     field.H_m = {};
-    const GridSurface surface(heights, {.goes_round = field.grid.goes_round()});
+    const GridSurface surface(heights, {.wraps_longitude = field.grid.wraps_longitude()});
     const GridBounds bounds(field.grid, heights.highest_steps);
     const std::vector<std::uint32_t> nodes = surface.leaf_nodes();
     const LeavesOneByOne leaves{static_cast<std::uint32_t>(nodes.size()),

@@ -31,7 +31,7 @@ Result<std::unique_ptr<RegionPages>> pages_of(const RegionGrid& grid, double exa
     return pages_in_memory(field, exaggeration, thread_count(), progress);
 }
 
-Result<std::unique_ptr<RegionPages>> pages_of_rest(const RegionGrid& grid, const CutOut& cut,
+Result<std::unique_ptr<RegionPages>> pages_of_rest(const RegionGrid& grid, const GridClip& cut,
                                                    double exaggeration, const RenderProgress& progress) {
     HeightField rest = grid.field;
     if (grid.file) {
@@ -41,8 +41,8 @@ Result<std::unique_ptr<RegionPages>> pages_of_rest(const RegionGrid& grid, const
         rest.range.reset();
         if (!rest.undulation.N_m.empty()) rest.N_of_posts_m = posts.N_of_posts_m;
     }
-    for (std::size_t post = 0; post < cut.left_out.size(); ++post)
-        if (cut.left_out[post] != 0) rest.H_m[post] = void_height_m;
+    for (std::size_t post = 0; post < cut.masked_posts.size(); ++post)
+        if (cut.masked_posts[post] != 0) rest.H_m[post] = void_height_m;
     return pages_in_memory(rest, exaggeration, thread_count(), progress);
 }
 
@@ -52,10 +52,10 @@ std::uint64_t bytes_of(const std::optional<int>& mb) {
 
 }  // namespace
 
-Result<std::unique_ptr<RegionPages>> grid_pages(const RegionGrid& grid, const CutOut& cut,
+Result<std::unique_ptr<RegionPages>> grid_pages(const RegionGrid& grid, const GridClip& cut,
                                                 double exaggeration, const RenderProgress& progress,
                                                 const std::stop_token& stop) {
-    if (std::ranges::find(cut.left_out, 1) != cut.left_out.end())
+    if (std::ranges::find(cut.masked_posts, 1) != cut.masked_posts.end())
         return pages_of_rest(grid, cut, exaggeration, progress);
     ORO_TRY(std::unique_ptr<RegionPages> pages, pages_of(grid, exaggeration, progress, stop));
     if (!pages) return Error{ErrorKind::failed, "levels", "nobody waits for them any more"};
@@ -64,8 +64,8 @@ Result<std::unique_ptr<RegionPages>> grid_pages(const RegionGrid& grid, const Cu
     return pages;
 }
 
-Result<GridPages> pages_of_grids(const Region& region, const RegionCuts& cuts, double exaggeration,
-                                 const RenderProgress& progress) {
+Result<GridPages> make_grid_pages(const Region& region, const RegionCuts& cuts, double exaggeration,
+                                  const RenderProgress& progress) {
     GridPages pages;
     for (const RegionGrid& grid : region.grids) {
         const std::size_t number = pages.size();
@@ -76,10 +76,10 @@ Result<GridPages> pages_of_grids(const Region& region, const RegionCuts& cuts, d
     return pages;
 }
 
-PagesOfGrids pointers_to(const GridPages& pages) {
+RegionPagesList pointers_to(const GridPages& pages) {
     std::vector<const RegionPages*> pointers;
     for (const std::unique_ptr<RegionPages>& one : pages) pointers.push_back(one.get());
-    return PagesOfGrids(std::move(pointers));
+    return RegionPagesList(std::move(pointers));
 }
 
 namespace {
@@ -153,7 +153,7 @@ Error lacks_gpu_memory(const Scene& scene, const std::string& what) {
                 (clusters ? "; --mesh grid leaves all of the memory to blocks" : "") + ")"};
 }
 
-std::string note_of_means(const gpu::FrameStyle& style, const PagesOfGrids& grids) {
+std::string note_of_missing_footprints(const gpu::FrameStyle& style, const RegionPagesList& grids) {
     if (!asks_for_means(style)) return "";
     for (std::size_t i = 0; i < grids.size(); ++i) {
         if (grids[i].is_seam() || grids[i].knows_means()) continue;

@@ -16,14 +16,14 @@ namespace oro {
 // Pages of a grid, with levels for that exaggeration, of what those that are the ground leave of it. stop: as
 // pages_in_memory(). Errors: damage in a baked region; nothing to draw in a grid that nothing is cut out of
 // (no_data); stopped.
-Result<std::unique_ptr<RegionPages>> grid_pages(const RegionGrid& grid, const CutOut& cut,
+Result<std::unique_ptr<RegionPages>> grid_pages(const RegionGrid& grid, const GridClip& cut,
                                                 double exaggeration, const RenderProgress& progress = {},
                                                 const std::stop_token& stop = {});
 // Those of all grids of a region. progress: of the first.
 using GridPages = std::vector<std::unique_ptr<RegionPages>>;
-Result<GridPages> pages_of_grids(const Region& region, const RegionCuts& cuts, double exaggeration,
-                                 const RenderProgress& progress = {});
-PagesOfGrids pointers_to(const GridPages& pages);
+Result<GridPages> make_grid_pages(const Region& region, const RegionCuts& cuts, double exaggeration,
+                                  const RenderProgress& progress = {});
+RegionPagesList pointers_to(const GridPages& pages);
 
 // A region with all its grids, ready for a GPU, and the triangles that it has at full resolution.
 struct RegionScene {
@@ -38,7 +38,8 @@ struct SceneRequest {
     bool clusters{};                  // drawn by the region's clusters (draws_clusters())
     std::optional<int> mesh_level{};  // those of one level of the graph (View)
 };
-// pages: of all grids (pages_of_grids()). cuts: of all of them (cut_regions()). Errors: out of device memory.
+// pages: of all grids (make_grid_pages()). cuts: of all of them (cut_regions()). Errors: out of device
+// memory.
 Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
                                     GridPages pages, const SceneRequest& request);
 
@@ -47,6 +48,6 @@ Error lacks_gpu_memory(const Scene& scene, const std::string& what);
 
 // What to tell of a style that asks for means of the ground over grids of which one has none, being of too
 // many posts: each of its pixels then has the colour of the ground in its middle. "" where all have them.
-std::string note_of_means(const gpu::FrameStyle& style, const PagesOfGrids& grids);
+std::string note_of_missing_footprints(const gpu::FrameStyle& style, const RegionPagesList& grids);
 
 }  // namespace oro

@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "core/base/checksum.h"
-#include "geo/region/region_prints.h"
+#include "geo/region/region_fingerprints.h"
 
 namespace oro {
 
@@ -20,35 +20,36 @@ std::string program_print() {
 namespace {
 
 std::uint64_t both(std::uint64_t one, std::uint64_t other) {
-    const std::array prints{one, other};
-    return xxh64(std::as_bytes(std::span(prints)));
+    const std::array fingerprints{one, other};
+    return xxh64(std::as_bytes(std::span(fingerprints)));
 }
 
 }  // namespace
 
 // Of several grids, what is told of each becomes one.
-Fingerprints prints_of(const Region& region) {
+Fingerprints fingerprints_of(const Region& region) {
     const RegionGrid& first = region.grids.front();
-    Fingerprints prints;
-    prints.program = program_print();
-    prints.grid = grid_print(first.field.grid);
-    prints.posts = first.posts_print;
-    prints.resampling = region_resampling(first);
-    prints.geoid = first.geoid;
-    prints.undulation = first.geoid_print;
+    Fingerprints fingerprints;
+    fingerprints.program = program_print();
+    fingerprints.grid = grid_print(first.field.grid);
+    fingerprints.posts = first.posts_hash;
+    fingerprints.resampling = region_resampling(first);
+    fingerprints.geoid = first.geoid;
+    fingerprints.undulation = first.geoid_print;
     std::size_t sources = first.sources.size();
     for (const RegionGrid& other : std::span(region.grids).subspan(1)) {
-        prints.grid = both(prints.grid, grid_print(other.field.grid));
-        if (prints.posts && other.posts_print) prints.posts = both(*prints.posts, *other.posts_print);
-        prints.undulation = both(prints.undulation, other.geoid_print);
+        fingerprints.grid = both(fingerprints.grid, grid_print(other.field.grid));
+        if (fingerprints.posts && other.posts_hash)
+            fingerprints.posts = both(*fingerprints.posts, *other.posts_hash);
+        fingerprints.undulation = both(fingerprints.undulation, other.geoid_print);
         sources += other.sources.size();
     }
-    if (sources > most_sources_with_prints) return prints;
+    if (sources > most_sources_with_fingerprints) return fingerprints;
     for (const RegionGrid& grid : region.grids)
         for (const SourceReport& source : grid.sources)
-            prints.sources.push_back(
-                {std::filesystem::path(source.path).filename().string(), source.posts_print});
-    return prints;
+            fingerprints.sources.push_back(
+                {std::filesystem::path(source.path).filename().string(), source.posts_hash});
+    return fingerprints;
 }
 
 std::uint64_t style_print(const Style& style) {

@@ -36,7 +36,7 @@ struct Fingerprints {
 };
 
 // A view's JSON must fit into a JPEG's 65,000 bytes: of more sources none is told by itself.
-inline constexpr std::size_t most_sources_with_prints = 256;
+inline constexpr std::size_t most_sources_with_fingerprints = 256;
 
 // Images over the ground that a view may have.
 inline constexpr std::size_t most_images = 64;
@@ -45,7 +45,7 @@ inline constexpr std::size_t most_images = 64;
 std::string program_print();
 
 // The fingerprints of a region that was just opened, without style and pixels.
-Fingerprints prints_of(const Region& region);
+Fingerprints fingerprints_of(const Region& region);
 std::uint64_t style_print(const Style& style);
 
 }  // namespace oro

@@ -53,9 +53,9 @@ ordered_json sources_json(const std::vector<Fingerprints::OfSource>& sources) {
 
 std::vector<Fingerprints::OfSource> sources_from(const nlohmann::json& json, const std::string& field) {
     const nlohmann::json& sources = json_field(json, field.c_str());
-    if (!sources.is_array() || sources.size() > most_sources_with_prints)
+    if (!sources.is_array() || sources.size() > most_sources_with_fingerprints)
         throw JsonFault{"'" + field + "' of 'fingerprints' must be a list of at most " +
-                        std::to_string(most_sources_with_prints)};
+                        std::to_string(most_sources_with_fingerprints)};
     std::vector<Fingerprints::OfSource> all;
     for (const nlohmann::json& source : sources) {
         if (!source.is_object()) throw JsonFault{"'" + field + "' of 'fingerprints' must hold objects"};
@@ -68,18 +68,18 @@ std::vector<Fingerprints::OfSource> sources_from(const nlohmann::json& json, con
 // Views of before it was measured have none, nor have those of regions whose posts are their sources' own.
 std::optional<RegionResampling> resampling_from(const nlohmann::json& json) {
     if (!json.contains("resampling")) return std::nullopt;
-    const nlohmann::json& told = json_field(json, "resampling");
+    const nlohmann::json& recorded = json_field(json, "resampling");
     const auto count = [&](const char* name) {
         constexpr std::int64_t most = std::int64_t{1} << 53U;
-        return static_cast<std::uint64_t>(json_whole(told, name, 0, most));
+        return static_cast<std::uint64_t>(json_whole(recorded, name, 0, most));
     };
     constexpr double most_m = 1e6;
     return RegionResampling{count("files"),
                             count("unknown"),
                             count("posts"),
                             count("compared"),
-                            json_number(told, "worst_m", 0.0, most_m),
-                            json_number(told, "rms_m", 0.0, most_m)};
+                            json_number(recorded, "worst_m", 0.0, most_m),
+                            json_number(recorded, "rms_m", 0.0, most_m)};
 }
 
 }  // namespace
@@ -88,38 +88,38 @@ std::string pixels_field(std::uint64_t pixels) {
     return "\"pixels\":\"" + digits_of(pixels) + "\"";
 }
 
-ordered_json prints_json(const Fingerprints& prints) {
+ordered_json fingerprints_json(const Fingerprints& fingerprints) {
     ordered_json json = ordered_json::object();
-    json["program"] = prints.program;
-    json["grid"] = digits_of(prints.grid);
-    put(json, "posts", prints.posts);
-    json["sources"] = sources_json(prints.sources);
-    if (prints.resampling) json["resampling"] = resampling_json(prints.resampling);
-    json["geoid"] = json_object("name", prints.geoid, "undulation", digits_of(prints.undulation));
-    if (!prints.images.empty()) json["images"] = sources_json(prints.images);
-    if (!prints.vectors.empty()) json["vectors"] = sources_json(prints.vectors);
-    put(json, "style", prints.style);
-    put(json, "pixels", prints.pixels);
-    if (prints.data_changed) json["data_changed"] = true;
+    json["program"] = fingerprints.program;
+    json["grid"] = digits_of(fingerprints.grid);
+    put(json, "posts", fingerprints.posts);
+    json["sources"] = sources_json(fingerprints.sources);
+    if (fingerprints.resampling) json["resampling"] = resampling_json(fingerprints.resampling);
+    json["geoid"] = json_object("name", fingerprints.geoid, "undulation", digits_of(fingerprints.undulation));
+    if (!fingerprints.images.empty()) json["images"] = sources_json(fingerprints.images);
+    if (!fingerprints.vectors.empty()) json["vectors"] = sources_json(fingerprints.vectors);
+    put(json, "style", fingerprints.style);
+    put(json, "pixels", fingerprints.pixels);
+    if (fingerprints.data_changed) json["data_changed"] = true;
     return json;
 }
 
-Fingerprints prints_from(const nlohmann::json& json) {
-    Fingerprints prints;
-    prints.program = json_string(json, "program");
-    prints.grid = print_from(json, "grid");
-    prints.posts = print_if_any(json, "posts");
-    prints.sources = sources_from(json, "sources");
-    if (json.contains("images")) prints.images = sources_from(json, "images");
-    if (json.contains("vectors")) prints.vectors = sources_from(json, "vectors");
+Fingerprints fingerprints_from(const nlohmann::json& json) {
+    Fingerprints fingerprints;
+    fingerprints.program = json_string(json, "program");
+    fingerprints.grid = print_from(json, "grid");
+    fingerprints.posts = print_if_any(json, "posts");
+    fingerprints.sources = sources_from(json, "sources");
+    if (json.contains("images")) fingerprints.images = sources_from(json, "images");
+    if (json.contains("vectors")) fingerprints.vectors = sources_from(json, "vectors");
     const nlohmann::json& geoid = json_field(json, "geoid");
-    prints.geoid = json_string(geoid, "name");
-    prints.undulation = print_from(geoid, "undulation");
-    prints.resampling = resampling_from(json);
-    prints.style = print_if_any(json, "style");
-    prints.pixels = print_if_any(json, "pixels");
-    if (json.contains("data_changed")) prints.data_changed = json_flag(json, "data_changed");
-    return prints;
+    fingerprints.geoid = json_string(geoid, "name");
+    fingerprints.undulation = print_from(geoid, "undulation");
+    fingerprints.resampling = resampling_from(json);
+    fingerprints.style = print_if_any(json, "style");
+    fingerprints.pixels = print_if_any(json, "pixels");
+    if (json.contains("data_changed")) fingerprints.data_changed = json_flag(json, "data_changed");
+    return fingerprints;
 }
 
 }  // namespace oro

@@ -8,9 +8,9 @@
 
 namespace oro {
 
-nlohmann::ordered_json prints_json(const Fingerprints& prints);
+nlohmann::ordered_json fingerprints_json(const Fingerprints& fingerprints);
 // Throws JsonFault.
-Fingerprints prints_from(const nlohmann::json& json);
+Fingerprints fingerprints_from(const nlohmann::json& json);
 
 // The pixels' fingerprint as a view's text has it: known when the last of them is drawn, and put where it was
 // 0 until then.

@@ -128,7 +128,7 @@ std::optional<SeenPoint> PointsInView::placed(const NamedPoint& point, PointCoun
         if (stands_there) h_m = H_m * exaggeration + N_m;
         if (stands_there || std::abs(above_m) <= most_off_m) tell(H_m);
     }
-    if (point.told_H_m && std::abs(*point.told_H_m - ground_H_m) <= most_off_m) tell(*point.told_H_m);
+    if (point.stated_H_m && std::abs(*point.stated_H_m - ground_H_m) <= most_off_m) tell(*point.stated_H_m);
     put_at({seen.lat_deg, seen.lon_deg, h_m}, seen);
     if (!in_picture(seen)) {
         ++counts.outside;

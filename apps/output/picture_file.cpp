@@ -115,11 +115,11 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
     ORO_CHECK(region.health());
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, gpu));
     // Drawn again another day, when auto may come to another answer, the view gives the same bytes.
-    ORO_TRY(View drawn, view_told_by(view, files.told_from));
+    ORO_TRY(View drawn, view_recorded_by(view, files.recorded_from));
     drawn.pipeline = name_of(path);
-    if (drawn.prints) {
-        drawn.prints->style = style_print(style);
-        drawn.prints->pixels = 0;  // until they are drawn
+    if (drawn.fingerprints) {
+        drawn.fingerprints->style = style_print(style);
+        drawn.fingerprints->pixels = 0;  // until they are drawn
     }
     ORO_CHECK(check_view_opens(drawn, files.picture));
     const Geotags tags = geotags_of(drawn, region, middle);
@@ -149,16 +149,13 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
         ORO_CHECK(take(strip.subspan(at, row_bytes)));
     ORO_CHECK(check_drawn(gpu, scene, report));
     ORO_TRY(WholeFile file, writer->finished_file());
-    if (drawn.prints) {
-        drawn.prints->pixels = pixels.print();
+    if (drawn.fingerprints) {
+        drawn.fingerprints->pixels = pixels.print();
         ORO_CHECK(replace_in_view(file, files.picture, pixels_field(0), pixels_field(pixels.print())));
     }
-    return DrawnPicture{report,
-                        std::move(labelled.labels),
-                        std::move(labelled.names),
-                        std::move(labelled.overlay),
-                        std::move(file),
-                        drawn.prints};
+    return DrawnPicture{
+        report,          std::move(labelled.labels), std::move(labelled.names), std::move(labelled.overlay),
+        std::move(file), drawn.fingerprints};
 }
 
 Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,

@@ -16,7 +16,7 @@ namespace oro {
 struct PictureFiles {
     std::string picture;
     std::string error;
-    std::string told_from;  // the picture whose folder the view's paths start from: this one
+    std::string recorded_from;  // the picture whose folder the view's paths start from: this one
 };
 PictureFiles picture_files(const std::string& picture);
 
@@ -31,7 +31,7 @@ struct DrawnPicture {
     NamesInView names;
     OverlayInView overlay;
     WholeFile file;
-    std::optional<Fingerprints> prints;  // those in it
+    std::optional<Fingerprints> fingerprints;  // those in it
 };
 
 // Draws a picture that is to be `files.picture`, with `strip` below it: view.legend_px rows. The view in it

@@ -97,8 +97,8 @@ void follow_ground(const TrueGround& ground, const VectorPlace& from, const Vect
                                          grid.columns() - 2.0);
         return surface.diagonal_at(static_cast<int>(row), static_cast<int>(column)) == diagonal;
     };
-    for (const Diagonal diagonal : {Diagonal::falls, Diagonal::rises}) {
-        const double sign = diagonal == Diagonal::falls ? -1.0 : 1.0;
+    for (const Diagonal diagonal : {Diagonal::nw_se, Diagonal::sw_ne}) {
+        const double sign = diagonal == Diagonal::nw_se ? -1.0 : 1.0;
         add_crossings(a.row + sign * a.column, b.row + sign * b.column, first, last, shares,
                       [&](double share) { return splits(share, diagonal); });
     }

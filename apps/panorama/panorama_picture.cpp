@@ -105,7 +105,7 @@ Result<PanoramaFile> write_svg(const std::string& path, bool overwrite, const Vi
             sheet_svg(laid.sheet, scene.rgb, "Panorama from " + eye_words(view, region, laid.standpoint),
                       source_words(region)));
     ORO_CHECK(file.write(svg.data(), svg.size()));
-    return PanoramaFile{std::move(file), view.prints};
+    return PanoramaFile{std::move(file), view.fingerprints};
 }
 
 }  // namespace
@@ -180,12 +180,12 @@ Result<PanoramaFile> write_panorama(const std::string& path, bool overwrite, con
                                     const Region& region, const Style& style, const PanoramaSheet& laid,
                                     const CylinderPicture& scene) {
     if (is_svg(path)) return write_svg(path, overwrite, view, region, laid, scene);
-    ORO_TRY(View drawn, view_told_by(view, path));
+    ORO_TRY(View drawn, view_recorded_by(view, path));
     drawn.camera.height_px = laid.sheet.height_px;
     drawn.pipeline = name_of(scene.report.path);
-    if (drawn.prints) {
-        drawn.prints->style = style_print(style);
-        drawn.prints->pixels = 0;  // until they are drawn
+    if (drawn.fingerprints) {
+        drawn.fingerprints->style = style_print(style);
+        drawn.fingerprints->pixels = 0;  // until they are drawn
     }
     ORO_CHECK(check_view_opens(drawn, path));
     ORO_TRY(const std::unique_ptr<PictureWriter> writer,
@@ -196,11 +196,11 @@ Result<PanoramaFile> write_panorama(const std::string& path, bool overwrite, con
         return writer->write_row(rgb);
     }));
     ORO_TRY(WholeFile file, writer->finished_file());
-    if (drawn.prints) {
-        drawn.prints->pixels = pixels.print();
+    if (drawn.fingerprints) {
+        drawn.fingerprints->pixels = pixels.print();
         ORO_CHECK(replace_in_view(file, path, pixels_field(0), pixels_field(pixels.print())));
     }
-    return PanoramaFile{std::move(file), drawn.prints};
+    return PanoramaFile{std::move(file), drawn.fingerprints};
 }
 
 }  // namespace oro

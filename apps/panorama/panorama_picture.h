@@ -46,7 +46,7 @@ Result<CylinderPicture> draw_scene(const View& view, const Region& region, const
 // A file that is whole and has no name yet.
 struct PanoramaFile {
     WholeFile file;
-    std::optional<Fingerprints> prints;
+    std::optional<Fingerprints> fingerprints;
 };
 
 // Writes .png, .jpg, .tif (with geotags, GPano and the view) or .svg. Errors: those of the file; a view that

@@ -28,9 +28,9 @@ constexpr std::array<Steps, 11> nice{{{0.01, 0.002},
 
 // All of the em.
 constexpr double tick_share = 0.45, long_tick_share = 0.8;
-constexpr double figures_down_share = 1.55, winds_down_share = 2.95, told_down_share = 4.45;
+constexpr double figures_down_share = 1.55, winds_down_share = 2.95, text_down_share = 4.45;
 constexpr double strip_share = 5.35;
-constexpr double winds_size = 1.15, told_size = 0.8, side_size = 0.85;
+constexpr double winds_size = 1.15, text_size = 0.8, side_size = 0.85;
 constexpr SheetColour ink{24, 30, 42}, faint_ink{92, 98, 110}, light{250, 250, 246}, level_ink{250, 250, 246};
 
 Steps steps_for(double px_per_deg, double room_px) {
@@ -102,8 +102,8 @@ class Writer {
     }
 
     Result<void> tell(const std::string& left, const std::string& right) {
-        const double y = sheet_.scene_top_px + sheet_.scene_rows_px + told_down_share * em_px_,
-                     size_px = told_size * em_px_, border_px = 0.7 * em_px_;
+        const double y = sheet_.scene_top_px + sheet_.scene_rows_px + text_down_share * em_px_,
+                     size_px = text_size * em_px_, border_px = 0.7 * em_px_;
         ORO_TRY(const double left_px, face_.width_px(left, size_px));
         ORO_TRY(const double right_px, face_.width_px(right, size_px));
         double free_px = sheet_.width_px - 2.0 * border_px;
@@ -204,12 +204,12 @@ Rulers rulers_of(const Cylinder& around, double em_px) {
 }
 
 Result<void> put_rulers(const Rulers& rulers, const Cylinder& around, const TextFace& face,
-                        const std::string& told_left, const std::string& told_right, Sheet& sheet) {
+                        const std::string& left_text, const std::string& right_text, Sheet& sheet) {
     Writer writer(rulers, around, face, sheet);
     writer.level();
     ORO_CHECK(writer.azimuths());
     ORO_CHECK(writer.elevations());
-    return writer.tell(told_left, told_right);
+    return writer.tell(left_text, right_text);
 }
 
 }  // namespace oro

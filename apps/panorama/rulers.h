@@ -26,6 +26,6 @@ Rulers rulers_of(const Cylinder& around, double em_px);
 // Puts them on a sheet that has its size and its scene's place. What is told below: the eye on the left,
 // whose data they are on the right, as far as there is room. Errors: those of text.
 Result<void> put_rulers(const Rulers& rulers, const Cylinder& around, const TextFace& face,
-                        const std::string& told_left, const std::string& told_right, Sheet& sheet);
+                        const std::string& left_text, const std::string& right_text, Sheet& sheet);
 
 }  // namespace oro

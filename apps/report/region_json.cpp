@@ -82,7 +82,7 @@ ordered_json region_json(const RegionGrid& region) {
     json["without_height"] = region.voids;
     json["voids"] = nullptr;
     json["outside_sources"] = nullptr;
-    if (region.tells_voids_apart) {
+    if (region.classifies_voids) {
         json["voids"] = region.void_posts();
         json["outside_sources"] = region.outside;
     }
@@ -153,7 +153,7 @@ std::string note_of_voids(const RegionGrid& region) {
     const auto add = [&](std::uint64_t posts, const char* one, const char* many, const std::string& what) {
         if (posts > 0) note += (note.empty() ? "" : "; ") + counted(posts, one, many) + what;
     };
-    if (!region.tells_voids_apart)
+    if (!region.classifies_voids)
         add(region.void_posts(), "post without a height is a hole", "posts without a height are holes",
             ": void in their file, or outside all rasters, which this baked region does not tell apart");
     else

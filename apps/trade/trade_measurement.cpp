@@ -60,8 +60,8 @@ Result<void> add_pictures(const Verification& drawn, const TradeCase& one, const
 Result<void> Trade::prepare() {
     ORO_TRY(truth_, TrueScene::of(view_, region_));
     ORO_TRY(const RegionCuts cuts, cut_regions(region_));
-    ORO_TRY(pages_, pages_of_grids(region_, cuts, view_.exaggeration));
-    ORO_TRY(world_, true_world(view_, region_, pages()));
+    ORO_TRY(pages_, make_grid_pages(region_, cuts, view_.exaggeration));
+    ORO_TRY(world_, earth_parameters(view_, region_, pages()));
     // Whatever air the view asks for: settings are drawn in standard air, but those that leave it out.
     world_.air = standard_air;
     return {};
@@ -91,7 +91,7 @@ Result<Scene*> Trade::scene_of(const TradeCase& one) {
     }
     const Region& region = one.has_geoid ? region_ : *without_geoid_;
     ORO_TRY(const RegionCuts cuts, cut_regions(region));
-    ORO_TRY(GridPages pages, pages_of_grids(region, cuts, view_.exaggeration));
+    ORO_TRY(GridPages pages, make_grid_pages(region, cuts, view_.exaggeration));
     ORO_TRY(RegionScene whole, scene_of_region(gpu_, region, cuts, std::move(pages),
                                                {view_.exaggeration, share_of_memory(), one.heights,
                                                 asks_for_means(style_), one.key.clusters}));

@@ -39,7 +39,7 @@ class Trade {
     // Reads the truth. Errors: damage in a baked region; nothing to draw.
     Result<void> prepare();
     [[nodiscard]] const TrueGround& ground() const { return truth_->ground(); }
-    [[nodiscard]] PagesOfGrids pages() const { return pointers_to(pages_); }
+    [[nodiscard]] RegionPagesList pages() const { return pointers_to(pages_); }
     // Adds a view's shots and effects to the report. camera: the true eye. `pictures`: put pictures of it in,
     // too. Errors: those of the device; terrain that it cannot hold.
     Result<void> measure(const Camera& camera, const std::string& name, bool pictures, TradeReport& report);
@@ -65,7 +65,7 @@ class Trade {
     std::optional<Region> without_geoid_;
     std::unique_ptr<TrueScene> truth_;
     GridPages pages_;  // for predictions
-    TrueWorld world_;
+    EarthParameters world_;
     std::map<std::tuple<bool, HeightStorage, bool>, Scene> scenes_;  // geoid, heights, clusters
 };
 

@@ -68,7 +68,7 @@ std::vector<NamedPoint> named_points(const VectorFile& file, const std::string& 
                 point.heights = shape.heights;
                 point.height_m = place.height_m;
             }
-            point.told_H_m = metres_from(layer.text(shape, "ele"));
+            point.stated_H_m = metres_from(layer.text(shape, "ele"));
             point.prominence_m = metres_from(layer.text(shape, "prominence"));
             points.push_back(std::move(point));
         }

@@ -16,7 +16,7 @@ struct NamedPoint {
     // The height that the point's geometry has; HeightAbove::nothing: none.
     HeightAbove heights{HeightAbove::nothing};
     double height_m{};
-    std::optional<double> told_H_m;      // field `ele`, as OpenStreetMap and GPX have it
+    std::optional<double> stated_H_m;    // field `ele`, as OpenStreetMap and GPX have it
     std::optional<double> prominence_m;  // field `prominence`
 };
 

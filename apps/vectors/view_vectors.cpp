@@ -38,11 +38,11 @@ std::vector<std::string> files_from(const nlohmann::json& json, const char* of) 
 }
 
 Result<std::vector<VectorFile>> read_all(const std::vector<std::string>& files,
-                                         std::vector<Fingerprints::OfSource>& prints) {
+                                         std::vector<Fingerprints::OfSource>& fingerprints) {
     std::vector<VectorFile> all;
     for (const std::string& name : files) {
         ORO_TRY(VectorFile file, read_vectors(name));
-        prints.push_back({std::filesystem::path(name).filename().string(), file.print});
+        fingerprints.push_back({std::filesystem::path(name).filename().string(), file.print});
         all.push_back(std::move(file));
     }
     return all;
@@ -107,11 +107,11 @@ VectorChoices vectors_from(const nlohmann::json& json) {
 }
 
 Result<std::shared_ptr<const VectorsRead>> open_vectors(const VectorChoices& choices,
-                                                        std::vector<Fingerprints::OfSource>& prints) {
+                                                        std::vector<Fingerprints::OfSource>& fingerprints) {
     if (!choices.any()) return std::shared_ptr<const VectorsRead>();
     auto vectors = std::make_shared<VectorsRead>();
-    ORO_TRY(vectors->names, read_all(choices.names, prints));
-    ORO_TRY(vectors->overlay, read_all(choices.overlay, prints));
+    ORO_TRY(vectors->names, read_all(choices.names, fingerprints));
+    ORO_TRY(vectors->overlay, read_all(choices.overlay, fingerprints));
     return std::shared_ptr<const VectorsRead>(std::move(vectors));
 }
 

@@ -48,7 +48,7 @@ VectorChoices vectors_from(const nlohmann::json& json);
 
 // Reads the files; their names and fingerprints go to `prints`. Errors: those of read_vectors.
 Result<std::shared_ptr<const VectorsRead>> open_vectors(const VectorChoices& choices,
-                                                        std::vector<Fingerprints::OfSource>& prints);
+                                                        std::vector<Fingerprints::OfSource>& fingerprints);
 
 // Says the notes of the files, and which of them cannot give anything.
 void say_vectors(const VectorsRead& vectors, const VectorChoices& choices, bool quiet);

@@ -103,8 +103,9 @@ Result<double> parse_tolerance(const std::string& text) {
     return px;
 }
 
-Result<TrueWorld> true_world(const View& view, const Region& region, const PagesOfGrids& pages) {
-    TrueWorld world;
+Result<EarthParameters> earth_parameters(const View& view, const Region& region,
+                                         const RegionPagesList& pages) {
+    EarthParameters world;
     if (view.model.air.k != 0.0) world.air = view.model.air;
     world.grids.clear();
     for (const RegionGrid& grid : region.grids) {
@@ -115,15 +116,15 @@ Result<TrueWorld> true_world(const View& view, const Region& region, const Pages
     return world;
 }
 
-DrawingModel drawing_model(const View& view, const TrueWorld& world) {
+DrawingModel drawing_model(const View& view, const EarthParameters& world) {
     return {view.model, view.has_geoid,
             view.heights == HeightStorage::i16 ? world.grids.front().sixteen : HeightQuantization{},
             view.tau_px};
 }
 
 Result<Budget> plan_view(const View& view, const Region& region, const TrueGround& truth,
-                         const PagesOfGrids& pages, double tolerance_px) {
-    ORO_TRY(const TrueWorld world, true_world(view, region, pages));
+                         const RegionPagesList& pages, double tolerance_px) {
+    ORO_TRY(const EarthParameters world, earth_parameters(view, region, pages));
     const DrawingModel drawing = drawing_model(view, world);
     const Camera camera = true_camera(view, region);
     const EffectPrediction prediction(truth, pages, camera, world, thread_count());
@@ -160,7 +161,7 @@ Result<Budget> plan_view(const View& view, const Region& region, const TrueGroun
 }
 
 Result<AccuracyChoice> choose_accuracy(const View& view, const Region& region, const TrueGround& truth,
-                                       const PagesOfGrids& pages, double tolerance_px,
+                                       const RegionPagesList& pages, double tolerance_px,
                                        const FixedAccuracy& fixed) {
     const auto with_fixed = [&](const AccuracyBundle& bundle) {
         return bundle_of(bundle.kind, bundle.name, fixed.tau_px.value_or(bundle.tau_px),
@@ -168,7 +169,7 @@ Result<AccuracyChoice> choose_accuracy(const View& view, const Region& region, c
     };
     View with = view;
     apply_bundle(with_fixed(accuracy_bundles().back()), with);
-    ORO_TRY(const TrueWorld world, true_world(with, region, pages));
+    ORO_TRY(const EarthParameters world, earth_parameters(with, region, pages));
     const EffectPrediction prediction(truth, pages, true_camera(view, region), world, thread_count());
     AccuracyChoice choice;
     choice.tolerance_px = tolerance_px;

@@ -71,12 +71,13 @@ struct Budget {
 
 // The true world of a view, of all grids of its region: the air is the view's own, or standard air where
 // light goes straight in it.
-Result<TrueWorld> true_world(const View& view, const Region& region, const PagesOfGrids& pages);
-DrawingModel drawing_model(const View& view, const TrueWorld& world);
+Result<EarthParameters> earth_parameters(const View& view, const Region& region,
+                                         const RegionPagesList& pages);
+DrawingModel drawing_model(const View& view, const EarthParameters& world);
 
 // Errors: pages that cannot be read.
 Result<Budget> plan_view(const View& view, const Region& region, const TrueGround& truth,
-                         const PagesOfGrids& pages, double tolerance_px);
+                         const RegionPagesList& pages, double tolerance_px);
 
 // What single options fix, whatever a bundle says.
 struct FixedAccuracy {
@@ -95,7 +96,7 @@ struct AccuracyChoice {
     std::vector<EffectKind> left_out{};
 };
 Result<AccuracyChoice> choose_accuracy(const View& view, const Region& region, const TrueGround& truth,
-                                       const PagesOfGrids& pages, double tolerance_px,
+                                       const RegionPagesList& pages, double tolerance_px,
                                        const FixedAccuracy& fixed = {});
 
 }  // namespace oro

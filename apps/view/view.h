@@ -23,12 +23,12 @@
 namespace oro {
 
 // What a view's file told, before options changed the view.
-struct ToldView {
+struct RecordedView {
     std::string file;
     int width_px{};
     int height_px{};
     bool own_look{true};                 // no option of this command changes its colours or its light
-    std::optional<Fingerprints> prints;  // none of before there were any
+    std::optional<Fingerprints> fingerprints;  // none of before there were any
 };
 
 // Which part of all around a panorama shows: azimuths from the left border clockwise, elevations from its
@@ -66,8 +66,8 @@ struct View : ViewSettings<OfView> {
     bool tells_paths{true};           // false: its picture names neither sources nor the folder of a style
     bool paths_from_own_file{false};  // relative paths start from the file that the view is in
     // What it was drawn from, as its file tells; from open_view on, what it is drawn from here.
-    std::optional<Fingerprints> prints;
-    std::optional<ToldView> told;  // of a view from a file, from open_view on
+    std::optional<Fingerprints> fingerprints;
+    std::optional<RecordedView> recorded;  // of a view from a file, from open_view on
 };
 
 // What to read, from the options. Usage errors: no path, a malformed box or tile.

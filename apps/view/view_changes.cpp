@@ -16,8 +16,8 @@ constexpr std::size_t most_named = 8;
 
 // Takes the pairs that `same` finds out of both lists, and hands them on.
 template <class Same, class Paired>
-void take_pairs(std::vector<OfSource>& told, std::vector<OfSource>& here, Same same, Paired paired) {
-    for (auto one = told.begin(); one != told.end();) {
+void take_pairs(std::vector<OfSource>& recorded, std::vector<OfSource>& here, Same same, Paired paired) {
+    for (auto one = recorded.begin(); one != recorded.end();) {
         const auto other =
             std::ranges::find_if(here, [&](const OfSource& source) { return same(*one, source); });
         if (other == here.end()) {
@@ -26,17 +26,17 @@ void take_pairs(std::vector<OfSource>& told, std::vector<OfSource>& here, Same s
         }
         paired(*one);
         here.erase(other);
-        one = told.erase(one);
+        one = recorded.erase(one);
     }
 }
 
 // The sources that are to blame for another region. Those of the same posts are the same, whatever they are
 // called now. On another grid all posts are laid otherwise: there only a name tells anything.
-std::vector<Error> sources_that_changed(const Fingerprints& told, const Fingerprints& here,
+std::vector<Error> sources_that_changed(const Fingerprints& recorded, const Fingerprints& here,
                                         const std::string& file) {
-    std::vector<OfSource> was = told.sources, is = here.sources;
+    std::vector<OfSource> was = recorded.sources, is = here.sources;
     std::vector<Error> lines;
-    const bool same_grid = told.grid == here.grid;
+    const bool same_grid = recorded.grid == here.grid;
     const auto named_alike = [](const OfSource& a, const OfSource& b) {
         return !a.name.empty() && a.name == b.name;
     };
@@ -60,15 +60,16 @@ std::vector<Error> sources_that_changed(const Fingerprints& told, const Fingerpr
     return lines;
 }
 
-void add_data(const Fingerprints& told, const Fingerprints& here, const std::string& file,
+void add_data(const Fingerprints& recorded, const Fingerprints& here, const std::string& file,
               std::vector<Change>& changes) {
-    if (!told.posts || !here.posts || *told.posts == *here.posts) return;
-    std::vector<Error> lines = sources_that_changed(told, here, file);
+    if (!recorded.posts || !here.posts || *recorded.posts == *here.posts) return;
+    std::vector<Error> lines = sources_that_changed(recorded, here, file);
     if (lines.empty())
         lines.push_back({ErrorKind::failed, file,
-                         told.grid == here.grid ? "was drawn from other heights than its data have now"
-                                                : "was drawn from another grid of posts than its data make "
-                                                  "now"});
+                         recorded.grid == here.grid
+                             ? "was drawn from other heights than its data have now"
+                             : "was drawn from another grid of posts than its data make "
+                               "now"});
     if (lines.size() > most_named) {
         const std::size_t more = lines.size() - most_named;
         lines.resize(most_named);
@@ -77,23 +78,23 @@ void add_data(const Fingerprints& told, const Fingerprints& here, const std::str
     for (Error& line : lines) changes.push_back({ChangeOf::data, std::move(line)});
 }
 
-void add_geoid(const Fingerprints& told, const Fingerprints& here, const std::string& file,
+void add_geoid(const Fingerprints& recorded, const Fingerprints& here, const std::string& file,
                std::vector<Change>& changes) {
-    if (told.undulation == here.undulation) return;
-    if (told.grid != here.grid) return;  // another place has another N
-    const std::string what = told.geoid == here.geoid
+    if (recorded.undulation == here.undulation) return;
+    if (recorded.grid != here.grid) return;  // another place has another N
+    const std::string what = recorded.geoid == here.geoid
                                  ? "the geoid grid is another than " + file +
                                        " was drawn with: " + here.geoid + " has other heights"
                                  : "the geoid is another than " + file + " was drawn with: that was " +
-                                       told.geoid + ", this is " + here.geoid;
+                                       recorded.geoid + ", this is " + here.geoid;
     changes.push_back({ChangeOf::geoid, {ErrorKind::failed, "geoid", what}});
 }
 
 // Files that a view names one by one: images, vectors.
-void add_files(const std::vector<OfSource>& told, const std::vector<OfSource>& here, const std::string& what,
-               const std::string& file, std::vector<Change>& changes) {
-    for (std::size_t i = 0; i < std::min(told.size(), here.size()); ++i) {
-        const OfSource &was = told[i], &is = here[i];
+void add_files(const std::vector<OfSource>& recorded, const std::vector<OfSource>& here,
+               const std::string& what, const std::string& file, std::vector<Change>& changes) {
+    for (std::size_t i = 0; i < std::min(recorded.size(), here.size()); ++i) {
+        const OfSource &was = recorded[i], &is = here[i];
         if (was.posts == is.posts) continue;
         changes.push_back({ChangeOf::data,
                            {ErrorKind::failed, is.name.empty() ? was.name : is.name,
@@ -104,22 +105,23 @@ void add_files(const std::vector<OfSource>& told, const std::vector<OfSource>& h
 // What nobody can tell any more, or nobody could ever.
 std::string unknown_of(const View& view) {
     const std::string cannot = ": whether its data are those that it was drawn from cannot be checked";
-    if (!view.told->prints) return view.told->file + ": carries no fingerprints" + cannot;
-    if (!view.told->prints->posts)
-        return view.told->file + ": was drawn from a region baked before there were fingerprints" + cannot;
-    if (!view.prints->posts)
-        return view.told->file + ": the data are a region baked before there were fingerprints" + cannot;
+    if (!view.recorded->fingerprints) return view.recorded->file + ": carries no fingerprints" + cannot;
+    if (!view.recorded->fingerprints->posts)
+        return view.recorded->file + ": was drawn from a region baked before there were fingerprints" +
+               cannot;
+    if (!view.fingerprints->posts)
+        return view.recorded->file + ": the data are a region baked before there were fingerprints" + cannot;
     return "";
 }
 
 // The pixels of a picture that keeps them; a note, whatever stands in the way of reading them.
 std::string edited_pixels(const View& view) {
-    const ToldView& told = *view.told;
-    if (!is_from_picture(view) || !told.prints || !told.prints->pixels) return "";
-    const auto print = print_of_pixels(told.file, told.width_px, told.height_px);
+    const RecordedView& recorded = *view.recorded;
+    if (!is_from_picture(view) || !recorded.fingerprints || !recorded.fingerprints->pixels) return "";
+    const auto print = print_of_pixels(recorded.file, recorded.width_px, recorded.height_px);
     if (!print.ok()) return print.error().line();
-    if (!*print || **print == *told.prints->pixels) return "";
-    return told.file + ": its pixels were changed after it was drawn";
+    if (!*print || **print == *recorded.fingerprints->pixels) return "";
+    return recorded.file + ": its pixels were changed after it was drawn";
 }
 
 void say_unknown(const View& view, bool quiet) {
@@ -128,40 +130,41 @@ void say_unknown(const View& view, bool quiet) {
 
 // True where none of the sources that a view was drawn from has been found, by its posts or by its name, and
 // the grid is another: what somebody named are data of another place.
-bool shares_no_source(const Fingerprints& told, const Fingerprints& here) {
+bool shares_no_source(const Fingerprints& recorded, const Fingerprints& here) {
     const auto alike = [](const OfSource& a, const OfSource& b) {
         return (!a.name.empty() && a.name == b.name) || (a.posts && a.posts == b.posts);
     };
     const auto is_there = [&](const OfSource& source) {
         return std::ranges::any_of(here.sources, [&](const OfSource& other) { return alike(source, other); });
     };
-    return told.grid != here.grid && !told.sources.empty() && std::ranges::none_of(told.sources, is_there);
+    return recorded.grid != here.grid && !recorded.sources.empty() &&
+           std::ranges::none_of(recorded.sources, is_there);
 }
 
 }  // namespace
 
 bool is_from_picture(const View& view) {
-    return view.told && !lower_case(view.told->file).ends_with(".json");
+    return view.recorded && !lower_case(view.recorded->file).ends_with(".json");
 }
 
 std::vector<Change> changes_of(const View& view) {
     std::vector<Change> changes;
-    if (!view.told || !view.told->prints || !view.prints) return changes;
-    const Fingerprints &told = *view.told->prints, &here = *view.prints;
-    add_data(told, here, view.told->file, changes);
-    add_geoid(told, here, view.told->file, changes);
-    add_files(told.images, here.images, "image", view.told->file, changes);
-    add_files(told.vectors, here.vectors, "vector file", view.told->file, changes);
-    if (told.program != here.program)
+    if (!view.recorded || !view.recorded->fingerprints || !view.fingerprints) return changes;
+    const Fingerprints &recorded = *view.recorded->fingerprints, &here = *view.fingerprints;
+    add_data(recorded, here, view.recorded->file, changes);
+    add_geoid(recorded, here, view.recorded->file, changes);
+    add_files(recorded.images, here.images, "image", view.recorded->file, changes);
+    add_files(recorded.vectors, here.vectors, "vector file", view.recorded->file, changes);
+    if (recorded.program != here.program)
         changes.push_back({ChangeOf::program,
-                           {ErrorKind::failed, view.told->file,
-                            "was drawn by version " + told.program + " of the program, and this is " +
+                           {ErrorKind::failed, view.recorded->file,
+                            "was drawn by version " + recorded.program + " of the program, and this is " +
                                 here.program + ": pixels may differ by rounding"}});
     return changes;
 }
 
 void say_changes(const View& view, bool quiet) {
-    if (!view.told) return;
+    if (!view.recorded) return;
     for (const Change& change : changes_of(view)) say(quiet, "note: " + change.line.line());
     say_unknown(view, quiet);
     say_edited(view, quiet);
@@ -172,20 +175,21 @@ void say_edited(const View& view, bool quiet) {
 }
 
 Result<void> check_unchanged(View& view, const Region& region, bool data_changed, bool quiet) {
-    if (!view.told) return {};
-    if (view.told->prints && view.told->prints->data_changed) view.prints->data_changed = true;
+    if (!view.recorded) return {};
+    if (view.recorded->fingerprints && view.recorded->fingerprints->data_changed)
+        view.fingerprints->data_changed = true;
     std::vector<Error> refused;
     for (const Change& change : changes_of(view)) {
         if (change.of == ChangeOf::program || data_changed)
             say(quiet, "note: " + change.line.line());
         else
             refused.push_back(change.line);
-        if (change.of != ChangeOf::program) view.prints->data_changed = true;
+        if (change.of != ChangeOf::program) view.fingerprints->data_changed = true;
     }
     say_unknown(view, quiet);
     if (refused.empty()) return {};
-    if (shares_no_source(*view.told->prints, *view.prints))
-        ORO_CHECK(nothing_in_view(view, region, view.told->file));
+    if (shares_no_source(*view.recorded->fingerprints, *view.fingerprints))
+        ORO_CHECK(nothing_in_view(view, region, view.recorded->file));
     for (std::size_t i = 0; i + 1 < refused.size(); ++i) say(false, refused[i].line());
     refused.back().what += " (--data-changed goes on)";
     return refused.back();

@@ -247,7 +247,8 @@ View read_fields(const nlohmann::json& json) {
     read_settings(json, view);
     view.time_utc_s = whole(json, "time_utc_s", limits::time_utc_s);
     // Views of before there were any have none.
-    if (json.contains("fingerprints")) view.prints = prints_from(json_field(json, "fingerprints"));
+    if (json.contains("fingerprints"))
+        view.fingerprints = fingerprints_from(json_field(json, "fingerprints"));
     return view;
 }
 
@@ -342,7 +343,7 @@ std::string view_to_json(const View& view, bool pretty) {
     json.update(settings);
     json["time_utc_s"] = view.time_utc_s;
     json["time"] = time_text(view.time_utc_s);
-    if (view.prints) json["fingerprints"] = prints_json(*view.prints);
+    if (view.fingerprints) json["fingerprints"] = fingerprints_json(*view.fingerprints);
     return json_text(json, pretty);
 }
 

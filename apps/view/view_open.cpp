@@ -66,7 +66,7 @@ Result<void> open_images(View& view) {
         ORO_TRY(const bool there, is_there(file));
         if (!there && !file.starts_with("/vsi")) return Error{ErrorKind::failed, file, "no such image"};
         ORO_TRY(ImageSource image, open_image(file, view.drape_values));
-        view.prints->images.push_back({std::filesystem::path(file).filename().string(), image.print});
+        view.fingerprints->images.push_back({std::filesystem::path(file).filename().string(), image.print});
         view.images.push_back(std::move(image));
     }
     return {};
@@ -75,7 +75,7 @@ Result<void> open_images(View& view) {
 // The same for all that a view names beside its elevation data.
 Result<void> open_files(View& view) {
     ORO_CHECK(open_images(view));
-    ORO_TRY(view.vectors_read, open_vectors(view.vectors, view.prints->vectors));
+    ORO_TRY(view.vectors_read, open_vectors(view.vectors, view.fingerprints->vectors));
     return {};
 }
 
@@ -110,12 +110,13 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         ORO_TRY(view, read_view(view_file));
         ORO_CHECK(check_map(view, view_options, view_file));
         ORO_CHECK(check_kind(view, view_file, kind));
-        view.told = ToldView{view_file, view.camera.width_px, view.camera.height_px + view.legend_px,
-                             !first_given(view_option_table(), view_options, is_look), view.prints};
-        const std::string told_style = view.style;
+        view.recorded =
+            RecordedView{view_file, view.camera.width_px, view.camera.height_px + view.legend_px,
+                         !first_given(view_option_table(), view_options, is_look), view.fingerprints};
+        const std::string recorded_style = view.style;
         ORO_CHECK(change_view(view, view_options));
         // With another style goes another usual sun.
-        if (view.style != told_style && (!view.sun || view.sun->is_usual)) {
+        if (view.style != recorded_style && (!view.sun || view.sun->is_usual)) {
             view.sun.reset();
             take_usual_sun(view);
             aim_sun(view.sun, eye_for_sun(view));
@@ -123,7 +124,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         // A sun that its file told stays where the file has it: the same view, the same bytes.
         if (view_options.sun_time) aim_sun(view.sun, eye_for_sun(view));
         ORO_CHECK(change_region(view, region_options));
-        view.region.grids_apart = view.several_grids;
+        view.region.allow_multiple_grids = view.several_grids;
         if (view.region.paths.empty())
             return Error{ErrorKind::usage, "--view " + view_file,
                          "does not tell where its elevation data lie: name them, too"};
@@ -132,14 +133,15 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         region = std::move(*opened);
         view.own_posts = keeps_own_posts(region);
         view.several_grids = region.grids.size() > 1;
-        view.prints = prints_of(region);
+        view.fingerprints = fingerprints_of(region);
         begin_with_grid_at(view.camera.eye, region);
         ORO_CHECK(check_own_posts(view, region));
         if (!view.has_geoid) leave_geoid_out(region);
         // Those that somebody names instead are others on purpose.
-        if (!view_options.drape.empty() && view.told->prints) view.told->prints->images.clear();
-        if ((!view_options.names.empty() || !view_options.overlay.empty()) && view.told->prints)
-            view.told->prints->vectors.clear();
+        if (!view_options.drape.empty() && view.recorded->fingerprints)
+            view.recorded->fingerprints->images.clear();
+        if ((!view_options.names.empty() || !view_options.overlay.empty()) && view.recorded->fingerprints)
+            view.recorded->fingerprints->vectors.clear();
         return open_files(view);
     }
     ORO_TRY(RegionRequest request, region_request(region_options));
@@ -148,7 +150,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     ORO_TRY(region, open_region(view.region, progress));
     view.own_posts = keeps_own_posts(region);
     view.several_grids = region.grids.size() > 1;
-    view.prints = prints_of(region);
+    view.fingerprints = fingerprints_of(region);
     ORO_CHECK(check_own_posts(view, region));
     ORO_CHECK(open_files(view));
     if (!view.has_geoid) leave_geoid_out(region);

@@ -13,7 +13,7 @@
 #include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "apps/view/view_option_table.h"
-#include "geo/sources/told_of_files.h"
+#include "geo/sources/source_overrides.h"
 
 namespace oro {
 namespace {
@@ -134,7 +134,7 @@ Result<RegionRequest> region_request(const RegionOptions& options) {
     request.strict_datum = options.strict_datum;
     request.fill_voids = options.fill_voids;
     request.resample = options.resample;
-    request.grids_apart = true;
+    request.allow_multiple_grids = true;
     request.listed_first = options.order == "listed";
     if (options.feather_m) {
         ORO_TRY(request.feather_m, within("--feather", *options.feather_m, view_limits::feather_m));

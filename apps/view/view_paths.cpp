@@ -89,40 +89,40 @@ Result<std::string> from_folder(const fs::path& folder, const std::string& named
 
 }  // namespace
 
-Result<View> view_told_by(const View& view, const std::string& picture) {
-    View told = view;
-    told.paths_from_own_file = true;
-    if (!told.tells_paths) {
-        told.region.paths.clear();
-        if (told.prints) {
-            for (Fingerprints::OfSource& source : told.prints->sources) source.name.clear();
-            for (Fingerprints::OfSource& image : told.prints->images) image.name.clear();
-            for (Fingerprints::OfSource& vectors : told.prints->vectors) vectors.name.clear();
+Result<View> view_recorded_by(const View& view, const std::string& picture) {
+    View recorded = view;
+    recorded.paths_from_own_file = true;
+    if (!recorded.tells_paths) {
+        recorded.region.paths.clear();
+        if (recorded.fingerprints) {
+            for (Fingerprints::OfSource& source : recorded.fingerprints->sources) source.name.clear();
+            for (Fingerprints::OfSource& image : recorded.fingerprints->images) image.name.clear();
+            for (Fingerprints::OfSource& vectors : recorded.fingerprints->vectors) vectors.name.clear();
         }
-        for (std::string& image : told.drape) image = fs::path(image).filename().string();
-        for (std::string* const file : told.vectors.paths()) *file = fs::path(*file).filename().string();
-        if (is_style_path(told.style)) told.style = fs::path(told.style).filename().string();
-        return told;
+        for (std::string& image : recorded.drape) image = fs::path(image).filename().string();
+        for (std::string* const file : recorded.vectors.paths()) *file = fs::path(*file).filename().string();
+        if (is_style_path(recorded.style)) recorded.style = fs::path(recorded.style).filename().string();
+        return recorded;
     }
     const fs::path parent = fs::path(picture).parent_path();
     ORO_TRY(const fs::path folder, without_links(parent.empty() ? fs::path(".") : parent));
     if (folder.empty()) {
-        told.paths_from_own_file = false;
-        return told;
+        recorded.paths_from_own_file = false;
+        return recorded;
     }
-    for (std::string& path : told.region.paths) {
+    for (std::string& path : recorded.region.paths) {
         ORO_TRY(path, from_folder(folder, path));
     }
-    for (std::string& image : told.drape) {
+    for (std::string& image : recorded.drape) {
         ORO_TRY(image, from_folder(folder, image));
     }
-    for (std::string* const file : told.vectors.paths()) {
+    for (std::string* const file : recorded.vectors.paths()) {
         ORO_TRY(*file, from_folder(folder, *file));
     }
-    if (is_style_path(told.style)) {
-        ORO_TRY(told.style, from_folder(folder, told.style));
+    if (is_style_path(recorded.style)) {
+        ORO_TRY(recorded.style, from_folder(folder, recorded.style));
     }
-    return told;
+    return recorded;
 }
 
 Result<void> lead_from_working_folder(View& view, const std::string& file) {

@@ -7,8 +7,8 @@
 #include "apps/accuracy/beyond_data.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
+#include "apps/drawing/background_pyramid_build.h"
 #include "apps/drawing/drape.h"
-#include "apps/drawing/finer_levels.h"
 #include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/picking.h"
 #include "apps/drawing/pipeline_choice.h"
@@ -56,7 +56,8 @@ struct Viewer {
     std::string message{};                         // shown in the title until the eye moves
     bool is_missing{};                             // something that the last frame should have had
     std::unique_ptr<const RegionGround> ground{};  // made when it is first asked, for all questions after
-    std::unique_ptr<FinerLevels> finer{};          // the levels that the view asks for, until they are here
+    std::unique_ptr<BackgroundPyramidBuild>
+        finer{};                                   // the levels that the view asks for, until they are here
     std::unique_ptr<Scene> coming{};               // of them, until what a picture needs is on the GPU
     Clock::time_point coming_since{};
     Clock::time_point started{};
@@ -213,11 +214,11 @@ Tile whole_of(const Camera& camera) {
 
 // What a coarse picture needs of the scene that comes: with that it takes the place of the one that is shown,
 // and the eye stays. Until then the window goes on. True once it has.
-Result<bool> bring_finer_scene(Viewer& viewer) {
+Result<bool> swap_in_full_pyramid(Viewer& viewer) {
     constexpr double first_tau_px = 4.0, longest_s = 10.0;
     Scene& scene = *viewer.coming;
     const Camera& camera = viewer.view.camera;
-    scene.hold_for(viewer.style.frame);
+    scene.require_fields(viewer.style.frame);
     ORO_TRY(const FramePlan plan,
             scene.plan(
                 {camera, whole_of(camera), std::max(first_tau_px, viewer.view.tau_px), viewer.view.model}));
@@ -410,7 +411,7 @@ void say_what_is_shown(Viewer& viewer, bool whole) {
 // What a frame would be drawn from now, and what of it is missing.
 Result<FramePlan> plan_now(Viewer& viewer) {
     const Camera& camera = viewer.view.camera;
-    viewer.scene->hold_for(viewer.style.frame);
+    viewer.scene->require_fields(viewer.style.frame);
     ORO_TRY(FramePlan plan,
             viewer.scene->plan({camera, whole_of(camera), viewer.view.tau_px, viewer.view.model}));
     viewer.is_missing = !plan.is_settled();
@@ -449,7 +450,7 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
                           viewer.follows_eye ? Eye::moves : Eye::rests));
     ORO_TRY(const FrameReport drawn,
             viewer.renderer.draw(std::move(plan), viewer.style.frame, 0, 1, viewer.scene->drapes()));
-    viewer.scene->saw(drawn.sights);
+    viewer.scene->apply_feedback(drawn.feedback);
     ORO_CHECK(write_over(viewer, drawn));
     const int every = is_coarse(viewer) ? coarse_step(viewer.region.grids.front().field) : 1;
     ORO_CHECK(viewer.legend.lay_over(viewer.view, viewer.region, viewer.style, every, viewer.renderer));
@@ -466,7 +467,7 @@ Result<void> draw_frame(Viewer& viewer, bool& changed) {
 Result<void> refine(Viewer& viewer, bool& changed) {
     if (viewer.finer && viewer.finer->ready()) ORO_CHECK(begin_finer_scene(viewer));
     if (!viewer.coming || viewer.waits_for_ground) return {};
-    ORO_TRY(const bool is_here, bring_finer_scene(viewer));
+    ORO_TRY(const bool is_here, swap_in_full_pyramid(viewer));
     changed = changed || is_here;
     return {};
 }
@@ -541,7 +542,7 @@ Result<void> run_view(const WindowOptions& options) {
     Scene& scene = whole.scene;
     ORO_CHECK(lay_images(view, options.memory, *gpu, scene, options.quiet));
     bar.clear();
-    ORO_CHECK(say_notes_of(options, view, region, note_of_means(style.frame, scene.pages())));
+    ORO_CHECK(say_notes_of(options, view, region, note_of_missing_footprints(style.frame, scene.pages())));
     ORO_TRY(const std::unique_ptr<Window> window, open_window(*gpu, view.camera));
     FrameRendererOptions renderer_options;
     renderer_options.extent = window->extent();
@@ -563,7 +564,8 @@ Result<void> run_view(const WindowOptions& options) {
                   renderer_options.path};
     viewer.started = started;
     viewer.jumps = Jumps(users_roll_deg(viewer.view.camera, options.view.roll_deg));
-    if (coarse_first) viewer.finer = std::make_unique<FinerLevels>(viewer.region, viewer.view.exaggeration);
+    if (coarse_first)
+        viewer.finer = std::make_unique<BackgroundPyramidBuild>(viewer.region, viewer.view.exaggeration);
     return run_loop(viewer);
 }
 

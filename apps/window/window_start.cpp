@@ -4,7 +4,7 @@
 #include <system_error>
 
 #include "apps/command_line/refusals.h"
-#include "apps/drawing/finer_levels.h"
+#include "apps/drawing/background_pyramid_build.h"
 #include "apps/eye/standpoint.h"
 #include "apps/report/json_text.h"
 #include "apps/window/flight.h"
@@ -45,7 +45,7 @@ std::string free_picture_name(std::int64_t time_utc_s) {
 
 Result<GridPages> first_pages(const Region& region, const RegionCuts& cuts, const View& view,
                               const RenderProgress& progress) {
-    if (!measures_long(region)) return pages_of_grids(region, cuts, view.exaggeration, progress);
+    if (!measures_long(region)) return make_grid_pages(region, cuts, view.exaggeration, progress);
     GridPages coarse;
     coarse.push_back(
         pages_in_memory(coarse_field(region.grids.front().field), view.exaggeration, thread_count()));

@@ -36,7 +36,7 @@ struct Table {
     std::size_t rows, columns;
     [[nodiscard]] std::size_t posts() const { return rows * columns; }
 };
-Table table_of(const GridNet::Stored& net) {
+Table table_of(const LatticeGeoreference::Stored& net) {
     return {static_cast<std::size_t>(net.down.patch_posts) + 1,
             static_cast<std::size_t>(net.across.patch_posts) + 1};
 }
@@ -65,7 +65,7 @@ void for_each_number(Corrections& corrections, const Table& table, const Visit& 
 // frame. It holds what each step differs from the plane through its neighbours before it (west + north -
 // north-west), as 0, -1, 1, -2, ...: first the low bytes of all, then the high ones; correction by
 // correction, x, y and z of each, row by row.
-std::vector<std::byte> pack_corrections(const GridNet::Stored& net) {
+std::vector<std::byte> pack_corrections(const LatticeGeoreference::Stored& net) {
     const Table table = table_of(net);
     assert(net.down.patch_posts <= patch_posts_max && net.across.patch_posts <= patch_posts_max);
     const std::size_t numbers = net.corrections.size() * table.posts() * 3;
@@ -93,14 +93,14 @@ std::vector<std::byte> pack_corrections(const GridNet::Stored& net) {
 }
 
 // `net` has all but its corrections, and its numbers may lie.
-Result<void> unpack_corrections(std::span<const std::byte> bytes, GridNet::Stored& net) {
-    const auto fits = [](const GridNet::Stored::Axis& axis) {
+Result<void> unpack_corrections(std::span<const std::byte> bytes, LatticeGeoreference::Stored& net) {
+    const auto fits = [](const LatticeGeoreference::Stored::Axis& axis) {
         return axis.patch_posts >= 2 && axis.patch_posts <= patch_posts_max;
     };
     if (!fits(net.down) || !fits(net.across))
         return wrong_net("its corrections are of patches that have none");
     const std::size_t count = bytes.size() < 4 ? 0 : from_little_endian<std::uint32_t>(bytes.data());
-    const std::size_t patches = net.coefficients.size() / GridNet::coefficients_a_patch;
+    const std::size_t patches = net.coefficients.size() / LatticeGeoreference::coefficients_a_patch;
     const std::size_t front = 4 + 4 * count;
     if (count == 0 || count > patches || front > bytes.size())
         return wrong_net("its corrections are " + std::to_string(count) + " in " +
@@ -136,8 +136,8 @@ Result<void> unpack_corrections(std::span<const std::byte> bytes, GridNet::Store
 
 }  // namespace
 
-std::vector<std::byte> net_to_bytes(const GridNet& net) {
-    const GridNet::Stored stored = net.stored();
+std::vector<std::byte> net_to_bytes(const LatticeGeoreference& net) {
+    const LatticeGeoreference::Stored stored = net.stored();
     NumberWriter put;
     exchange_front(put, stored);
     for (const glm::dvec3& coefficient : stored.coefficients)
@@ -149,10 +149,10 @@ std::vector<std::byte> net_to_bytes(const GridNet& net) {
     return std::move(put.bytes);
 }
 
-Result<std::shared_ptr<const GridNet>> net_from_bytes(std::span<const std::byte> bytes, int rows,
-                                                      int columns) {
+Result<std::shared_ptr<const LatticeGeoreference>> net_from_bytes(std::span<const std::byte> bytes, int rows,
+                                                                  int columns) {
     if (bytes.size() < net_front_bytes) return wrong_net("it has " + std::to_string(bytes.size()) + " bytes");
-    GridNet::Stored stored;
+    LatticeGeoreference::Stored stored;
     NumberReader get(bytes);
     exchange_front(get, stored);
     if (stored.down.posts != rows || stored.across.posts != columns)
@@ -161,15 +161,15 @@ Result<std::shared_ptr<const GridNet>> net_from_bytes(std::span<const std::byte>
                          " x " + std::to_string(columns));
     // As many patches as it says that it has; what is left then are corrections.
     const std::uint64_t found = (bytes.size() - net_front_bytes) / patch_bytes;
-    const auto said = [](const GridNet::Stored::Axis& axis) {
+    const auto said = [](const LatticeGeoreference::Stored::Axis& axis) {
         return static_cast<std::uint64_t>(std::max(axis.patches, 0));
     };
     const std::uint64_t patches = std::min(said(stored.down) * said(stored.across), found);
-    stored.coefficients.resize(patches * GridNet::coefficients_a_patch);
+    stored.coefficients.resize(patches * LatticeGeoreference::coefficients_a_patch);
     for (glm::dvec3& coefficient : stored.coefficients)
         for (int axis = 0; axis < 3; ++axis) get(coefficient[axis]);
     if (!get.rest().empty()) ORO_CHECK(unpack_corrections(get.rest(), stored));
-    return GridNet::from(stored);
+    return LatticeGeoreference::from(stored);
 }
 
 }  // namespace oro::region_format

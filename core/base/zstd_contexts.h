@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "core/base/lent.h"
+#include "core/base/pooled_object.h"
 
 namespace oro {
 
@@ -22,7 +22,7 @@ inline ZstdCompressor new_zstd_compressor() {
 inline ZstdDecompressor new_zstd_decompressor() {
     return ZstdDecompressor(ZSTD_createDCtx());
 }
-using ZstdPacker = Lent<ZstdCompressor, new_zstd_compressor>;
-using ZstdUnpacker = Lent<ZstdDecompressor, new_zstd_decompressor>;
+using ZstdPacker = PooledObject<ZstdCompressor, new_zstd_compressor>;
+using ZstdUnpacker = PooledObject<ZstdDecompressor, new_zstd_decompressor>;
 
 }  // namespace oro

@@ -84,7 +84,7 @@ ClusterOutline outline_from_bytes(std::span<const std::byte> bytes) {
 
 std::vector<std::byte> record_to_bytes(const StoredGroup& stored, std::uint32_t number) {
     NumberWriter put;
-    std::uint32_t whole = stored.group.whole ? 1 : 0;
+    std::uint32_t whole = stored.group.complete ? 1 : 0;
     visit_record(put, stored, whole);
     put(xxh64(put.bytes, number));
     return std::move(put.bytes);
@@ -95,7 +95,7 @@ StoredGroup record_from_bytes(std::span<const std::byte> bytes) {
     NumberReader get(bytes);
     std::uint32_t whole = 0;
     visit_record(get, stored, whole);
-    stored.group.whole = whole != 0;
+    stored.group.complete = whole != 0;
     return stored;
 }
 

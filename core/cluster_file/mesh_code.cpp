@@ -98,10 +98,10 @@ template <class Coder>
 int MeshCode::code_beyond(Coder& coder, const ClusterWalk::Edge& edge, int vertex) {
     look_from(edge);
     Candidate candidate = take_best(edge);
-    const std::size_t kind = candidate.vertex == none ? 2 : walk_.is_told(candidate.vertex) ? 1 : 0;
+    const std::size_t kind = candidate.vertex == none ? 2 : walk_.is_coded(candidate.vertex) ? 1 : 0;
     if (coder.bit(nothing_[kind][angle_class(candidate.cotangent)], vertex == none)) return none;
     for (std::uint32_t rank = 0; rank < most_ranks && candidate.vertex != none; ++rank) {
-        AdaptiveBit& passed = passed_[walk_.is_told(candidate.vertex) ? 1 : 0][rank];
+        AdaptiveBit& passed = passed_[walk_.is_coded(candidate.vertex) ? 1 : 0][rank];
         if (!coder.bit(passed, candidate.vertex != vertex)) return candidate.vertex;
         candidate = take_best(edge);
     }
@@ -117,7 +117,7 @@ bool MeshCode::code_first(Coder& coder, LocalTriangle& triangle) {
     const auto any = [&](std::uint8_t vertex) {
         return static_cast<std::uint8_t>(coder.uniform(vertices, vertex));
     };
-    while (least_untold_ < static_cast<int>(vertices) && walk_.is_told(least_untold_)) ++least_untold_;
+    while (least_untold_ < static_cast<int>(vertices) && walk_.is_coded(least_untold_)) ++least_untold_;
     const bool is_next = coder.bit(first_is_next_, triangle[0] == least_untold_);
     triangle[0] = is_next ? static_cast<std::uint8_t>(least_untold_) : any(triangle[0]);
     for (const std::size_t corner : {1, 2}) triangle[corner] = any(triangle[corner]);
@@ -152,7 +152,7 @@ bool MeshCode::code(Coder& coder, std::span<const GridPosition> points, std::uin
         if constexpr (!Coder::writes) triangles.push_back(triangle);
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (!walk_.is_told(static_cast<int>(i))) return false;
+        if (!walk_.is_coded(static_cast<int>(i))) return false;
     }
     return true;
 }

@@ -7,7 +7,7 @@
 namespace oro {
 namespace {
 
-enum class Asked : char { no, hidden, stands, gives_way };
+enum class Asked : char { no, hidden, stands, deselected };
 
 class Cut {
   public:
@@ -59,7 +59,7 @@ class Cut {
         } else if (view_.stands(group)) {
             asked_[number] = Asked::stands;
         } else {
-            asked_[number] = Asked::gives_way;
+            asked_[number] = Asked::deselected;
             ++choice_.groups_opened;
             open_.push_back(number);
         }

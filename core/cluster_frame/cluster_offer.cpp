@@ -12,11 +12,11 @@ void OfferedCut::add_coarser(double distance_m, std::uint32_t cluster, std::uint
         coarser_.emplace_back(distance_m, cluster, user);
         return;
     }
-    must_give_way_[clusters_.maker(cluster)] = true;
+    must_be_deselected_[clusters_.maker(cluster)] = true;
 }
 
 std::uint32_t OfferedCut::ask(std::uint32_t group) {
-    if (group == no_group || must_give_way_[group]) return gpu::no_asked_group;
+    if (group == no_group || must_be_deselected_[group]) return gpu::no_asked_group;
     if (numbers_[group] == gpu::no_asked_group) {
         numbers_[group] = static_cast<std::uint32_t>(offer_.asked.size());
         offer_.asked.push_back(view_.measured(clusters_.groups()[group]));
@@ -36,12 +36,13 @@ void OfferedCut::offer(std::vector<Found>& found) {
 ClusterOffer OfferedCut::take(std::span<const std::uint32_t> opened) {
     // Where a group cannot stand none above it can.
     for (const std::uint32_t group : opened | std::views::reverse) {
-        if (!must_give_way_[group]) continue;
+        if (!must_be_deselected_[group]) continue;
         for (const Cluster& made : clusters_.read_part(group)->made)
-            if (made.used_by != no_group) must_give_way_[made.used_by] = true;
+            if (made.used_by != no_group) must_be_deselected_[made.used_by] = true;
     }
-    std::erase_if(coarser_,
-                  [&](const Found& found) { return must_give_way_[clusters_.maker(std::get<1>(found))]; });
+    std::erase_if(coarser_, [&](const Found& found) {
+        return must_be_deselected_[clusters_.maker(std::get<1>(found))];
+    });
     offer(of_cut_);
     offer_.in_cut = offer_.clusters.size();
     offer(coarser_);

@@ -36,7 +36,7 @@ class OfferedCut {
     OfferedCut(const RegionClusters& clusters, const ClusterView& view)
         : clusters_(clusters),
           view_(view),
-          must_give_way_(clusters.groups().size()),
+          must_be_deselected_(clusters.groups().size()),
           numbers_(clusters.groups().size(), gpu::no_asked_group) {}
 
     // A cluster of the cut that is seen. user: the group that uses it, which gives way; no_group: none does.
@@ -57,7 +57,7 @@ class OfferedCut {
     const RegionClusters& clusters_;
     const ClusterView& view_;
     std::vector<Found> of_cut_, coarser_;
-    std::vector<bool> must_give_way_;     // of each group
+    std::vector<bool> must_be_deselected_;  // of each group
     std::vector<std::uint32_t> numbers_;  // of each group among those that are asked, or gpu::no_asked_group
     ClusterOffer offer_;
 };

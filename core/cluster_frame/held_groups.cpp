@@ -41,7 +41,7 @@ std::shared_ptr<const GroupPart> HeldGroups::share(std::uint32_t group) const {
 const GroupPart* HeldGroups::put(std::uint32_t group, std::unique_ptr<GroupPart> part) {
     if (const GroupPart* const here = use(group)) return here;
     const std::uint64_t bytes = held_bytes(*part);
-    make_room(bytes);
+    evict_unused(bytes);
     for (const std::uint32_t member : part->members)
         if (member < users_.size()) users_[member] = group;
     auto held = std::make_unique<Held>();
@@ -59,12 +59,12 @@ void HeldGroups::put_reach(std::uint32_t cluster, std::uint32_t maker, const Clu
         group == no_group ? !held_.empty() : use(group) == nullptr)
         return;
     if (reaches_[cluster]) return;
-    make_room(held_reach_bytes);
+    evict_unused(held_reach_bytes);
     reaches_[cluster] = std::make_unique<ClusterReach>(reach);
     bytes_ += held_reach_bytes;
 }
 
-void HeldGroups::make_room(std::uint64_t more) {
+void HeldGroups::evict_unused(std::uint64_t more) {
     // The frame's own are the last.
     while (bytes_ + more > most_bytes_ && !order_.empty() && held_[order_.front()]->used < frame_)
         drop(order_.front());

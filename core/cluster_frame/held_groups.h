@@ -46,9 +46,9 @@ class HeldGroups {
     void begin_frame();
     // Groups that other ground hides, as far as is known, in the place of those told before. Any numbers: of
     // a cluster that nothing made or uses, no_group.
-    void note_hidden(std::vector<std::uint32_t> groups) { hidden_ = std::move(groups); }
+    void mark_occluded(std::vector<std::uint32_t> groups) { hidden_ = std::move(groups); }
     // Lets go of what the frame has not used, as far as there is too much of it.
-    void end_frame() { make_room(0); }
+    void end_frame() { evict_unused(0); }
 
     // Null where it is not here. The second is used by the frame.
     [[nodiscard]] const GroupPart* find(std::uint32_t group) const {
@@ -83,7 +83,7 @@ class HeldGroups {
         std::list<std::uint32_t>::iterator place;
     };
     // Lets others give way until there is room for so much more, or no other can.
-    void make_room(std::uint64_t more);
+    void evict_unused(std::uint64_t more);
     void drop(std::uint32_t group);
     void drop_reach(std::uint32_t cluster);
 

@@ -64,7 +64,7 @@ RegionClusters::RegionClusters(const HeightField& field, const HorizonOccluder& 
     : grid_(field.grid),
       occluder_(occluder),
       heights_(drawn_heights(field, 1.0, thread_count())),
-      surface_(heights_, {.goes_round = field.grid.goes_round()}),
+      surface_(heights_, {.wraps_longitude = field.grid.wraps_longitude()}),
       bounds_(grid_, heights_.highest_steps),
       leaf_nodes_(surface_.leaf_nodes()) {}
 

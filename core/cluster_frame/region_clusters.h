@@ -61,7 +61,7 @@ class RegionClusters {
     // nothing gives way.
     void hold_at_most(std::uint64_t bytes) { held_.hold_at_most(bytes); }
     void begin_frame() { held_.begin_frame(); }
-    void note_hidden(std::vector<std::uint32_t> groups) { held_.note_hidden(std::move(groups)); }
+    void mark_occluded(std::vector<std::uint32_t> groups) { held_.mark_occluded(std::move(groups)); }
     void end_frame() { held_.end_frame(); }
     [[nodiscard]] const HeldGroups& held() const { return held_; }
     // Reads groups, and the reach of clusters, that are not here, by several threads. Errors: damage.

@@ -169,13 +169,14 @@ class StreamedCut {
     }
 
     // A group that uses what this one made and was not asked has none above it in view, or an unread one.
-    [[nodiscard]] bool gives_way(std::uint32_t user) const {
+    [[nodiscard]] bool deselected(std::uint32_t user) const {
         if (user == no_group || asked_[user] == Answer::open || asked_[user] == Answer::hidden) return true;
         return asked_[user] == Answer::no && view_.is_beyond_frustum(clusters_.groups()[user]);
     }
     [[nodiscard]] bool may_open(const Opened& opened) const {
         const GroupPart& part = *clusters_.read_part(opened.group);
-        return std::ranges::all_of(part.made, [&](const Cluster& made) { return gives_way(made.used_by); }) &&
+        return std::ranges::all_of(part.made,
+                                   [&](const Cluster& made) { return deselected(made.used_by); }) &&
                std::none_of(met_.begin() + static_cast<std::ptrdiff_t>(opened.first),
                             met_.begin() + static_cast<std::ptrdiff_t>(opened.last),
                             [&](const Met& met) { return is_of_cut(met) && lacks(met); });
@@ -191,10 +192,10 @@ class StreamedCut {
         std::vector<Sight> sights;
         group_sights_.resize(asked_.size(), Sight::unknown);
         for (const Met& met : met_) {
-            const auto told = shown.find(met.cluster);
+            const auto reported = shown.find(met.cluster);
             Sight sight = Sight::unknown;
-            if (told != shown.end())
-                sight = told->second ? Sight::shows : Sight::hidden;
+            if (reported != shown.end())
+                sight = reported->second ? Sight::shows : Sight::hidden;
             else if (is_seen(met))
                 sight = met.user != no_group && group_sights_[met.user] == Sight::hidden ? Sight::hidden
                                                                                          : Sight::shows;
@@ -212,8 +213,8 @@ class StreamedCut {
         std::vector<bool> needed(asked_.size());
         for (std::size_t i = met_.size(); i-- > 0;) {
             const std::uint32_t maker = clusters_.maker(met_[i].cluster), user = met_[i].user;
-            const bool gives_way = maker != no_group && asked_[maker] != Answer::stands && needed[maker];
-            if (user != no_group && (gives_way || sights[i] == Sight::shows)) needed[user] = true;
+            const bool deselected = maker != no_group && asked_[maker] != Answer::stands && needed[maker];
+            if (user != no_group && (deselected || sights[i] == Sight::shows)) needed[user] = true;
         }
         for (std::size_t i = 0; i < met_.size(); ++i) {
             if (met_[i].user == no_group || !needed[met_[i].user]) continue;
@@ -265,9 +266,9 @@ class StreamedCut {
 
 }  // namespace
 
-Result<StreamedChoice> choose_clusters_here(RegionClusters& clusters, const ClusterView& view,
-                                            std::size_t room, const IsClusterHere& is_here,
-                                            const ShownClusters& shown) {
+Result<StreamedChoice> select_resident_cut(RegionClusters& clusters, const ClusterView& view,
+                                           std::size_t room, const IsClusterHere& is_here,
+                                           const ShownClusters& shown) {
     const auto cut_for = [&](const ClusterView& asked) {
         StreamedCut cut(clusters, asked, is_here);
         cut.walk();

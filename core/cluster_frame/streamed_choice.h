@@ -36,8 +36,8 @@ using IsClusterHere = std::function<bool(std::uint32_t cluster)>;
 // there is something to go back to when the eye moves; of these the coarsest, as far as there is room.
 // room: clusters that the GPU may hold beside the roots. shown: by the last frame; what comes in the place of
 // clusters that it hid is hidden, and comes last. It changes nothing else. Errors: damage.
-Result<StreamedChoice> choose_clusters_here(RegionClusters& clusters, const ClusterView& view,
-                                            std::size_t room, const IsClusterHere& is_here,
-                                            const ShownClusters& shown = {});
+Result<StreamedChoice> select_resident_cut(RegionClusters& clusters, const ClusterView& view,
+                                           std::size_t room, const IsClusterHere& is_here,
+                                           const ShownClusters& shown = {});
 
 }  // namespace oro

@@ -56,7 +56,7 @@ class Beginning {
             });
             for (std::size_t i = 0; i < parts.size(); ++i) {
                 ORO_CHECK(read[i]);
-                parts[i].group.whole = is_within(joined_.group(numbers[first + i]).extent, window);
+                parts[i].group.complete = is_within(joined_.group(numbers[first + i]).extent, window);
                 add(numbers[first + i], parts[i]);
             }
         }

@@ -53,7 +53,7 @@ class BuiltWindow {
             if (static_cast<int>(group.level) < region_.sizes.above) continue;
             if (!window_.owns(middle.row, middle.column)) continue;
             own.push_back(i);
-            if (static_cast<int>(group.level) > region_.sizes.above && !group.whole) return std::nullopt;
+            if (static_cast<int>(group.level) > region_.sizes.above && !group.complete) return std::nullopt;
             for (std::uint32_t j = group.first_made; j < group.first_made + group.made; ++j)
                 if (!is_used_whole(graph_.clusters[j])) return std::nullopt;
         }
@@ -103,27 +103,27 @@ class BuiltWindow {
         return counts;
     }
 
-    [[nodiscard]] WindowGroup told_of(std::uint32_t number) const {
+    [[nodiscard]] WindowGroup indexed_group(std::uint32_t number) const {
         const ClusterGroup& group = graph_.groups[number];
-        WindowGroup told;
-        told.level = group.level;
-        told.tile = tiles_[number];
-        told.made = group.made;
-        told.error_m = group.error_m;
-        told.centre = group.centre;
-        told.radius_m = group.radius_m;
-        if (number < begun_triangles_in_.size()) told.triangles_in = begun_triangles_in_[number];
+        WindowGroup indexed;
+        indexed.level = group.level;
+        indexed.tile = tiles_[number];
+        indexed.made = group.made;
+        indexed.error_m = group.error_m;
+        indexed.centre = group.centre;
+        indexed.radius_m = group.radius_m;
+        if (number < begun_triangles_in_.size()) indexed.triangles_in = begun_triangles_in_[number];
         for (const std::uint32_t member : graph_.members_of(group))
-            told.triangles_in += graph_.clusters[member].triangles;
+            indexed.triangles_in += graph_.clusters[member].triangles;
         const SurfaceVertex first =
             over().vertex(graph_.triangles_of(graph_.clusters[group.first_made]).front()[0]);
-        told.extent = {first.row, first.row, first.column, first.column};
+        indexed.extent = {first.row, first.row, first.column, first.column};
         for (std::uint32_t i = group.first_made; i < group.first_made + group.made; ++i) {
-            told.triangles_out += graph_.clusters[i].triangles;
+            indexed.triangles_out += graph_.clusters[i].triangles;
             for (const VertexTriangle& triangle : graph_.triangles_of(graph_.clusters[i]))
-                for (const VertexNumber vertex : triangle) widen(told.extent, over().vertex(vertex));
+                for (const VertexNumber vertex : triangle) widen(indexed.extent, over().vertex(vertex));
         }
-        return told;
+        return indexed;
     }
 
     // With posts of the window.
@@ -165,7 +165,7 @@ class BuiltWindow {
     }
 
     [[nodiscard]] bool is_used_whole(const Cluster& cluster) const {
-        if (cluster.used_by != no_group) return graph_.groups[cluster.used_by].whole;
+        if (cluster.used_by != no_group) return graph_.groups[cluster.used_by].complete;
         return cluster.made_by != no_group &&
                static_cast<int>(graph_.groups[cluster.made_by].level) == region_.sizes.levels;
     }
@@ -202,7 +202,7 @@ Result<bool> write_own(const WindowedRegion& region, const RegionWindow& window,
             if (cluster.used_by != no_group) users.push_back(built.tile(cluster.used_by));
         blocks[at] = window_block(part, users, index.posts);
     });
-    for (const std::uint32_t group : *groups) index.groups.push_back(built.told_of(group));
+    for (const std::uint32_t group : *groups) index.groups.push_back(built.indexed_group(group));
     ORO_CHECK(write_window(path, std::move(index), blocks));
     return true;
 }

@@ -43,7 +43,7 @@ struct ClusterGroup {
     Ecef centre;
     double radius_m;
     // It is the same as in the graph of the whole surface, of which a window was built.
-    bool whole;
+    bool complete;
 };
 
 // What building a level did.

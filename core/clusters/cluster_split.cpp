@@ -106,7 +106,7 @@ void split_to_clusters(const OriginalSurface& surface, std::span<VertexTriangle>
 
 std::vector<LocalTriangle> walk_order(std::span<const LocalTriangle> triangles, int vertices) {
     TrianglesByEdge by_edge(triangles, vertices);
-    std::vector<char> told(triangles.size(), 0);
+    std::vector<char> handled(triangles.size(), 0);
     std::vector<LocalTriangle> order;
     ClusterWalk walk;
     walk.start(vertices);
@@ -117,11 +117,11 @@ std::vector<LocalTriangle> walk_order(std::span<const LocalTriangle> triangles, 
     while (order.size() < triangles.size()) {
         std::size_t least = triangles.size();
         for (std::size_t i = 0; i < triangles.size(); ++i) {
-            if (told[i] == 0 && (least == triangles.size() ||
-                                 least_corner_first(triangles[i]) < least_corner_first(triangles[least])))
+            if (handled[i] == 0 && (least == triangles.size() ||
+                                    least_corner_first(triangles[i]) < least_corner_first(triangles[least])))
                 least = i;
         }
-        told[least] = 1;
+        handled[least] = 1;
         tell(least_corner_first(triangles[least]));
         while (const auto edge = walk.next()) {
             const std::uint8_t there = by_edge.of(edge->to, edge->from);
@@ -129,7 +129,7 @@ std::vector<LocalTriangle> walk_order(std::span<const LocalTriangle> triangles, 
                 walk.close(*edge);
                 continue;
             }
-            told[there] = 1;
+            handled[there] = 1;
             tell({static_cast<std::uint8_t>(edge->to), static_cast<std::uint8_t>(edge->from),
                   beyond(triangles[there], *edge)});
         }

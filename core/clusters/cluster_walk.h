@@ -37,12 +37,12 @@ class ClusterWalk {
     // told, nor is it told that nothing is there.
     [[nodiscard]] bool may_be(int a, int b, int c) const;
     // A corner of a told triangle.
-    [[nodiscard]] bool is_told(int vertex) const { return told_[at(vertex)] != 0; }
+    [[nodiscard]] bool is_coded(int vertex) const { return coded_[at(vertex)] != 0; }
     // Edges at a vertex whose other side is not told.
     [[nodiscard]] int open_edges(int vertex) const { return open_[at(vertex)]; }
 
   private:
-    enum State : std::uint8_t { unknown, told, nothing };
+    enum State : std::uint8_t { unknown, coded, nothing };
     static std::size_t at(int number) { return static_cast<std::size_t>(number); }
     [[nodiscard]] std::uint8_t& state(int from, int to) { return states_[at(from) * vertices_ + at(to)]; }
     [[nodiscard]] std::uint8_t state(int from, int to) const {
@@ -51,7 +51,7 @@ class ClusterWalk {
 
     std::size_t vertices_{};
     std::vector<std::uint8_t> states_;  // of directed edges
-    std::array<std::uint8_t, most_cluster_vertices> told_{};
+    std::array<std::uint8_t, most_cluster_vertices> coded_{};
     std::array<int, most_cluster_vertices> open_{};
     std::vector<Edge> edges_;  // of told triangles, in the order in which they are asked
     std::size_t next_{};
@@ -64,7 +64,7 @@ inline void ClusterWalk::start(int vertices) {
     assert(vertices >= 0 && at(vertices) <= most_cluster_vertices);
     vertices_ = at(vertices);
     states_.assign(vertices_ * vertices_, unknown);
-    told_.fill(0);
+    coded_.fill(0);
     open_.fill(0);
     edges_.clear();
     next_ = 0;
@@ -81,9 +81,9 @@ inline std::optional<ClusterWalk::Edge> ClusterWalk::next() {
 inline void ClusterWalk::add(int a, int b, int c) {
     assert(may_be(a, b, c));
     for (const Edge& edge : {Edge{a, b}, Edge{b, c}, Edge{c, a}}) {
-        const bool closes = state(edge.to, edge.from) == told;
-        state(edge.from, edge.to) = told;
-        told_[at(edge.from)] = 1;
+        const bool closes = state(edge.to, edge.from) == coded;
+        state(edge.from, edge.to) = coded;
+        coded_[at(edge.from)] = 1;
         for (const int vertex : {edge.from, edge.to}) open_[at(vertex)] += closes ? -1 : 1;
         if (!closes) edges_.push_back(edge);
     }

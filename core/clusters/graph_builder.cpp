@@ -175,7 +175,7 @@ void Builder::make(std::uint32_t group, const EdgeLimit& edges, GroupMesh& mesh,
     });
     const double target = std::floor(options_.kept_share * static_cast<double>(triangles.size()));
     const double floor_m = largest_member_error_m(graph_, graph_.groups[group]);
-    if (graph_.groups[group].whole || !options_.whole_alone)
+    if (graph_.groups[group].complete || !options_.whole_alone)
         simplifier.simplify(mesh, {.triangles = static_cast<int>(target),
                                    .most_share = most_share * (1.0 - options_.kept_share),
                                    .free_difference = floor_m / height_step_m,
@@ -194,7 +194,7 @@ void Builder::add_level() {
     report.locked = locks_.locked();
     report.locked_twice = locks_.locked_twice();
     // Before triangles change their places in parts.
-    const std::vector<char> whole = border_.whole_groups(assignment, parts_);
+    const std::vector<char> whole = border_.complete_groups(assignment, parts_);
     std::vector<Part> shared(parts_.size());
     in_parallel(static_cast<int>(parts_.size()), options_.threads, [&](int part) {
         const auto i = static_cast<std::size_t>(part);
@@ -205,7 +205,7 @@ void Builder::add_level() {
     add_clusters(shared, report);
     add_groups(assignment.groups(), first_cluster, report);
     for (std::size_t i = 0; i < whole.size(); ++i) {
-        graph_.groups[first_group + i].whole = whole[i] != 0;
+        graph_.groups[first_group + i].complete = whole[i] != 0;
         if (options_.tiles) options_.tiles->push_back(assignment.tile(i));
     }
     std::vector<Made> made(assignment.groups());
@@ -292,7 +292,7 @@ void Builder::begin_with(ClusterGraph begun) {
             part.insert(part.end(), triangles.begin(), triangles.end());
         }
         made_by_.push_back(i);
-        whole.push_back(group.whole ? 1 : 0);
+        whole.push_back(group.complete ? 1 : 0);
     }
     border_.reach(parts_, whole);
     any_whole_ = std::find(whole.begin(), whole.end(), 1) != whole.end();

@@ -11,8 +11,8 @@ OpenBorder::OpenBorder(const OriginalSurface& surface) : surface_(surface) {
         touched_[i] = surface.is_open(static_cast<VertexNumber>(i)) ? 1 : 0;
 }
 
-std::vector<char> OpenBorder::whole_groups(const GroupAssignment& assignment,
-                                           GroupAssignment::Parts parts) const {
+std::vector<char> OpenBorder::complete_groups(const GroupAssignment& assignment,
+                                              GroupAssignment::Parts parts) const {
     std::vector<char> whole(assignment.groups(), 1);
     if (touched_.empty()) return whole;
     for (std::size_t part = 0; part < parts.size(); ++part) {

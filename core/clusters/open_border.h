@@ -16,8 +16,8 @@ class OpenBorder {
 
     // 1 for each group of a level that is whole; all are where the surface is no window. Parts: what the
     // groups of the last level made.
-    [[nodiscard]] std::vector<char> whole_groups(const GroupAssignment& assignment,
-                                                 GroupAssignment::Parts parts) const;
+    [[nodiscard]] std::vector<char> complete_groups(const GroupAssignment& assignment,
+                                                    GroupAssignment::Parts parts) const;
     // What the groups of the level have made, by group.
     void reach(GroupAssignment::Parts made, const std::vector<char>& whole);
 

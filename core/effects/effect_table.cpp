@@ -7,7 +7,7 @@ namespace {
 
 using enum EffectKind;
 using Drawing = DrawingModel;
-using World = TrueWorld;
+using World = EarthParameters;
 
 constexpr auto in_every_picture = [](const Drawing&, const World&) { return true; };
 
@@ -89,11 +89,11 @@ std::string error_name(EffectKind kind) {
     return (facts.group == EffectGroup::model ? "no " : "") + std::string(facts.name);
 }
 
-bool is_in_picture(EffectKind kind, const DrawingModel& drawing, const TrueWorld& world) {
+bool is_in_picture(EffectKind kind, const DrawingModel& drawing, const EarthParameters& world) {
     return facts_of(kind).in_picture(drawing, world);
 }
 
-bool is_modelled(EffectKind kind, const DrawingModel& drawing, const TrueWorld& world) {
+bool is_modelled(EffectKind kind, const DrawingModel& drawing, const EarthParameters& world) {
     const EffectFacts& facts = facts_of(kind);
     assert(facts.group == EffectGroup::model);
     return !is_in_picture(kind, drawing, world) &&

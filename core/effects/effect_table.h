@@ -62,7 +62,7 @@ struct DrawingModel {
 };
 
 // What is known of the world and of the region, besides its posts.
-struct TrueWorld {
+struct EarthParameters {
     Air air{standard_air};
     struct OfGrid {
         std::optional<double> source_le90_m;  // half the interval that holds 90 % of the source's errors
@@ -81,7 +81,7 @@ struct EffectFacts {
     const char* left_out_by;                 // the option that leaves the part out; "" where there is none
     const char* meaning;                     // of the error, in one sentence
     std::optional<EffectKind> contained_in;  // the larger effect that does this, too
-    bool (*in_picture)(const DrawingModel& drawing, const TrueWorld& world);
+    bool (*in_picture)(const DrawingModel& drawing, const EarthParameters& world);
 };
 const std::array<EffectFacts, effect_kinds>& effect_table();
 const EffectFacts& facts_of(EffectKind kind);
@@ -89,8 +89,8 @@ const EffectFacts& facts_of(EffectKind kind);
 std::string error_name(EffectKind kind);
 
 // Whether an effect is in a picture that is drawn so, and counts by itself: not the sphere on a flat Earth.
-bool is_in_picture(EffectKind kind, const DrawingModel& drawing, const TrueWorld& world);
+bool is_in_picture(EffectKind kind, const DrawingModel& drawing, const EarthParameters& world);
 // Whether a picture that is drawn so has the part of the model whose absence is the effect. Group model only.
-bool is_modelled(EffectKind kind, const DrawingModel& drawing, const TrueWorld& world);
+bool is_modelled(EffectKind kind, const DrawingModel& drawing, const EarthParameters& world);
 
 }  // namespace oro

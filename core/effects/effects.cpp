@@ -17,8 +17,8 @@
 
 namespace oro {
 
-EffectPrediction::EffectPrediction(const TrueGround& ground, const PagesOfGrids& pages, const Camera& camera,
-                                   const TrueWorld& world, int threads)
+EffectPrediction::EffectPrediction(const TrueGround& ground, const RegionPagesList& pages,
+                                   const Camera& camera, const EarthParameters& world, int threads)
     : ground_(ground),
       pages_(pages),
       camera_(camera),
@@ -70,7 +70,7 @@ EffectSize EffectPrediction::moved(const Drawn& drawn, double margin) const {
 
 namespace {
 
-WorldModel plane(const TrueWorld& world) {
+WorldModel plane(const EarthParameters& world) {
     return {Earth::flat, world.air, Precision::relative};
 }
 

@@ -50,8 +50,8 @@ class EffectPrediction {
   public:
     // pages, world: of each of the ground's grids. camera: the true eye. What ground and pages are made of
     // outlives the prediction. Steps between grids are left out: measures do not count them, either.
-    EffectPrediction(const TrueGround& ground, const PagesOfGrids& pages, const Camera& camera,
-                     const TrueWorld& world, int threads);
+    EffectPrediction(const TrueGround& ground, const RegionPagesList& pages, const Camera& camera,
+                     const EarthParameters& world, int threads);
 
     // Nothing is in view: all sizes are 0.
     [[nodiscard]] bool empty() const { return sight_lines() == 0; }
@@ -129,9 +129,9 @@ class EffectPrediction {
     [[nodiscard]] double left_out_N_m(std::size_t grid, double lat_deg, double lon_deg) const;
 
     TrueGround ground_;
-    PagesOfGrids pages_;
+    RegionPagesList pages_;
     Camera camera_;
-    TrueWorld world_;
+    EarthParameters world_;
     int threads_;
     Sight sight_;
     glm::dmat3 view_from_ecef_;

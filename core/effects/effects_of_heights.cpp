@@ -81,7 +81,7 @@ Result<EffectSize> EffectPrediction::detail(double tau_px) const {
 EffectSize EffectPrediction::gaps_closed(double tau_px) const {
     const double reach_px = std::max(tau_px, static_cast<double>(gpu::least_gap_px));
     EffectSize size;
-    for (const GroundPiece& piece : ground_.pieces()) {
+    for (const SurfaceTriangle& piece : ground_.pieces()) {
         for (const Geodetic& corner : piece.corners) {
             const glm::dvec3 seen_m =
                 sight_.refraction.apparent_m(ecef_from_geodetic(corner).m - sight_.eye.m);
@@ -99,7 +99,7 @@ std::optional<EffectSize> EffectPrediction::stated_by_source() const {
     constexpr double half_of_all = 0.41;
     std::vector<HeightsOff> stated;
     bool any = false;
-    for (const TrueWorld::OfGrid& grid : world_.grids) {
+    for (const EarthParameters::OfGrid& grid : world_.grids) {
         any |= grid.source_le90_m.has_value();
         const double le90_m = grid.source_le90_m.value_or(0.0);
         stated.push_back({le90_m, half_of_all * le90_m});

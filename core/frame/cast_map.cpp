@@ -103,12 +103,12 @@ void CastMap::mark(double north, double south, double west, double east, const N
         }
 }
 
-CastMap::CellLie CastMap::lie_of_cell(std::int64_t row, std::int64_t column) const {
+CastMap::CellFrame CastMap::frame_of_cell(std::int64_t row, std::int64_t column) const {
     if (grid_.net) {
         const auto y = static_cast<double>(row), x = static_cast<double>(column);
-        const GridNet::Lie lie = grid_.net->lie_at(y, x);
-        return {grid_.net->place_at(y, x), lie.row_m, lie.column_m,
-                sine_cosine_deg(deg_from_radians(Radians(lie.turn_rad))), 1.0 + grid_.net->bend()};
+        const LatticeGeoreference::LatticeFrame local_frame = grid_.net->local_frame_at(y, x);
+        return {grid_.net->place_at(y, x), local_frame.row_m, local_frame.column_m,
+                sine_cosine_deg(deg_from_radians(Radians(local_frame.turn_rad))), 1.0 + grid_.net->bend()};
     }
     const double lat_deg = row_lat_deg(grid_, row);
     return {{lat_deg, grid_.lon.at_deg(column)},
@@ -125,9 +125,10 @@ void CastMap::cast_from(int row, int column) {
     const std::int64_t at_post_row = std::min<std::int64_t>(row * posts_ + posts_ / 2, grid_.rows() - 1);
     const std::int64_t at_post_column =
         std::min<std::int64_t>(column * posts_ + posts_ / 2, grid_.columns() - 1);
-    const CellLie lie = lie_of_cell(at_post_row, at_post_column);
-    const glm::dvec3 sun = glm::transpose(ecef_from_enu(lie.place.lat_deg, lie.place.lon_deg)) * sun_ecef_;
-    const double row_m = posts * lie.row_m, column_m = std::max(1.0, posts * lie.column_m);
+    const CellFrame local_frame = frame_of_cell(at_post_row, at_post_column);
+    const glm::dvec3 sun =
+        glm::transpose(ecef_from_enu(local_frame.place.lat_deg, local_frame.place.lon_deg)) * sun_ecef_;
+    const double row_m = posts * local_frame.row_m, column_m = std::max(1.0, posts * local_frame.column_m);
     const double half_rad =
         0.5 * std::hypot(row_m, column_m) / mean_radius_m;  // the sun's rise differs over the cell
     const SunRise rise = sun_rise(sun, half_rad);
@@ -135,13 +136,13 @@ void CastMap::cast_from(int row, int column) {
     const Need need{receiver.error_m * rise.slope, receiver.low_m};
     const double step_m = 0.5 * std::min(row_m, column_m);
     // Cells a metre.
-    const double south = (sun.x * lie.turn.sine - sun.y * lie.turn.cosine) / level / row_m;
-    const double east = (sun.x * lie.turn.cosine + sun.y * lie.turn.sine) / level / column_m;
+    const double south = (sun.x * local_frame.turn.sine - sun.y * local_frame.turn.cosine) / level / row_m;
+    const double east = (sun.x * local_frame.turn.cosine + sun.y * local_frame.turn.sine) / level / column_m;
     double low_m = receiver.low_m;
     for (double from_m = 0.0; low_m <= top_m_ || from_m * lowest < 0.0; from_m += step_m) {
         const double to_m = from_m + step_m;
         // Towards the pole's side the line bends, and the sun's direction differs over the cell.
-        const double aside_m = to_m * (half_rad + to_m / (2.0 * mean_radius_m)) * lie.bend;
+        const double aside_m = to_m * (half_rad + to_m / (2.0 * mean_radius_m)) * local_frame.bend;
         const double rows = aside_m / row_m + 0.01, columns = aside_m / column_m + 0.01;
         const double sag_m = from_m * from_m / (2.0 * mean_radius_m);
         low_m = receiver.low_m + std::min(from_m * lowest, to_m * lowest) + 0.99 * sag_m;
@@ -158,13 +159,13 @@ void CastMap::cast_from(int row, int column) {
 }
 
 // From a place beside the grid. Where a line is over the ground its straight way through space tells.
-void CastMap::cast_from_other_grid(const CastReceiver& receiver) {
+void CastMap::cast_from_other_grid(const ShadowReceiver& receiver) {
     const Geodetic at = geodetic_from_ecef(receiver.centre);
     const glm::dvec3 sun = glm::transpose(ecef_from_enu(at.lat_deg, at.lon_deg)) * sun_ecef_;
     const double half_rad = receiver.radius_m / mean_radius_m;
     const SunRise rise = sun_rise(sun, half_rad);
     const double level = std::max(rise.level, 0.02);  // a sun in the zenith: all is within the radius
-    const CellLie middle = lie_of_cell(grid_.rows() / 2, grid_.columns() / 2);
+    const CellFrame middle = frame_of_cell(grid_.rows() / 2, grid_.columns() / 2);
     const double cell_m =
         static_cast<double>(posts_) * std::max(1.0, std::min(middle.row_m, middle.column_m));
     const double step_m = std::max(0.5 * cell_m, 0.25 * receiver.radius_m);
@@ -193,10 +194,11 @@ void CastMap::cast_from_other_grid(const CastReceiver& receiver) {
         const auto within = [](double number, int count) {
             return static_cast<std::int64_t>(std::clamp(number, 0.0, static_cast<double>(count - 1)));
         };
-        const CellLie lie = lie_of_cell(within(post.row, grid_.rows()), within(post.column, grid_.columns()));
+        const CellFrame local_frame =
+            frame_of_cell(within(post.row, grid_.rows()), within(post.column, grid_.columns()));
         const auto posts = static_cast<double>(posts_);
-        const double rows = 1.02 * around_m / (posts * lie.row_m) + 0.01,
-                     columns = 1.02 * around_m / (posts * std::max(lie.column_m, 1.0e-2)) + 0.01;
+        const double rows = 1.02 * around_m / (posts * local_frame.row_m) + 0.01,
+                     columns = 1.02 * around_m / (posts * std::max(local_frame.column_m, 1.0e-2)) + 0.01;
         mark(post.row / posts - rows, post.row / posts + rows, post.column / posts - columns,
              post.column / posts + columns, {receiver.error_per_slope_m * rise.slope, low_m});
     }

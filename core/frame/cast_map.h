@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/earth/ellipsoid.h"
-#include "core/frame/cast_receiver.h"
 #include "core/frame/region_pages.h"
+#include "core/frame/shadow_receiver.h"
 
 namespace oro {
 
@@ -34,11 +34,11 @@ class CastMap {
     };
     // The cells of so many rows and columns of posts (of level 0) from there on.
     [[nodiscard]] Patch patch(std::int64_t row, std::int64_t column, std::int64_t posts) const;
-    // Ground that is seen (CastReceiver says of what), and then what all of it needs.
+    // Ground that is seen (ShadowReceiver says of what), and then what all of it needs.
     void receive(const Patch& patch, double error_per_slope_m, double lowest_m);
     void cast();
     // Marks what hides the sun from another grid's ground: where lines from there pass over this one.
-    void cast_from_other_grid(const CastReceiver& receiver);
+    void cast_from_other_grid(const ShadowReceiver& receiver);
     // Whether any line passes over the region.
     [[nodiscard]] bool any() const { return any_; }
     // What lines need of the terrain in these cells; infinite where none passes.
@@ -50,14 +50,14 @@ class CastMap {
                static_cast<std::size_t>(column);
     }
     // How the posts lie around one of them.
-    struct CellLie {
+    struct CellFrame {
         PostPlace place;
         double row_m, column_m;  // from one to the next
         SineCosine turn;         // of rows, from east towards north
         double bend;  // how far a line strays from a straight one among them, of a great circle's stray
     };
     void divide(const RegionPages& pages);  // into cells
-    [[nodiscard]] CellLie lie_of_cell(std::int64_t row, std::int64_t column) const;
+    [[nodiscard]] CellFrame frame_of_cell(std::int64_t row, std::int64_t column) const;
     void cast_from(int row, int column);
     void mark(double north, double south, double west, double east, const Need& need);
 

@@ -128,7 +128,7 @@ double error_per_metre(const GridPlan& plan) {
 // A quarter of a plan's page that is seen, and so may be shaded.
 struct SeenQuarter {
     std::int64_t row, column, posts;  // its first post in the region, and how many along a side
-    CastReceiver ground;
+    ShadowReceiver ground;
 };
 Result<void> look_for_quarters(const RegionPages& pages, const FrameView& view, const GridPlan& plan,
                                const std::function<void(const SeenQuarter&)>& found) {
@@ -143,7 +143,8 @@ Result<void> look_for_quarters(const RegionPages& pages, const FrameView& view, 
         const std::int64_t half = std::int64_t{gpu::page_quads / 2} << index.level;
         for (int quarter = 0; quarter < 4; ++quarter) {
             if (page.children[quarter] != gpu::no_page) continue;
-            if (index.level > 0 && (page.stand_in >> static_cast<unsigned>(quarter) & 1U) == 0) continue;
+            if (index.level > 0 && (page.fallback_quarters >> static_cast<unsigned>(quarter) & 1U) == 0)
+                continue;
             const PageQuarter& part = record.quarters[static_cast<std::size_t>(quarter)];
             if (part.lod_radius_m < 0.0) continue;
             const glm::dvec3 centre_ecef =
@@ -189,10 +190,10 @@ Result<double> top_of(const RegionPages& pages, const PageIndex& index) {
 
 }  // namespace
 
-CastRequest cast_request(const gpu::FrameStyle& style) {
+ShadowRequest shadow_request(const gpu::FrameStyle& style) {
     constexpr double lowest = -0.1;  // sine: even mountains seen from there lie in the Earth's own shadow
     const bool dark = style.air.on == 0 && style.sun_hidden >= 1.0F;
-    CastRequest request;
+    ShadowRequest request;
     request.sky_openness = style.sky_openness != 0;
     if (style.shadows != 0 && !dark && style.sun_enu.z >= lowest)
         request.sun_enu = glm::normalize(glm::dvec3(style.sun_enu));
@@ -207,10 +208,10 @@ Result<double> region_top_m(const RegionPages& pages) {
 }
 
 // The ground of a seam lies along the rims of grids, a few of their posts wide.
-Result<std::vector<CastReceiver>> cast_receivers(const RegionPages& pages, const FrameView& view,
-                                                 const GridPlan& plan) {
+Result<std::vector<ShadowReceiver>> shadow_receivers(const RegionPages& pages, const FrameView& view,
+                                                     const GridPlan& plan) {
     constexpr double rim_posts = 3.0;
-    std::vector<CastReceiver> all;
+    std::vector<ShadowReceiver> all;
     if (pages.is_seam()) return all;
     const double rim_m = rim_posts * mean_radius_m * pages.facts().grid.row_step_rad();
     ORO_CHECK(look_for_quarters(pages, view, plan, [&](const SeenQuarter& quarter) {
@@ -222,8 +223,8 @@ Result<std::vector<CastReceiver>> cast_receivers(const RegionPages& pages, const
 
 Result<void> plan_casters(const RegionPages& pages,
                           const std::function<std::uint64_t(const PageIndex&)>& residency,
-                          const FrameView& view, const CastRequest& request, double top_m, GridPlan& plan,
-                          std::span<const CastReceiver> others) {
+                          const FrameView& view, const ShadowRequest& request, double top_m, GridPlan& plan,
+                          std::span<const ShadowReceiver> others) {
     const int top = pages.levels() - 1;
     if (pages.layout(top).count() == 0) return {};
     CasterChoice choice(pages, residency);
@@ -236,7 +237,7 @@ Result<void> plan_casters(const RegionPages& pages,
                         quarter.ground.error_per_slope_m, quarter.ground.lowest_m);
         }));
         map.cast();
-        for (const CastReceiver& receiver : others) map.cast_from_other_grid(receiver);
+        for (const ShadowReceiver& receiver : others) map.cast_from_other_grid(receiver);
         for_shadows = !plan.pages.empty() || map.any();
         if (for_shadows) ORO_CHECK(choice.want(map, {0, 0, top}));
     }

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "core/frame/cast_receiver.h"
 #include "core/frame/region_pages.h"
+#include "core/frame/shadow_receiver.h"
 #include "shaders/shared.h"
 
 namespace oro {
@@ -18,13 +18,13 @@ struct FrameView;
 struct GridPlan;
 
 // What a style asks of the terrain around its ground.
-struct CastRequest {
+struct ShadowRequest {
     std::optional<glm::dvec3> sun_enu;  // where shadows come from: unit vector, east, north, up at the eye
     bool sky_openness{};                // how much of the sky a place sees
     [[nodiscard]] bool any() const { return sun_enu || sky_openness; }
 };
 // By night there are no shadows.
-CastRequest cast_request(const gpu::FrameStyle& style);
+ShadowRequest shadow_request(const gpu::FrameStyle& style);
 
 // Ready for the GPU but for the addresses of its buffers.
 struct CasterPlan {
@@ -43,8 +43,8 @@ Result<double> region_top_m(const RegionPages& pages);
 
 // The ground that a plan of these pages shows, for plan_casters() of other grids of the frame. Errors: a
 // page's record that cannot be read.
-Result<std::vector<CastReceiver>> cast_receivers(const RegionPages& pages, const FrameView& view,
-                                                 const GridPlan& plan);
+Result<std::vector<ShadowReceiver>> shadow_receivers(const RegionPages& pages, const FrameView& view,
+                                                     const GridPlan& plan);
 
 // Chooses the pages of all levels that are needed around a plan's own. For shadows those that a line from any
 // place of the plan's pages towards the sun may pass below the top of, no coarser than `caster_error_px` asks
@@ -53,7 +53,7 @@ Result<std::vector<CastReceiver>> cast_receivers(const RegionPages& pages, const
 // frame; a plan without pages of its own may cast on that alone. Errors: a page's record that cannot be read.
 Result<void> plan_casters(const RegionPages& pages,
                           const std::function<std::uint64_t(const PageIndex&)>& residency,
-                          const FrameView& view, const CastRequest& request, double top_m, GridPlan& plan,
-                          std::span<const CastReceiver> others = {});
+                          const FrameView& view, const ShadowRequest& request, double top_m, GridPlan& plan,
+                          std::span<const ShadowReceiver> others = {});
 
 }  // namespace oro

@@ -27,7 +27,7 @@ struct WantedPage {
     std::uint64_t address{};  // 0: not on the GPU
     bool open{};              // takes part in the frame
     bool shows{};             // or may, or is needed by one that may
-    std::uint32_t stand_in{};
+    std::uint32_t fallback_quarters{};
     double distance_m{};
     std::uint32_t number{gpu::no_page};  // in the frame
 };
@@ -53,7 +53,7 @@ class PageChoice {
     }
 
     Result<void> choose();
-    void ask_what_shows(const IsHidden& is_hidden);
+    void apply_occlusion_feedback(const IsHidden& is_hidden);
     void number_pages(GridPlan& plan);
     void list_pages(FrameTables& tables, GridPlan& plan) const;
 
@@ -150,7 +150,7 @@ Result<void> PageChoice::descend(WantedPage& page) {
         if (child.row >= below.rows || child.column >= below.columns) continue;
         const PageQuarter& quarter = page.record.quarters[static_cast<std::size_t>(i)];
         const bool enough = model_.may_stand(page.record) && good_enough(summary, quarter);
-        if (enough) page.stand_in |= 1U << static_cast<unsigned>(i);
+        if (enough) page.fallback_quarters |= 1U << static_cast<unsigned>(i);
         if (!enough || !fine_enough_to_shade(summary, quarter)) ORO_CHECK(want(child));
     }
     return {};
@@ -167,7 +167,7 @@ std::array<PageIndex, 4> PageChoice::beside_parents(const PageIndex& index,
         const int row = index.row + steps[i].first;
         int column = index.column + steps[i].second;
         const bool beyond = column < 0 || column >= layout.columns;
-        if (beyond && pages_.goes_round()) column = (column + layout.columns) % layout.columns;
+        if (beyond && pages_.wraps_longitude()) column = (column + layout.columns) % layout.columns;
         there[i] = row >= 0 && row < layout.rows && column >= 0 && column < layout.columns;
         parents[i] = {row / 2, column / 2, index.level + 1};
     }
@@ -193,7 +193,8 @@ void PageChoice::open_level(int number) {
             page.open = found == above.end() || found->second.open;
         }
         const auto quarter = static_cast<unsigned>(2 * (index.row % 2) + index.column % 2);
-        if (!page.open) parent.stand_in |= (1U << quarter) | (1U << (gpu::stands_for_missing + quarter));
+        if (!page.open)
+            parent.fallback_quarters |= (1U << quarter) | (1U << (gpu::stands_for_missing + quarter));
     }
 }
 
@@ -210,7 +211,7 @@ Result<void> PageChoice::choose() {
 }
 
 // A page that shows needs those without which it is not opened: the one above it and those beside that.
-void PageChoice::ask_what_shows(const IsHidden& is_hidden) {
+void PageChoice::apply_occlusion_feedback(const IsHidden& is_hidden) {
     for (int number = 0; number < pages_.levels(); ++number) {
         const bool top = number == pages_.levels() - 1;
         for (auto& [coord, page] : level(number)) {
@@ -289,7 +290,7 @@ void PageChoice::set_neighbours(const PageIndex& index, gpu::FramePage& frame) c
         frame.children[i] = index.level == 0 ? gpu::no_page : number_of(child);
     }
     frame.last_column = frame.west_column = gpu::meshlets_per_side - 1;
-    if (!pages_.goes_round()) return;
+    if (!pages_.wraps_longitude()) return;
     const int nodes = level_grid(pages_.facts().grid, index.level).column.nodes();
     frame.last_column = static_cast<gpu::uint>(std::min(side - 1, nodes - 1 - index.column * side));
     if (index.column == 0) frame.west_column = static_cast<gpu::uint>((nodes - 1) / 2 % side);
@@ -326,15 +327,15 @@ gpu::FramePage PageChoice::frame_page(const WantedPage& page) const {
     frame.cull = (inside_all ? 0U : gpu::cull_by_frustum) |
                  (horizon_.eye.angle_rad < std::numbers::pi ? gpu::cull_by_horizon : 0U);
     if (!model_.culls_nodes() || pages_.is_seam()) frame.cull = 0;
-    if (pages_.closes_gaps(summary.index)) frame.cull |= gpu::closes_gaps;
+    if (pages_.is_skirt(summary.index)) frame.cull |= gpu::is_skirt;
     if (pages_.facts().grid.net && !pages_.is_seam() && reaches_far(summary))
         frame.cull |= gpu::places_from_plane;
-    if (!model_.may_stand(page.record)) frame.cull |= gpu::stands_never;
+    if (!model_.may_stand(page.record)) frame.cull |= gpu::never_coarsen;
     if (model_.culls_nodes() && !pages_.is_seam()) frame.cull |= gpu::cull_by_occlusion;
     frame.block = {static_cast<gpu::uint>(page.address), static_cast<gpu::uint>(page.address >> 32U)};
     frame.level = static_cast<gpu::uint>(summary.index.level);
     if (pages_.facts().grid.net) set_from_eye(summary, frame);
-    frame.stand_in = page.stand_in;
+    frame.fallback_quarters = page.fallback_quarters;
     set_neighbours(summary.index, frame);
     return frame;
 }
@@ -356,7 +357,7 @@ Result<GridPlan> plan_grid(const RegionPages& pages, const Residency& residency,
     const ModelView model_view(camera, model, coding);
     PageChoice choice(pages, residency, camera, tile, tau_px, shading_spacing_px, model_view);
     ORO_CHECK(choice.choose());
-    choice.ask_what_shows(is_hidden);
+    choice.apply_occlusion_feedback(is_hidden);
     GridPlan plan;
     choice.number_pages(plan);
     if (plan.page_indices.size() > gpu::pages_max)

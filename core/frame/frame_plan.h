@@ -47,7 +47,8 @@ struct GridPlan {
     std::size_t pages_beyond_horizon{};
     ClusterPlan clusters;  // off until draw_clusters()
     CasterPlan casters;    // none until plan_casters()
-    bool wants_sights{};   // the frame tells which of its nodes or clusters show (core/frame/seen_ground.h)
+    bool request_feedback{};  // the frame tells which of its nodes or clusters show
+                              // (core/frame/visibility_feedback.h)
     // Of whose heights the pages' blocks are: one number, one set of heights. 0: nobody says so.
     std::uint64_t heights{};
 };
@@ -77,7 +78,7 @@ struct FramePlan {
 // Device address of a page's block, 0 where it is not on the GPU.
 using Residency = std::function<std::uint64_t(const PageIndex& page)>;
 
-// Whether other ground is known to hide all of a page (core/frame/seen_ground.h).
+// Whether other ground is known to hide all of a page (core/frame/visibility_feedback.h).
 using IsHidden = std::function<bool(const PageIndex& page)>;
 
 // Chooses the pages of one grid for a frame, from the top down: of those that can be seen (conservative: none

@@ -47,9 +47,10 @@ gpu::EyePost eye_post(const PostGrid& grid, const Geodetic& eye, Earth earth) {
     const double rad_per_deg = radians_from_deg(1.0).rad;
     if (grid.net) {
         const PostNumber post = grid.net->post_at(eye.lat_deg, eye.lon_deg);
-        const GridNet::Lie lie = grid.net->lie_at(0.5 * (grid.rows() - 1), 0.5 * (grid.columns() - 1));
+        const LatticeGeoreference::LatticeFrame local_frame =
+            grid.net->local_frame_at(0.5 * (grid.rows() - 1), 0.5 * (grid.columns() - 1));
         place.post = gpu::vec2(post.row, post.column);
-        place.post_m = gpu::vec2(lie.row_m, lie.column_m);
+        place.post_m = gpu::vec2(local_frame.row_m, local_frame.column_m);
         place.latitude = gpu::vec2(lat.cosine, lat.sine);
         place.normal_m = static_cast<float>(prime_vertical_radius_m(eye.lat_deg));
         place.meridian_m = static_cast<float>(meridian_radius_m(eye.lat_deg));
@@ -73,8 +74,8 @@ gpu::EyePost eye_post(const PostGrid& grid, const Geodetic& eye, Earth earth) {
 }
 
 // lon: of the eye.
-gpu::NetMap net_map(const GridNet& net, const SineCosine& lon) {
-    const GridNet::Inverse& inverse = net.inverse();
+gpu::NetMap net_map(const LatticeGeoreference& net, const SineCosine& lon) {
+    const LatticeGeoreference::Inverse& inverse = net.inverse();
     const auto in_meridian_frame = [&](const glm::dvec3& ecef) {
         return gpu::vec3(lon.cosine * ecef.x + lon.sine * ecef.y, lon.cosine * ecef.y - lon.sine * ecef.x,
                          ecef.z);
@@ -86,10 +87,11 @@ gpu::NetMap net_map(const GridNet& net, const SineCosine& lon) {
     map.scale = gpu::vec2(inverse.scale);
     map.beyond_u = gpu::vec2(inverse.beyond[0]);
     map.beyond_v = gpu::vec2(inverse.beyond[1]);
-    const GridNet::Lie lie = net.lie_at(0.5 * (net.rows() - 1), 0.5 * (net.columns() - 1));
-    map.turn = gpu::vec2(std::cos(lie.turn_rad), std::sin(lie.turn_rad));
-    static_assert(std::size(gpu::NetMap{}.coefficients) == GridNet::Inverse::terms);
-    for (std::size_t i = 0; i < GridNet::Inverse::terms; ++i)
+    const LatticeGeoreference::LatticeFrame local_frame =
+        net.local_frame_at(0.5 * (net.rows() - 1), 0.5 * (net.columns() - 1));
+    map.turn = gpu::vec2(std::cos(local_frame.turn_rad), std::sin(local_frame.turn_rad));
+    static_assert(std::size(gpu::NetMap{}.coefficients) == LatticeGeoreference::Inverse::terms);
+    for (std::size_t i = 0; i < LatticeGeoreference::Inverse::terms; ++i)
         map.coefficients[i] = gpu::vec2(inverse.coefficients[i]);
     return map;
 }
@@ -97,7 +99,7 @@ gpu::NetMap net_map(const GridNet& net, const SineCosine& lon) {
 // Of a column from the eye's meridian, within half a turn.
 double east_of_eye_deg(const PostGrid& grid, const Geodetic& eye, std::int64_t column) {
     // Round the Earth the last column is the first.
-    const bool twin = column == grid.columns() - 1 && grid.goes_round();
+    const bool twin = column == grid.columns() - 1 && grid.wraps_longitude();
     return std::remainder(grid.lon.at_deg(twin ? 0 : column) - eye.lon_deg, 360.0);
 }
 

@@ -27,7 +27,7 @@ class PagesInMemory : public RegionPages {
         const PageHeights heights = page_heights(facts().grid, heights_, page);
         std::copy(built.nodes.begin(), built.nodes.end(), std::begin(block.meshlets));
         std::copy(built.boxes.begin(), built.boxes.end(), std::begin(block.boxes));
-        std::ranges::copy(heights.rises, std::begin(block.rises));
+        std::ranges::copy(heights.sw_ne, std::begin(block.sw_ne));
         std::copy(heights.steps.begin(), heights.steps.end(), std::begin(block.heights));
         set_spacing(facts().grid, built.summary, block);
         return {};
@@ -56,10 +56,12 @@ class PagesInMemory : public RegionPages {
 }  // namespace
 
 RegionPages::RegionPages(RegionFacts facts)
-    : facts_(std::move(facts)), levels_(level_count(facts_.grid)), goes_round_(facts_.grid.goes_round()) {}
+    : facts_(std::move(facts)),
+      levels_(level_count(facts_.grid)),
+      wraps_longitude_(facts_.grid.wraps_longitude()) {}
 
 RegionPages::RegionPages(RegionFacts facts, int levels)
-    : facts_(std::move(facts)), levels_(levels), goes_round_(facts_.grid.goes_round()) {}
+    : facts_(std::move(facts)), levels_(levels), wraps_longitude_(facts_.grid.wraps_longitude()) {}
 
 Result<void> RegionPages::load_means(const PageIndex&, gpu::PageMeans&) const {
     return Error{ErrorKind::failed, "pages", "no means are known of these"};

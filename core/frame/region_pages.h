@@ -36,7 +36,7 @@ class RegionPages {
 
     [[nodiscard]] const RegionFacts& facts() const { return facts_; }
     [[nodiscard]] int levels() const { return levels_; }
-    [[nodiscard]] bool goes_round() const { return goes_round_; }
+    [[nodiscard]] bool wraps_longitude() const { return wraps_longitude_; }
     // Pages of a level, drawn or not.
     [[nodiscard]] PageLayout layout(int level) const { return level_grid(facts_.grid, level).pages(); }
 
@@ -55,20 +55,20 @@ class RegionPages {
                                      gpu::PagePlaces& places) const;
     // Whether these are what lies between grids (core/seam), and whether a page of them closes gaps.
     [[nodiscard]] virtual bool is_seam() const { return false; }
-    [[nodiscard]] virtual bool closes_gaps(const PageIndex&) const { return false; }
+    [[nodiscard]] virtual bool is_skirt(const PageIndex&) const { return false; }
 
   private:
     RegionFacts facts_;
     int levels_;
-    bool goes_round_;
+    bool wraps_longitude_;
 };
 
 // The pages of each grid of a ground, numbered as it numbers them (core/truth/true_ground.h). Pages by
 // themselves are those of one grid. Cheap to copy; the pages outlive it.
-class PagesOfGrids {
+class RegionPagesList {
   public:
-    PagesOfGrids(const RegionPages& pages) : pages_{&pages} {}  // NOLINT: are those of one grid
-    explicit PagesOfGrids(std::vector<const RegionPages*> pages) : pages_(std::move(pages)) {}
+    RegionPagesList(const RegionPages& pages) : pages_{&pages} {}  // NOLINT: are those of one grid
+    explicit RegionPagesList(std::vector<const RegionPages*> pages) : pages_(std::move(pages)) {}
     [[nodiscard]] std::size_t size() const { return pages_.size(); }
     [[nodiscard]] const RegionPages& operator[](std::size_t grid) const { return *pages_[grid]; }
 

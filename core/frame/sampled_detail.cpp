@@ -77,7 +77,7 @@ Result<SampledDetail::Bound> SampledDetail::at(int row, int column) {
     const auto beside = [&](int down, int right) -> Result<void> {
         const int beside_row = row + down * step, round = grid.columns() - 1;
         int beside_column = column + right * step;
-        if (pages_.goes_round()) beside_column = (beside_column + round) % round;
+        if (pages_.wraps_longitude()) beside_column = (beside_column + round) % round;
         if (beside_row < 0 || beside_column < 0 || beside_row >= grid.rows() - 1 ||
             beside_column >= grid.columns() - 1)
             return {};

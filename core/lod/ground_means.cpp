@@ -45,7 +45,7 @@ GroundMeans::GroundMeans(const PostGrid& grid, const DrawnHeights& heights, doub
     : grid_(grid),
       heights_(heights),
       exaggeration_(static_cast<float>(exaggeration)),
-      goes_round_(grid.goes_round()) {
+      wraps_longitude_(grid.wraps_longitude()) {
     for (int row = 0; !grid.net && row < grid.rows(); ++row) {
         const double lat_deg = row_lat_deg(grid, row);
         const double down_m = meridian_radius_m(lat_deg) * radians_from_deg(grid.lat.spacing_deg()).rad;
@@ -55,7 +55,7 @@ GroundMeans::GroundMeans(const PostGrid& grid, const DrawnHeights& heights, doub
                          static_cast<float>(height_step_m / std::max(right_m, 1.0e-3))});
     }
     if (grid.net) measure_net();
-    levels_.push_back({grid.rows(), goes_round_ ? grid.columns() - 1 : grid.columns(), {}});
+    levels_.push_back({grid.rows(), wraps_longitude_ ? grid.columns() - 1 : grid.columns(), {}});
     std::vector<Sums> below;
     for (int level = 1; level < level_count(grid); ++level) add_level(below, threads);
 }
@@ -64,11 +64,12 @@ void GroundMeans::measure_net() {
     net_columns_ = (grid_.columns() + scale_posts - 2) / scale_posts + 1;
     const int rows = (grid_.rows() + scale_posts - 2) / scale_posts + 1;
     for (int i = 0; i < rows * net_columns_; ++i) {
-        const GridNet::Lie lie =
-            grid_.net->lie_at(i / net_columns_ * scale_posts, i % net_columns_ * scale_posts);
-        net_scales_.push_back(
-            {static_cast<float>(height_step_m / lie.row_m), static_cast<float>(height_step_m / lie.column_m),
-             static_cast<float>(std::cos(lie.turn_rad)), static_cast<float>(std::sin(lie.turn_rad))});
+        const LatticeGeoreference::LatticeFrame local_frame =
+            grid_.net->local_frame_at(i / net_columns_ * scale_posts, i % net_columns_ * scale_posts);
+        net_scales_.push_back({static_cast<float>(height_step_m / local_frame.row_m),
+                               static_cast<float>(height_step_m / local_frame.column_m),
+                               static_cast<float>(std::cos(local_frame.turn_rad)),
+                               static_cast<float>(std::sin(local_frame.turn_rad))});
     }
 }
 
@@ -89,7 +90,7 @@ GroundMeans::NetScale GroundMeans::scale_on_net(int row, int column) const {
 
 std::int32_t GroundMeans::steps(int row, int column) const {
     if (row < 0 || row >= grid_.rows()) return void_height_steps;
-    if (goes_round_) column = (column + grid_.columns() - 1) % (grid_.columns() - 1);
+    if (wraps_longitude_) column = (column + grid_.columns() - 1) % (grid_.columns() - 1);
     if (column < 0 || column >= grid_.columns()) return void_height_steps;
     return heights_.at(row, column);
 }
@@ -199,7 +200,7 @@ void GroundMeans::page(const PageIndex& index, gpu::PageMeans& means) const {
     for (int i = 0; i < stride * stride; ++i) {
         const int row = index.row * static_cast<int>(gpu::page_quads) + i / stride - apron;
         int column = index.column * static_cast<int>(gpu::page_quads) + i % stride - apron;
-        if (goes_round_) column = (column + level.columns) % level.columns;
+        if (wraps_longitude_) column = (column + level.columns) % level.columns;
         gpu::MeansSquare& square = means.squares[i];
         square = {};
         if (row >= 0 && row < level.rows && column >= 0 && column < level.columns)

@@ -43,7 +43,7 @@ class GroundMeans {
     const PostGrid& grid_;
     const DrawnHeights& heights_;
     float exaggeration_;
-    bool goes_round_;
+    bool wraps_longitude_;
     struct RowScale {
         float down_per_m;   // 1 / metres from a post to the next one south, times the height step
         float right_per_m;  // ... east

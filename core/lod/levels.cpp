@@ -84,7 +84,7 @@ std::uint32_t Choice::edges_beside_coarser(int level_number, int row, int column
     const auto coarser = [&](int other_row, int other_column) {
         if (other_row < 0 || other_row >= grid.row.nodes()) return false;
         if (other_column < 0 || other_column >= columns) {
-            if (!pages_.goes_round()) return false;
+            if (!pages_.wraps_longitude()) return false;
             other_column = (other_column + columns) % columns;
         }
         return acceptable(level_number + 1, other_row / 2, other_column / 2);

@@ -25,7 +25,7 @@ NodeDeviations::NodeDeviations(const PostGrid& grid, const DrawnHeights& heights
     : grid_(grid),
       heights_(heights),
       level_(level_grid(grid, level)),
-      goes_round_(grid.goes_round()),
+      wraps_longitude_(grid.wraps_longitude()),
       highest_m_(std::max(0.0, heights.highest_steps * height_step_m)),
       whole_node_(stitched_triangles(node_quads, node_quads,
                                      gpu::edge_north | gpu::edge_east | gpu::edge_south | gpu::edge_west)) {
@@ -49,8 +49,8 @@ std::uint32_t NodeDeviations::edges(int node_row, int node_column) const {
     const bool last_column = node_column == level_.column.nodes() - 1;
     return (node_row > 0 ? gpu::edge_north : 0U) |
            (node_row < level_.row.nodes() - 1 ? gpu::edge_south : 0U) |
-           (!first_column || goes_round_ ? gpu::edge_west : 0U) |
-           (!last_column || goes_round_ ? gpu::edge_east : 0U);
+           (!first_column || wraps_longitude_ ? gpu::edge_west : 0U) |
+           (!last_column || wraps_longitude_ ? gpu::edge_east : 0U);
 }
 
 // The plane of one of a quad's triangles: of its posts' steps, for shares of its height and width.
@@ -90,10 +90,10 @@ double NodeDeviations::middles_deviation(const QuadPosts& quad) const {
     const double share = 1.0 / cells;
     for (int i = 0; i < cells; ++i) {
         const int row = quad.north + i,
-                  column = quad.diagonal == Diagonal::falls ? quad.west + i : quad.east - 1 - i;
+                  column = quad.diagonal == Diagonal::nw_se ? quad.west + i : quad.east - 1 - i;
         if (heights_.diagonal(0, row, column) == quad.diagonal) continue;
         const double middle =
-            quad.diagonal == Diagonal::falls
+            quad.diagonal == Diagonal::nw_se
                 ? 0.5 * (static_cast<double>(heights_.at(row, column + 1)) + heights_.at(row + 1, column))
                 : 0.5 * (static_cast<double>(heights_.at(row, column)) + heights_.at(row + 1, column + 1));
         extremes.add(middle - (plane.at_corner + share * (i + 0.5) * plane.change_down +
@@ -115,8 +115,8 @@ bool NodeDeviations::all_void(const QuadPosts& quad) const {
 // Which part of a quad with void posts the full-resolution surface and the quad's triangles cover.
 NodeDeviations::Quad NodeDeviations::quad_with_voids(const QuadPosts& quad) const {
     // It has posts all around, and is drawn whole; something in it is not there.
-    if (quad.diagonal == Diagonal::rises) return {Cover::unequal, unfit_m};
-    const auto& [north, west, south, east, falls] = quad;
+    if (quad.diagonal == Diagonal::sw_ne) return {Cover::unequal, unfit_m};
+    const auto& [north, west, south, east, nw_se] = quad;
     if (all_void(quad)) return {Cover::empty, 0.0};
     const auto there = [&](int row, int column) { return heights_.at(row, column) != void_height_steps; };
     // Cells' triangles on either side of the diagonal; a cell on it that rises has half of each on either.
@@ -188,11 +188,11 @@ NodeDeviations::Quad NodeDeviations::pair_deviation(const QuadPosts& quad) const
     const auto twofold = [](std::int64_t a, std::int64_t b, std::int64_t between) {
         return std::abs(2 * between - a - b);
     };
-    const bool falls = quad.diagonal == Diagonal::falls;
+    const bool nw_se = quad.diagonal == Diagonal::nw_se;
     const std::int64_t largest =
         std::max({twofold(north[0], north[2], north[1]), twofold(south[0], south[2], south[1]),
                   twofold(north[0], south[0], middle[0]), twofold(north[2], south[2], middle[2]),
-                  falls ? twofold(north[0], south[2], middle[1]) : twofold(north[2], south[0], middle[1])});
+                  nw_se ? twofold(north[0], south[2], middle[1]) : twofold(north[2], south[0], middle[1])});
     const double steps = 0.5 * static_cast<double>(largest);
     return {Cover::full, heights_.diagonals ? std::max(steps, middles_deviation(quad)) : steps};
 }

@@ -113,7 +113,7 @@ class NodeDeviations {
     const PostGrid& grid_;
     const DrawnHeights& heights_;
     LevelGrid level_;
-    bool goes_round_;
+    bool wraps_longitude_;
     double highest_m_;
     std::vector<Curvature> curvature_;  // by row of nodes
     std::vector<Stitched> whole_node_;  // of a node of 8 x 8 quads with neighbours on all sides

@@ -78,11 +78,11 @@ std::vector<NodeDeviations::Stitched> NodeDeviations::stitched_triangles(std::ui
         if ((mask & edges) != mask) continue;
         for (std::uint32_t i = 0; i < 2 * rows * columns; ++i) {
             const std::array quad{i / 2 / columns, i / 2 % columns};
-            for (const Diagonal diagonal : {Diagonal::falls, Diagonal::rises}) {
-                const bool rises =
-                    gpu::drawn_rising(diagonal == Diagonal::rises, {quad[0], quad[1]}, {rows, columns}, mask);
+            for (const Diagonal diagonal : {Diagonal::nw_se, Diagonal::sw_ne}) {
+                const bool sw_ne =
+                    gpu::drawn_sw_ne(diagonal == Diagonal::sw_ne, {quad[0], quad[1]}, {rows, columns}, mask);
                 add({mask, quad, diagonal, {}},
-                    cell_corners(rises ? Diagonal::rises : Diagonal::falls, i % 2 == 0));
+                    cell_corners(sw_ne ? Diagonal::sw_ne : Diagonal::nw_se, i % 2 == 0));
             }
         }
     }
@@ -129,14 +129,14 @@ double NodeDeviations::crossing_deviation(const Post& from, const Post& to) cons
         each(right - down, [&](int i, double t) {
             const double row = from.row + t * down;
             const int north = rounded_down(row), west = north + from.column - from.row + i;
-            if (row > north && heights_.diagonal(0, north, west) == Diagonal::falls)
+            if (row > north && heights_.diagonal(0, north, west) == Diagonal::nw_se)
                 compare(t, north, west, row - north, 1, 1);
         });
     if (heights_.diagonals && right != -down && !meets_posts_alone(right + down, down))
         each(right + down, [&](int i, double t) {
             const double row = from.row + t * down;
             const int north = rounded_down(row), east = from.row + from.column + i - north;
-            if (row > north && heights_.diagonal(0, north, east - 1) == Diagonal::rises)
+            if (row > north && heights_.diagonal(0, north, east - 1) == Diagonal::sw_ne)
                 compare(t, north, east, row - north, 1, -1);
         });
     // That surface is not there on either side of an edge that ends in a void post.
@@ -268,21 +268,21 @@ PerEdge NodeDeviations::finest_stitched_deviation(int node_row, int node_column)
     const auto post = [&](int row, int column) {
         return std::int64_t{heights_.at(north + row, west + column)};
     };
-    const auto rises = [&](int row, int column) {
-        return heights_.diagonal(0, north + row, west + column) == Diagonal::rises;
+    const auto sw_ne = [&](int row, int column) {
+        return heights_.diagonal(0, north + row, west + column) == Diagonal::sw_ne;
     };
     constexpr int last = node_quads - 1;
     for (int i = 1; i < node_quads; i += 2) {
         const auto row = [&](int r) { return std::array{post(r, i - 1), post(r, i), post(r, i + 1)}; };
         const auto column = [&](int c) { return std::array{post(i - 1, c), post(i, c), post(i + 1, c)}; };
-        join(0, row(0), row(1), !rises(0, i - 1), !rises(0, i));
-        join(1, column(node_quads), column(last), rises(i - 1, last), rises(i, last));
-        join(2, row(node_quads), row(last), rises(last, i - 1), rises(last, i));
-        join(3, column(0), column(1), !rises(i - 1, 0), !rises(i, 0));
+        join(0, row(0), row(1), !sw_ne(0, i - 1), !sw_ne(0, i));
+        join(1, column(node_quads), column(last), sw_ne(i - 1, last), sw_ne(i, last));
+        join(2, row(node_quads), row(last), sw_ne(last, i - 1), sw_ne(last, i));
+        join(3, column(0), column(1), !sw_ne(i - 1, 0), !sw_ne(i, 0));
     }
-    // Where both edges are stitched this quad falls (shaders/choose/levels.glsl, drawn_rising).
+    // Where both edges are stitched this quad falls (shaders/choose/levels.glsl, drawn_sw_ne).
     constexpr std::uint32_t corner = gpu::edge_south | gpu::edge_east;
-    if (rises(last, last) && (edges(node_row, node_column) & corner) == corner)
+    if (sw_ne(last, last) && (edges(node_row, node_column) & corner) == corner)
         sixfold[1] = std::max(sixfold[1], 3 * std::abs(post(last, last) + post(last + 1, last + 1) -
                                                        post(last, last + 1) - post(last + 1, last)));
     PerEdge deviation{};

@@ -47,7 +47,7 @@ class LevelBuilder {
         : region_(region),
           shape_(shape),
           heights_(heights),
-          goes_round_(pyramid.goes_round),
+          wraps_longitude_(pyramid.wraps_longitude),
           level_(level),
           grid_(level_grid(region, level)),
           below_(level > 0 ? &pyramid.levels[static_cast<std::size_t>(level - 1)] : nullptr),
@@ -74,7 +74,7 @@ class LevelBuilder {
     const PostGrid& region_;
     const RegionShape& shape_;
     const DrawnHeights& heights_;
-    bool goes_round_;
+    bool wraps_longitude_;
     int level_;
     LevelGrid grid_;
     const PyramidLevel* below_;
@@ -96,8 +96,8 @@ void LevelBuilder::visit_nodes_below(int node_row, int node_column, const Visit&
     const int west = 2 * node_column, east = std::min(west + 2, columns);
     for (int row = north; row < south; ++row) {
         for (int column = west; column < east; ++column) visit(row, column, no_edge);
-        if (west > 0 || goes_round_) visit(row, (west + columns - 1) % columns, east_edge);
-        if (east < columns || goes_round_) visit(row, east % columns, west_edge);
+        if (west > 0 || wraps_longitude_) visit(row, (west + columns - 1) % columns, east_edge);
+        if (east < columns || wraps_longitude_) visit(row, east % columns, west_edge);
     }
     for (int column = west; column < east; ++column) {
         if (north > 0) visit(north - 1, column, south_edge);
@@ -279,7 +279,7 @@ Result<LevelPyramid> build_pyramid_with(const PostGrid& grid, const RegionShape&
                                         const DrawnHeights& heights, int threads, const PyramidHooks& hooks,
                                         bool keep_levels) {
     assert(threads >= 1);
-    LevelPyramid pyramid{shape, grid.goes_round(), {}};
+    LevelPyramid pyramid{shape, grid.wraps_longitude(), {}};
     std::vector<gpu::PageBlock> blocks(PyramidHooks::pages_at_a_time);
     const int levels = level_count(grid);
     pyramid.levels.reserve(static_cast<std::size_t>(levels));

@@ -71,7 +71,7 @@ struct PyramidLevel {
 // neighbour is the first, on every level.
 struct LevelPyramid {
     RegionShape shape;
-    bool goes_round{};
+    bool wraps_longitude{};
     std::vector<PyramidLevel> levels;
 };
 

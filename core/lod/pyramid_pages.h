@@ -15,7 +15,7 @@ class PyramidPages {
     PyramidPages& operator=(const PyramidPages&) = delete;
 
     [[nodiscard]] virtual const RegionShape& shape() const = 0;
-    [[nodiscard]] virtual bool goes_round() const = 0;
+    [[nodiscard]] virtual bool wraps_longitude() const = 0;
     // 1 or more; the last is one page.
     [[nodiscard]] virtual int levels() const = 0;
     [[nodiscard]] virtual const LevelGrid& grid(int level) const = 0;
@@ -34,7 +34,7 @@ class PagesOfPyramid : public PyramidPages {
   public:
     explicit PagesOfPyramid(const LevelPyramid& pyramid) : pyramid_(pyramid) {}
     [[nodiscard]] const RegionShape& shape() const override { return pyramid_.shape; }
-    [[nodiscard]] bool goes_round() const override { return pyramid_.goes_round; }
+    [[nodiscard]] bool wraps_longitude() const override { return pyramid_.wraps_longitude; }
     [[nodiscard]] int levels() const override { return static_cast<int>(pyramid_.levels.size()); }
     [[nodiscard]] const LevelGrid& grid(int level) const override { return at(level).grid; }
     [[nodiscard]] const PyramidPage& page(const PageIndex& index) const override {

@@ -19,7 +19,7 @@ ORO_WIDE QuadDifferences quad_differences(const std::int32_t* north_west, std::p
         const std::int32_t* const steps = north_west + i * stride;
         const double of_west = west.at_corner + i * (share * west.change_down);
         const double of_east = east.at_corner + i * (share * east.change_down);
-        const int last_of_west = diagonal == Diagonal::falls ? i : size - i;
+        const int last_of_west = diagonal == Diagonal::nw_se ? i : size - i;
         const double last = last_of_west;
         int j = 0;
         FourDoubles right{0.0, 1.0, 2.0, 3.0};

@@ -10,18 +10,19 @@
 
 #include "core/base/parallel.h"
 #include "core/net/chebyshev.h"
-#include "core/net/grid_net.h"
+#include "core/net/lattice_georeference.h"
 
 namespace oro {
 
-void GridNet::add_correction(Correction correction) {
+void LatticeGeoreference::add_correction(Correction correction) {
     patches_[static_cast<std::size_t>(correction.patch)].correction =
         static_cast<std::int32_t>(corrections_.size());
     corrections_.push_back(std::move(correction));
 }
 
 // Places and derivatives: bilinear between the posts around.
-void GridNet::correct(const Patch& of, const PostNumber& at, int row, int column, Jet& jet) const {
+void LatticeGeoreference::correct(const Patch& of, const PostNumber& at, int row, int column,
+                                  Jet& jet) const {
     const double down = at.row + down_.first - static_cast<double>(row) * down_.patch_posts,
                  right = at.column + across_.first - static_cast<double>(column) * across_.patch_posts;
     const auto cell = [](double post, int posts) {
@@ -40,7 +41,7 @@ void GridNet::correct(const Patch& of, const PostNumber& at, int row, int column
 
 // Patches meet to some micrometres, not to the last bit. What was found beside a rim is looked for from the
 // rim on, too, in the patch that begins there: a post belongs to that one.
-PostNumber GridNet::across_rims(const PostNumber& post, const glm::dvec3& wanted) const {
+PostNumber LatticeGeoreference::across_rims(const PostNumber& post, const glm::dvec3& wanted) const {
     constexpr double near = 1.0e-3, same = 1.0e-9;
     const auto is_beside_rim = [](double number, double whole, const Cut& axis) {
         return std::abs(number - whole) < near && whole >= 0.0 && whole <= axis.last() &&
@@ -61,7 +62,7 @@ PostNumber GridNet::across_rims(const PostNumber& post, const glm::dvec3& wanted
 }
 
 // Corrects what does not hold. False where a correction would be none.
-Result<bool> GridNet::fit_corrected(const ExactPlaces& exact) {
+Result<bool> LatticeGeoreference::fit_corrected(const ExactPlaces& exact) {
     const int count = down_.patches * across_.patches;
     std::vector<Result<Corrected>> made(static_cast<std::size_t>(count), Corrected{});
     std::atomic<bool> failed{false};
@@ -83,7 +84,8 @@ Result<bool> GridNet::fit_corrected(const ExactPlaces& exact) {
     return patches_are_whole();
 }
 
-Result<GridNet::Corrected> GridNet::make_corrected(const ExactPlaces& exact, int row, int column) {
+Result<LatticeGeoreference::Corrected> LatticeGeoreference::make_corrected(const ExactPlaces& exact, int row,
+                                                                           int column) {
     ORO_CHECK(fit_patch(exact, row, column));
     ORO_TRY(const double error_m, patch_error_m(exact, row, column));
     // A kink may lie between the places that were looked at.
@@ -91,7 +93,8 @@ Result<GridNet::Corrected> GridNet::make_corrected(const ExactPlaces& exact, int
     return correction_of(exact, row, column);
 }
 
-Result<GridNet::Corrected> GridNet::correction_of(const ExactPlaces& exact, int row, int column) const {
+Result<LatticeGeoreference::Corrected> LatticeGeoreference::correction_of(const ExactPlaces& exact, int row,
+                                                                          int column) const {
     const int last_row = down_.last_of_patch(row), last_column = across_.last_of_patch(column);
     const int first_row = row * down_.patch_posts - down_.first,
               first_column = column * across_.patch_posts - across_.first;
@@ -128,7 +131,7 @@ Result<GridNet::Corrected> GridNet::correction_of(const ExactPlaces& exact, int 
 }
 
 // A fold would be steeper.
-bool GridNet::is_gentle(int row, int column) const {
+bool LatticeGeoreference::is_gentle(int row, int column) const {
     const Patch& of = patch(row, column);
     const auto most_steps = [&](const glm::dvec3& one, const glm::dvec3& other, const Cut& axis) {
         return steepest_correction * glm::distance(one, other) / axis.patch_posts;
@@ -147,7 +150,7 @@ bool GridNet::is_gentle(int row, int column) const {
     return true;
 }
 
-Result<void> GridNet::take_corrections(const std::vector<Correction>& corrections) {
+Result<void> LatticeGeoreference::take_corrections(const std::vector<Correction>& corrections) {
     const auto wrong = [](const std::string& what) {
         return Error{ErrorKind::failed, "grid of posts", what};
     };
@@ -176,7 +179,7 @@ Result<void> GridNet::take_corrections(const std::vector<Correction>& correction
     return {};
 }
 
-glm::dvec3 GridNet::polynomial_at(const Patch& of, double down, double right) {
+glm::dvec3 LatticeGeoreference::polynomial_at(const Patch& of, double down, double right) {
     Terms by_row, by_column;
     chebyshev(down, by_row);
     chebyshev(right, by_column);
@@ -187,7 +190,7 @@ glm::dvec3 GridNet::polynomial_at(const Patch& of, double down, double right) {
 }
 
 // A patch at -1 .. 1 each way.
-glm::dvec3 GridNet::in_patch(int row, int column, double down, double right) const {
+glm::dvec3 LatticeGeoreference::in_patch(int row, int column, double down, double right) const {
     const Patch& of = patch(row, column);
     Jet jet{polynomial_at(of, down, right), glm::dvec3(0.0), glm::dvec3(0.0)};
     if (of.correction != Patch::none)
@@ -197,7 +200,7 @@ glm::dvec3 GridNet::in_patch(int row, int column, double down, double right) con
 
 // Looks at as many places of each patch as it has coefficients, its corners among them; not beyond the grid,
 // where nothing is asked for.
-bool GridNet::patches_are_whole() const {
+bool LatticeGeoreference::patches_are_whole() const {
     constexpr double length_slack = 1.0e-6;
     const auto at = [](const Cut& axis, int patch, int i) {
         return std::min(-std::cos(std::numbers::pi * i / (terms - 1)), axis.in_patch(axis.last(), patch));
@@ -216,7 +219,7 @@ bool GridNet::patches_are_whole() const {
 }
 
 // With the patches below and beside; at each post where one of them is corrected.
-bool GridNet::rims_meet(int row, int column) const {
+bool LatticeGeoreference::rims_meet(int row, int column) const {
     constexpr double apart = 1.0e-10;  // 0.6 mm; those of a fit without corrections are within 1e-11
     const bool below = row + 1 < down_.patches, beside = column + 1 < across_.patches;
     const auto meet = [&](double along, bool down) {

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/net/chebyshev.h"
-#include "core/net/grid_net.h"
+#include "core/net/lattice_georeference.h"
 
 namespace oro {
 namespace {
@@ -20,21 +20,23 @@ double root(int i, int count) {
 
 }  // namespace
 
-GridNet::Cut GridNet::cut(int posts, int patches) {
+LatticeGeoreference::Cut LatticeGeoreference::cut(int posts, int patches) {
     const int patch_posts = std::max(fewest_posts, (posts + patches - 1) / patches);
     return {{0, posts, patch_posts, (posts + patch_posts - 1) / patch_posts}};
 }
 
-GridNet::GridNet(const Cut& down, const Cut& across)
+LatticeGeoreference::LatticeGeoreference(const Cut& down, const Cut& across)
     : down_(down),
       across_(across),
       patches_(static_cast<std::size_t>(down_.patches) * static_cast<std::size_t>(across_.patches)) {}
 
-Result<std::shared_ptr<const GridNet>> GridNet::fit(int rows, int columns, const ExactPlaces& exact) {
+Result<std::shared_ptr<const LatticeGeoreference>> LatticeGeoreference::fit(int rows, int columns,
+                                                                            const ExactPlaces& exact) {
     assert(rows >= 2 && columns >= 2);
     PatchNumber missed{0, 0};
     for (int patches = 1; patches == 1 || patches * fewest_posts <= std::max(rows, columns); patches *= 2) {
-        std::shared_ptr<GridNet> net(new GridNet(cut(rows, patches), cut(columns, patches)));
+        std::shared_ptr<LatticeGeoreference> net(
+            new LatticeGeoreference(cut(rows, patches), cut(columns, patches)));
         // Of the quarters of the one that missed, the first.
         const PatchNumber first{std::min(2 * missed.row, net->down_.patches - 1),
                                 std::min(2 * missed.column, net->across_.patches - 1)};
@@ -44,16 +46,17 @@ Result<std::shared_ptr<const GridNet>> GridNet::fit(int rows, int columns, const
             continue;
         }
         ORO_CHECK(net->measure());
-        return std::shared_ptr<const GridNet>(std::move(net));
+        return std::shared_ptr<const LatticeGeoreference>(std::move(net));
     }
     // The larger, the fewer numbers and places they need, and the more of them are corrected.
     for (const int posts : {64, 32, 16}) {
         const auto patches = [&](int count) { return (count + posts - 1) / posts; };
-        std::shared_ptr<GridNet> net(new GridNet(cut(rows, patches(rows)), cut(columns, patches(columns))));
+        std::shared_ptr<LatticeGeoreference> net(
+            new LatticeGeoreference(cut(rows, patches(rows)), cut(columns, patches(columns))));
         ORO_TRY(const bool holds, net->fit_corrected(exact));
         if (!holds) continue;
         ORO_CHECK(net->measure());
-        return std::shared_ptr<const GridNet>(std::move(net));
+        return std::shared_ptr<const LatticeGeoreference>(std::move(net));
     }
     return Error{ErrorKind::failed, "grid of posts",
                  "its places on the Earth do not follow smoothly from row and column: they jump"};
@@ -61,8 +64,8 @@ Result<std::shared_ptr<const GridNet>> GridNet::fit(int rows, int columns, const
 
 // The patch that does not hold what was promised, if any; looks at one before all others, so that what does
 // not hold takes little time.
-Result<std::optional<GridNet::PatchNumber>> GridNet::fit_patches(const ExactPlaces& exact,
-                                                                 PatchNumber first) {
+Result<std::optional<LatticeGeoreference::PatchNumber>> LatticeGeoreference::fit_patches(
+    const ExactPlaces& exact, PatchNumber first) {
     const int before = first.row * across_.patches + first.column;
     const int count = down_.patches * across_.patches;
     for (int i = -1; i < count; ++i) {
@@ -79,7 +82,7 @@ Result<std::optional<GridNet::PatchNumber>> GridNet::fit_patches(const ExactPlac
 
 // Discrete orthogonality gives the coefficients. Source: W. H. Press et al., Numerical Recipes, 3rd ed. 2007,
 // eq. 5.8.7.
-Result<void> GridNet::fit_patch(const ExactPlaces& exact, int row, int column) {
+Result<void> LatticeGeoreference::fit_patch(const ExactPlaces& exact, int row, int column) {
     std::array<PostNumber, terms * terms> posts;
     std::array<PostPlace, terms * terms> places;
     std::array<Terms, terms> at;  // of each root
@@ -106,7 +109,7 @@ Result<void> GridNet::fit_patch(const ExactPlaces& exact, int row, int column) {
 }
 
 // At places between the roots and on the patch's rim, where polynomials stray farthest.
-Result<double> GridNet::patch_error_m(const ExactPlaces& exact, int row, int column) const {
+Result<double> LatticeGeoreference::patch_error_m(const ExactPlaces& exact, int row, int column) const {
     constexpr int side = 2 * terms + 1;
     std::vector<PostNumber> posts(side * side);
     std::vector<PostPlace> places(side * side);

@@ -4,11 +4,11 @@
 #include <numbers>
 #include <vector>
 
-#include "core/net/grid_net.h"
+#include "core/net/lattice_georeference.h"
 
 namespace oro {
 
-PostNumber GridNet::Inverse::post(const glm::dvec3& normal) const {
+PostNumber LatticeGeoreference::Inverse::post(const glm::dvec3& normal) const {
     const glm::dvec2 at = uv(normal), held = glm::clamp(at, -1.0, 1.0);
     glm::dvec2 sum(0.0);
     std::size_t last = terms;
@@ -29,7 +29,7 @@ double edge_root(int i, int count) {
     return -std::cos(half * (i + 0.5)) / std::cos(0.5 * half);
 }
 
-constexpr std::size_t inverse_terms = GridNet::Inverse::terms;
+constexpr std::size_t inverse_terms = LatticeGeoreference::Inverse::terms;
 using NormalMatrix = std::array<std::array<double, inverse_terms>, inverse_terms>;
 
 // Solves a symmetric positive definite system in place of its right sides. Source: W. H. Press et al.,
@@ -57,7 +57,7 @@ bool solve(NormalMatrix& of, std::array<glm::dvec2, inverse_terms>& right) {
 }  // namespace
 
 // Least squares over places that lie closest together at the rim, as roots of Chebyshev's polynomials do.
-Result<void> GridNet::fit_inverse() {
+Result<void> LatticeGeoreference::fit_inverse() {
     constexpr int side = 24;
     const PostPlace middle = place_of_normal(middle_);
     const glm::dmat3 enu = ecef_from_enu(middle.lat_deg, middle.lon_deg);

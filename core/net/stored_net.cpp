@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/net/grid_net.h"
+#include "core/net/lattice_georeference.h"
 
 namespace oro {
 namespace {
@@ -14,7 +14,7 @@ Error no_net(const std::string& what) {
     return {ErrorKind::failed, "grid of posts", what};
 }
 
-bool fit_each_other(const GridNet::Stored::Axis& axis) {
+bool fit_each_other(const LatticeGeoreference::Stored::Axis& axis) {
     if (axis.posts < 2 || axis.patch_posts < 2 || axis.first < 0 || axis.first >= axis.patch_posts)
         return false;
     const std::int64_t end = std::int64_t{axis.first} + axis.posts;
@@ -23,7 +23,7 @@ bool fit_each_other(const GridNet::Stored::Axis& axis) {
 
 }  // namespace
 
-GridNet::Stored GridNet::stored() const {
+LatticeGeoreference::Stored LatticeGeoreference::stored() const {
     Stored stored{down_, across_, error_m_, {}, corrections_};
     stored.coefficients.reserve(patches_.size() * coefficients_a_patch);
     for (const Patch& patch : patches_)
@@ -32,7 +32,7 @@ GridNet::Stored GridNet::stored() const {
     return stored;
 }
 
-Result<std::shared_ptr<const GridNet>> GridNet::from(const Stored& stored) {
+Result<std::shared_ptr<const LatticeGeoreference>> LatticeGeoreference::from(const Stored& stored) {
     if (!fit_each_other(stored.down) || !fit_each_other(stored.across))
         return no_net("its posts and patches do not fit each other");
     const auto patches =
@@ -51,7 +51,7 @@ Result<std::shared_ptr<const GridNet>> GridNet::from(const Stored& stored) {
             if (!(std::abs(coefficient[axis]) <= largest))
                 return no_net("a coefficient is not within -2 .. 2");
     }
-    std::shared_ptr<GridNet> net(new GridNet({stored.down}, {stored.across}));
+    std::shared_ptr<LatticeGeoreference> net(new LatticeGeoreference({stored.down}, {stored.across}));
     for (std::size_t i = 0; i < patches; ++i)
         std::copy_n(stored.coefficients.begin() + static_cast<std::ptrdiff_t>(i * coefficients_a_patch),
                     coefficients_a_patch, net->patches_[i].coefficients.begin());
@@ -59,11 +59,11 @@ Result<std::shared_ptr<const GridNet>> GridNet::from(const Stored& stored) {
     ORO_CHECK(net->take_corrections(stored.corrections));
     if (!net->patches_are_whole()) return no_net("its normals are not of length 1, or do not meet");
     ORO_CHECK(net->measure());
-    return std::shared_ptr<const GridNet>(std::move(net));
+    return std::shared_ptr<const LatticeGeoreference>(std::move(net));
 }
 
-Result<std::shared_ptr<const GridNet>> GridNet::part(int first_row, int first_column, int rows,
-                                                     int columns) const {
+Result<std::shared_ptr<const LatticeGeoreference>> LatticeGeoreference::part(int first_row, int first_column,
+                                                                             int rows, int columns) const {
     assert(first_row >= 0 && first_column >= 0 && rows >= 2 && columns >= 2);
     assert(rows <= down_.posts - first_row && columns <= across_.posts - first_column);
     // The patches that it touches, and where among them it begins.
@@ -76,7 +76,7 @@ Result<std::shared_ptr<const GridNet>> GridNet::part(int first_row, int first_co
     int top = 0, left = 0;
     const Cut down = touched(down_, first_row, rows, top),
               across = touched(across_, first_column, columns, left);
-    std::shared_ptr<GridNet> net(new GridNet(down, across));
+    std::shared_ptr<LatticeGeoreference> net(new LatticeGeoreference(down, across));
     for (int row = 0; row < down.patches; ++row) {
         for (int column = 0; column < across.patches; ++column) {
             const Patch& of = patch(top + row, left + column);
@@ -88,7 +88,7 @@ Result<std::shared_ptr<const GridNet>> GridNet::part(int first_row, int first_co
     }
     net->error_m_ = error_m_;
     ORO_CHECK(net->measure());
-    return std::shared_ptr<const GridNet>(std::move(net));
+    return std::shared_ptr<const LatticeGeoreference>(std::move(net));
 }
 
 }  // namespace oro

@@ -25,7 +25,7 @@ struct SeamPiece {
 // meet. Where it is drawn it reaches out by as many pixels as the levels of both sides may be off
 // (FrameConstants.tau_px): upwards at its top, and at its foot downwards and sidewards, under what lies
 // there.
-struct SeamCloser {
+struct SeamSkirt {
     std::array<SeamCorner, 2> top;
     std::array<SeamCorner, 2> foot;
     glm::dvec3 up{};    // unit, ECEF
@@ -34,8 +34,8 @@ struct SeamCloser {
 
 struct Seam {
     std::vector<SeamPiece> pieces;
-    std::vector<SeamCloser> closers;
-    [[nodiscard]] bool empty() const { return pieces.empty() && closers.empty(); }
+    std::vector<SeamSkirt> skirts;
+    [[nodiscard]] bool empty() const { return pieces.empty() && skirts.empty(); }
 };
 
 }  // namespace oro

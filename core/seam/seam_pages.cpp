@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/base/parallel.h"
-#include "core/net/grid_net.h"
+#include "core/net/lattice_georeference.h"
 #include "core/terrain/drawn_heights.h"
 #include "core/terrain/page_on_net.h"
 
@@ -41,21 +41,21 @@ SeamQuad quad_of(const SeamPiece& piece) {
     }
     return quad;
 }
-// A closer's upright part, whose top reaches upwards, and what reaches down and to both sides from its foot:
+// A skirt's upright part, whose top reaches upwards, and what reaches down and to both sides from its foot:
 // seen along the upright part, its top is its foot, and the higher ground's edge is beside it.
-constexpr std::size_t quads_a_closer = 3;
-std::array<SeamQuad, quads_a_closer> quads_of(const SeamCloser& closer) {
+constexpr std::size_t quads_a_skirt = 3;
+std::array<SeamQuad, quads_a_skirt> quads_of(const SeamSkirt& skirt) {
     const glm::dvec3 still(0.0);
     const auto from_foot = [&](const glm::dvec3& reach) -> SeamQuad {
-        return {{closer.foot[0], closer.foot[0], closer.foot[1], closer.foot[1]},
+        return {{skirt.foot[0], skirt.foot[0], skirt.foot[1], skirt.foot[1]},
                 4,
-                {closer.foot[0].normal, closer.foot[1].normal, still, still, reach}};
+                {skirt.foot[0].normal, skirt.foot[1].normal, still, still, reach}};
     };
-    return {{{{closer.top[0], closer.foot[0], closer.foot[1], closer.top[1]},
+    return {{{{skirt.top[0], skirt.foot[0], skirt.foot[1], skirt.top[1]},
               4,
-              {closer.top[0].normal, closer.top[1].normal, still, closer.up, still}},
-             from_foot(0.5 * closer.side - closer.up),
-             from_foot(-0.5 * closer.side - closer.up)}};
+              {skirt.top[0].normal, skirt.top[1].normal, still, skirt.up, still}},
+             from_foot(0.5 * skirt.side - skirt.up),
+             from_foot(-0.5 * skirt.side - skirt.up)}};
 }
 
 // The plane that touches the Earth's normals in the middle of a seam.
@@ -110,17 +110,18 @@ Result<MiddlePlane> plane_of(const std::vector<SeamQuad>& quads) {
 // A net over the seam, whose posts stand for nothing: it says where in the region a place is.
 Result<PostGrid> grid_over(const MiddlePlane& plane, int pages) {
     const int columns = pages * static_cast<int>(gpu::page_quads) + 1;
-    ORO_TRY(std::shared_ptr<const GridNet> net,
-            GridNet::fit(posts, columns,
-                         [&](std::span<const PostNumber> asked, std::span<PostPlace> places) -> Result<void> {
-                             for (std::size_t i = 0; i < asked.size(); ++i) {
-                                 const glm::dvec2 share(asked[i].column / (columns - 1.0),
-                                                        1.0 - asked[i].row / (posts - 1.0));
-                                 places[i] = place_of_normal(
-                                     plane.normal(plane.low + share * (plane.high - plane.low)));
-                             }
-                             return {};
-                         }));
+    ORO_TRY(std::shared_ptr<const LatticeGeoreference> net,
+            LatticeGeoreference::fit(
+                posts, columns,
+                [&](std::span<const PostNumber> asked, std::span<PostPlace> places) -> Result<void> {
+                    for (std::size_t i = 0; i < asked.size(); ++i) {
+                        const glm::dvec2 share(asked[i].column / (columns - 1.0),
+                                               1.0 - asked[i].row / (posts - 1.0));
+                        places[i] =
+                            place_of_normal(plane.normal(plane.low + share * (plane.high - plane.low)));
+                    }
+                    return {};
+                }));
     return grid_on_net(std::move(net));
 }
 
@@ -145,7 +146,7 @@ class SeamPages : public RegionPages {
     Result<void> load_places(const PageIndex& page, const gpu::PageBlock& block,
                              gpu::PagePlaces& places) const override;
     [[nodiscard]] bool is_seam() const override { return true; }
-    [[nodiscard]] bool closes_gaps(const PageIndex& page) const override {
+    [[nodiscard]] bool is_skirt(const PageIndex& page) const override {
         return static_cast<std::size_t>(page.column) >= piece_pages_;
     }
 
@@ -212,7 +213,7 @@ Result<void> SeamPages::load(const PageIndex& page, gpu::PageBlock& block) const
     const PageSummary& summary = records_[static_cast<std::size_t>(page.column)].summary;
     std::fill(std::begin(block.heights), std::end(block.heights), gpu::void_height);
     std::fill(std::begin(block.boxes), std::end(block.boxes), 0U);  // nothing asks for them
-    std::fill(std::begin(block.rises), std::end(block.rises), 0U);
+    std::fill(std::begin(block.sw_ne), std::end(block.sw_ne), 0U);
     std::vector<Around> around(gpu::meshlets_per_page);
     const glm::dmat3 page_from_ecef = glm::transpose(summary.ecef_from_page);
     const std::span<const SeamQuad> quads = quads_on(page.column);
@@ -299,22 +300,21 @@ void sort_by_place(std::vector<Item>& items, const Place& place) {
 
 Result<std::unique_ptr<RegionPages>> seam_pages(const Seam& seam, const UndulationField& undulation,
                                                 const RegionShape& shape) {
-    std::vector<SeamQuad> pieces, closers;
+    std::vector<SeamQuad> pieces, skirts;
     for (const SeamPiece& piece : seam.pieces) pieces.push_back(quad_of(piece));
-    for (const SeamCloser& closer : seam.closers)
-        std::ranges::copy(quads_of(closer), std::back_inserter(closers));
+    for (const SeamSkirt& skirt : seam.skirts) std::ranges::copy(quads_of(skirt), std::back_inserter(skirts));
     std::vector<SeamQuad> all = pieces;
-    all.insert(all.end(), closers.begin(), closers.end());
+    all.insert(all.end(), skirts.begin(), skirts.end());
     ORO_TRY(const MiddlePlane plane, plane_of(all));
     const auto place = [&](const SeamQuad& quad) {
         return (plane.at(up_at(quad.corners[0])) - plane.low) / (plane.high - plane.low);
     };
     sort_by_place(pieces, place);
-    sort_by_place(closers, place);
-    const std::size_t first_closer = pieces.size();
-    const std::size_t pages = SeamPages::pages_for(first_closer) + SeamPages::pages_for(closers.size());
+    sort_by_place(skirts, place);
+    const std::size_t first_skirt = pieces.size();
+    const std::size_t pages = SeamPages::pages_for(first_skirt) + SeamPages::pages_for(skirts.size());
     all = std::move(pieces);
-    all.insert(all.end(), closers.begin(), closers.end());
+    all.insert(all.end(), skirts.begin(), skirts.end());
     ORO_TRY(PostGrid grid, grid_over(plane, static_cast<int>(pages)));
     HeightField field;
     field.grid = grid;
@@ -324,7 +324,7 @@ Result<std::unique_ptr<RegionPages>> seam_pages(const Seam& seam, const Undulati
     for (const SeamQuad& quad : all) triangles += static_cast<std::uint64_t>(quad.count - 2);
     RegionFacts facts{std::move(grid), drawn_undulation(field), shape, triangles};
     return std::unique_ptr<RegionPages>(
-        std::make_unique<SeamPages>(std::move(facts), std::move(all), first_closer));
+        std::make_unique<SeamPages>(std::move(facts), std::move(all), first_skirt));
 }
 
 }  // namespace oro

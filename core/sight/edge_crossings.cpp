@@ -70,9 +70,9 @@ void Crossings::walk(const Step& from, const Step& to, int depth) {
         search(piece, {from.row, middle.row, to.row}, 0.0, last_row, always);
         search(piece, {from.column, middle.column, to.column}, 0.0, last_column, always);
         search(piece, {from.row - from.column, middle.row - middle.column, to.row - to.column}, -last_column,
-               last_row, [&](double share) { return splits(piece, share, Diagonal::falls); });
+               last_row, [&](double share) { return splits(piece, share, Diagonal::nw_se); });
         search(piece, {from.row + from.column, middle.row + middle.column, to.row + to.column}, 0.0,
-               last_row + last_column, [&](double share) { return splits(piece, share, Diagonal::rises); });
+               last_row + last_column, [&](double share) { return splits(piece, share, Diagonal::sw_ne); });
         return;
     }
     if (depth == deepest) {

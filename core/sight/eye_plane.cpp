@@ -16,27 +16,27 @@ constexpr float float_infinite = std::numeric_limits<float>::infinity();
 
 // A window's column as one of the grid.
 int grid_column(const PostGrid& grid, int column) {
-    if (!grid.goes_round()) return column;
+    if (!grid.wraps_longitude()) return column;
     const int turn = grid.columns() - 1;
     return ((column % turn) + turn) % turn;
 }
 
 }  // namespace
 
-EyePlane::EyePlane(const TrueSurface& surface, const Lookout& lookout, const ViewshedWindow& window,
+EyePlane::EyePlane(const TrueSurface& surface, const Observer& observer, const ViewshedWindow& window,
                    int threads)
     : window_(window),
       stride_(window.columns + 2),
       posts_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(window.rows + 2),
              PlanePost{no_number, no_number, no_number, no_number, no_number}),
-      rises_(posts_.size(), 0),
-      enu_from_ecef_(glm::transpose(ecef_from_enu(lookout.eye().lat_deg, lookout.eye().lon_deg))),
-      bend_per_m_(0.5 * lookout.sight().refraction.curvature_per_m()),
-      bulge_per_m_(0.5 / std::sqrt(prime_vertical_radius_m(lookout.eye().lat_deg) *
-                                   meridian_radius_m(lookout.eye().lat_deg)) -
+      sw_ne_(posts_.size(), 0),
+      enu_from_ecef_(glm::transpose(ecef_from_enu(observer.eye().lat_deg, observer.eye().lon_deg))),
+      bend_per_m_(0.5 * observer.sight().refraction.curvature_per_m()),
+      bulge_per_m_(0.5 / std::sqrt(prime_vertical_radius_m(observer.eye().lat_deg) *
+                                   meridian_radius_m(observer.eye().lat_deg)) -
                    bend_per_m_) {
     const PostGrid& grid = surface.field().grid;
-    eye_enu_ = enu_from_ecef_ * lookout.sight().eye.m;
+    eye_enu_ = enu_from_ecef_ * observer.sight().eye.m;
     net_ = grid.net;
     for (int row = 0; !net_ && row < window.rows; ++row) {
         const double lat_deg = row_lat_deg(grid, window.first_row + row);
@@ -83,7 +83,7 @@ void EyePlane::place_row(const TrueSurface& surface, int row) {
     for (int column = 0; column + 1 < window_.columns; ++column) {
         const Diagonal diagonal = surface.diagonal_of_many(window_.first_row + row,
                                                            grid_column(grid, window_.first_column + column));
-        rises_[static_cast<std::size_t>(number(row, column))] = diagonal == Diagonal::rises ? 1 : 0;
+        sw_ne_[static_cast<std::size_t>(number(row, column))] = diagonal == Diagonal::sw_ne ? 1 : 0;
     }
 }
 
@@ -104,7 +104,7 @@ void EyePlane::measure(const PostGrid& grid, int threads) {
         for (int column = 0; column < window_.columns; ++column) {
             const std::int64_t here = number(row, column);
             // Eastwards, down the cell's own diagonal, southwards.
-            const std::int64_t across = rises_[static_cast<std::size_t>(here)] != 0 ? here + 1 : here;
+            const std::int64_t across = sw_ne_[static_cast<std::size_t>(here)] != 0 ? here + 1 : here;
             const std::array<std::array<std::int64_t, 2>, 3> edges{
                 {{here, here + 1},
                  {across, here + stride_ + (across == here ? 1 : 0)},

@@ -31,7 +31,7 @@ inline double along(const PlanePost& a, const PlanePost& b) {
 // and NaN for a height. Numbers count through rows of the rimmed window.
 class EyePlane {
   public:
-    EyePlane(const TrueSurface& surface, const Lookout& lookout, const ViewshedWindow& window, int threads);
+    EyePlane(const TrueSurface& surface, const Observer& observer, const ViewshedWindow& window, int threads);
 
     [[nodiscard]] const PlanePost& post(std::int64_t number) const {
         return posts_[static_cast<std::size_t>(number)];
@@ -44,34 +44,34 @@ class EyePlane {
         int count;  // 4 to 8
     };
     [[nodiscard]] Neighbours neighbours(std::int64_t number) const {
-        const auto rises = [&](std::int64_t cell) { return rises_[static_cast<std::size_t>(cell)] != 0; };
+        const auto sw_ne = [&](std::int64_t cell) { return sw_ne_[static_cast<std::size_t>(cell)] != 0; };
         Neighbours around{{}, 0};
         const auto add = [&](std::int64_t step) {
             around.numbers[static_cast<std::size_t>(around.count++)] = number + step;
         };
         add(1);
-        if (!rises(number)) add(stride_ + 1);
+        if (!sw_ne(number)) add(stride_ + 1);
         add(stride_);
-        if (rises(number - 1)) add(stride_ - 1);
+        if (sw_ne(number - 1)) add(stride_ - 1);
         add(-1);
-        if (!rises(number - stride_ - 1)) add(-stride_ - 1);
+        if (!sw_ne(number - stride_ - 1)) add(-stride_ - 1);
         add(-stride_);
-        if (rises(number - stride_)) add(1 - stride_);
+        if (sw_ne(number - stride_)) add(1 - stride_);
         return around;
     }
     // The third post of the triangle on the other side of the edge of two, seen from the third on this side.
     [[nodiscard]] std::int64_t beyond(std::int64_t one, std::int64_t other, std::int64_t before) const {
         const std::int64_t low = std::min(one, other), high = std::max(one, other);
-        const auto rises = [&](std::int64_t cell) { return rises_[static_cast<std::size_t>(cell)] != 0; };
+        const auto sw_ne = [&](std::int64_t cell) { return sw_ne_[static_cast<std::size_t>(cell)] != 0; };
         if (high - low == 1) {  // along a row
             const bool south = before < low;
-            if (south) return rises(low) ? low + stride_ : high + stride_;
-            return rises(low - stride_) ? high - stride_ : low - stride_;
+            if (south) return sw_ne(low) ? low + stride_ : high + stride_;
+            return sw_ne(low - stride_) ? high - stride_ : low - stride_;
         }
         if (high - low == stride_) {  // along a column
             const bool east = before == low - 1 || before == high - 1;
-            if (east) return rises(low) ? low + 1 : high + 1;
-            return rises(low - 1) ? high - 1 : low - 1;
+            if (east) return sw_ne(low) ? low + 1 : high + 1;
+            return sw_ne(low - 1) ? high - 1 : low - 1;
         }
         return one + other - before;  // a diagonal: across the cell
     }
@@ -106,10 +106,10 @@ class EyePlane {
     ViewshedWindow window_;
     std::int64_t stride_;
     std::vector<PlanePost> posts_;
-    std::vector<char> rises_;  // of the cell south-east of each; those that the window has not wholly fall
+    std::vector<char> sw_ne_;  // of the cell south-east of each; those that the window has not wholly fall
     glm::dmat3 enu_from_ecef_;
     glm::dvec3 eye_enu_{};                // of the eye's ECEF place
-    std::shared_ptr<const GridNet> net_;  // where posts lie on one, instead of rows_ and columns_
+    std::shared_ptr<const LatticeGeoreference> net_;  // where posts lie on one, instead of rows_ and columns_
     double bend_per_m_;
     double bulge_per_m_;
     struct RowTerms {

@@ -33,8 +33,8 @@ class Sweep {
           request_(request),
           window_(window),
           target_m_(std::max(request.target_m, least_above_m)),
-          lookout_(surface, request.eye, request.air),
-          plane_(surface, lookout_, window, request.threads) {
+          observer_(surface, request.eye, request.air),
+          plane_(surface, observer_, window, request.threads) {
         const Geodetic& eye = request.eye;
         const double radius_m =
             std::sqrt(prime_vertical_radius_m(eye.lat_deg) * meridian_radius_m(eye.lat_deg));
@@ -55,8 +55,8 @@ class Sweep {
     template <class Take>
     void for_entries_of_row(int row, const Take& take) const;
     void sweep_sector(int sector, Viewshed& viewshed, std::size_t& asked) const;
-    [[nodiscard]] float missed_by_m(const Entry& entry, const HorizonSector& sector, double shell_m,
-                                    std::size_t& asked) const;
+    [[nodiscard]] float clearance_deficit_m(const Entry& entry, const HorizonSector& sector, double shell_m,
+                                            std::size_t& asked) const;
     [[nodiscard]] bool walk(std::int64_t from, const PlanePost& target, double until_m,
                             Horizon& horizon) const;
     [[nodiscard]] bool in_reach(const PlanePost& post) const;
@@ -67,7 +67,7 @@ class Sweep {
     const ViewshedRequest& request_;
     ViewshedWindow window_;
     double target_m_;
-    Lookout lookout_;
+    Observer observer_;
     EyePlane plane_;
     Shells shells_;
     int ranges_{};
@@ -231,16 +231,16 @@ float Sweep::ask_oracle(const Entry& entry, double rise_m, std::size_t& asked) c
     const int row = window_.first_row + entry.row;
     const int column = window_.first_column + entry.column;
     const Geodetic target = target_over_post(surface_, row, column, target_m_);
-    if (lookout_.sees(target)) return 0.0F;
-    constexpr double told_m = 1.0e-4;
-    if (rise_m > told_m) return static_cast<float>(rise_m);
-    const std::optional<double> by_m = lookout_.missed_by_m(target);
+    if (observer_.sees(target)) return 0.0F;
+    constexpr double reported_m = 1.0e-4;
+    if (rise_m > reported_m) return static_cast<float>(rise_m);
+    const std::optional<double> by_m = observer_.clearance_deficit_m(target);
     return by_m ? std::max(static_cast<float>(*by_m), std::numeric_limits<float>::min())
                 : std::numeric_limits<float>::infinity();
 }
 
-float Sweep::missed_by_m(const Entry& entry, const HorizonSector& sector, double shell_m,
-                         std::size_t& asked) const {
+float Sweep::clearance_deficit_m(const Entry& entry, const HorizonSector& sector, double shell_m,
+                                 std::size_t& asked) const {
     const int row = entry.row, column = entry.column;
     const std::int64_t number = plane_.number(row, column);
     const PlanePost& post = plane_.post(number);
@@ -303,7 +303,8 @@ void Sweep::sweep_sector(int sector, Viewshed& viewshed, std::size_t& asked) con
             const std::size_t cell =
                 static_cast<std::size_t>(entry->row) * static_cast<std::size_t>(window_.columns) +
                 static_cast<std::size_t>(entry->column);
-            viewshed.missed_by_m[cell] = missed_by_m(*entry, horizon, shell * shells_.width_m, asked);
+            viewshed.clearance_deficit_m[cell] =
+                clearance_deficit_m(*entry, horizon, shell * shells_.width_m, asked);
         }
         for (const Entry* entry = from; entry != to; ++entry)
             add_edges(plane_.number(entry->row, entry->column), horizon);
@@ -312,7 +313,7 @@ void Sweep::sweep_sector(int sector, Viewshed& viewshed, std::size_t& asked) con
 
 Viewshed Sweep::result(const ViewshedProgress& progress) {
     Viewshed viewshed{window_, {}, 0};
-    viewshed.missed_by_m.assign(
+    viewshed.clearance_deficit_m.assign(
         static_cast<std::size_t>(window_.rows) * static_cast<std::size_t>(window_.columns),
         Viewshed::unknown);
     sort_posts();
@@ -368,8 +369,8 @@ class Reach {
     double tangent_;
 };
 
-float missed_by_lookout_m(const Lookout& lookout, const Geodetic& target) {
-    const std::optional<double> by_m = lookout.missed_by_m(target);
+float missed_by_lookout_m(const Observer& observer, const Geodetic& target) {
+    const std::optional<double> by_m = observer.clearance_deficit_m(target);
     return by_m ? static_cast<float>(*by_m) : std::numeric_limits<float>::infinity();
 }
 
@@ -385,7 +386,7 @@ Geodetic target_over_post(const TrueSurface& surface, int row, int column, doubl
     const double lat_deg = row_lat_deg(grid, row);
     const double lon_deg = normalised_lon_deg(grid.lon.at_deg(column));
     int there = column;
-    if (grid.goes_round()) {
+    if (grid.wraps_longitude()) {
         const int turn_columns = grid.columns() - 1;
         there = ((column % turn_columns) + turn_columns) % turn_columns;
     }
@@ -427,9 +428,9 @@ Viewshed viewshed(const TrueGround& ground, std::size_t grid, const ViewshedRequ
     // A sweep takes 0.4 microseconds a post (docs/commands/viewshed.md), where a line of sight asks the
     // oracle.
     if (!others_reach(ground, grid, request)) return Sweep(surface, request, window).result(progress);
-    viewshed.missed_by_m.assign(
+    viewshed.clearance_deficit_m.assign(
         static_cast<std::size_t>(window.rows) * static_cast<std::size_t>(window.columns), Viewshed::unknown);
-    const Lookout lookout(ground, request.eye, request.air);
+    const Observer observer(ground, request.eye, request.air);
     const Reach reach(request);
     std::mutex telling;
     int done = 0;
@@ -443,7 +444,7 @@ Viewshed viewshed(const TrueGround& ground, std::size_t grid, const ViewshedRequ
             target.h_m = *ground_m;
             if (!reach.holds(target)) continue;
             target.h_m += std::max(request.target_m, least_above_m);
-            viewshed.missed_by_m[window.number(row, column)] = missed_by_lookout_m(lookout, target);
+            viewshed.clearance_deficit_m[window.number(row, column)] = missed_by_lookout_m(observer, target);
             ++asked;
         }
         const std::lock_guard lock(telling);

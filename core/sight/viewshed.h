@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/sight/lookout.h"
+#include "core/sight/observer.h"
 
 namespace oro {
 
@@ -36,7 +36,7 @@ struct Viewshed {
     ViewshedWindow window;
     // For each post of the window: 0 where a target over it is seen, else how much higher (metres) it would
     // have to be, infinite where no height would do; or unknown.
-    std::vector<float> missed_by_m;
+    std::vector<float> clearance_deficit_m;
     std::size_t asked{};  // targets that were so close to the edge of sight that the oracle was asked
 };
 
@@ -52,14 +52,15 @@ struct ViewshedRequest {
 using ViewshedProgress = std::function<void(double share)>;
 
 // What is seen at the posts of one of the ground's grids: a target stands on what is the ground at the post's
-// place, whichever grid that is. Whether it is seen is what Lookout::sees() says of it, for all posts. The
+// place, whichever grid that is. Whether it is seen is what Observer::sees() says of it, for all posts. The
 // answer does not depend on `threads`.
 //
 // Where no other grid comes within the radius, posts are swept; where one does, each post takes a line of
-// sight, and a hidden one some thirty, and missed_by_m is as exact as Lookout. Of a sweep it is that of edges
-// that are straight but for the ellipsoid's curvature: off by less than a millimetre, on posts of 3 seconds,
-// times how much farther away the target is than what hides it. (Measured: 0.12 m 2 m over hills, out to 12
-// km; 0.305 m over real mountains. There is no bound.) A sweep takes 70 bytes for each post of the window.
+// sight, and a hidden one some thirty, and clearance_deficit_m is as exact as Observer. Of a sweep it is that
+// of edges that are straight but for the ellipsoid's curvature: off by less than a millimetre, on posts of 3
+// seconds, times how much farther away the target is than what hides it. (Measured: 0.12 m 2 m over hills,
+// out to 12 km; 0.305 m over real mountains. There is no bound.) A sweep takes 70 bytes for each post of the
+// window.
 //
 // The sweep: in the plane that is level at the eye all sight lines are straight, and posts are the corners of
 // a net of triangles. Posts are taken by their distance. For narrow ranges of azimuth those edges of the net

@@ -11,7 +11,7 @@ namespace {
 constexpr double least_radius_m = 6.33e6, spare_cells = 3.0;  // no radius of curvature is smaller
 
 // Of a grid on a net: what holds a circle around the place.
-ViewshedWindow window_on_net(const GridNet& net, const Geodetic& place, double reach) {
+ViewshedWindow window_on_net(const LatticeGeoreference& net, const Geodetic& place, double reach) {
     constexpr int bearings = 256;
     constexpr double between = 1.001;  // a circle's reach beyond the chords from bearing to bearing, and more
     const glm::dmat3 enu = ecef_from_enu(place.lat_deg, place.lon_deg);
@@ -70,7 +70,7 @@ ViewshedWindow window_around(const PostGrid& grid, const Geodetic& place, double
         const double columns = wide_deg * grid.lon.posts_per_deg + spare_cells;
         const double column = grid.column_at(place.lon_deg);
         double first = std::floor(column - columns), last = std::ceil(column + columns);
-        if (grid.goes_round()) {
+        if (grid.wraps_longitude()) {
             if (last - first >= grid.columns() - 1) return window;
         } else {
             // The circle may reach into the grid from behind.

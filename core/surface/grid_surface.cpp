@@ -19,14 +19,14 @@ constexpr int node_side = static_cast<int>(gpu::meshlet_quads);
 }  // namespace
 
 GridSurface::GridSurface(const DrawnHeights& heights, const GridWindow& window)
-    : heights_(heights), window_(window), rises_(heights.steps.size(), 0) {
+    : heights_(heights), window_(window), sw_ne_(heights.steps.size(), 0) {
     assert(window.first_row % static_cast<int>(gpu::meshlet_quads) == 0);
     assert(window.first_column % static_cast<int>(gpu::meshlet_quads) == 0);
     for (int row = 0; heights.diagonals && row < heights.rows - 1; ++row) {
         for (int column = 0; column < heights.columns - 1; ++column)
-            rises_[static_cast<std::size_t>(row) * static_cast<std::size_t>(heights.columns) +
+            sw_ne_[static_cast<std::size_t>(row) * static_cast<std::size_t>(heights.columns) +
                    static_cast<std::size_t>(column)] =
-                heights.diagonal(0, row, column) == Diagonal::rises ? 1 : 0;
+                heights.diagonal(0, row, column) == Diagonal::sw_ne ? 1 : 0;
     }
 }
 
@@ -43,7 +43,7 @@ bool GridSurface::is_open(VertexNumber number) const {
 
 bool GridSurface::must_stay(VertexNumber number) const {
     const auto column = static_cast<int>(number % static_cast<VertexNumber>(heights_.columns));
-    return window_.goes_round && (column == 0 || column == heights_.columns - 1);
+    return window_.wraps_longitude && (column == 0 || column == heights_.columns - 1);
 }
 
 SurfaceVertex GridSurface::vertex(VertexNumber number) const {
@@ -58,7 +58,7 @@ VertexTriangle GridSurface::triangle_of(int row, int column, int side) const {
     const VertexNumber north_west =
         static_cast<VertexNumber>(row) * columns + static_cast<VertexNumber>(column);
     const VertexNumber south_east = north_west + columns + 1;
-    if (rises_[north_west] != 0)
+    if (sw_ne_[north_west] != 0)
         return side == 0 ? VertexTriangle{north_west, north_west + 1, north_west + columns}
                          : VertexTriangle{north_west + columns, north_west + 1, south_east};
     if (side == 0) return {north_west, south_east, north_west + columns};
@@ -140,7 +140,7 @@ double GridSurface::crossing_difference(const SurfaceVertex& from, const Surface
         across = down > 0 ? columns : -columns;
     else if (lines.along == columns)
         across = right > 0 ? 1 : -1;
-    else if (lines.rises == 0)
+    else if (lines.sw_ne == 0)
         across = right - down > 0 ? 1 : -1;  // a diagonal's post of the same row
     else
         across = right + down > 0 ? 1 : -1;
@@ -154,7 +154,7 @@ double GridSurface::crossing_difference(const SurfaceVertex& from, const Surface
             left -= lines.count;
             passed += lines.along;
         }
-        if (lines.diagonals && left != 0 && rises(passed + lines.cell) != lines.rises) continue;
+        if (lines.diagonals && left != 0 && sw_ne(passed + lines.cell) != lines.sw_ne) continue;
         double original = *passed;
         if (left != 0)
             original +=
@@ -171,9 +171,9 @@ double GridSurface::edge_difference(const SurfaceVertex& from, const SurfaceVert
     const int falling = std::abs(right - down), rising = std::abs(right + down);
     if (rows <= 1 && columns <= 1) {
         if (rows + columns < 2) return 0.0;  // along a row or a column
-        const bool rises_there =
-            rises(post(std::min(from.row, to.row), std::min(from.column, to.column))) != 0;
-        if (rises_there == (rising == 0)) return 0.0;  // the cell's own diagonal
+        const bool sw_ne_there =
+            sw_ne(post(std::min(from.row, to.row), std::min(from.column, to.column))) != 0;
+        if (sw_ne_there == (rising == 0)) return 0.0;  // the cell's own diagonal
         const double crossed = static_cast<double>(*post(from.row, to.column)) + *post(to.row, from.column);
         return 0.5 * std::abs(crossed - (static_cast<double>(from.steps) + to.steps));
     }

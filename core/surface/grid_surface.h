@@ -16,7 +16,7 @@ struct GridWindow {
     bool south_open{};
     bool west_open{};
     // The first and the last column are one meridian: their posts stay, so that both sides have the same.
-    bool goes_round{};
+    bool wraps_longitude{};
 };
 
 // Vertex number row * columns + column, counted within the heights; places are those in the region. A cell is
@@ -50,7 +50,7 @@ class GridSurface final : public OriginalSurface {
         std::ptrdiff_t along;  // posts, in memory
         // Of diagonals: where a cell's north-west post is from the one passed, and whether it must rise.
         std::ptrdiff_t cell{};
-        char rises{};
+        char sw_ne{};
         bool diagonals{};
     };
     // Gives each triangle of a node to `take` until it says false.
@@ -67,13 +67,13 @@ class GridSurface final : public OriginalSurface {
         return heights_.row(row - window_.first_row) + (column - window_.first_column);
     }
 
-    [[nodiscard]] char rises(const std::int32_t* north_west) const {
-        return rises_[static_cast<std::size_t>(north_west - heights_.steps.data())];
+    [[nodiscard]] char sw_ne(const std::int32_t* north_west) const {
+        return sw_ne_[static_cast<std::size_t>(north_west - heights_.steps.data())];
     }
 
     const DrawnHeights& heights_;
     GridWindow window_;
-    std::vector<char> rises_;  // of the cell south-east of each post
+    std::vector<char> sw_ne_;  // of the cell south-east of each post
 };
 
 }  // namespace oro

@@ -13,7 +13,7 @@
 namespace oro {
 
 // From the north-west post to the south-east one, or from the south-west to the north-east one.
-enum class Diagonal : unsigned char { falls, rises };
+enum class Diagonal : unsigned char { nw_se, sw_ne };
 
 // A cell's two triangles: that with the cell's western edge and that with its eastern one.
 //     falls: west = north-west, south-west, south-east     east = north-west, south-east, north-east
@@ -22,14 +22,14 @@ enum class Diagonal : unsigned char { falls, rises };
 // number them 0 and 1 (shaders/place/place.glsl).
 using CellCorners = std::array<std::array<int, 2>, 3>;
 [[nodiscard]] constexpr CellCorners cell_corners(Diagonal diagonal, bool west) {
-    if (diagonal == Diagonal::falls)
+    if (diagonal == Diagonal::nw_se)
         return west ? CellCorners{{{0, 0}, {1, 0}, {1, 1}}} : CellCorners{{{0, 0}, {1, 1}, {0, 1}}};
     return west ? CellCorners{{{0, 0}, {1, 0}, {0, 1}}} : CellCorners{{{1, 0}, {1, 1}, {0, 1}}};
 }
 // How far a place, (down, right) of the north-west post in 0 .. 1, is on the western triangle's side of the
 // diagonal: in cells, across.
 [[nodiscard]] constexpr double west_of_diagonal(Diagonal diagonal, double down, double right) {
-    return diagonal == Diagonal::falls ? down - right : 1.0 - down - right;
+    return diagonal == Diagonal::nw_se ? down - right : 1.0 - down - right;
 }
 
 // A triangle's plane in (down, right): h = at_corner + down * change_down + right * change_right.
@@ -41,7 +41,7 @@ struct CellPlane {
 // The plane of a triangle of a cell with all four posts.
 [[nodiscard]] constexpr CellPlane cell_plane(Diagonal diagonal, bool west, double north_west,
                                              double north_east, double south_west, double south_east) {
-    if (diagonal == Diagonal::falls)
+    if (diagonal == Diagonal::nw_se)
         return west ? CellPlane{north_west, south_west - north_west, south_east - south_west}
                     : CellPlane{north_west, south_east - north_east, north_east - north_west};
     return west ? CellPlane{north_west, south_west - north_west, north_east - north_west}
@@ -76,12 +76,12 @@ inline constexpr std::int64_t no_weighed_steps = INT64_MIN;
                                                  std::int32_t north_west, std::int32_t north_east,
                                                  std::int32_t south_west, std::int32_t south_east) {
     for (const std::int64_t row : weighed)
-        if (row == no_weighed_steps) return Diagonal::falls;
+        if (row == no_weighed_steps) return Diagonal::nw_se;
     // All three as 256 times the height in the middle: below 2^40.
     const std::int64_t smooth = 9 * (weighed[1] + weighed[2]) - weighed[0] - weighed[3];
-    const std::int64_t falls = 128 * (std::int64_t{north_west} + south_east) - smooth;
-    const std::int64_t rises = 128 * (std::int64_t{north_east} + south_west) - smooth;
-    return (rises < 0 ? -rises : rises) < (falls < 0 ? -falls : falls) ? Diagonal::rises : Diagonal::falls;
+    const std::int64_t nw_se = 128 * (std::int64_t{north_west} + south_east) - smooth;
+    const std::int64_t sw_ne = 128 * (std::int64_t{north_east} + south_west) - smooth;
+    return (sw_ne < 0 ? -sw_ne : sw_ne) < (nw_se < 0 ? -nw_se : nw_se) ? Diagonal::sw_ne : Diagonal::nw_se;
 }
 
 // The diagonal of a cell by its north-west post, where the posts' H come from steps(row, column), which are
@@ -94,7 +94,7 @@ template <class Steps>
         auto& own = posts[static_cast<std::size_t>(i)];
         for (int j = 0; j < 4; ++j) {
             own[static_cast<std::size_t>(j)] = steps(row + i - 1, column + j - 1);
-            if (own[static_cast<std::size_t>(j)] == no_decisive_steps) return Diagonal::falls;
+            if (own[static_cast<std::size_t>(j)] == no_decisive_steps) return Diagonal::nw_se;
         }
         weighed[static_cast<std::size_t>(i)] = weighed_steps(own[0], own[1], own[2], own[3]);
     }

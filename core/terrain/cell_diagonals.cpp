@@ -39,7 +39,7 @@ void fill_row(const HeightField& field, const LevelGrid& level, int level_row,
     }
     for (; i <= quads; ++i)
         steps[i + 1] = steps_of(field, row, level.column.region_post(static_cast<int>(i)));
-    if (!field.grid.goes_round()) return;
+    if (!field.grid.wraps_longitude()) return;
     steps[0] = steps[quads];
     steps[quads + 2] = steps[2];
 }
@@ -49,7 +49,7 @@ void fill_row(const HeightField& field, const LevelGrid& level, int level_row,
 std::int32_t decisive_steps_at(const HeightField& field, int row, int column,
                                const std::vector<char>* left_out) {
     const PostGrid& grid = field.grid;
-    const int turn = grid.goes_round() ? grid.columns() - 1 : 0;
+    const int turn = grid.wraps_longitude() ? grid.columns() - 1 : 0;
     if (column < 0) column += turn;
     if (column >= grid.columns()) column -= turn;
     if (row < 0 || row >= grid.rows() || column < 0 || column >= grid.columns()) return no_decisive_steps;
@@ -70,16 +70,16 @@ ORO_WIDE void weigh_rows(std::size_t cells, const double* steps, double* weighed
         weighed[i] = 9.0 * (steps[i + 1] + steps[i + 2]) - steps[i] - steps[i + 3];
 }
 ORO_WIDE void decide_rows(std::size_t cells, const std::array<const double*, 4>& weighed, const double* north,
-                          const double* south, std::uint8_t* rises) {
+                          const double* south, std::uint8_t* sw_ne) {
     for (std::size_t i = 0; i < cells; ++i) {
         const double smooth = 9.0 * (weighed[1][i] + weighed[2][i]) - weighed[0][i] - weighed[3][i];
-        const double of_falls = 128.0 * (north[i + 1] + south[i + 2]) - smooth;
-        const double of_rises = 128.0 * (north[i + 2] + south[i + 1]) - smooth;
-        rises[i] = std::abs(of_rises) < std::abs(of_falls) ? 1 : 0;
+        const double of_nw_se = 128.0 * (north[i + 1] + south[i + 2]) - smooth;
+        const double of_sw_ne = 128.0 * (north[i + 2] + south[i + 1]) - smooth;
+        sw_ne[i] = std::abs(of_sw_ne) < std::abs(of_nw_se) ? 1 : 0;
     }
 }
 
-DiagonalRows::DiagonalRows(int cells) : rises_(static_cast<std::size_t>(cells + 7) / 8 * 8, 0) {
+DiagonalRows::DiagonalRows(int cells) : sw_ne_(static_cast<std::size_t>(cells + 7) / 8 * 8, 0) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     for (Row& row : rows_) {
         row.filled.assign(static_cast<std::size_t>(cells) + 3, no_decisive_steps);
@@ -104,10 +104,10 @@ void DiagonalRows::take() {
 void DiagonalRows::decide(std::span<std::uint8_t> bits) {
     decide_rows(row(0).weighed.size(),
                 {row(0).weighed.data(), row(1).weighed.data(), row(2).weighed.data(), row(3).weighed.data()},
-                row(1).steps.data(), row(2).steps.data(), rises_.data());
+                row(1).steps.data(), row(2).steps.data(), sw_ne_.data());
     for (std::size_t i = 0; i < bits.size(); ++i) {
         unsigned eight = 0;
-        for (unsigned k = 0; k < 8; ++k) eight |= static_cast<unsigned>(rises_[8 * i + k]) << k;
+        for (unsigned k = 0; k < 8; ++k) eight |= static_cast<unsigned>(sw_ne_[8 * i + k]) << k;
         bits[i] = static_cast<std::uint8_t>(eight);
     }
 }

@@ -27,7 +27,7 @@ class CellDiagonals {
 
     // The diagonal of a cell of a level, by the level's own rows and columns.
     [[nodiscard]] Diagonal at(int level, int row, int column) const {
-        return (eight(level, row, column) >> (column % 8) & 1) != 0 ? Diagonal::rises : Diagonal::falls;
+        return (eight(level, row, column) >> (column % 8) & 1) != 0 ? Diagonal::sw_ne : Diagonal::nw_se;
     }
     // Of the eight cells that begin at a whole multiple of 8 columns: a bit for each that rises, the first
     // the lowest.
@@ -76,7 +76,7 @@ class DiagonalRows {
     }
     std::array<Row, 4> rows_;
     int first_{0};
-    std::vector<std::uint8_t> rises_;  // of each cell, and up to a whole multiple of 8
+    std::vector<std::uint8_t> sw_ne_;  // of each cell, and up to a whole multiple of 8
 };
 
 }  // namespace oro

@@ -36,12 +36,12 @@ int canonical_column(const HeightField& field, int row, int column) {
         while (first < column && is_void(field.H_at_post_m(row, first))) ++first;
         return first;
     }
-    const bool twin = column == grid.columns() - 1 && grid.goes_round();
+    const bool twin = column == grid.columns() - 1 && grid.wraps_longitude();
     return twin && !is_void(field.H_at_post_m(row, 0)) ? 0 : column;
 }
 
 double canonical_lon_deg(const PostGrid& grid, int row, int column) {
-    const bool twin = column == grid.columns() - 1 && grid.goes_round();
+    const bool twin = column == grid.columns() - 1 && grid.wraps_longitude();
     return grid.lon.at_deg(twin || at_pole(grid, row) ? 0 : column);
 }
 

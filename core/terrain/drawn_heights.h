@@ -35,7 +35,7 @@ struct DrawnHeights {
     [[nodiscard]] std::int32_t at(int row_number, int column) const { return row(row_number)[column]; }
     // The diagonal of a cell of a level, by the level's own rows and columns.
     [[nodiscard]] Diagonal diagonal(int level, int row_number, int column) const {
-        return diagonals ? diagonals->at(level, row_number, column) : Diagonal::falls;
+        return diagonals ? diagonals->at(level, row_number, column) : Diagonal::nw_se;
     }
 };
 // 4 bytes a post, and what diagonals take; the work is shared between `threads` (at least 1), with one result

@@ -15,7 +15,7 @@ struct Rise {
 
 std::optional<double> H_m(const HeightField& field, int row, int column) {
     const PostGrid& grid = field.grid;
-    if (grid.goes_round()) {
+    if (grid.wraps_longitude()) {
         const int turn = grid.columns() - 1;
         column = (column % turn + turn) % turn;
     }

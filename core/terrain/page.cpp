@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "core/base/lent.h"
+#include "core/base/pooled_object.h"
 #include "core/terrain/page_on_net.h"
 #include "core/terrain/page_posts.h"
 #include "core/terrain/placed_posts.h"
@@ -143,7 +143,7 @@ void PageBuilder::place_origin() {
 
 void PageBuilder::fill_block() {
     set_spacing(grid_, summary_, block_);
-    std::ranges::copy(heights_.rises, std::begin(block_.rises));
+    std::ranges::copy(heights_.sw_ne, std::begin(block_.sw_ne));
     std::copy(heights_.steps.begin(), heights_.steps.end(), std::begin(block_.heights));
 }
 
@@ -369,7 +369,7 @@ void set_page_frame(PageSummary& summary) {
 
 PageSummary build_page(const PostGrid& grid, const RegionShape& shape, const PageHeights& heights,
                        PageIndex index, gpu::PageBlock& block, MeshletBounding bounding) {
-    const Lent<std::unique_ptr<PlacedPosts>, std::make_unique<PlacedPosts>> placed;
+    const PooledObject<std::unique_ptr<PlacedPosts>, std::make_unique<PlacedPosts>> placed;
     return PageBuilder(grid, shape, heights, index, bounding, block, *placed.get()).build();
 }
 

@@ -57,7 +57,7 @@ struct PageSummary {
 struct PageHeights {
     std::array<std::int32_t, gpu::page_heights>
         steps;  // drawn, see drawn_heights.h; void_height_steps where none
-    std::array<std::uint32_t, gpu::page_diagonal_words> rises{};  // as in the page's block
+    std::array<std::uint32_t, gpu::page_diagonal_words> sw_ne{};  // as in the page's block
 };
 PageHeights page_heights(const PostGrid& grid, const DrawnHeights& heights, PageIndex index);
 

@@ -17,28 +17,28 @@ constexpr int quads = static_cast<int>(gpu::page_quads), side = static_cast<int>
 using PageDiagonals = std::array<std::uint32_t, gpu::page_diagonal_words>;
 
 // Puts the bits of eight cells of a row of a page's where the block has them.
-void put_eight(PageDiagonals& rises, int row, int column, std::uint8_t eight) {
+void put_eight(PageDiagonals& sw_ne, int row, int column, std::uint8_t eight) {
     const int meshlet = row / meshlet_quads * side + column / meshlet_quads,
               cell = row % meshlet_quads * meshlet_quads;
-    rises[static_cast<std::size_t>(2 * meshlet + cell / 32)] |= static_cast<std::uint32_t>(eight)
+    sw_ne[static_cast<std::size_t>(2 * meshlet + cell / 32)] |= static_cast<std::uint32_t>(eight)
                                                                 << (cell % 32);
 }
 
 // Those of the whole region.
 PageDiagonals diagonals_of(const CellDiagonals& all, PageIndex index) {
-    PageDiagonals rises{};
+    PageDiagonals sw_ne{};
     const int first_row = index.row * quads, first_column = index.column * quads;
     for (int row = 0; row < std::min(quads, all.rows(index.level) - first_row); ++row) {
         for (int column = 0; column < std::min(quads, all.columns(index.level) - first_column);
              column += meshlet_quads)
-            put_eight(rises, row, column, all.eight(index.level, first_row + row, first_column + column));
+            put_eight(sw_ne, row, column, all.eight(index.level, first_row + row, first_column + column));
     }
-    return rises;
+    return sw_ne;
 }
 
 // Decided by the page's own posts: the same, for these go as far as those that decide.
 PageDiagonals diagonals_of(const PostGrid& grid, const PageElevations& elevations, PageIndex index) {
-    PageDiagonals rises{};
+    PageDiagonals sw_ne{};
     const LevelGrid level = level_grid(grid, index.level);
     const int cells = std::min(quads, level.column.quads - index.column * quads);
     DiagonalRows rows(cells);
@@ -51,9 +51,9 @@ PageDiagonals diagonals_of(const PostGrid& grid, const PageElevations& elevation
         if (row < 2) continue;
         rows.decide(std::span(bits).first(static_cast<std::size_t>((cells + 7) / 8)));
         for (int column = 0; column < cells; column += 8)
-            put_eight(rises, row - 2, column, bits[static_cast<std::size_t>(column / 8)]);
+            put_eight(sw_ne, row - 2, column, bits[static_cast<std::size_t>(column / 8)]);
     }
-    return rises;
+    return sw_ne;
 }
 
 // Which of the region's columns a page's posts are, row after row.
@@ -98,7 +98,7 @@ class RowElevations {
   public:
     RowElevations(const HeightField& field, int row)
         : field_(&field), row_(row), all_(at_pole(field.grid, row)) {
-        twin_ = field.grid.goes_round() ? field.grid.columns() - 1 : -1;
+        twin_ = field.grid.wraps_longitude() ? field.grid.columns() - 1 : -1;
     }
     [[nodiscard]] float H_m(int column) const {
         if (all_ || column == twin_)
@@ -135,7 +135,7 @@ PageHeights page_heights(const PostGrid& grid, const DrawnHeights& heights, Page
         columns.copy(region_row < 0 ? nullptr : heights.row(region_row), void_height_steps,
                      &page.steps[static_cast<std::size_t>((row + 1) * stride)]);
     }
-    if (heights.diagonals) page.rises = diagonals_of(*heights.diagonals, index);
+    if (heights.diagonals) page.sw_ne = diagonals_of(*heights.diagonals, index);
     return page;
 }
 
@@ -159,7 +159,7 @@ PageElevations page_elevations(const HeightField& field, PageIndex index) {
     // The post after a last column that is the first one.
     const LevelGrid level = level_grid(field.grid, index.level);
     const int after = level.column.quads + 1 - index.column * quads;
-    if (!field.grid.goes_round() || after >= posts) return page;
+    if (!field.grid.wraps_longitude() || after >= posts) return page;
     const int column = level.column.region_post(1);
     for (int i = -1; i <= posts; ++i) {
         const int level_row = index.row * quads + i;
@@ -179,7 +179,7 @@ PageHeights heights_on_net(const PostGrid& grid, const UndulationField& undulati
     const bool has_N = !undulation.N_m.empty();
     const PagePosts page_posts(grid, index);
     PageHeights page;
-    page.rises = diagonals_of(grid, elevations, index);
+    page.sw_ne = diagonals_of(grid, elevations, index);
     std::array<glm::dvec3, gpu::height_stride> normals;
     for (int row = -1; row <= posts; ++row) {
         std::optional<PageIndex>
@@ -215,7 +215,7 @@ PageHeights page_heights(const PostGrid& grid, const UndulationField& undulation
     const bool has_N = !undulation.N_m.empty();
     const PagePosts page_posts(grid, index);
     PageHeights page;
-    page.rises = diagonals_of(grid, elevations, index);
+    page.sw_ne = diagonals_of(grid, elevations, index);
     for (int row = -1; row <= posts; ++row) {
         UndulationField::Between N_row{};
         for (int column = -1; column <= posts; ++column) {

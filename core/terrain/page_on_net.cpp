@@ -120,7 +120,7 @@ bool reaches_far(const PageSummary& page) {
     return glm::length(page.centre_m) + page.radius_m > most_m;
 }
 
-bool fits_one_page(const GridNet& net) {
+bool fits_one_page(const LatticeGeoreference& net) {
     constexpr double most_m = 1.03e6;  // 2^31 steps, less what heights add
     constexpr int side = 64;
     const auto at = [&](int row, int column) {
@@ -208,16 +208,18 @@ UndulationField drawn_undulation(const HeightField& field) {
     return nodes;
 }
 
-void set_net_spacing(const GridNet& net, const PageSummary& page, gpu::PageBlock& block) {
+void set_net_spacing(const LatticeGeoreference& net, const PageSummary& page, gpu::PageBlock& block) {
     const PostNumber middle = net.post_at(page.origin.lat_deg, page.origin.lon_deg);
-    const GridNet::Lie lie = net.lie_at(middle.row, middle.column);
+    const LatticeGeoreference::LatticeFrame local_frame = net.local_frame_at(middle.row, middle.column);
     const double higher = 1.0 + page.origin.h_m / wgs84_a_m;
-    block.row_spacing_m = static_cast<float>(lie.row_m * higher);
-    block.column_spacing_m = static_cast<float>(lie.column_m * higher);
+    block.row_spacing_m = static_cast<float>(local_frame.row_m * higher);
+    block.column_spacing_m = static_cast<float>(local_frame.column_m * higher);
     const double step = std::ldexp(1.0, page.index.level);
     const auto change = [&](double down, double right) {
-        const GridNet::Lie beside = net.lie_at(middle.row + down, middle.column + right);
-        return static_cast<float>(std::remainder(beside.turn_rad - lie.turn_rad, 2.0 * std::numbers::pi));
+        const LatticeGeoreference::LatticeFrame beside =
+            net.local_frame_at(middle.row + down, middle.column + right);
+        return static_cast<float>(
+            std::remainder(beside.turn_rad - local_frame.turn_rad, 2.0 * std::numbers::pi));
     };
     // Numbers of the page's own posts, from its first.
     const double first_row = static_cast<double>(page.index.row) * quads * step,
@@ -225,8 +227,8 @@ void set_net_spacing(const GridNet& net, const PageSummary& page, gpu::PageBlock
     const float by_row = change(step, 0.0), by_column = change(0.0, step);
     const auto row = static_cast<float>((middle.row - first_row) / step),
                column = static_cast<float>((middle.column - first_column) / step);
-    block.turn =
-        gpu::vec3(static_cast<float>(lie.turn_rad) - by_row * row - by_column * column, by_row, by_column);
+    block.turn = gpu::vec3(static_cast<float>(local_frame.turn_rad) - by_row * row - by_column * column,
+                           by_row, by_column);
 }
 
 }  // namespace oro

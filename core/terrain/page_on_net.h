@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "core/net/grid_net.h"
+#include "core/net/lattice_georeference.h"
 #include "core/terrain/level_grid.h"
 #include "core/terrain/page.h"
 
@@ -55,7 +55,7 @@ bool fill_places(const PostGrid& grid, const PageSummary& page, const PageHeight
                  gpu::PagePlaces& places);
 
 // Whether one page can hold all posts of a net: those of a region some 5,000 km around its middle.
-bool fits_one_page(const GridNet& net);
+bool fits_one_page(const LatticeGeoreference& net);
 
 // N for what is coloured by H: of every so many-th post of a field on a net, bilinear between. Its axes count
 // posts and not degrees.
@@ -63,6 +63,6 @@ UndulationField drawn_undulation(const HeightField& field);
 int undulation_step(const PostGrid& grid);
 
 // Fills a block's spacing, and how rows are turned, from the page's middle.
-void set_net_spacing(const GridNet& net, const PageSummary& page, gpu::PageBlock& block);
+void set_net_spacing(const LatticeGeoreference& net, const PageSummary& page, gpu::PageBlock& block);
 
 }  // namespace oro

@@ -17,7 +17,7 @@ class PagePosts {
         : level_(level_grid(grid, index.level)),
           first_row_(index.row * static_cast<int>(gpu::page_quads)),
           first_column_(index.column * static_cast<int>(gpu::page_quads)),
-          goes_round_(grid.goes_round()) {}
+          wraps_longitude_(grid.wraps_longitude()) {}
 
     // The region's row at a page's row -1 .. 129; -1 outside the region.
     [[nodiscard]] int region_row(int row) const {
@@ -28,7 +28,7 @@ class PagePosts {
     [[nodiscard]] int region_column(int column) const {
         int level_column = first_column_ + column;
         const int quads_round = level_.column.quads;
-        if (goes_round_) {
+        if (wraps_longitude_) {
             if (level_column == -1) level_column = quads_round - 1;
             if (level_column == quads_round + 1 && column == static_cast<int>(gpu::page_posts))
                 level_column = 1;
@@ -54,7 +54,7 @@ class PagePosts {
     LevelGrid level_;
     int first_row_;
     int first_column_;
-    bool goes_round_;
+    bool wraps_longitude_;
 };
 
 }  // namespace oro

@@ -41,9 +41,9 @@ std::optional<double> H_in_cell_m(const HeightField& field, int row, int column,
     const float north_west = field.H_at_post_m(row, column);
     const float south_east = field.H_at_post_m(row + 1, column + 1);
     if (is_void(north_west) || is_void(south_east)) return std::nullopt;
-    if (cell_diagonal(field, row, column, left_out) == Diagonal::rises) {
-        const bool west = west_of_diagonal(Diagonal::rises, u, v) >= 0.0;
-        const CellPlane plane = cell_plane(Diagonal::rises, west, static_cast<double>(north_west),
+    if (cell_diagonal(field, row, column, left_out) == Diagonal::sw_ne) {
+        const bool west = west_of_diagonal(Diagonal::sw_ne, u, v) >= 0.0;
+        const CellPlane plane = cell_plane(Diagonal::sw_ne, west, static_cast<double>(north_west),
                                            static_cast<double>(field.H_at_post_m(row, column + 1)),
                                            static_cast<double>(field.H_at_post_m(row + 1, column)),
                                            static_cast<double>(south_east));
@@ -87,7 +87,7 @@ double PostGrid::column_step_rad() const {
     return net ? net->column_m() / wgs84_a_m : radians_from_deg(lon.spacing_deg()).rad;
 }
 
-PostGrid grid_on_net(std::shared_ptr<const GridNet> net) {
+PostGrid grid_on_net(std::shared_ptr<const LatticeGeoreference> net) {
     // Its axes count, and say nothing else: what asks them for an angle gets no number.
     constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
     PostGrid grid;
@@ -102,7 +102,8 @@ float N_on_net_m(const UndulationField& undulation, const glm::dvec3& normal) {
     return static_cast<float>(undulation.at_m(place.lat_deg, place.lon_deg));
 }
 
-std::vector<float> N_of_net_m(const GridNet& net, const UndulationField& undulation, int threads) {
+std::vector<float> N_of_net_m(const LatticeGeoreference& net, const UndulationField& undulation,
+                              int threads) {
     std::vector<float> N_m;
     if (undulation.N_m.empty()) return N_m;
     const auto columns = static_cast<std::size_t>(net.columns());
@@ -116,7 +117,7 @@ std::vector<float> N_of_net_m(const GridNet& net, const UndulationField& undulat
     return N_m;
 }
 
-bool PostGrid::goes_round() const {
+bool PostGrid::wraps_longitude() const {
     if (net) return false;
     return std::abs(lon.count - 1 - 360.0 * lon.posts_per_deg) < 0.01;
 }

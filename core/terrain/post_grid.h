@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/net/grid_net.h"
+#include "core/net/lattice_georeference.h"
 
 namespace oro {
 
@@ -41,7 +41,7 @@ struct GridAxis {
 struct PostGrid {
     GridAxis lat;
     GridAxis lon;
-    std::shared_ptr<const GridNet> net{};  // null: posts lie on latitudes and longitudes
+    std::shared_ptr<const LatticeGeoreference> net{};  // null: posts lie on latitudes and longitudes
 
     [[nodiscard]] int rows() const { return lat.count; }
     [[nodiscard]] int columns() const { return lon.count; }
@@ -64,10 +64,10 @@ struct PostGrid {
     [[nodiscard]] double row_step_rad() const;
     [[nodiscard]] double column_step_rad() const;
     // True for a region 360 degrees wide: its last column is its first.
-    [[nodiscard]] bool goes_round() const;
+    [[nodiscard]] bool wraps_longitude() const;
 };
 // The grid of all posts of a net.
-PostGrid grid_on_net(std::shared_ptr<const GridNet> net);
+PostGrid grid_on_net(std::shared_ptr<const LatticeGeoreference> net);
 
 // The height of a post that has none. Not a height that any source can hold, and no NaN, so that none can
 // reach the GPU.
@@ -154,7 +154,7 @@ struct HeightField {
 // N at the place of a net's post with that normal, in whichever way it is asked for: rounded to float.
 float N_on_net_m(const UndulationField& undulation, const glm::dvec3& normal);
 // N of all posts of a net in metres; empty where N is 0 everywhere.
-std::vector<float> N_of_net_m(const GridNet& net, const UndulationField& undulation, int threads);
+std::vector<float> N_of_net_m(const LatticeGeoreference& net, const UndulationField& undulation, int threads);
 
 // Lowest and highest H and the number of void posts; 0..0 when all are void.
 HeightRange height_range(const HeightField& field);

@@ -22,8 +22,8 @@ inline PostSpacing post_spacing(const PostGrid& grid, double lat_deg) {
 // The spacing of posts at a fractional row and column.
 inline PostSpacing post_spacing_at(const PostGrid& grid, double row, double column) {
     if (!grid.net) return post_spacing(grid, grid.north_deg() - row * grid.lat.spacing_deg());
-    const GridNet::Lie lie = grid.net->lie_at(row, column);
-    return {lie.row_m, lie.column_m};
+    const LatticeGeoreference::LatticeFrame local_frame = grid.net->local_frame_at(row, column);
+    return {local_frame.row_m, local_frame.column_m};
 }
 // How many rows and columns so many metres eastwards and northwards are, at a post on that latitude.
 inline PostNumber posts_along(const PostGrid& grid, const PostNumber& at, double lat_deg, double east_m,
@@ -32,10 +32,10 @@ inline PostNumber posts_along(const PostGrid& grid, const PostNumber& at, double
         const PostSpacing apart = post_spacing(grid, lat_deg);
         return {-north_m / apart.row_m, east_m / apart.column_m};
     }
-    const GridNet::Lie lie = grid.net->lie_at(at.row, at.column);
-    const double cosine = std::cos(lie.turn_rad), sine = std::sin(lie.turn_rad);
-    return {(sine * east_m - cosine * north_m) / lie.row_m,
-            (cosine * east_m + sine * north_m) / lie.column_m};
+    const LatticeGeoreference::LatticeFrame local_frame = grid.net->local_frame_at(at.row, at.column);
+    const double cosine = std::cos(local_frame.turn_rad), sine = std::sin(local_frame.turn_rad);
+    return {(sine * east_m - cosine * north_m) / local_frame.row_m,
+            (cosine * east_m + sine * north_m) / local_frame.column_m};
 }
 
 }  // namespace oro

@@ -19,14 +19,14 @@ std::optional<double> h_in_cell_m(const PostHeight& post_h_m, const DiagonalAt& 
                                   int column, double down, double right) {
     const std::optional<double> north_west = post_h_m(row, column),
                                 south_east = post_h_m(row + 1, column + 1);
-    if (diagonal_at(row, column) == Diagonal::rises) {
+    if (diagonal_at(row, column) == Diagonal::sw_ne) {
         const std::optional<double> north_east = post_h_m(row, column + 1),
                                     south_west = post_h_m(row + 1, column);
         // A cell without one of its posts never rises; but a file may no longer be readable.
         if (!north_west || !north_east || !south_west || !south_east) return std::nullopt;
-        const bool west = west_of_diagonal(Diagonal::rises, down, right) >= 0.0;
+        const bool west = west_of_diagonal(Diagonal::sw_ne, down, right) >= 0.0;
         const CellPlane plane =
-            cell_plane(Diagonal::rises, west, *north_west, *north_east, *south_west, *south_east);
+            cell_plane(Diagonal::sw_ne, west, *north_west, *north_east, *south_west, *south_east);
         return plane.at_corner + down * plane.change_down + right * plane.change_right;
     }
     if (!north_west || !south_east) return std::nullopt;

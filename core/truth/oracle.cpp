@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/truth/oracle_scenery.h"
-#include "core/truth/piece_tree.h"
+#include "core/truth/triangle_bvh.h"
 
 namespace oro {
 namespace {
@@ -281,7 +281,7 @@ void Oracle::Search::search_cell(int row, int column, const Piece& piece) {
     const Diagonal diagonal = surface_.diagonal_at(row, column);
     const auto south_west = surface_.post_h_m(row + 1, column),
                north_east = surface_.post_h_m(row, column + 1);
-    if (diagonal == Diagonal::rises && !(south_west && north_east)) return;
+    if (diagonal == Diagonal::sw_ne && !(south_west && north_east)) return;
     for (const bool west : {true, false}) {
         if (!(west ? south_west : north_east)) continue;
         search_triangle({row, column, diagonal, west,

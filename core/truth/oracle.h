@@ -15,7 +15,7 @@
 
 namespace oro {
 
-class PieceTree;
+class TriangleBvh;
 
 // From where and through what air one looks, and at what Earth: the true one is the ellipsoid; on others the
 // oracle sees what a picture of them shows.
@@ -83,7 +83,7 @@ class Oracle {
     TrueGround ground_;
     Sight sight_;
     std::vector<std::unique_ptr<const Scenery>> sceneries_;  // of each grid
-    std::unique_ptr<const PieceTree> pieces_;                // nothing: there are none
+    std::unique_ptr<const TriangleBvh> pieces_;              // nothing: there are none
 };
 
 // For one sight line.

@@ -8,7 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/truth/oracle.h"
 #include "core/truth/oracle_scenery.h"
-#include "core/truth/piece_tree.h"
+#include "core/truth/triangle_bvh.h"
 
 namespace oro {
 namespace {
@@ -21,7 +21,7 @@ glm::dvec3 offset_m(const Sight& sight, const Geodetic& point) {
 
 // Its sides are straight, and those of cells as curved as the ellipsoid: it is made higher and lower by the
 // difference, an eighth of its angle squared times the radius.
-std::array<glm::dvec3, 3> seen_corners(const Sight& sight, const GroundPiece& piece) {
+std::array<glm::dvec3, 3> seen_corners(const Sight& sight, const SurfaceTriangle& piece) {
     double lowest_h_m = piece.corners[0].h_m, highest_h_m = lowest_h_m, length_m = 0.0;
     for (std::size_t i = 0; i < 3; ++i) {
         const Geodetic &one = piece.corners[i], &next = piece.corners[(i + 1) % 3];
@@ -41,7 +41,7 @@ std::array<glm::dvec3, 3> seen_corners(const Sight& sight, const GroundPiece& pi
 }
 
 // On the flat Earth the plane is cut at the meridian opposite to the eye.
-bool crosses_cut(const Sight& sight, const GroundPiece& piece) {
+bool crosses_cut(const Sight& sight, const SurfaceTriangle& piece) {
     if (sight.earth != Earth::flat) return false;
     constexpr double half_turn_deg = 180.0;
     const auto from_eye_deg = [&](std::size_t i) {
@@ -51,15 +51,15 @@ bool crosses_cut(const Sight& sight, const GroundPiece& piece) {
            std::abs(from_eye_deg(1) - from_eye_deg(2)) > half_turn_deg;
 }
 
-std::unique_ptr<const PieceTree> tree_of(const TrueGround& ground, const Sight& sight) {
+std::unique_ptr<const TriangleBvh> tree_of(const TrueGround& ground, const Sight& sight) {
     if (ground.pieces().empty()) return nullptr;
     std::vector<std::array<glm::dvec3, 3>> triangles;
     triangles.reserve(ground.pieces().size());
-    for (const GroundPiece& piece : ground.pieces())
+    for (const SurfaceTriangle& piece : ground.pieces())
         if (!crosses_cut(sight, piece)) triangles.push_back(seen_corners(sight, piece));
     const Geodetic& first = ground.pieces().front().corners[0];
-    return std::make_unique<const PieceTree>(std::move(triangles),
-                                             ecef_from_enu(first.lat_deg, first.lon_deg));
+    return std::make_unique<const TriangleBvh>(std::move(triangles),
+                                               ecef_from_enu(first.lat_deg, first.lon_deg));
 }
 
 }  // namespace

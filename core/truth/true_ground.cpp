@@ -7,15 +7,15 @@
 
 namespace oro {
 
-TrueGround::TrueGround(std::vector<Grid> grids, std::shared_ptr<const std::vector<GroundPiece>> pieces)
+TrueGround::TrueGround(std::vector<Grid> grids, std::shared_ptr<const std::vector<SurfaceTriangle>> pieces)
     : grids_(std::move(grids)), by_rank_(grids_.size()), pieces_(std::move(pieces)) {
     assert(!grids_.empty());
     std::iota(by_rank_.begin(), by_rank_.end(), std::size_t{0});
     std::ranges::stable_sort(by_rank_, {}, [&](std::size_t grid) { return grids_[grid].rank; });
 }
 
-const std::vector<GroundPiece>& TrueGround::pieces() const {
-    static const std::vector<GroundPiece> none;
+const std::vector<SurfaceTriangle>& TrueGround::pieces() const {
+    static const std::vector<SurfaceTriangle> none;
     return pieces_ ? *pieces_ : none;
 }
 

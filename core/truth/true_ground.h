@@ -15,7 +15,7 @@ namespace oro {
 
 // A triangle of ground that belongs to no grid: an upright step along the rim of one that lies over another.
 // Straight between its corners.
-struct GroundPiece {
+struct SurfaceTriangle {
     std::array<Geodetic, 3> corners;  // h above the ellipsoid, exaggerated as the surfaces are
 };
 
@@ -29,12 +29,12 @@ class TrueGround {
         int rank;
     };
     // At least one grid, all with the same exaggeration. They are numbered as they are given.
-    TrueGround(std::vector<Grid> grids, std::shared_ptr<const std::vector<GroundPiece>> pieces);
+    TrueGround(std::vector<Grid> grids, std::shared_ptr<const std::vector<SurfaceTriangle>> pieces);
 
     [[nodiscard]] std::size_t grids() const { return grids_.size(); }
     [[nodiscard]] const TrueSurface& surface(std::size_t grid) const { return *grids_[grid].surface; }
     [[nodiscard]] double exaggeration() const { return grids_.front().surface->exaggeration(); }
-    [[nodiscard]] const std::vector<GroundPiece>& pieces() const;
+    [[nodiscard]] const std::vector<SurfaceTriangle>& pieces() const;
 
     // Which grid is the ground at a place; nothing where there is none.
     [[nodiscard]] std::optional<std::size_t> grid_at(double lat_deg, double lon_deg) const;
@@ -54,7 +54,7 @@ class TrueGround {
   private:
     std::vector<Grid> grids_;
     std::vector<std::size_t> by_rank_;
-    std::shared_ptr<const std::vector<GroundPiece>> pieces_;
+    std::shared_ptr<const std::vector<SurfaceTriangle>> pieces_;
 };
 
 }  // namespace oro

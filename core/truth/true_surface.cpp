@@ -37,12 +37,12 @@ struct TrueSurface::Chunk {
         float highest{-std::numeric_limits<float>::infinity()};
     };
     std::array<std::vector<FloatLayer>, chunk_level + 1> levels;
-    std::vector<std::uint8_t> rises;  // of its cells, row by row, eight a byte
+    std::vector<std::uint8_t> sw_ne;  // of its cells, row by row, eight a byte
 
     // By the grid's row and column.
     [[nodiscard]] Diagonal diagonal_at(int row, int column) const {
         const auto cell = static_cast<std::size_t>(row % chunk_cells * chunk_cells + column % chunk_cells);
-        return (rises[cell / 8] >> (cell % 8) & 1) != 0 ? Diagonal::rises : Diagonal::falls;
+        return (sw_ne[cell / 8] >> (cell % 8) & 1) != 0 ? Diagonal::sw_ne : Diagonal::nw_se;
     }
     static FloatLayer around(const Layer& layer) {
         if (layer.empty()) return {};
@@ -157,9 +157,9 @@ std::optional<TrueSurface::Slope> TrueSurface::slope_at(double row, double colum
     const auto [unused, down_m, right_m] =
         cell_plane(diagonal, is_west, h_m[0][0], h_m[0][1], h_m[1][0], h_m[1][1]);
     if (grid.net) {
-        const GridNet::Lie lie = grid.net->lie_at(row, column);
-        const double down = down_m / lie.row_m, right = right_m / lie.column_m;
-        const double cosine = std::cos(lie.turn_rad), sine = std::sin(lie.turn_rad);
+        const LatticeGeoreference::LatticeFrame local_frame = grid.net->local_frame_at(row, column);
+        const double down = down_m / local_frame.row_m, right = right_m / local_frame.column_m;
+        const double cosine = std::cos(local_frame.turn_rad), sine = std::sin(local_frame.turn_rad);
         return Slope{sine * right - cosine * down, cosine * right + sine * down};
     }
     const double lat_deg = std::clamp(grid.lat.at_deg(0) - row * grid.lat.spacing_deg(), -90.0, 90.0);
@@ -275,7 +275,7 @@ void TrueSurface::decide_diagonals(int chunk_row, int chunk_column, Chunk& chunk
     const PostGrid& grid = field_.grid;
     const int first_row = chunk_row * chunk_cells, first_column = chunk_column * chunk_cells;
     constexpr std::size_t row_bytes = chunk_cells / 8;
-    chunk.rises.assign(chunk_cells * row_bytes, 0);
+    chunk.sw_ne.assign(chunk_cells * row_bytes, 0);
     DiagonalRows rows(chunk_cells);
     for (int row = first_row - 1; row <= std::min(first_row + chunk_cells, grid.rows() - 1) + 1; ++row) {
         const std::span<std::int32_t> steps = rows.next();
@@ -285,7 +285,7 @@ void TrueSurface::decide_diagonals(int chunk_row, int chunk_column, Chunk& chunk
         const int cell_row = row - 2 - first_row;
         if (cell_row < 0 || cell_row >= chunk_cells) continue;
         rows.decide(
-            std::span(chunk.rises).subspan(static_cast<std::size_t>(cell_row) * row_bytes, row_bytes));
+            std::span(chunk.sw_ne).subspan(static_cast<std::size_t>(cell_row) * row_bytes, row_bytes));
     }
 }
 

@@ -24,7 +24,7 @@ class TrueSurface {
     // `field` outlives the surface. Reads every post once where they are in memory, shared between `threads`;
     // posts of a file are read when they are asked for. Keeps 0.8 byte for each post that was looked at, on a
     // net 1.5 bytes more. left_out: by post, 1 where another grid covers what this one has, so that it
-    // decides no diagonal (geo/together/cut_out.h); outlives the surface.
+    // decides no diagonal (geo/together/grid_clip.h); outlives the surface.
     TrueSurface(const HeightField& field, double exaggeration, int threads,
                 const std::vector<char>* left_out = nullptr);
     ~TrueSurface();

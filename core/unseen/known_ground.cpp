@@ -76,7 +76,7 @@ std::vector<std::uint8_t> KnownGround::blocks_with_voids(const HeightField& fiel
 // At the region's edge, or with a missing cell in it or beside it.
 bool KnownGround::beside_nothing(int block_row, int block_column) const {
     const bool at_west_or_east = block_column == 0 || block_column == block_columns_ - 1;
-    if (block_row == 0 || block_row == block_rows_ - 1 || (at_west_or_east && !grid_.goes_round()))
+    if (block_row == 0 || block_row == block_rows_ - 1 || (at_west_or_east && !grid_.wraps_longitude()))
         return true;
     if (missing_.empty()) return false;
     for (const int row : {-1, posts_a_block_ + 1}) {

@@ -72,7 +72,7 @@ Result<ShiftGrid> ShiftGrid::open(const std::string& path) {
     grid.lon_step_deg_ = cell[1];
     grid.north_deg_ = cell[3] + 0.5 * cell[5];
     grid.west_deg_ = cell[0] + 0.5 * cell[1];
-    grid.goes_round_ = grid.columns_ + 1e-6 >= 360.0 / cell[1];
+    grid.wraps_longitude_ = grid.columns_ + 1e-6 >= 360.0 / cell[1];
     int declared = 0;
     const double no_value = GDALGetRasterNoDataValue(GDALGetRasterBand(grid.dataset_.get(), 1), &declared);
     if (declared) grid.no_value_ = no_value;
@@ -108,12 +108,12 @@ Result<std::optional<double>> ShiftGrid::at_m(double lat_deg, double lon_deg, do
     const double turn = 360.0 / lon_step_deg_;
     double x = snapped((lon_deg - west_deg_) / lon_step_deg_);
     x = snapped(x - std::floor(x / turn) * turn);
-    if (goes_round_ && x >= turn) x -= turn;
+    if (wraps_longitude_ && x >= turn) x -= turn;
     const std::optional<double> none;
     if (!(y >= margin && y <= rows_ - 1 - margin)) return none;
-    if (!goes_round_ && !(x >= margin && x <= columns_ - 1 - margin)) return none;
+    if (!wraps_longitude_ && !(x >= margin && x <= columns_ - 1 - margin)) return none;
     const int north = std::min(static_cast<int>(y), rows_ - 2);
-    const int west = goes_round_ ? static_cast<int>(x) : std::min(static_cast<int>(x), columns_ - 2);
+    const int west = wraps_longitude_ ? static_cast<int>(x) : std::min(static_cast<int>(x), columns_ - 2);
     const double v = y - north, u = x - west;
     double sum = 0.0;
     for (const int r : {0, 1}) {

@@ -46,7 +46,7 @@ class ShiftGrid {
     int columns_{};
     double north_deg_{}, west_deg_{}, lat_step_deg_{},
         lon_step_deg_{};  // of nodes; the first step is negative
-    bool goes_round_{};
+    bool wraps_longitude_{};
     std::optional<double> no_value_;
     std::array<Row, 2> kept_;  // rows that were asked for last
 };

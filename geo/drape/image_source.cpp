@@ -32,16 +32,16 @@ Result<void> choose_bands(ImageSource& image, GDALDatasetH dataset) {
     const auto interpretation = [&](int band) {
         return GDALGetRasterColorInterpretation(GDALGetRasterBand(dataset, band));
     };
-    std::vector<int> told;
+    std::vector<int> recorded;
     for (const GDALColorInterp colour : {GCI_RedBand, GCI_GreenBand, GCI_BlueBand}) {
         for (int band = 1; band <= count; ++band) {
             if (interpretation(band) != colour) continue;
-            told.push_back(band);
+            recorded.push_back(band);
             break;
         }
     }
-    if (told.size() == 3) {
-        image.bands = told;
+    if (recorded.size() == 3) {
+        image.bands = recorded;
     } else if (count >= 3) {
         image.bands = {1, 2, 3};
     } else {

@@ -66,7 +66,7 @@ bool is_straight(ProfileBytes curve) {
 
 }  // namespace
 
-std::optional<ImageValues> told_by_profile(std::span<const std::byte> profile) {
+std::optional<ImageValues> values_by_profile(std::span<const std::byte> profile) {
     if (number_at(profile, 36, 4) != sign("acsp")) return std::nullopt;
     for (const char* const name : {"rTRC", "kTRC"}) {
         const ProfileBytes curve = tag_of(profile, name);
@@ -86,7 +86,8 @@ ImageValues values_in(GDALDatasetH dataset, const std::vector<int>& bands) {
     std::string bytes = text;
     bytes.push_back('\0');
     const int size = CPLBase64DecodeInPlace(reinterpret_cast<GByte*>(bytes.data()));
-    return told_by_profile(std::as_bytes(std::span(bytes).first(static_cast<std::size_t>(std::max(size, 0)))))
+    return values_by_profile(
+               std::as_bytes(std::span(bytes).first(static_cast<std::size_t>(std::max(size, 0)))))
         .value_or(ImageValues::reflectance);
 }
 
@@ -97,8 +98,8 @@ double white_code(GDALRasterBandH band, double largest) {
     if (is_float && largest <= 1.0) return 1.0;
     if (largest <= of_bytes) return of_bytes;
     int bits = is_float ? 16 : GDALGetDataTypeSizeBits(type) - (GDALDataTypeIsSigned(type) != 0 ? 1 : 0);
-    if (const char* const told = GDALGetMetadataItem(band, "NBITS", "IMAGE_STRUCTURE"))
-        bits = std::clamp(std::atoi(told), 1, bits);
+    if (const char* const recorded = GDALGetMetadataItem(band, "NBITS", "IMAGE_STRUCTURE"))
+        bits = std::clamp(std::atoi(recorded), 1, bits);
     return std::ldexp(1.0, bits) - 1.0;
 }
 

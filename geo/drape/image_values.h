@@ -14,7 +14,7 @@ namespace oro {
 
 // What an ICC profile says of its values, by the curve of its red (or of its grey): reflectance where that is
 // a straight line, else codes. Nothing where this is no profile. Source: ICC.1:2022, 7.2, 7.3, 10.6, 10.18.
-std::optional<ImageValues> told_by_profile(std::span<const std::byte> profile);
+std::optional<ImageValues> values_by_profile(std::span<const std::byte> profile);
 
 // What some bands of an image hold. Bytes are codes. Of other numbers the file's ICC profile tells; without
 // one they are reflectance: bands named red, green and blue are no sign, for scenes name theirs so, too.

@@ -48,8 +48,8 @@ using OpenedFile = decltype(std::declval<VSIFilesystemHandler&>().Open("", "", f
 [[maybe_unused]] VSIVirtualHandle* released(VSIVirtualHandle* file) {
     return file;
 }
-template <typename Closer>
-VSIVirtualHandle* released(std::unique_ptr<VSIVirtualHandle, Closer> file) {
+template <typename Deleter>
+VSIVirtualHandle* released(std::unique_ptr<VSIVirtualHandle, Deleter> file) {
     return file.release();
 }
 

@@ -59,8 +59,8 @@ bool lies_elsewhere(const SourcePath& path, const std::optional<BoundingBox>& bo
     return name.ok() && !meets(source_of_cell(name->tile), *box);
 }
 
-void look_at_all(const std::vector<SourcePath>& paths, const ToldOfFiles& told, const Progress& progress,
-                 std::vector<Look>& looks) {
+void probe_all(const std::vector<SourcePath>& paths, const SourceOverrides& overrides,
+               const Progress& progress, std::vector<Look>& looks) {
     std::atomic<std::size_t> done{0};
     constexpr int batch = 256;
     for (std::size_t first = 0; first < paths.size(); first += batch) {
@@ -70,7 +70,7 @@ void look_at_all(const std::vector<SourcePath>& paths, const ToldOfFiles& told, 
             Look& look = looks[which];
             if (look.known) return;
             look.before = HeaderCache::states_of({local_file_of(paths[which].file)});
-            auto found = look_at_file(paths[which], told);
+            auto found = probe_file(paths[which], overrides);
             if (found.ok())
                 look.finding = std::move(*found);
             else
@@ -206,7 +206,7 @@ void find_obstacle(const RegionRequest& request, std::vector<Source> sources, Fi
 Result<FileListing> list_files(const RegionRequest& request, const ListingCache& cache,
                                const Progress& progress) {
     start_gdal();
-    ORO_TRY(const ToldOfFiles told, told_of_files(request));
+    ORO_TRY(const SourceOverrides overrides, source_overrides(request));
     std::vector<Error> unreadable;
     ORO_TRY(std::vector<SourcePath> paths, find_sources(request.paths, unreadable));
     std::optional<BoundingBox> box;
@@ -221,7 +221,7 @@ Result<FileListing> list_files(const RegionRequest& request, const ListingCache&
         looks[i].known = known.has_value();
         if (known) looks[i].finding = std::move(*known);
     }
-    look_at_all(paths, told, progress, looks);
+    probe_all(paths, overrides, progress, looks);
     FileListing listing;
     std::vector<Source> sources;
     for (std::size_t i = 0; i < paths.size(); ++i) {

@@ -65,7 +65,7 @@ class ByteReader {
 // What is known of a source by its header alone; not the horizontal datum, which is PROJ's answer of the day.
 template <class Bytes, class Source>
 void header_fields(Bytes& bytes, Source& s) {
-    bytes(s.kind), bytes(s.file), bytes(s.named), bytes(s.crs_told), bytes(s.bytes);
+    bytes(s.kind), bytes(s.file), bytes(s.named), bytes(s.crs_specified), bytes(s.bytes);
     bytes(s.lon), bytes(s.south_deg), bytes(s.north_deg), bytes(s.projected), bytes(s.full_circle);
     bytes(s.lat_spacing_deg), bytes(s.lon_spacing_deg), bytes(s.on_degrees);
     bytes(s.lat_axis), bytes(s.lon_axis), bytes(s.crs_wkt), bytes(s.crs_from_post);

@@ -13,8 +13,8 @@
 #include "geo/posts/holes.h"
 #include "geo/posts/own_posts.h"
 #include "geo/region/region_description.h"
+#include "geo/region/region_fingerprints.h"
 #include "geo/region/region_grid.h"
-#include "geo/region/region_prints.h"
 
 namespace oro {
 namespace {
@@ -42,7 +42,7 @@ Result<void> check_request(const RegionRequest& request, const std::string& path
 Source source_of(const PostGrid& grid) {
     Source source;
     source.on_degrees = true;
-    source.full_circle = grid.goes_round();
+    source.full_circle = grid.wraps_longitude();
     source.lat_axis = {grid.lat.posts_per_deg, grid.north_deg(), -1, grid.rows()};
     source.lon_axis = {grid.lon.posts_per_deg, grid.west_deg(), +1, grid.columns()};
     source.lat_spacing_deg = grid.lat.spacing_deg();
@@ -189,8 +189,8 @@ bool touches(const std::string& cell, const PostGrid& grid) {
     return meets(source, {grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg()});
 }
 
-Result<void> cut_out(RegionGrid& region, const RegionFile& file, const BoundingBox& box,
-                     const Progress& progress) {
+Result<void> clip_to_box(RegionGrid& region, const RegionFile& file, const BoundingBox& box,
+                         const Progress& progress) {
     ORO_TRY(const Cut part, cut_of(file, box));
     const PostGrid& cut = part.grid;
     ORO_TRY(region.field.H_m, posts_of(file, part, progress));
@@ -202,7 +202,7 @@ Result<void> cut_out(RegionGrid& region, const RegionFile& file, const BoundingB
         m[3] += m[4] * part.first_column + m[5] * part.first_row;
     }
     if (cut.net) region.field.N_of_posts_m = N_of_net_m(*cut.net, region.field.undulation, thread_count());
-    region.posts_print = posts_print(region.field);
+    region.posts_hash = posts_hash(region.field);
     const std::uint64_t region_voids = region.voids;
     region.voids = static_cast<std::uint64_t>(std::ranges::count_if(region.field.H_m, is_void));
     if (region.voids == region.field.H_m.size())
@@ -214,8 +214,8 @@ Result<void> cut_out(RegionGrid& region, const RegionFile& file, const BoundingB
     const Uncovered uncovered =
         count_uncovered(region.field, region.missing_cells, [](std::size_t) { return false; });
     region.in_missing = uncovered.in_missing;
-    const bool none_outside = region.tells_voids_apart && region.outside == 0;
-    region.tells_voids_apart = only_outside || none_outside || region.voids == uncovered.in_missing;
+    const bool none_outside = region.classifies_voids && region.outside == 0;
+    region.classifies_voids = only_outside || none_outside || region.voids == uncovered.in_missing;
     region.outside = only_outside ? uncovered.outside : 0;
     region.notes.push_back("cut out of " + file.path() +
                            ": sources, seams and filled posts are told for all of it");
@@ -256,7 +256,7 @@ Result<RegionGrid> grid_in(std::shared_ptr<const RegionFile> file, const RegionR
     if (file->outline().triangles == 0)
         return Error{ErrorKind::no_data, path, "no triangle in it has a height at each corner"};
     if (request.box) {
-        ORO_CHECK(cut_out(region, *file, *request.box, progress));
+        ORO_CHECK(clip_to_box(region, *file, *request.box, progress));
     } else {
         region.field = field_of_file(file, posts_in_memory_bytes);
         region.file = file;
@@ -271,7 +271,7 @@ Result<Region> open_baked_region(const std::string& path, const RegionRequest& r
                                  const Progress& progress) {
     ORO_CHECK(check_request(request, path));
     ORO_TRY(const std::vector<BakedGrid> grids, open_baked_file(path));
-    if (grids.size() > 1 && !request.grids_apart)
+    if (grids.size() > 1 && !request.allow_multiple_grids)
         return Error{ErrorKind::usage, path,
                      "holds " + std::to_string(grids.size()) +
                          " grids of posts, and this takes one: bake the files with --resample"};

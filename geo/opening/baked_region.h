@@ -16,7 +16,7 @@ namespace oro {
 std::optional<std::string> baked_path(const std::vector<std::string>& paths);
 
 // Opens the baked region of a request at baked_path(); one of several grids for who can do with them
-// (grids_apart).
+// (allow_multiple_grids).
 // Without a box its posts are read when they are asked for; with one, those inside are read at once, and are
 // the posts, to the bit, that the sources give for that box (and void ones up to its edge where no source
 // reaches that far). Errors: a second path, options that were decided when it was baked (usage); those of

@@ -17,14 +17,14 @@
 #include "geo/opening/baked_region.h"
 #include "geo/opening/region_sources.h"
 #include "geo/posts/holes.h"
-#include "geo/posts/laying.h"
+#include "geo/posts/mosaic.h"
 #include "geo/posts/own_posts.h"
 #include "geo/posts/seams.h"
 #include "geo/posts/value_notes.h"
 #include "geo/posts/voids.h"
-#include "geo/region/lying_apart.h"
+#include "geo/region/disjoint_sources.h"
+#include "geo/region/region_fingerprints.h"
 #include "geo/region/region_grid.h"
-#include "geo/region/region_prints.h"
 #include "geo/sources/horizontal_datum.h"
 #include "geo/sources/notes.h"
 #include "geo/together/contradictions.h"
@@ -56,11 +56,11 @@ void add_doubts(const RegionRequest& request, std::span<const Source> sources, c
         add_note(notes,
                  "the height unit " + request.height_unit + " is not for .hgt files: they hold metres");
     if (!request.source_crs.empty() &&
-        std::ranges::none_of(sources, [](const Source& source) { return source.crs_told; }))
+        std::ranges::none_of(sources, [](const Source& source) { return source.crs_specified; }))
         add_note(notes,
                  "--source-crs " + request.source_crs + " says nothing here: each file states its own");
     if (!request.source_vertical.empty() && std::ranges::none_of(sources, [](const Source& source) {
-            return source.report.vertical_datum.from == DatumFrom::told;
+            return source.report.vertical_datum.from == DatumFrom::specified;
         }))
         add_note(notes, "--source-vertical " + request.source_vertical +
                             " says nothing here: each file states its own");
@@ -140,10 +140,10 @@ Result<RegionGrid> grid_of(std::vector<Source> sources, const RegionExtent& exte
 
     JoinedSurface surface(grid);
     std::vector<MeasuredSource> measured;
-    const LayingFor to{grid, made.field.undulation, geoid, request.strict_datum};
+    const MosaicTarget to{grid, made.field.undulation, geoid, request.strict_datum};
     if (own) {
-        ORO_CHECK(lay_own_posts(sources, {*own, to.undulation, geoid, to.strict_datum}, surface,
-                                made.field.N_of_posts_m, made.notes, progress));
+        ORO_CHECK(mosaic_own_posts(sources, {*own, to.undulation, geoid, to.strict_datum}, surface,
+                                   made.field.N_of_posts_m, made.notes, progress));
         for (std::size_t i = 0; i < sources.size(); ++i) {
             SourceReport& report = sources[i].report;
             const OwnPart& part = own->parts[i];
@@ -151,7 +151,7 @@ Result<RegionGrid> grid_of(std::vector<Source> sources, const RegionExtent& exte
                                      part.column, report.rows, report.columns};
         }
     } else {
-        ORO_TRY(measured, lay_sources(sources, to, surface, made.notes, progress));
+        ORO_TRY(measured, mosaic_sources(sources, to, surface, made.notes, progress));
     }
     surface.finish();
     if (request.fill_voids) {
@@ -171,7 +171,7 @@ Result<RegionGrid> grid_of(std::vector<Source> sources, const RegionExtent& exte
         return Error{ErrorKind::no_data, list_of(request.paths),
                      "no height in " + bounding_box_text(posts) + ": " + all_without_height(made) +
                          why_no_height(sources)};
-    made.posts_print = posts_print(made.field);
+    made.posts_hash = posts_hash(made.field);
     made.geoid_print = undulation_print(made.field.undulation);
     for (Source& source : sources) made.sources.push_back(std::move(source.report));
     return made;
@@ -209,7 +209,7 @@ std::vector<std::size_t> ranks_of(const std::vector<std::vector<Source>>& groups
 // Looks at the sources, and reads them as one grid, or as several.
 Result<Region> read_region(const RegionRequest& request, const Progress& progress) {
     if (request.paths.empty()) return Error{ErrorKind::no_data, "", "no path to elevation data was given"};
-    ORO_TRY(RegionSources found, look_at_sources(request, progress));
+    ORO_TRY(RegionSources found, probe_sources(request, progress));
     if (found.sources.empty() && !request.box) return no_sources(request, found.first_skipped);
     const auto extent = choose_extent(found.sources, request.box);
     if (!extent && request.box) return no_sources(request, "");
@@ -261,7 +261,7 @@ Error with_order_of_box(Error fault, const RegionRequest& request, const std::op
     if (baked) {
         if (!open_baked_region(*baked, other, {}).ok()) return fault;
     } else {
-        auto found = look_at_sources(other, {});
+        auto found = probe_sources(other, {});
         if (!found.ok() || found->sources.empty() || !choose_extent(found->sources, other.box)) return fault;
     }
     fault.what +=

@@ -68,16 +68,16 @@ void leave_out_companions(RegionSources& found, std::vector<LeftOutFile>& left_o
 
 }  // namespace
 
-Result<Finding> look_at_file(const SourcePath& path, const ToldOfFiles& told) {
+Result<Finding> probe_file(const SourcePath& path, const SourceOverrides& overrides) {
     // By its name alone: it may be large, or damaged.
     if (const auto known = known_file(path.name); known && !known->holds.empty()) {
         const std::string what =
             "holds " + std::string(known->holds) + " of " + std::string(known->product) + ", no elevation";
         return Finding{{}, {ErrorKind::failed, path.shown, what}, {}, true};
     }
-    if (!path.hgt) return inspect_raster(path, told);
+    if (!path.hgt) return inspect_raster(path, overrides);
     ORO_TRY(Source tile, inspect_hgt(path));
-    told.heights_of(tile);
+    overrides.heights_of(tile);
     return Finding{std::move(tile), {}, {}, false};
 }
 
@@ -89,11 +89,11 @@ Source source_of_cell(const TileName& cell) {
     return tile;
 }
 
-Result<RegionSources> look_at_sources(const RegionRequest& request, const Progress& progress) {
+Result<RegionSources> probe_sources(const RegionRequest& request, const Progress& progress) {
     ORO_TRY(const std::vector<SourcePath> paths, find_sources(request.paths));
     std::optional<BoundingBox> box;
     if (request.box) box = unwrapped(*request.box);
-    ORO_TRY(const ToldOfFiles told, told_of_files(request));
+    ORO_TRY(const SourceOverrides overrides, source_overrides(request));
     RegionSources found;
     std::vector<LeftOutFile> left_out;
     std::optional<Error> refused_alone;
@@ -108,7 +108,7 @@ Result<RegionSources> look_at_sources(const RegionRequest& request, const Progre
             ORO_TRY(const HgtName name, name_of_hgt(path));
             if (!meets(source_of_cell(name.tile), *box)) continue;
         }
-        ORO_TRY(Finding finding, look_at_file(path, told));
+        ORO_TRY(Finding finding, probe_file(path, overrides));
         for (const std::string& doubt : finding.doubts) doubts.add(path.shown, doubt);
         if (finding.source) {
             found.sources.push_back(std::move(*finding.source));

@@ -27,7 +27,7 @@ struct RegionSources {
 inline constexpr const char* passed_over = "passed over ";
 
 // Looks at one file's name, size and header. Errors: a file that is damaged.
-Result<Finding> look_at_file(const SourcePath& path, const ToldOfFiles& told);
+Result<Finding> probe_file(const SourcePath& path, const SourceOverrides& overrides);
 // A whole-degree cell as a source, with its bounds alone.
 Source source_of_cell(const TileName& cell);
 
@@ -36,7 +36,7 @@ Source source_of_cell(const TileName& cell);
 // terrain is no way to hear of it). What belongs to elevation data and is none (companions.h) is left out
 // with one note, whoever named it, and refused where nothing else is there. With a box, tiles that by their
 // names lie elsewhere are not opened. Errors: those of find_sources and of each file.
-Result<RegionSources> look_at_sources(const RegionRequest& request, const Progress& progress);
+Result<RegionSources> probe_sources(const RegionRequest& request, const Progress& progress);
 
 // Whole-degree cells that the region touches and no source does. Names as N45E008.
 std::vector<std::string> cells_without(std::span<const Source> sources, const PostGrid& grid);

@@ -12,9 +12,9 @@
 #include "core/terrain/page_on_net.h"
 #include "geo/files/raster_library.h"
 #include "geo/measures/stored_values.h"
-#include "geo/posts/laying.h"
+#include "geo/posts/mosaic.h"
+#include "geo/region/region_fingerprints.h"
 #include "geo/region/region_grid.h"
-#include "geo/region/region_prints.h"
 #include "geo/sources/horizontal_datum.h"
 #include "geo/sources/notes.h"
 
@@ -111,12 +111,12 @@ Result<bool> runs_northwards(const SourcePlaces& source, const LatticeWindow& wi
     return glm::dot(glm::cross(at[1] - at[0], at[2] - at[0]), at[0]) > 0.0;
 }
 
-using FittedNet = Result<std::shared_ptr<const GridNet>>;
+using FittedNet = Result<std::shared_ptr<const LatticeGeoreference>>;
 FittedNet net_by(const SourcePlaces& places, const LatticeWindow& window, bool upside_down) {
-    return GridNet::fit(window.rows, window.columns,
-                        [&](std::span<const PostNumber> posts, std::span<PostPlace> there) {
-                            return places.places(window, upside_down, posts, there);
-                        });
+    return LatticeGeoreference::fit(window.rows, window.columns,
+                                    [&](std::span<const PostNumber> posts, std::span<PostPlace> there) {
+                                        return places.places(window, upside_down, posts, there);
+                                    });
 }
 
 // Where PROJ's best operation is another in another part of the source, places jump there by as much as the
@@ -198,10 +198,10 @@ OwnPosts not_kept(const std::string& why) {
 
 }  // namespace
 
-PostWindow posts_in_box(const GridNet& net, const BoundingBox& box) {
+PostWindow posts_in_box(const LatticeGeoreference& net, const BoundingBox& box) {
     constexpr int steps = 64;
     // Far beyond the raster parallels and meridians bend away from its rows and columns.
-    const GridNet::Box& all = net.box();
+    const LatticeGeoreference::Box& all = net.box();
     const double south_deg = std::max(box.south_deg, all.south_deg),
                  north_deg = std::min(box.north_deg, all.north_deg);
     double west_deg = all.east_deg, east_deg = all.west_deg;
@@ -261,7 +261,7 @@ Result<OwnPosts> own_posts(std::span<const Source> sources, const std::optional<
         return not_kept(fitted.error().where == "grid of posts"
                             ? "the posts of " + first.report.path + ": " + fitted.error().what
                             : fitted.error().line());
-    std::shared_ptr<const GridNet> net = std::move(*fitted);
+    std::shared_ptr<const LatticeGeoreference> net = std::move(*fitted);
     if (box) {
         const PostWindow part = posts_in_box(*net, unwrapped(*box));
         if (part.rows < 2 || part.columns < 2)
@@ -288,13 +288,13 @@ Result<OwnPosts> own_posts(std::span<const Source> sources, const std::optional<
 namespace {
 
 // Heights of a stretch of one of the region's rows.
-Result<void> shift_row(GeoidOfRegion::Shift& shift, const OwnLaying& laying, int row, int first_column,
+Result<void> shift_row(GeoidOfRegion::Shift& shift, const OwnMosaicTarget& target, int row, int first_column,
                        std::span<float> heights) {
     if (shift.does_nothing()) return {};
     for (std::size_t c = 0; c < heights.size(); ++c) {
         if (is_void(heights[c])) continue;
-        const PostPlace place = laying.posts.grid.net->place_at(row, first_column + static_cast<double>(c));
-        ORO_CHECK(shift.apply(laying.undulation, place.lat_deg, {&place.lon_deg, 1}, heights.subspan(c, 1)));
+        const PostPlace place = target.posts.grid.net->place_at(row, first_column + static_cast<double>(c));
+        ORO_CHECK(shift.apply(target.undulation, place.lat_deg, {&place.lon_deg, 1}, heights.subspan(c, 1)));
     }
     return {};
 }
@@ -308,10 +308,10 @@ PostWindow window_within(const Source& source, const OwnPart& part, const PostGr
 }
 
 // Reads a source in strips that fit memory.
-Result<void> lay_rows(Source& source, const OwnPart& part, const OwnLaying& laying,
+Result<void> lay_rows(Source& source, const OwnPart& part, const OwnMosaicTarget& target,
                       GeoidOfRegion::Shift& shift, JoinedSurface& surface) {
     constexpr std::size_t posts_a_strip = std::size_t{1} << 26;
-    const PostGrid& grid = laying.posts.grid;
+    const PostGrid& grid = target.posts.grid;
     const PostWindow window = window_within(source, part, grid);
     if (window.rows <= 0 || window.columns <= 0) return {};
     SourceReport& report = source.report;
@@ -332,10 +332,10 @@ Result<void> lay_rows(Source& source, const OwnPart& part, const OwnLaying& layi
         report.voids += block.voids;
         report.implausible += block.implausible;
         for (int from = first; from < first + rows; ++from) {
-            const int row = laying.posts.upside_down ? grid.rows() - 1 - (part.row + from) : part.row + from;
+            const int row = target.posts.upside_down ? grid.rows() - 1 - (part.row + from) : part.row + from;
             for (std::size_t c = 0; c < columns; ++c)
                 heights[c] = block.at(from, window.column + static_cast<int>(c));
-            ORO_CHECK(shift_row(shift, laying, row, first_column, heights));
+            ORO_CHECK(shift_row(shift, target, row, first_column, heights));
             surface.lay(row, first_column, heights, inside, true, report.seams);
             print.add(heights);
             for (const float height : heights) {
@@ -345,19 +345,19 @@ Result<void> lay_rows(Source& source, const OwnPart& part, const OwnLaying& layi
             }
         }
     }
-    report.posts_print = print.print();
+    report.posts_hash = print.print();
     report.stored = stored.range(report.rows, report.columns);
     return {};
 }
 
-Result<void> lay_one(Source& source, const OwnPart& part, const OwnLaying& laying, JoinedSurface& surface,
-                     std::vector<std::string>& notes) {
+Result<void> lay_one(Source& source, const OwnPart& part, const OwnMosaicTarget& target,
+                     JoinedSurface& surface, std::vector<std::string>& notes) {
     SourceReport& report = source.report;
-    const PostGrid& grid = laying.posts.grid;
+    const PostGrid& grid = target.posts.grid;
     GeoidOfRegion::Shift shift;
     if (!source.vertical_crs.empty()) {
         const BoundingBox box{grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg()};
-        auto found = laying.geoid.shift_from(source.vertical_crs, box, laying.strict_datum);
+        auto found = target.geoid.shift_from(source.vertical_crs, box, target.strict_datum);
         if (!found) return Error{found.error().kind, report.path, found.error().line()};
         shift = std::move(*found);
         report.vertical_datum.egm96_stands_in = shift.egm96_stands_in();
@@ -366,8 +366,8 @@ Result<void> lay_one(Source& source, const OwnPart& part, const OwnLaying& layin
     report.lowest_m = std::numeric_limits<double>::max();
     report.highest_m = std::numeric_limits<double>::lowest();
     report.placement = Placement{Fit::same_posts, 0.0, 1, 1};
-    ORO_CHECK(lay_rows(source, part, laying, shift, surface));
-    return note_findings(report, 0, shift.beyond_grid(), laying.strict_datum, notes);
+    ORO_CHECK(lay_rows(source, part, target, shift, surface));
+    return note_findings(report, 0, shift.beyond_grid(), target.strict_datum, notes);
 }
 
 }  // namespace
@@ -376,16 +376,16 @@ bool is_on_lattice(const Source& source, const Source& other) {
     return place_on_lattice(source, other).has_value();
 }
 
-Result<void> lay_own_posts(std::vector<Source>& sources, const OwnLaying& laying, JoinedSurface& surface,
-                           std::vector<float>& N_of_posts_m, std::vector<std::string>& notes,
-                           const Progress& progress) {
-    N_of_posts_m = N_of_net_m(*laying.posts.grid.net, laying.undulation, thread_count());
+Result<void> mosaic_own_posts(std::vector<Source>& sources, const OwnMosaicTarget& target,
+                              JoinedSurface& surface, std::vector<float>& N_of_posts_m,
+                              std::vector<std::string>& notes, const Progress& progress) {
+    N_of_posts_m = N_of_net_m(*target.posts.grid.net, target.undulation, thread_count());
     std::size_t done = 0;
     for (const std::size_t i : by_precedence(sources)) {
         if (progress)
             progress(0.1 + 0.85 * static_cast<double>(done++) / static_cast<double>(sources.size()),
                      "reading " + sources[i].report.path);
-        ORO_CHECK(lay_one(sources[i], laying.posts.parts[i], laying, surface, notes));
+        ORO_CHECK(lay_one(sources[i], target.posts.parts[i], target, surface, notes));
     }
     return {};
 }

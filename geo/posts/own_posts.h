@@ -33,11 +33,11 @@ struct OwnPosts {
 };
 
 // All posts of sources that share one lattice (CRS, spacing, turn, and places a whole number of posts apart),
-// or those around a box (whole rows and columns). Places are PROJ's to 0.02 mm (core/net/grid_net.h). They
-// cannot be kept where sources share none, where PROJ cannot turn the CRS into WGS84, where places jump from
-// one post to the next (kinks of a grid of shifts are kept), and where they reach some 5,000 km from their
-// middle. Errors:
-// more posts than memory holds; nothing in the box (no_data).
+// or those around a box (whole rows and columns). Places are PROJ's to 0.02 mm
+// (core/net/lattice_georeference.h). They cannot be kept where sources share none, where PROJ cannot turn the
+// CRS into WGS84, where places jump from one post to the next (kinks of a grid of shifts are kept), and where
+// they reach some 5,000 km from their middle. Errors: more posts than memory holds; nothing in the box
+// (no_data).
 Result<OwnPosts> own_posts(std::span<const Source> sources, const std::optional<BoundingBox>& box);
 
 // Whether the posts of a source in a CRS of its own are on the lattice of another's: the same CRS, spacing
@@ -46,18 +46,18 @@ bool is_on_lattice(const Source& source, const Source& other);
 
 // Rows and columns of a net that a box (unwrapped) touches, and a post more on each side where it has one;
 // none of those where it touches none.
-PostWindow posts_in_box(const GridNet& net, const BoundingBox& box);
+PostWindow posts_in_box(const LatticeGeoreference& net, const BoundingBox& box);
 
-// Reads them and lays them into the surface, in order of precedence, as lay_sources() does. Puts N of each
+// Reads them and lays them into the surface, in order of precedence, as mosaic_sources() does. Puts N of each
 // post into `N_of_posts_m`, unless N is 0 everywhere.
-struct OwnLaying {
+struct OwnMosaicTarget {
     const OwnPosts& posts;
     const UndulationField& undulation;
     const GeoidOfRegion& geoid;
     bool strict_datum{};
 };
-Result<void> lay_own_posts(std::vector<Source>& sources, const OwnLaying& laying, JoinedSurface& surface,
-                           std::vector<float>& N_of_posts_m, std::vector<std::string>& notes,
-                           const Progress& progress);
+Result<void> mosaic_own_posts(std::vector<Source>& sources, const OwnMosaicTarget& target,
+                              JoinedSurface& surface, std::vector<float>& N_of_posts_m,
+                              std::vector<std::string>& notes, const Progress& progress);
 
 }  // namespace oro

@@ -115,7 +115,8 @@ bool ResamplingError::in_region(const LatLon& place) const {
 
 // Of a cell; nothing while posts that decide may still come.
 std::optional<Diagonal> ResamplingError::diagonal_at(int row, int column, bool is_whole) const {
-    const int rows = grid_->rows(), columns = grid_->columns(), turn = grid_->goes_round() ? columns - 1 : 0;
+    const int rows = grid_->rows(), columns = grid_->columns(),
+              turn = grid_->wraps_longitude() ? columns - 1 : 0;
     bool may_come = false;
     const Diagonal diagonal = diagonal_of(
         [&](int r, int c) {
@@ -159,7 +160,7 @@ ResamplingError::Shown ResamplingError::shown_at(const LatLon& place, bool is_wh
     std::array corners{
         Corner{row, column, 1.0 - std::max(down, right)}, Corner{row + 1, column + 1, std::min(down, right)},
         Corner{down >= right ? row + 1 : row, down >= right ? column : column + 1, std::abs(down - right)}};
-    if (*diagonal == Diagonal::rises) {
+    if (*diagonal == Diagonal::sw_ne) {
         const bool west = down + right <= 1.0;
         corners = {Corner{row + 1, column, west ? down : 1.0 - right},
                    Corner{row, column + 1, west ? right : 1.0 - down},
@@ -291,12 +292,12 @@ Result<void> ResamplingError::compare(const PostBlock& block, const ToH& to_H) {
     return {};
 }
 
-std::optional<PostShown> ResamplingError::told(const std::optional<OwnPost>& post) const {
+std::optional<PostShown> ResamplingError::reported(const std::optional<OwnPost>& post) const {
     if (!post) return std::nullopt;
-    PostShown told{post->place.lat_deg, post->place.lon_deg, static_cast<double>(post->H_m), {}};
+    PostShown reported{post->place.lat_deg, post->place.lon_deg, static_cast<double>(post->H_m), {}};
     const Shown shown = shown_at(post->place, true);
-    if (shown.ground == Ground::own || shown.ground == Ground::others) told.shown_H_m = shown.H_m;
-    return told;
+    if (shown.ground == Ground::own || shown.ground == Ground::others) reported.shown_H_m = shown.H_m;
+    return reported;
 }
 
 // Heights beyond rims count as this source's where they were taken.
@@ -331,8 +332,8 @@ Resampling ResamplingError::finish() {
         all.hidden += ground == Ground::others ? 1 : 0;
         found.unshown += ground == Ground::open ? 1 : 0;
     }
-    found.highest = told(highest_);
-    found.lowest = told(lowest_);
+    found.highest = reported(highest_);
+    found.lowest = reported(lowest_);
     // Among every step-th post they are only by chance.
     for (const auto& post : {highest_, lowest_})
         if (step_ > 1 && post) look_again(*post);

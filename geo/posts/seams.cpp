@@ -105,7 +105,7 @@ std::uint64_t JoinedSurface::lay(int row, int first_column, std::span<const floa
                                  SeamReport& of_source) {
     const std::size_t start = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.columns()) +
                               static_cast<std::size_t>(first_column);
-    std::uint64_t lent = 0;
+    std::uint64_t voids_filled = 0;
     for (std::size_t c = 0; c < heights.size(); ++c) {
         if (!inside[c]) continue;
         const std::size_t post = start + c;
@@ -115,7 +115,7 @@ std::uint64_t JoinedSurface::lay(int row, int first_column, std::span<const floa
         if (is_void(heights[c])) continue;
         if (is_void(heights_[post])) {
             heights_[post] = heights[c];
-            lent += covered_before;
+            voids_filled += covered_before;
             if (own_posts) marks |= own_mark;
             continue;
         }
@@ -138,7 +138,7 @@ std::uint64_t JoinedSurface::lay(int row, int first_column, std::span<const floa
         }
         seams_.largest_difference_m = std::max(seams_.largest_difference_m, difference);
     }
-    return lent;
+    return voids_filled;
 }
 
 void JoinedSurface::lay_later(int row, int first_column, std::span<const float> heights) {

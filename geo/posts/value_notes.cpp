@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "geo/posts/laying.h"
+#include "geo/posts/mosaic.h"
 #include "geo/sources/height_unit.h"
 #include "geo/sources/notes.h"
 #include "geo/sources/undeclared_voids.h"
@@ -13,15 +13,16 @@ namespace oro {
 namespace {
 
 // Files of which the same is to be told.
-struct Told {
+struct NotedPosts {
     std::string first;
     std::size_t files{};
     std::uint64_t posts{};
     std::string about;  // what differs from note to note
 };
 
-void tell(std::vector<Told>& all, const Source& source, std::uint64_t posts, const std::string& about = "") {
-    const auto known = std::ranges::find(all, about, &Told::about);
+void tell(std::vector<NotedPosts>& all, const Source& source, std::uint64_t posts,
+          const std::string& about = "") {
+    const auto known = std::ranges::find(all, about, &NotedPosts::about);
     if (known == all.end()) {
         all.push_back({source.report.path, 1, posts, about});
         return;
@@ -30,9 +31,10 @@ void tell(std::vector<Told>& all, const Source& source, std::uint64_t posts, con
     known->posts += posts;
 }
 
-void put(const std::vector<Told>& all, std::vector<std::string>& notes,
-         const std::function<std::string(const Told&)>& words) {
-    for (const Told& told : all) add_note(notes, files_words(told.first, told.files) + ": " + words(told));
+void put(const std::vector<NotedPosts>& all, std::vector<std::string>& notes,
+         const std::function<std::string(const NotedPosts&)>& words) {
+    for (const NotedPosts& noted : all)
+        add_note(notes, files_words(noted.first, noted.files) + ": " + words(noted));
 }
 
 // Implausible values of which each reads like no data, and no others.
@@ -45,7 +47,7 @@ bool all_read_like_no_data(const ValueFindings& values) {
     return counted == values.implausible_posts;
 }
 
-void tell_undeclared(const Source& source, std::vector<Told>& all) {
+void tell_undeclared(const Source& source, std::vector<NotedPosts>& all) {
     const ValueFindings& values = source.values;
     for (const StoredCount& count : values.undeclared)
         if (count.value != blurred_value) tell(all, source, count.posts, value_words(count.value));
@@ -54,7 +56,7 @@ void tell_undeclared(const Source& source, std::vector<Told>& all) {
         tell(all, source, count.posts, value_words(count.value));
 }
 
-void tell_blurred(const Source& source, std::vector<Told>& all) {
+void tell_blurred(const Source& source, std::vector<NotedPosts>& all) {
     for (const StoredCount& count : source.values.undeclared)
         if (count.value == blurred_value) tell(all, source, count.posts);
 }
@@ -89,7 +91,7 @@ std::string files_words(const std::string& first, std::size_t files) {
 }
 
 void note_values(std::span<const Source> sources, std::vector<std::string>& notes) {
-    std::vector<Told> undeclared, blurred, implausible, unwritten, steep;
+    std::vector<NotedPosts> undeclared, blurred, implausible, unwritten, steep;
     for (const Source& source : sources) {
         const ValueFindings& values = source.values;
         tell_undeclared(source, undeclared);
@@ -108,27 +110,27 @@ void note_values(std::span<const Source> sources, std::vector<std::string>& note
             tell(steep, source, 0, spacing);
         }
     }
-    put(undeclared, notes, [](const Told& told) {
-        return std::to_string(told.posts) + (told.posts == 1 ? " post holds " : " posts hold ") + told.about +
-               ", which no tag declares as no data; " + (told.posts == 1 ? "it is" : "they are") +
-               " taken as void";
+    put(undeclared, notes, [](const NotedPosts& noted) {
+        return std::to_string(noted.posts) + (noted.posts == 1 ? " post holds " : " posts hold ") +
+               noted.about + ", which no tag declares as no data; " +
+               (noted.posts == 1 ? "it is" : "they are") + " taken as void";
     });
-    put(blurred, notes, [](const Told& told) {
-        return std::to_string(told.posts) + (told.posts == 1 ? " post lies" : " posts lie") +
+    put(blurred, notes, [](const NotedPosts& noted) {
+        return std::to_string(noted.posts) + (noted.posts == 1 ? " post lies" : " posts lie") +
                " between a no-data value and the terrain, as resampling leaves them, and " +
-               (told.posts == 1 ? "is" : "are") + " taken as void; heights beside voids may be blurred, too";
+               (noted.posts == 1 ? "is" : "are") + " taken as void; heights beside voids may be blurred, too";
     });
-    put(implausible, notes, [](const Told& told) {
-        return std::to_string(told.posts) + " heights below -12,000 m or above 9,000 m are taken as void" +
-               told.about;
+    put(implausible, notes, [](const NotedPosts& noted) {
+        return std::to_string(noted.posts) + " heights below -12,000 m or above 9,000 m are taken as void" +
+               noted.about;
     });
-    put(unwritten, notes, [](const Told& told) {
-        return std::to_string(told.posts) +
+    put(unwritten, notes, [](const NotedPosts& noted) {
+        return std::to_string(noted.posts) +
                " posts have no data: they lie in gaps between the files of a mosaic, or in blocks that were "
                "never written";
     });
-    put(steep, notes, [](const Told& told) {
-        return "more than half of its slopes are steeper than 80 degrees, with posts " + told.about +
+    put(steep, notes, [](const NotedPosts& noted) {
+        return "more than half of its slopes are steeper than 80 degrees, with posts " + noted.about +
                " m apart: its coordinates or the unit of its heights may be wrong (" + unit_hint() + ")";
     });
 }

@@ -50,14 +50,14 @@ struct RegionGrid {
     std::uint64_t outside{};     // beyond the rims of all sources, in cells that one touches
     std::uint64_t in_missing{};  // in missing_cells
     std::uint64_t filled{};      // void posts filled
-    // Fingerprints (region_prints.h) of all its posts, and of N over it, also where a view leaves that out.
-    // The first is unknown of a whole region that was baked before there were any.
-    std::optional<std::uint64_t> posts_print;
+    // Fingerprints (region_fingerprints.h) of all its posts, and of N over it, also where a view leaves that
+    // out. The first is unknown of a whole region that was baked before there were any.
+    std::optional<std::uint64_t> posts_hash;
     std::uint64_t geoid_print{};
     VoidMethod void_method{VoidMethod::holes};
     // False where it is not known which of the voids are beyond rims: in a part of a baked region, and of
     // one that was baked before they were told apart. `outside` is then too small, void_posts() too large.
-    bool tells_voids_apart{true};
+    bool classifies_voids{true};
     // Void in the source that covers them: what --fill-voids is for.
     [[nodiscard]] std::uint64_t void_posts() const { return voids - outside - in_missing; }
     std::vector<std::string> notes;  // what a user must know, one line each (a geoid that stands in, ...)

@@ -49,7 +49,7 @@ ordered_json source_text(const SourceReport& s) {
     if (s.stored) text["stored"] = stored_fields<ordered_json>(*s.stored);
     if (s.resampling) text["resampling"] = resampling_fields<ordered_json>(*s.resampling);
     put_source_findings(text, s);
-    if (s.posts_print) text["posts_print"] = print_text(*s.posts_print);
+    if (s.posts_hash) text["posts_print"] = print_text(*s.posts_hash);
     return text;
 }
 
@@ -243,7 +243,7 @@ SourceReport source_of(const Field& field) {
     s.implausible = field["implausible"].count();
     s.placement = placement_of_words(field["placement"].text());
     s.seams = seams_of(field["seams"]);
-    s.posts_print = field.print();
+    s.posts_hash = field.print();
     return s;
 }
 
@@ -265,14 +265,14 @@ RegionGrid region_of(const Field& field) {
     region.missing_cells = field["missing_cells"].texts();
     region.voids = field["voids"].count();
     // Regions baked earlier do not tell these apart from voids.
-    region.tells_voids_apart = region.voids == 0 || field.has("outside");
+    region.classifies_voids = region.voids == 0 || field.has("outside");
     if (field.has("outside")) region.outside = field["outside"].count();
     if (field.has("in_missing")) region.in_missing = field["in_missing"].count();
     if (region.outside > region.voids || region.in_missing > region.voids - region.outside)
         throw Fault{"it tells of more posts without a source than without a height"};
     region.filled = field["filled"].count();
     region.void_method = known(field["void_method"], void_method_of_words);
-    region.posts_print = field.print();
+    region.posts_hash = field.print();
     region.notes = field["notes"].texts();
     return region;
 }
@@ -292,11 +292,11 @@ std::string region_description(const RegionGrid& region) {
     }
     all["missing_cells"] = region.missing_cells;
     all["voids"] = region.voids;
-    if (region.tells_voids_apart) all["outside"] = region.outside;
+    if (region.classifies_voids) all["outside"] = region.outside;
     all["in_missing"] = region.in_missing;
     all["filled"] = region.filled;
     all["void_method"] = void_method_words(region.void_method);
-    if (region.posts_print) all["posts_print"] = print_text(*region.posts_print);
+    if (region.posts_hash) all["posts_print"] = print_text(*region.posts_hash);
     all["notes"] = region.notes;
     return all.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }

@@ -322,13 +322,13 @@ Result<void> read_height_unit(Source& source, GDALDatasetH dataset, const Height
                               std::vector<std::string>& doubts) {
     double metres = 1.0;
     HeightUnit& unit = source.report.height_unit;
-    if (!says.told_unit.empty()) {
-        const auto told = metres_in(says.told_unit);
-        if (!told)
-            return Error{ErrorKind::usage, "height unit '" + says.told_unit + "'",
+    if (!says.specified_unit.empty()) {
+        const auto specified = metres_in(says.specified_unit);
+        if (!specified)
+            return Error{ErrorKind::usage, "height unit '" + says.specified_unit + "'",
                          "is none of m, ft, us-ft, cm, dm, mm"};
-        metres = *told;
-        unit = {says.told_unit, UnitFrom::request};
+        metres = *specified;
+        unit = {says.specified_unit, UnitFrom::request};
     } else {
         ORO_TRY(const std::vector<Saying> all, sayings_of(source, dataset, says));
         if (!all.empty()) {

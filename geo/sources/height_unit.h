@@ -26,15 +26,15 @@ GeoTiffHeights geotiff_heights(const std::string& file);
 // height.
 Result<std::optional<double>> metres_of_zunits(const std::string& raster_file);
 
-// Puts unit, scale and offset of a band into a source. By precedence: what was told (`told_unit`); the band's
-// own unit; GeoKey 4099, of the file or of all GeoTIFFs that a VRT is made of (`parts`); the vertical CRS;
-// Zunits; else metres are assumed. `doubts` get what a user must know: that two of them contradict each
+// Puts unit, scale and offset of a band into a source. By precedence: what was told (`specified_unit`); the
+// band's own unit; GeoKey 4099, of the file or of all GeoTIFFs that a VRT is made of (`parts`); the vertical
+// CRS; Zunits; else metres are assumed. `doubts` get what a user must know: that two of them contradict each
 // other; that nothing says it although the CRS counts in another unit than metres. Errors (a reason, without
 // the file's name): a unit that is none of heights; usage for one that was told.
 struct HeightUnitSays {
     const StatedDatum& datum;
     OGRSpatialReferenceH horizontal;
-    const std::string& told_unit;
+    const std::string& specified_unit;
     const std::vector<std::string>& parts;
 };
 Result<void> read_height_unit(Source& source, GDALDatasetH dataset, const HeightUnitSays& says,

@@ -195,9 +195,9 @@ class Walk {
             } else if (vrt) {
                 ORO_TRY(extent, visit_vrt(stream.get(), file, depth));
             } else {
-                ORO_CHECK(look_at(stream.get(), file, head));
+                ORO_CHECK(probe(stream.get(), file, head));
             }
-            ORO_CHECK(look_at_sidecars(file));
+            ORO_CHECK(probe_sidecars(file));
         }
         extents_[file] = extent;
         return extent;
@@ -251,7 +251,7 @@ class Walk {
         return {};
     }
 
-    Result<void> look_at(VSILFILE* stream, const std::string& file, const std::string& head) {
+    Result<void> probe(VSILFILE* stream, const std::string& file, const std::string& head) {
         if (FileWatch* const watch = FileWatch::innermost(); watch != nullptr && watch->spent())
             return fault(watch->fault());
         if (head.starts_with("EHFA_HEADER_TAG") &&
@@ -270,7 +270,7 @@ class Walk {
     }
 
     // GDAL takes a side-car that it cannot read for one that is not there.
-    Result<void> look_at_sidecars(const std::string& file) {
+    Result<void> probe_sidecars(const std::string& file) {
         if (const std::string aux = file + ".aux.xml"; is_there(aux)) {
             const File stream(VSIFOpenL(aux.c_str(), "rb"));
             if (!stream) return fault("its " + aux + " cannot be opened");
@@ -284,12 +284,12 @@ class Walk {
             if (!opened) return fault("its mask " + mask + " is damaged: " + messages.last("no raster"));
             files_.insert(local_file_of(mask));
         }
-        for (const char* ending : {"w", "fw", "2w"}) look_at_world_file(file, ending);
+        for (const char* ending : {"w", "fw", "2w"}) probe_world_file(file, ending);
         return {};
     }
 
     // a.tif's is a.tfw or a.tifw, a.jp2's a.j2w.
-    void look_at_world_file(const std::string& file, const std::string& ending) {
+    void probe_world_file(const std::string& file, const std::string& ending) {
         const std::size_t dot = file.rfind('.');
         if (dot == std::string::npos || dot + 2 > file.size()) return;
         const std::string name = ending == "w" ? file + ending : file.substr(0, dot + 2) + ending;

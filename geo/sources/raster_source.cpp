@@ -34,7 +34,7 @@ std::string text_of(const char* text) {
 
 // What heights refer to: by the CRS, by DTED metadata, as told, or assumed.
 StatedDatum read_vertical(Source& source, GDALDatasetH dataset, OGRSpatialReferenceH crs,
-                          const ToldOfFiles& told) {
+                          const SourceOverrides& overrides) {
     if (OSRIsCompound(crs) || OSRGetAxesCount(crs) == 3) {
         source.vertical_crs = wkt_of(crs);
         if (auto datum = stated_datum(source.vertical_crs)) {
@@ -51,7 +51,7 @@ StatedDatum read_vertical(Source& source, GDALDatasetH dataset, OGRSpatialRefere
         source.report.vertical_datum.from = dted == "E96" ? DatumFrom::dted_egm96 : DatumFrom::dted_egm2008;
         return {};
     }
-    return told.heights_of(source);
+    return overrides.heights_of(source);
 }
 
 std::string attribution_of(GDALDatasetH dataset) {
@@ -138,7 +138,7 @@ Result<Opened> open_source(const SourcePath& path, const GdalMessages& messages)
 
 // What an opened raster says of itself; an error without its name where it is no source.
 // `doubts` get what a user must know of it.
-Result<Source> described(const SourcePath& path, const Opened& opened, const ToldOfFiles& told,
+Result<Source> described(const SourcePath& path, const Opened& opened, const SourceOverrides& overrides,
                          std::vector<std::string>& doubts) {
     const Dataset& dataset = opened.dataset;
     const auto fault = [&](const std::string& what) { return Error{ErrorKind::failed, "", what}; };
@@ -147,12 +147,12 @@ Result<Source> described(const SourcePath& path, const Opened& opened, const Tol
     const bool says_where = GDALGetGeoTransform(dataset.get(), cell.data()) == CE_None;
     const OGRSpatialReferenceH stated = GDALGetSpatialRef(dataset.get());
     const bool lacks_crs = stated ? OSRIsLocal(stated) != 0 : GDALGetGCPCount(dataset.get()) == 0;
-    if (lacks_crs && told.crs.empty())
+    if (lacks_crs && overrides.crs.empty())
         return fault(without_crs(stated ? text_of(OSRGetName(stated)) : "",
                                  says_where ? std::optional(cell) : std::nullopt,
                                  GDALGetRasterXSize(dataset.get()), GDALGetRasterYSize(dataset.get())));
     ORO_TRY(const SpatialReference crs,
-            lacks_crs ? Result<SpatialReference>(crs_from_text(told.crs)) : crs_of(dataset.get()));
+            lacks_crs ? Result<SpatialReference>(crs_from_text(overrides.crs)) : crs_of(dataset.get()));
     if (!says_where) return fault("states no georeference: where its posts lie is unknown");
     Source source;
     source.kind = SourceKind::raster;
@@ -166,10 +166,10 @@ Result<Source> described(const SourcePath& path, const Opened& opened, const Tol
     source.report.rows = GDALGetRasterYSize(dataset.get());
     source.report.columns = GDALGetRasterXSize(dataset.get());
     if (source.report.rows < 2 || source.report.columns < 2) return fault("has fewer than 2 x 2 posts");
-    const StatedDatum datum = read_vertical(source, dataset.get(), crs.get(), told);
+    const StatedDatum datum = read_vertical(source, dataset.get(), crs.get(), overrides);
     const SpatialReference horizontal = horizontal_part(crs.get());
     ORO_CHECK(read_height_unit(source, dataset.get(),
-                               {datum, horizontal.get(), told.height_unit, opened.parts.files}, doubts));
+                               {datum, horizontal.get(), overrides.height_unit, opened.parts.files}, doubts));
     // GDAL's map is for the corners of cells, whatever AREA_OR_POINT says (it has moved "point" files by half
     // a cell); a post is a cell's centre.
     source.crs_from_post = {cell[0] + 0.5 * (cell[1] + cell[2]), cell[1], cell[2],
@@ -178,7 +178,7 @@ Result<Source> described(const SourcePath& path, const Opened& opened, const Tol
         lower_case(text_of(GDALGetMetadataItem(dataset.get(), "AREA_OR_POINT", nullptr))) == "point";
     source.report.posts_are = points ? PostsAre::points : PostsAre::cell_centres;
     source.report.attribution = attribution_of(dataset.get());
-    source.crs_told = lacks_crs;
+    source.crs_specified = lacks_crs;
     source.report.crs = crs_name(horizontal.get()) + (lacks_crs ? " (as told)" : "");
     if (const double epoch = OSRGetCoordinateEpoch(crs.get()); epoch > 0.0)
         source.report.horizontal_datum.coordinate_epoch = epoch;
@@ -197,7 +197,7 @@ bool is_of_bytes(const Source& source, GDALDatasetH dataset) {
     if (datum == DatumFrom::crs) return false;
     // A datum that a product's name brings, or that was told, says nothing of what this file holds, and
     // neither does the unit that comes with it.
-    const bool beside_the_file = datum == DatumFrom::product || datum == DatumFrom::told;
+    const bool beside_the_file = datum == DatumFrom::product || datum == DatumFrom::specified;
     const bool unit_is_assumed =
         source.report.height_unit.from == UnitFrom::assumed ||
         (beside_the_file && source.report.height_unit.from == UnitFrom::file &&
@@ -207,7 +207,7 @@ bool is_of_bytes(const Source& source, GDALDatasetH dataset) {
 
 }  // namespace
 
-Result<Finding> inspect_raster(const SourcePath& path, const ToldOfFiles& told) {
+Result<Finding> inspect_raster(const SourcePath& path, const SourceOverrides& overrides) {
     start_gdal();
     const GdalMessages messages;
     const FileWatch watch(opening_limit_s);
@@ -224,7 +224,7 @@ Result<Finding> inspect_raster(const SourcePath& path, const ToldOfFiles& told) 
         return finding;
     }
     std::vector<std::string> doubts;
-    auto source = described(path, *opened, told, doubts);
+    auto source = described(path, *opened, overrides, doubts);
     if (!watch.fault().empty()) return named({ErrorKind::failed, "", watch.fault()});
     if (!source) {
         if (const std::string lack = lacks_database(); !lack.empty())

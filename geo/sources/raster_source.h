@@ -9,7 +9,7 @@
 #include "geo/files/source_paths.h"
 #include "geo/sources/length_unit.h"
 #include "geo/sources/source.h"
-#include "geo/sources/told_of_files.h"
+#include "geo/sources/source_overrides.h"
 
 namespace oro {
 
@@ -28,7 +28,7 @@ struct Finding {
 // belongs to it; a file that names a network or a pipe, or takes more than the budget for opening
 // (guarded_files.h, raster_parts.h); whatever it is, one that cannot be opened although its name or its first
 // bytes are those of a trusted format.
-Result<Finding> inspect_raster(const SourcePath& path, const ToldOfFiles& told);
+Result<Finding> inspect_raster(const SourcePath& path, const SourceOverrides& overrides);
 
 // Reads a window of its posts: no-data, masks, NaN and implausible heights become void.
 Result<PostBlock> read_raster(const Source& source, const PostWindow& window);

@@ -30,9 +30,9 @@ struct RegionRequest {
     // their heights refer to (a vertical CRS, or one of ellipsoidal heights: "EPSG:5728", "EPSG:4979"). ""
     // for nothing told.
     std::string source_crs, source_vertical;
-    // Files that lie far apart (lying_apart.h), or whose posts are not each other's, become a grid
+    // Files that lie far apart (disjoint_sources.h), or whose posts are not each other's, become a grid
     // each. Otherwise one grid holds them all, with what lies between, as views of one grid had it.
-    bool grids_apart{false};
+    bool allow_multiple_grids{false};
 };
 
 // What becomes of void posts: they are left out of the terrain, or filled from their neighbours.

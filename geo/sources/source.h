@@ -87,7 +87,7 @@ struct Source {
     SourceKind kind{SourceKind::raster};
     std::string file;  // as GDAL's virtual file system opens it
     bool named{};      // by the user, not found in a folder
-    bool crs_told{};   // by the user: the file states none
+    bool crs_specified{};  // by the user: the file states none
     bool bytes{};      // whole numbers of 0 to 255, and nothing says that they are heights
     SourceReport report;
     LonSpan lon;  // of the posts

@@ -23,7 +23,7 @@ enum class DatumFrom {
     hgt_format,          // .hgt files state none: it is SRTM's format, whose heights are of EGM96
     assumed_unstated,    // the file states none
     assumed_unreadable,  // PROJ cannot read what the CRS states
-    told,                // by the request, because the file does not say
+    specified,           // by the request, because the file does not say
     product  // by the file's name: the product that it is of has them (geo/sources/known_products.h)
 };
 
@@ -154,8 +154,8 @@ struct SourceReport {
     std::uint64_t implausible{};  // heights no terrain has (below -12,000 m or above 9,000 m), taken as void
     std::optional<Placement> placement;  // nothing for a source that was not laid
     SeamReport seams;  // with the sources that win over it: its posts that one of them has, too
-    std::optional<std::uint64_t> posts_print;  // of its posts as they were laid (region_prints.h); unknown in
-                                               // regions baked before there were any
+    std::optional<std::uint64_t> posts_hash;  // of its posts as they were laid (region_fingerprints.h);
+                                              // unknown in regions baked before there were any
     std::vector<std::string> files;  // of this machine that it is made of: the archive it is in, all that a
                                      // VRT names; unknown ({}) in a baked region
 };

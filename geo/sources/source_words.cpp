@@ -31,7 +31,7 @@ constexpr std::array void_methods{
     Words<VoidMethod>{VoidMethod::holes, "holes"},
     Words<VoidMethod>{VoidMethod::filled, "filled by inverse-distance interpolation (GDALFillNodata)"}};
 
-constexpr std::string_view as_told = " (as told)";
+constexpr std::string_view as_specified = " (as told)";
 constexpr std::string_view by_name = " (by its name)";
 constexpr std::string_view stands_in = "; EGM96 stands in";
 constexpr std::string_view copied = "posts copied";
@@ -73,7 +73,7 @@ std::string posts_words(PostsAre which) {
 std::string datum_words(const HeightDatum& datum) {
     std::string words = words_in(datums, datum.from);
     if (words.empty()) words = datum.name;
-    if (datum.from == DatumFrom::told) words += as_told;
+    if (datum.from == DatumFrom::specified) words += as_specified;
     if (datum.from == DatumFrom::product) words += by_name;
     return words + std::string(datum.egm96_stands_in ? stands_in : "");
 }
@@ -151,10 +151,10 @@ HeightDatum datum_of_words(const std::string& words) {
     datum.egm96_stands_in = rest.ends_with(stands_in);
     if (datum.egm96_stands_in) rest.remove_suffix(stands_in.size());
     const auto known = fact_in(datums, rest);
-    datum.from = known.value_or(rest.ends_with(as_told)   ? DatumFrom::told
-                                : rest.ends_with(by_name) ? DatumFrom::product
-                                                          : DatumFrom::crs);
-    if (datum.from == DatumFrom::told) rest.remove_suffix(as_told.size());
+    datum.from = known.value_or(rest.ends_with(as_specified) ? DatumFrom::specified
+                                : rest.ends_with(by_name)    ? DatumFrom::product
+                                                             : DatumFrom::crs);
+    if (datum.from == DatumFrom::specified) rest.remove_suffix(as_specified.size());
     if (datum.from == DatumFrom::product) rest.remove_suffix(by_name.size());
     if (!known) datum.name = rest;
     return datum;

@@ -52,7 +52,7 @@ std::vector<RimEdge> coverage_rim(const HeightField& field) {
             if (here[i].south_west != here[i].north_east)
                 rim.push_back({{row, column}, {row + 1, column + 1}});
         }
-        const bool round = field.grid.goes_round();
+        const bool round = field.grid.wraps_longitude();
         for (std::size_t i = 0; !last && i <= cells; ++i) {
             const bool east_of = i < cells ? here[i].south_west : round && here[0].south_west;
             const bool west_of = i > 0 ? here[i - 1].north_east : round && here[cells - 1].north_east;

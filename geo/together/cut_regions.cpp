@@ -18,7 +18,7 @@ namespace {
 // Posts of one grid as they are drawn; each is placed once.
 class DrawnPosts {
   public:
-    DrawnPosts(const HeightField& field, const CutOut& cut, double exaggeration)
+    DrawnPosts(const HeightField& field, const GridClip& cut, double exaggeration)
         : field_(field), cut_(cut), exaggeration_(exaggeration) {}
 
     // The normal is that of the smooth ground: from the posts around, on the sides where there are any. Of
@@ -60,27 +60,27 @@ class DrawnPosts {
                post.column < field_.grid.columns() && !is_void(field_.H_at_post_m(post.row, post.column));
     }
     [[nodiscard]] bool is_left_out(GridPost post) const {
-        return !cut_.left_out.empty() && cut_.left_out[number(post)] != 0;
+        return !cut_.masked_posts.empty() && cut_.masked_posts[number(post)] != 0;
     }
     const HeightField& field_;
-    const CutOut& cut_;
+    const GridClip& cut_;
     double exaggeration_;
     std::unordered_map<std::size_t, SeamCorner> drawn_;
 };
 
-// The ground that `one` bounds lies on the right hand; the closer's foot goes to the left.
-SeamCloser closer_between(const std::array<SeamCorner, 2>& one, const std::array<SeamCorner, 2>& other) {
-    SeamCloser closer;
+// The ground that `one` bounds lies on the right hand; the skirt's foot goes to the left.
+SeamSkirt skirt_between(const std::array<SeamCorner, 2>& one, const std::array<SeamCorner, 2>& other) {
+    SeamSkirt skirt;
     for (std::size_t end = 0; end < 2; ++end) {
         const bool higher = one[end].h_m >= other[end].h_m;
-        closer.top[end] = higher ? one[end] : other[end];
-        closer.foot[end] = higher ? other[end] : one[end];
+        skirt.top[end] = higher ? one[end] : other[end];
+        skirt.foot[end] = higher ? other[end] : one[end];
     }
     const glm::dvec3 along = one[1].at.m - one[0].at.m;
-    closer.up = glm::normalize(one[0].at.m / glm::dvec3(1.0, 1.0, 1.0 - wgs84_e2));
-    const glm::dvec3 left = glm::cross(closer.up, along);
-    closer.side = glm::length(left) > 0.0 ? glm::normalize(left) : glm::dvec3(0.0);
-    return closer;
+    skirt.up = glm::normalize(one[0].at.m / glm::dvec3(1.0, 1.0, 1.0 - wgs84_e2));
+    const glm::dvec3 left = glm::cross(skirt.up, along);
+    skirt.side = glm::length(left) > 0.0 ? glm::normalize(left) : glm::dvec3(0.0);
+    return skirt;
 }
 
 // The corners of one grid's cut as they are drawn.
@@ -103,7 +103,7 @@ class SeamBuilder {
     static Key key(const SeamPoint& point);
     void close_outer_sides(Seam& seam);
 
-    const CutOut& cut_;
+    const GridClip& cut_;
     std::vector<DrawnPosts> posts_;
 };
 
@@ -147,7 +147,7 @@ void SeamBuilder::close_outer_sides(Seam& seam) {
             if (shared.contains({key(to), key(from)})) continue;
             // Anticlockwise: the piece lies on the left hand.
             const std::array<SeamCorner, 2> side{corner(to), corner(from)};
-            seam.closers.push_back(closer_between(side, side));
+            seam.skirts.push_back(skirt_between(side, side));
         }
     }
 }
@@ -156,8 +156,8 @@ void SeamBuilder::add(Seam& seam) {
     for (const SeamTriangle& piece : cut_.ground)
         seam.pieces.push_back({{corner(piece.points[0]), corner(piece.points[1]), corner(piece.points[2])}});
     for (const SeamWall& wall : cut_.walls)
-        seam.closers.push_back(closer_between({corner(wall.cut[0]), corner(wall.cut[1])},
-                                              {corner(wall.over[0]), corner(wall.over[1])}));
+        seam.skirts.push_back(skirt_between({corner(wall.cut[0]), corner(wall.cut[1])},
+                                            {corner(wall.over[0]), corner(wall.over[1])}));
     close_outer_sides(seam);
 }
 
@@ -180,7 +180,7 @@ void add_bridges(const std::vector<RegionGrid>& grids, const RegionCuts& cuts, d
             const BridgePost &from = bridge.posts[i], &to = bridge.posts[(i + 1) % 3];
             if (sides.contains({key(to), key(from)})) continue;
             const std::array<SeamCorner, 2> side{corner(to), corner(from)};
-            seam.closers.push_back(closer_between(side, side));
+            seam.skirts.push_back(skirt_between(side, side));
         }
     }
 }
@@ -194,17 +194,17 @@ std::vector<const RegionGrid*> finer_than(const Region& region, const RegionGrid
     return finer;
 }
 
-Result<CutOut> cut_of(const Region& region, const RegionGrid& one) {
+Result<GridClip> cut_of(const Region& region, const RegionGrid& one) {
     std::vector<const HeightField*> finer;
     for (const RegionGrid* other : finer_than(region, one)) finer.push_back(&other->field);
-    if (finer.empty()) return CutOut{};
-    return cut_out(one.field, finer);
+    if (finer.empty()) return GridClip{};
+    return clip_by_finer(one.field, finer);
 }
 
 Result<RegionCuts> cut_regions(const Region& region) {
     RegionCuts cuts;
     for (const RegionGrid& one : region.grids) {
-        ORO_TRY(CutOut cut, cut_of(region, one));
+        ORO_TRY(GridClip cut, cut_of(region, one));
         cuts.grids.push_back(std::move(cut));
     }
     ORO_TRY(cuts.bridges, gap_bridges(region));

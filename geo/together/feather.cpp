@@ -75,7 +75,7 @@ std::optional<double> H_below_m(std::span<const GridBelow> below, const PostPlac
 void feather_grid(RegionGrid& of, std::span<const GridBelow> below, double width_m) {
     const PostGrid& grid = of.field.grid;
     const std::vector<float> distances = rim_distances_m(of.field, width_m);
-    Feathered told{width_m, 0, 0.0, 0.0};
+    Feathered summary{width_m, 0, 0.0, 0.0};
     std::vector<float> changed = of.field.H_m;
     double squares = 0.0;
     for (int row = 0; row < grid.rows(); ++row) {
@@ -91,21 +91,21 @@ void feather_grid(RegionGrid& of, std::span<const GridBelow> below, double width
                          own_m = static_cast<double>(changed[post]);
             changed[post] = static_cast<float>(std::lerp(*H_m, own_m, weight));
             const double by_m = std::abs(static_cast<double>(changed[post]) - own_m);
-            ++told.posts;
-            told.most_m = std::max(told.most_m, by_m);
+            ++summary.posts;
+            summary.most_m = std::max(summary.most_m, by_m);
             squares += by_m * by_m;
         }
     }
     of.field.H_m = std::move(changed);
-    if (told.posts == 0) return;
-    told.rms_m = std::sqrt(squares / static_cast<double>(told.posts));
-    of.feathered = told;
+    if (summary.posts == 0) return;
+    summary.rms_m = std::sqrt(squares / static_cast<double>(summary.posts));
+    of.feathered = summary;
     char note[200];
     std::snprintf(
         note, sizeof note,
         "--feather: %llu posts within %g m of a rim go over to the heights below, changed by up to %.2f m "
         "(RMS %.2f m)",
-        static_cast<unsigned long long>(told.posts), width_m, told.most_m, told.rms_m);
+        static_cast<unsigned long long>(summary.posts), width_m, summary.most_m, summary.rms_m);
     of.notes.emplace_back(note);
 }
 
@@ -118,8 +118,8 @@ Result<void> feather(Region& region, double width_m) {
     for (RegionGrid& grid : region.grids) grids.push_back({&grid, {}});
     std::ranges::stable_sort(grids, {}, [](const GridBelow& one) { return one.grid->rank; });
     for (GridBelow& one : grids) {
-        ORO_TRY(CutOut cut, cut_of(region, *one.grid));
-        one.left_out = std::move(cut.left_out);
+        ORO_TRY(GridClip cut, cut_of(region, *one.grid));
+        one.left_out = std::move(cut.masked_posts);
     }
     for (std::size_t i = grids.size() - 1; i-- > 0;)
         feather_grid(*grids[i].grid, std::span(grids).subspan(i + 1), width_m);

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "geo/posts/own_posts.h"
-#include "geo/region/lying_apart.h"
+#include "geo/region/disjoint_sources.h"
 #include "geo/region/region_grid.h"
 
 namespace oro {
@@ -55,15 +55,15 @@ std::vector<std::vector<Source>> by_lattice(std::vector<Source> sources,
 }
 
 std::vector<std::vector<Source>> grids_of_sources(std::vector<Source> sources, const RegionRequest& request) {
-    if (!request.grids_apart) return {std::move(sources)};
+    if (!request.allow_multiple_grids) return {std::move(sources)};
     std::vector<std::vector<Source>> grids;
-    for (std::vector<Source>& near : lying_apart(std::move(sources), request.box)) {
+    for (std::vector<Source>& near : disjoint_sources(std::move(sources), request.box)) {
         if (request.resample) {
             grids.push_back(std::move(near));
             continue;
         }
         for (std::vector<Source>& lattice : by_lattice(std::move(near), request.box))
-            for (std::vector<Source>& grid : lying_apart(std::move(lattice), request.box))
+            for (std::vector<Source>& grid : disjoint_sources(std::move(lattice), request.box))
                 grids.push_back(std::move(grid));
     }
     if (grids.size() <= groups_max) return grids;

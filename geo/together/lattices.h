@@ -16,13 +16,13 @@ bool share_lattice(const Source& one, const Source& other);
 
 // The sources by their lattices, in the order that they had; all of them in one group where one grid of
 // latitudes and longitudes does for them: where all lie on such, and it has less than apart_factor
-// (lying_apart.h) times their posts.
+// (disjoint_sources.h) times their posts.
 std::vector<std::vector<Source>> by_lattice(std::vector<Source> sources,
                                             const std::optional<BoundingBox>& box);
 
 // Sources that are to be a grid each: those that lie far apart, and of those that lie together those whose
 // posts are not each other's; all of them one where there would be more than groups_max, or the request wants
-// one (grids_apart).
+// one (allow_multiple_grids).
 std::vector<std::vector<Source>> grids_of_sources(std::vector<Source> sources, const RegionRequest& request);
 
 }  // namespace oro

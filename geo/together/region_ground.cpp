@@ -33,7 +33,7 @@ Geodetic true_point(const TrueSurface& surface, const SeamPoint& point) {
 // From one surface's rim to the other's: two triangles, or where the surfaces change places between the ends
 // one on either side of where they meet.
 void add_step(const std::array<Geodetic, 2>& one, const std::array<double, 2>& other_h_m,
-              std::vector<GroundPiece>& pieces) {
+              std::vector<SurfaceTriangle>& pieces) {
     const double begin_m = other_h_m[0] - one[0].h_m, end_m = other_h_m[1] - one[1].h_m;
     constexpr double least_m = 1.0e-6;
     if (std::abs(begin_m) < least_m && std::abs(end_m) < least_m) return;
@@ -55,8 +55,8 @@ void add_step(const std::array<Geodetic, 2>& one, const std::array<double, 2>& o
 }
 
 // The steps along what was cut out of one grid. surfaces: by what a SeamPoint counts.
-void add_steps(const CutOut& cut, const std::vector<const TrueSurface*>& surfaces,
-               std::vector<GroundPiece>& pieces) {
+void add_steps(const GridClip& cut, const std::vector<const TrueSurface*>& surfaces,
+               std::vector<SurfaceTriangle>& pieces) {
     for (const SeamWall& wall : cut.walls) {
         std::array<Geodetic, 2> along{};
         std::array<double, 2> over_h_m{};
@@ -89,12 +89,12 @@ Result<std::unique_ptr<const RegionGround>> RegionGround::of(const Region& regio
         const std::size_t number = grids.size();
         const std::vector<char>* left_out = nullptr;
         if (number < cuts.grids.size() &&
-            std::ranges::find(cuts.grids[number].left_out, 1) != cuts.grids[number].left_out.end())
-            left_out = &made->left_out_.emplace_back(cuts.grids[number].left_out);
+            std::ranges::find(cuts.grids[number].masked_posts, 1) != cuts.grids[number].masked_posts.end())
+            left_out = &made->left_out_.emplace_back(cuts.grids[number].masked_posts);
         grids.push_back(
             {&made->surfaces_.emplace_back(*field, exaggeration, thread_count(), left_out), one.rank});
     }
-    auto pieces = std::make_shared<std::vector<GroundPiece>>();
+    auto pieces = std::make_shared<std::vector<SurfaceTriangle>>();
     for (std::size_t i = 0; i < cuts.grids.size(); ++i) {
         std::vector<const TrueSurface*> surfaces{grids[i].surface};
         for (const RegionGrid* const finer : finer_than(region, region.grids[i]))
@@ -102,7 +102,7 @@ Result<std::unique_ptr<const RegionGround>> RegionGround::of(const Region& regio
         add_steps(cuts.grids[i], surfaces, *pieces);
     }
     for (const GapBridge& bridge : cuts.bridges) {
-        GroundPiece piece;
+        SurfaceTriangle piece;
         for (std::size_t i = 0; i < 3; ++i) {
             const auto& [grid, post] = bridge.posts[i];
             piece.corners[i] = true_point(*grids[grid].surface, {0, {post, post, post}, {1.0, 0.0, 0.0}});

@@ -9,7 +9,7 @@ namespace oro {
 namespace {
 
 // The posts that are cut out around a cell, by its north-west post.
-struct PostsCutOut {
+struct MaskedPosts {
     int around{};  // of its 4 x 4
     int own{};     // of its own four
 };
@@ -26,8 +26,8 @@ class CutPosts {
         const auto begin = left_out_.begin() + std::int64_t{row} * grid_.columns();
         return std::find(begin, begin + grid_.columns(), char{1}) != begin + grid_.columns();
     }
-    [[nodiscard]] PostsCutOut around(int row, int column) const {
-        PostsCutOut count;
+    [[nodiscard]] MaskedPosts around(int row, int column) const {
+        MaskedPosts count;
         for (int r = -1; r <= 2; ++r) {
             for (int c = -1; c <= 2; ++c) {
                 if (!at(row + r, column + c)) continue;
@@ -55,10 +55,10 @@ std::optional<double> diagonals_apart_m(const HeightField& field, int row, int c
 
 }  // namespace
 
-std::optional<RimDiagonals> rim_diagonals(const HeightField& field, const CutOut& cut) {
+std::optional<RimDiagonals> rim_diagonals(const HeightField& field, const GridClip& cut) {
     const PostGrid& grid = field.grid;
-    if (cut.left_out.empty()) return std::nullopt;
-    const CutPosts left_out(grid, cut.left_out);
+    if (cut.masked_posts.empty()) return std::nullopt;
+    const CutPosts left_out(grid, cut.masked_posts);
     std::vector<char> rows(static_cast<std::size_t>(grid.rows()) + 3);
     for (int row = 0; row < grid.rows(); ++row)
         rows[static_cast<std::size_t>(row) + 1] = left_out.any_in(row) ? 1 : 0;
@@ -67,9 +67,9 @@ std::optional<RimDiagonals> rim_diagonals(const HeightField& field, const CutOut
         const auto first = rows.begin() + row;
         if (std::find(first, first + 4, char{1}) == first + 4) continue;
         for (int column = 0; column + 1 < grid.columns(); ++column) {
-            const PostsCutOut count = left_out.around(row, column);
+            const MaskedPosts count = left_out.around(row, column);
             if (count.around == 0 || count.own == 4) continue;
-            if (cell_diagonal(field, row, column) == Diagonal::falls) continue;
+            if (cell_diagonal(field, row, column) == Diagonal::nw_se) continue;
             const auto apart_m = diagonals_apart_m(field, row, column);
             if (!apart_m) continue;
             ++found.cells;

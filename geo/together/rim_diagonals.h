@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/terrain/post_grid.h"
-#include "geo/together/cut_out.h"
+#include "geo/together/grid_clip.h"
 
 namespace oro {
 
@@ -22,6 +22,6 @@ struct RimDiagonals {
 // What a cut changes of the diagonals of its grid; nothing where it changes none. A middle may itself lie
 // under the finer ground. Costs 16 posts for each cell within two posts of a rim. Errors in reading posts: as
 // HeightField::health() tells them.
-[[nodiscard]] std::optional<RimDiagonals> rim_diagonals(const HeightField& field, const CutOut& cut);
+[[nodiscard]] std::optional<RimDiagonals> rim_diagonals(const HeightField& field, const GridClip& cut);
 
 }  // namespace oro

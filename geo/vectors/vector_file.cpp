@@ -45,7 +45,7 @@ std::uint64_t size_or_0(const std::string& file) {
     return failed ? 0 : size;
 }
 
-Result<Look> look_at(const std::string& file, std::vector<std::string>& notes) {
+Result<Look> probe(const std::string& file, std::vector<std::string>& notes) {
     struct stat status {};
     if (stat(file.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
         return fault(S_ISDIR(status.st_mode) ? "is a folder, not a vector file" : "is no regular file");
@@ -279,7 +279,7 @@ Result<VectorFile> read_vectors(const std::string& name, double limit_s) {
     VectorFile file;
     file.file = name;
     const auto with_name = [&](const Error& error) { return Error{error.kind, name, error.what}; };
-    const Result<Look> look = look_at(name, file.notes);
+    const Result<Look> look = probe(name, file.notes);
     if (!look.ok()) return with_name(look.error());
     FileWatch watch(limit_s + static_cast<double>(look->bytes >> 20U));
     const Result<void> read = read_all(file, *look, watch, messages);

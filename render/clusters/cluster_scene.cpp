@@ -39,9 +39,10 @@ Result<ClusterScene> ClusterScene::create(const Gpu& gpu, std::unique_ptr<Region
     return ClusterScene(std::move(clusters), std::move(store), most_on_the_way(main_bytes));
 }
 
-Result<void> ClusterScene::add_to(GridPlan& plan, const Camera& camera, const Tile& tile, double tau_px,
-                                  const WorldModel& model, const HorizonOccluder& occluder,
-                                  const HeightQuantization& coding) {
+Result<void> ClusterScene::append_full_cut(GridPlan& plan, const Camera& camera, const Tile& tile,
+                                           double tau_px, const WorldModel& model,
+                                           const HorizonOccluder& occluder,
+                                           const HeightQuantization& coding) {
     const ClusterView view(camera, tile, tau_px, model, occluder, coding, level_);
     clusters_->begin_frame();
     ORO_TRY(ClusterChoice choice, choose_clusters(*clusters_, view));
@@ -68,10 +69,10 @@ Result<void> ClusterScene::add_to(GridPlan& plan, const Camera& camera, const Ti
     return {};
 }
 
-Result<void> ClusterScene::add_what_is_here(GridPlan& plan, const Camera& camera, const Tile& tile,
-                                            double tau_px, const WorldModel& model,
-                                            const HorizonOccluder& occluder,
-                                            const HeightQuantization& coding) {
+Result<void> ClusterScene::append_resident_cut(GridPlan& plan, const Camera& camera, const Tile& tile,
+                                               double tau_px, const WorldModel& model,
+                                               const HorizonOccluder& occluder,
+                                               const HeightQuantization& coding) {
     if (!stream_)
         stream_ = std::make_unique<ClusterStream>(*clusters_, coding, thread_count(), most_on_the_way_);
     clusters_->begin_frame();
@@ -103,7 +104,7 @@ bool ClusterScene::is_here(std::uint32_t cluster) const {
 
 // What is wanted and here is to stay.
 Result<StreamedChoice> ClusterScene::choose_here() {
-    ORO_TRY(StreamedChoice choice, choose_clusters_here(
+    ORO_TRY(StreamedChoice choice, select_resident_cut(
                                        *clusters_, *view_, store_.capacity() - clusters_->roots().size(),
                                        [&](std::uint32_t cluster) { return is_here(cluster); }, shown_));
     for (const std::uint32_t cluster : choice.clusters_wanted)
@@ -122,14 +123,14 @@ void ClusterScene::request(const StreamedChoice& choice) {
     stream_->request(*view_, choice.groups_wanted, to_come, choice.groups_hidden, hidden);
 }
 
-void ClusterScene::saw(const FrameSights& sights) {
-    shown_ = shown_clusters(sights.clusters, sights.words);
-    for (const auto& [cluster, shows] : shown_) store_.note_hidden(cluster, !shows);
-    clusters_->note_hidden(hidden_groups(sights.clusters, shown_));
+void ClusterScene::apply_feedback(const FrameFeedback& feedback) {
+    shown_ = shown_clusters(feedback.clusters, feedback.words);
+    for (const auto& [cluster, shows] : shown_) store_.mark_occluded(cluster, !shows);
+    clusters_->mark_occluded(hidden_groups(feedback.clusters, shown_));
 }
 
 void ClusterScene::forget_frames() {
-    saw({});
+    apply_feedback({});
     if (stream_) stream_->cancel();
     view_.reset();
     drawn_.clear();

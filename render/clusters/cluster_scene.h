@@ -8,7 +8,7 @@
 
 #include "core/cluster_frame/streamed_choice.h"
 #include "core/frame/frame_plan.h"
-#include "core/frame/seen_ground.h"
+#include "core/frame/visibility_feedback.h"
 #include "render/clusters/cluster_store.h"
 #include "render/clusters/cluster_stream.h"
 
@@ -34,16 +34,16 @@ class ClusterScene {
     // the device.
     //
     // This one waits for what of the cut is not on the GPU;
-    Result<void> add_to(GridPlan& plan, const Camera& camera, const Tile& tile, double tau_px,
-                        const WorldModel& model, const HorizonOccluder& occluder,
-                        const HeightQuantization& coding);
+    Result<void> append_full_cut(GridPlan& plan, const Camera& camera, const Tile& tile, double tau_px,
+                                 const WorldModel& model, const HorizonOccluder& occluder,
+                                 const HeightQuantization& coding);
     // ... this one takes the finest cut of what is there, and lets the background read the rest.
-    Result<void> add_what_is_here(GridPlan& plan, const Camera& camera, const Tile& tile, double tau_px,
-                                  const WorldModel& model, const HorizonOccluder& occluder,
-                                  const HeightQuantization& coding);
+    Result<void> append_resident_cut(GridPlan& plan, const Camera& camera, const Tile& tile, double tau_px,
+                                     const WorldModel& model, const HorizonOccluder& occluder,
+                                     const HeightQuantization& coding);
     // What a frame of such a plan has shown: from the next plan on what is hidden is read last, and gives way
     // first. One that tells nothing makes that forgotten.
-    void saw(const FrameSights& sights);
+    void apply_feedback(const FrameFeedback& feedback);
     // The next plan is as the first one: what frames have shown is forgotten, and where the GPU is full, what
     // is there.
     void forget_frames();

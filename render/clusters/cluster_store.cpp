@@ -33,7 +33,7 @@ ClusterStore::Held ClusterStore::use(std::uint32_t cluster) {
     return {cache_.address(handle), cache_.items().at(handle).value.counts};
 }
 
-void ClusterStore::note_hidden(std::uint32_t cluster, bool is_hidden) {
+void ClusterStore::mark_occluded(std::uint32_t cluster, bool is_hidden) {
     const Cache::Handle handle = cache_.items().find(cluster);
     if (handle != none) cache_.items().set_rank(handle, is_hidden ? 0 : 1);
 }

@@ -38,7 +38,7 @@ class ClusterStore {
     // One that is here is used by the frame.
     Held use(std::uint32_t cluster);
     // What a frame has told of one, which may be here: whether other ground hides it.
-    void note_hidden(std::uint32_t cluster, bool is_hidden);
+    void mark_occluded(std::uint32_t cluster, bool is_hidden);
     // A cluster on its way.
     struct Loaded {
         std::uint32_t cluster;

@@ -134,7 +134,7 @@ Result<void> DepthPainter::draw_tile(Scene& scene, const Camera& camera, const g
 Result<DepthPicture> DepthPainter::draw(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
                                         const DepthPictureOptions& options) {
     assert(camera.width_px > 0 && camera.height_px > 0);
-    scene.hold_for(style);
+    scene.require_fields(style);
     const VkExtent2D extent = tile_extent(*gpu_, camera, options.largest_tile_px);
     const int tile_width = static_cast<int>(extent.width), tile_height = static_cast<int>(extent.height);
     ORO_CHECK(prepare(extent));

@@ -243,7 +243,7 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
     record_rounds(commands, plan);
     stamp(2);
     if (has_images(plan)) {
-        record_wants(commands, plan);
+        record_tile_feedback(commands, plan);
     } else if (options_.shades) {
         record_shade(commands, plan);
     } else if (options_.keep_triangles) {
@@ -255,7 +255,7 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
                    VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_HOST_READ_BIT);
     const VkBufferCopy copy{0, 0, sizeof(gpu::FrameCounts)};
     vkCmdCopyBuffer(commands, counts_.handle.get(), counts_read_.handle.get(), 1, &copy);
-    for (std::size_t i = 0; i < plan.grids.size(); ++i) grids_[i].record_sights(commands);
+    for (std::size_t i = 0; i < plan.grids.size(); ++i) grids_[i].record_feedback(commands);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                    VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
 }
@@ -288,7 +288,7 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
     for (std::size_t i = 0; i < plan.grids.size(); ++i) {
         const GridPlan& grid = plan.grids[i];
         report.pages += grid.pages.size();
-        if (occlusion_->is_on()) report.sights.push_back(grids_[i].sights_of(grid));
+        if (occlusion_->is_on()) report.feedback.push_back(grids_[i].feedback_of(grid));
         report.counts.meshlets_beyond_frustum += static_cast<gpu::uint>(grid.clusters.beyond_frustum);
         report.counts.meshlets_beyond_horizon += static_cast<gpu::uint>(grid.clusters.beyond_horizon);
     }

@@ -26,7 +26,8 @@ struct FrameReport {
     double raster_s{};                // from pages to triangle ids, by either path
     double shade_s{};                 // the shading pass
     bool images_settled{true};        // images over the ground are as fine as the frame asks for
-    std::vector<FrameSights> sights;  // of each grid, for Scene::saw(); none where it was drawn at once
+    std::vector<FrameFeedback>
+        feedback;  // of each grid, for Scene::apply_feedback(); none where it was drawn at once
     [[nodiscard]] double gpu_s() const { return choose_s + raster_s + shade_s; }
 };
 
@@ -145,9 +146,9 @@ class FrameRenderer {
     void record_shade(VkCommandBuffer commands, const FramePlan& plan);
     void record_show(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_ids_alone(VkCommandBuffer commands) const;
-    void record_wants(VkCommandBuffer commands, const FramePlan& plan) const;
+    void record_tile_feedback(VkCommandBuffer commands, const FramePlan& plan) const;
     Result<void> ask_again(const GridFrame& grid, const GridPlan& plan, std::uint32_t seed);
-    Result<bool> bring_images(const GridFrame& grid, const GridPlan& plan);
+    Result<bool> load_requested_tiles(const GridFrame& grid, const GridPlan& plan);
     Result<bool> shade_with_images(const FramePlan& plan);
     Result<std::vector<std::byte>> read_image(const Image& image, VkImageAspectFlags aspect,
                                               ImageUse last_use, std::uint32_t width, std::uint32_t height);

@@ -29,7 +29,7 @@ void FrameRenderer::record_choice(VkCommandBuffer commands, const GridFrame& gri
     if (plan.clusters.on) return;  // the first round makes their cut
     grid.bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
     const auto count = static_cast<std::uint32_t>(plan.pages.size());
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->accept.get());
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->lod_test.get());
     if (count > 0)
         vkCmdDispatch(commands, std::min(count, gpu::groups_per_row),
                       (count + gpu::groups_per_row - 1) / gpu::groups_per_row, 1);
@@ -125,15 +125,16 @@ void FrameRenderer::record_pyramid(VkCommandBuffer commands, const FramePlan& pl
 void FrameRenderer::record_round_choice(VkCommandBuffer commands, const GridFrame& grid,
                                         const ClusterPlan& clusters, bool first) const {
     if (clusters.on) {
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
-                          (first ? pipelines_->choose_clusters : pipelines_->uncover_clusters).get());
+        vkCmdBindPipeline(
+            commands, VK_PIPELINE_BIND_POINT_COMPUTE,
+            (first ? pipelines_->choose_clusters : pipelines_->choose_clusters_second_pass).get());
         const auto count = static_cast<std::uint32_t>(clusters.drawn.size());
         const std::uint32_t groups = (count + gpu::clusters_per_choice - 1) / gpu::clusters_per_choice;
         if (groups > 0) vkCmdDispatch(commands, groups, 1, 1);
         return;
     }
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
-                      (first ? pipelines_->cull : pipelines_->uncover).get());
+                      (first ? pipelines_->cull : pipelines_->cull_second_pass).get());
     vkCmdDispatchIndirect(commands, grid.choice().handle.get(), offsetof(gpu::LivePages, cull_groups));
 }
 

@@ -129,7 +129,7 @@ void FrameRenderer::record_ids_alone(VkCommandBuffer commands) const {
                   shader_read);
 }
 
-void FrameRenderer::record_wants(VkCommandBuffer commands, const FramePlan& plan) const {
+void FrameRenderer::record_tile_feedback(VkCommandBuffer commands, const FramePlan& plan) const {
     record_ids_alone(commands);
     for (std::size_t i = 0; i < plan.grids.size(); ++i) {
         if (!grids_[i].drape.is_on()) continue;
@@ -159,7 +159,7 @@ bool FrameRenderer::has_images(const FramePlan& plan) const {
 }
 
 // Brings the tiles that a grid is coloured from: all of them, unless there is no room or nobody waits.
-Result<bool> FrameRenderer::bring_images(const GridFrame& grid, const GridPlan& plan) {
+Result<bool> FrameRenderer::load_requested_tiles(const GridFrame& grid, const GridPlan& plan) {
     constexpr std::uint32_t most_tries = 64;
     DrapeStore& store = grid.drape.store();
     store.begin_frame();
@@ -177,7 +177,7 @@ Result<bool> FrameRenderer::shade_with_images(const FramePlan& plan) {
     bool settled = true;
     for (std::size_t i = 0; i < plan.grids.size(); ++i) {
         if (!grids_[i].drape.is_on()) continue;
-        ORO_TRY(const bool here, bring_images(grids_[i], plan.grids[i]));
+        ORO_TRY(const bool here, load_requested_tiles(grids_[i], plan.grids[i]));
         settled = settled && here;
     }
     ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {

@@ -16,7 +16,7 @@ static_assert(sizeof(gpu::FrameConstants) <= pages_offset);
 constexpr VkDeviceSize cluster_groups_bytes = 16;
 // Addresses that straddle 8 bytes cost 2 to 4 % of a frame.
 static_assert((offsetof(gpu::FrameConstants, clusters) + offsetof(gpu::ClusterTable, drawn)) % 8 == 0);
-static_assert(offsetof(gpu::FrameConstants, sights) % 8 == 0);
+static_assert(offsetof(gpu::FrameConstants, feedback) % 8 == 0);
 static_assert(offsetof(gpu::FrameConstants, cut) % 8 == 0);
 
 // Where the parts of a grid's data lie, in bytes.
@@ -127,7 +127,7 @@ Result<void> GridFrame::reserve(const Gpu& gpu, const GridPlan& plan) {
                                        MemoryKind::device, "choice of levels"));
         page_capacity_ = capacity;
     }
-    ORO_CHECK(reserve_sights(gpu, plan));
+    ORO_CHECK(reserve_feedback(gpu, plan));
     if (plan.clusters.on) return reserve_clusters(gpu, plan);
     return plan.constants.occlusion != 0 ? reserve_seen(gpu, plan.pages.size()) : Result<void>();
 }
@@ -144,42 +144,42 @@ Result<void> GridFrame::reserve_clusters(const Gpu& gpu, const GridPlan& plan) {
     return {};
 }
 
-Result<void> GridFrame::reserve_sights(const Gpu& gpu, const GridPlan& plan) {
-    const bool wanted = plan.wants_sights && plan.constants.occlusion != 0;
+Result<void> GridFrame::reserve_feedback(const Gpu& gpu, const GridPlan& plan) {
+    const bool wanted = plan.request_feedback && plan.constants.occlusion != 0;
     const std::size_t words =
-        plan.clusters.on ? plan.clusters.drawn.size() : gpu::sight_words * plan.pages.size();
-    sights_size_ = wanted ? sizeof(gpu::uint) * words : 0;
-    if (sights_.size >= sights_size_) return {};
-    const VkDeviceSize size = std::max(sights_size_, 2 * sights_.size);
-    ORO_TRY(Buffer sights,
+        plan.clusters.on ? plan.clusters.drawn.size() : gpu::feedback_words * plan.pages.size();
+    feedback_size_ = wanted ? sizeof(gpu::uint) * words : 0;
+    if (feedback_.size >= feedback_size_) return {};
+    const VkDeviceSize size = std::max(feedback_size_, 2 * feedback_.size);
+    ORO_TRY(Buffer feedback,
             create_buffer(gpu, size,
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                               VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                          MemoryKind::device, "sights"));
-    ORO_TRY(sights_read_, create_buffer(gpu, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::readback,
-                                        "sights read back"));
-    sights_ = std::move(sights);  // both are that large, or neither is
+                          MemoryKind::device, "feedback"));
+    ORO_TRY(feedback_read_, create_buffer(gpu, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::readback,
+                                          "feedback read back"));
+    feedback_ = std::move(feedback);  // both are that large, or neither is
     return {};
 }
 
-void GridFrame::record_sights(VkCommandBuffer commands) const {
-    if (sights_size_ == 0) return;
-    const VkBufferCopy copy{0, 0, sights_size_};
-    const Buffer& told = cluster_groups_ > 0 ? cluster_states_ : sights_;
-    vkCmdCopyBuffer(commands, told.handle.get(), sights_read_.handle.get(), 1, &copy);
+void GridFrame::record_feedback(VkCommandBuffer commands) const {
+    if (feedback_size_ == 0) return;
+    const VkBufferCopy copy{0, 0, feedback_size_};
+    const Buffer& source_buffer = cluster_groups_ > 0 ? cluster_states_ : feedback_;
+    vkCmdCopyBuffer(commands, source_buffer.handle.get(), feedback_read_.handle.get(), 1, &copy);
 }
 
-FrameSights GridFrame::sights_of(const GridPlan& plan) const {
-    FrameSights sights;
-    if (sights_size_ == 0) return sights;
+FrameFeedback GridFrame::feedback_of(const GridPlan& plan) const {
+    FrameFeedback feedback;
+    if (feedback_size_ == 0) return feedback;
     if (plan.clusters.on)
-        sights.clusters = plan.clusters.drawn;
+        feedback.clusters = plan.clusters.drawn;
     else
-        sights.pages = plan.page_indices;
-    sights.words.resize(sights_size_ / sizeof(gpu::uint));
-    std::memcpy(sights.words.data(), sights_read_.mapped, sights_size_);
-    sights.view = plan.constants;
-    return sights;
+        feedback.pages = plan.page_indices;
+    feedback.words.resize(feedback_size_ / sizeof(gpu::uint));
+    std::memcpy(feedback.words.data(), feedback_read_.mapped, feedback_size_);
+    feedback.view = plan.constants;
+    return feedback;
 }
 
 // Of this frame in rounds; those of the last one stay as they are.
@@ -251,8 +251,8 @@ void GridFrame::address(GridPlan& plan) const {
     if (constants.occlusion != 0 && !before_.empty())
         constants.seen_before = address_words(seen_[1 - turn_].address);
     constants.page_before = address_words(data_.address + layout.before);
-    constants.sights =
-        sights_size_ > 0 && !plan.clusters.on ? address_words(sights_.address) : gpu::uvec2(0U);
+    constants.feedback =
+        feedback_size_ > 0 && !plan.clusters.on ? address_words(feedback_.address) : gpu::uvec2(0U);
 }
 
 void GridFrame::fill(const GridPlan& plan) {
@@ -281,7 +281,7 @@ void GridFrame::record_upload(VkCommandBuffer commands) const {
     const VkBufferCopy copy{0, 0, size_};
     vkCmdCopyBuffer(commands, staging_.handle.get(), data_.handle.get(), 1, &copy);
     if (clears_seen_) vkCmdFillBuffer(commands, seen_[turn_].handle.get(), 0, VK_WHOLE_SIZE, 0);
-    if (sights_size_ > 0) vkCmdFillBuffer(commands, sights_.handle.get(), 0, sights_size_, 0);
+    if (feedback_size_ > 0) vkCmdFillBuffer(commands, feedback_.handle.get(), 0, feedback_size_, 0);
 }
 
 void GridFrame::bind(VkCommandBuffer commands, const Pipelines& pipelines, VkPipelineBindPoint point) const {

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "core/frame/frame_plan.h"
-#include "core/frame/seen_ground.h"
+#include "core/frame/visibility_feedback.h"
 #include "render/device/resources.h"
 #include "render/pipelines/pipelines.h"
 #include "render/shading/caster_buffers.h"
-#include "render/shading/drape_wants.h"
+#include "render/shading/texture_tile_feedback.h"
 
 namespace oro {
 
@@ -27,11 +27,11 @@ class GridFrame {
     // Puts a plan, whose constants are whole, where record_upload() sends it from.
     void fill(const GridPlan& plan);
     void record_upload(VkCommandBuffer commands) const;
-    // What the frame's nodes or clusters have shown goes to where sights_of() reads it, once the frame is
+    // What the frame's nodes or clusters have shown goes to where feedback_of() reads it, once the frame is
     // done.
-    void record_sights(VkCommandBuffer commands) const;
+    void record_feedback(VkCommandBuffer commands) const;
     // Nothing of a frame that was drawn at once.
-    [[nodiscard]] FrameSights sights_of(const GridPlan& plan) const;
+    [[nodiscard]] FrameFeedback feedback_of(const GridPlan& plan) const;
     void bind(VkCommandBuffer commands, const Pipelines& pipelines, VkPipelineBindPoint point) const;
 
     // The frame was drawn in rounds: the next such one knows which of its nodes or clusters were seen. Or
@@ -53,14 +53,14 @@ class GridFrame {
     [[nodiscard]] const Buffer& cluster_states() const { return cluster_states_; }
 
     CasterBuffers casters;
-    DrapeWants drape;
+    TextureTileFeedback drape;
     VkPipeline shade{VK_NULL_HANDLE}, shade_parts{VK_NULL_HANDLE};  // of the frame
 
   private:
     void bind_constants(const Gpu& gpu) const;
     Result<void> reserve_seen(const Gpu& gpu, std::size_t pages);
     Result<void> reserve_clusters(const Gpu& gpu, const GridPlan& plan);
-    Result<void> reserve_sights(const Gpu& gpu, const GridPlan& plan);
+    Result<void> reserve_feedback(const Gpu& gpu, const GridPlan& plan);
     [[nodiscard]] std::vector<gpu::uint> numbers_before(const GridPlan& plan) const;
 
     OwnedDescriptorPool pool_;
@@ -76,8 +76,8 @@ class GridFrame {
     std::uint32_t clusters_turn_{};    // frames of clusters in rounds so far
     std::uint32_t clusters_before_{};  // the last frame's number among them; 0: nothing is known of it
     Buffer cluster_states_;            // FrameConstants::cluster_states
-    Buffer sights_, sights_read_;      // FrameConstants::sights, on the device and for the host
-    VkDeviceSize sights_size_{};       // of the frame's; 0: nobody wants to know
+    Buffer feedback_, feedback_read_;  // FrameConstants::feedback, on the device and for the host
+    VkDeviceSize feedback_size_{};     // of the frame's; 0: nobody wants to know
     std::size_t page_capacity_{};
     bool clears_seen_{};
     VkDeviceSize size_{};  // that a frame sends

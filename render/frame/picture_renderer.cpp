@@ -52,7 +52,7 @@ Result<TileSamples> draw_samples(Scene& scene, const Camera& camera, const gpu::
         ORO_TRY(const FrameReport drawn,
                 renderer.draw(std::move(plan), style, static_cast<std::uint32_t>(i),
                               static_cast<std::uint32_t>(options.samples), scene.drapes()));
-        if (!whole) samples.is_news = scene.saw(drawn.sights) || samples.is_news;
+        if (!whole) samples.is_news = scene.apply_feedback(drawn.feedback) || samples.is_news;
         report.images_settled = report.images_settled && drawn.images_settled;
         if (i == 0) add_counts(report, drawn);
         report.choose_s += drawn.choose_s;
@@ -197,7 +197,7 @@ Result<PictureReport> PictureRenderer::draw(Scene& scene, const Camera& camera, 
     if (tile_height < camera.height_px) tile_height -= 2 * margin_px;
     assert(tile_width > 0 && tile_height > 0);
 
-    scene.hold_for(style);
+    scene.require_fields(style);
     PictureReport report;
     report.path = options_.path;
     if (options_.keep_depths)

@@ -11,7 +11,7 @@ Result<SettledFrame> draw_settled(Scene& scene, FrameRenderer& renderer, const F
         const bool whole = plan.is_settled(), shows_all = plan.shows_all();
         const std::uint64_t page_bytes = scene.block_bytes(plan);
         ORO_TRY(FrameReport report, renderer.draw(std::move(plan), style));
-        const bool is_news = !whole && scene.saw(report.sights);
+        const bool is_news = !whole && scene.apply_feedback(report.feedback);
         if (is_news && frame < most_settling_frames) continue;
         return SettledFrame{std::move(report), page_bytes, whole || (shows_all && !is_news)};
     }

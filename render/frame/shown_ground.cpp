@@ -53,7 +53,7 @@ Result<void> shown_triangles(const Gpu& gpu, Scene& scene, const Camera& camera,
     renderer_options.shades = false;
     renderer_options.path = options.path;
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(gpu, renderer_options));
-    scene.cast({});
+    scene.set_shadow_request({});
     const int tile_width = static_cast<int>(renderer_options.extent.width),
               tile_height = static_cast<int>(renderer_options.extent.height),
               rows_at_once = static_cast<int>(renderer.triangle_rows());

@@ -12,16 +12,16 @@
 #include "render/pipelines/pipeline_parts.h"
 #include "render/pipelines/raster_pipelines.h"
 #include "shaders/shared.h"
-#include "spirv/accept_comp.h"
 #include "spirv/choose_clusters_comp.h"
 #include "spirv/cull_comp.h"
+#include "spirv/cull_second_pass_comp.h"
 #include "spirv/live_pages_comp.h"
+#include "spirv/lod_test_comp.h"
 #include "spirv/pyramid_comp.h"
 #include "spirv/pyramid_images_comp.h"
 #include "spirv/show_comp.h"
 #include "spirv/triangles_clusters_comp.h"
 #include "spirv/triangles_comp.h"
-#include "spirv/uncover_comp.h"
 
 namespace oro {
 namespace {
@@ -94,8 +94,8 @@ Result<void> create_rounds(const Gpu& gpu, RasterPath path, Pipelines& pipelines
     const VkSpecializationMapEntry entry{0, 0, sizeof(for_compute)};
     const VkSpecializationInfo constants{1, &entry, sizeof(for_compute), &for_compute};
     ORO_TRY(pipelines.cull, create_compute_pipeline(gpu, pipelines, cull_comp_spirv, "cull", &constants));
-    ORO_TRY(pipelines.uncover,
-            create_compute_pipeline(gpu, pipelines, uncover_comp_spirv, "uncover", &constants));
+    ORO_TRY(pipelines.cull_second_pass, create_compute_pipeline(gpu, pipelines, cull_second_pass_comp_spirv,
+                                                                "second culling pass", &constants));
     const std::span<const std::uint32_t> words =
         compute ? std::span<const std::uint32_t>(pyramid_comp_spirv)
                 : std::span<const std::uint32_t>(pyramid_images_comp_spirv);
@@ -112,11 +112,12 @@ Result<OwnedPipeline> create_choose_clusters(const Gpu& gpu, RasterPath path, bo
                              VkSpecializationMapEntry{2, sizeof(VkBool32), sizeof(VkBool32)}};
     const VkSpecializationInfo constants{2, entries.data(), sizeof(values), values.data()};
     return create_compute_pipeline(gpu, pipelines, choose_clusters_comp_spirv,
-                                   first ? "choose clusters" : "uncover clusters", &constants);
+                                   first ? "choose clusters" : "second pass of clusters", &constants);
 }
 
 Result<void> create_choice(const Gpu& gpu, Pipelines& pipelines) {
-    ORO_TRY(pipelines.accept, create_compute_pipeline(gpu, pipelines, accept_comp_spirv, "accept"));
+    ORO_TRY(pipelines.lod_test,
+            create_compute_pipeline(gpu, pipelines, lod_test_comp_spirv, "level-of-detail test"));
     const std::uint32_t task_groups = gpu::meshlets_per_page / pipelines.meshlets_per_task;
     const VkSpecializationMapEntry entry{1, 0, sizeof(task_groups)};
     const VkSpecializationInfo constants{1, &entry, sizeof(task_groups), &task_groups};
@@ -150,7 +151,7 @@ Result<OwnedPipeline> create_triangles(const Gpu& gpu, RasterPath path, std::spa
 
 Result<void> add_cluster_pipelines(const Gpu& gpu, RasterPath path, bool triangles, Pipelines& pipelines) {
     if (!pipelines.choose_clusters) {
-        ORO_TRY(pipelines.uncover_clusters, create_choose_clusters(gpu, path, false, pipelines));
+        ORO_TRY(pipelines.choose_clusters_second_pass, create_choose_clusters(gpu, path, false, pipelines));
         ORO_TRY(pipelines.choose_clusters, create_choose_clusters(gpu, path, true, pipelines));
     }
     if (path == RasterPath::mesh && !pipelines.cluster_terrain) {

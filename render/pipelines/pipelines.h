@@ -61,8 +61,8 @@ struct Pipelines {
     OwnedSetLayout set;
     OwnedPipelineLayout layout;         // that set, and a FrameRound pushed
     VkShaderStageFlags round_stages{};  // ... to these
-    OwnedPipeline accept, live_pages;   // levels chosen, in this order
-    OwnedPipeline cull, uncover;        // of what is drawn: in the first round, in the others
+    OwnedPipeline lod_test, live_pages;    // levels chosen, in this order
+    OwnedPipeline cull, cull_second_pass;  // of what is drawn: in the first round, in the others
     OwnedPipeline pyramid;              // of the farthest depths, 64 x 64 pixels a workgroup
     OwnedPipeline terrain;              // mesh path: task, mesh, fragment
     OwnedPipeline terrain_ties;         // ... and what is as near as what is there, with lower ids
@@ -72,9 +72,10 @@ struct Pipelines {
     OwnedPipeline raster_clear, raster, raster_clip, raster_boxes, raster_large;
     std::map<ShadingKind, OwnedPipeline> shades;  // compute, 8 x 8; see shading_for
     std::array<OwnedPipeline, 4> edges;  // without and with air, then both of clusters, 8 x 8; see edges_for
-    std::array<OwnedPipeline, 2> drape_wants;  // what tiles of images are wanted (then of clusters), 8 x 8
+    std::array<OwnedPipeline, 2>
+        texture_tile_feedback;                 // what tiles of images are wanted (then of clusters), 8 x 8
     std::array<OwnedPipeline, 6> air;          // its tables, in this order, 64 entries a workgroup
-    OwnedPipeline caster_tops, openness;       // of what casts shadows
+    OwnedPipeline caster_heights, openness;    // of what casts shadows
     // Off and on a net, of clusters; of each by what it does (shares.comp), 16 x 16 pixels or 64 of a list.
     std::array<std::array<OwnedPipeline, 5>, 3> sun_shares;
     // Of frames of several grids, off and on a net: where pixels' ground is, 8 x 8; as sun_shares; 8 x 8.
@@ -84,7 +85,7 @@ struct Pipelines {
     OwnedPipeline triangles;  // what each pixel shows, compute, 8 x 8
     OwnedPipeline show;       // colours by what draws a pixel, compute, 8 x 8
     // Of frames that draw clusters: see add_cluster_pipelines().
-    OwnedPipeline choose_clusters, uncover_clusters;  // in the first round, in the others
+    OwnedPipeline choose_clusters, choose_clusters_second_pass;  // in the first round, in the others
     OwnedPipeline cluster_terrain, cluster_ties;      // mesh path: mesh, fragment; as terrain_ties
     OwnedPipeline cluster_raster, cluster_clip;       // compute path; then raster_large
     OwnedPipeline cluster_triangles;

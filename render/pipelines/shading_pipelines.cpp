@@ -10,8 +10,7 @@
 #include "spirv/air_table_3_comp.h"
 #include "spirv/air_table_4_comp.h"
 #include "spirv/air_table_5_comp.h"
-#include "spirv/drape_wants_clusters_comp.h"
-#include "spirv/drape_wants_comp.h"
+#include "spirv/caster_heights_comp.h"
 #include "spirv/edges_clusters_comp.h"
 #include "spirv/edges_comp.h"
 #include "spirv/join_shares_comp.h"
@@ -34,7 +33,8 @@
 #include "spirv/shares_clusters_comp.h"
 #include "spirv/shares_comp.h"
 #include "spirv/shares_net_comp.h"
-#include "spirv/tops_comp.h"
+#include "spirv/texture_tile_feedback_clusters_comp.h"
+#include "spirv/texture_tile_feedback_comp.h"
 
 namespace oro {
 namespace {
@@ -147,9 +147,9 @@ Result<void> make_share_pipelines(const Gpu& gpu, const ShareOptions& how, const
 }  // namespace
 
 Result<void> add_cast_pipelines(const Gpu& gpu, Pipelines& pipelines) {
-    if (!pipelines.caster_tops) {
-        ORO_TRY(pipelines.caster_tops,
-                create_compute_pipeline(gpu, pipelines, tops_comp_spirv, "caster tops"));
+    if (!pipelines.caster_heights) {
+        ORO_TRY(pipelines.caster_heights,
+                create_compute_pipeline(gpu, pipelines, caster_heights_comp_spirv, "caster heights"));
     }
     if (!pipelines.openness) {
         ORO_TRY(pipelines.openness,
@@ -196,14 +196,14 @@ Result<void> add_joined_pipelines(const Gpu& gpu, const ShareOptions& how, bool 
 }
 
 Result<void> add_drape_pipelines(const Gpu& gpu, RasterPath path, bool on_clusters, Pipelines& pipelines) {
-    OwnedPipeline& wants = pipelines.drape_wants[on_clusters ? 1 : 0];
+    OwnedPipeline& wants = pipelines.texture_tile_feedback[on_clusters ? 1 : 0];
     if (wants) return {};
     const VkBool32 from_compute = flag(path == RasterPath::compute);
     const VkSpecializationMapEntry entry{0, 0, sizeof(from_compute)};
     const VkSpecializationInfo constants{1, &entry, sizeof(from_compute), &from_compute};
     const std::span<const std::uint32_t> words =
-        on_clusters ? std::span<const std::uint32_t>(drape_wants_clusters_comp_spirv)
-                    : drape_wants_comp_spirv;
+        on_clusters ? std::span<const std::uint32_t>(texture_tile_feedback_clusters_comp_spirv)
+                    : texture_tile_feedback_comp_spirv;
     ORO_TRY(wants, create_compute_pipeline(gpu, pipelines, words, "wanted image tiles", &constants));
     return {};
 }

@@ -78,9 +78,9 @@ void Occlusion::begin(const FramePlan& plan, bool remembers) {
     if (last_.page_count == 0) return;  // nothing hides anything
     // Other views begin with occlusion: where a view is seen once, that is what it costs least with by the
     // mesh path.
-    if (!much) faster_.forget();
+    if (!much) toggle_.forget();
     // While pages are missing, what is seen decides which come first.
-    if (use_ == OcclusionUse::if_it_pays && much && plan.is_settled() && faster_.goes_without()) return;
+    if (use_ == OcclusionUse::if_it_pays && much && plan.is_settled() && toggle_.disable_next()) return;
     uses_last_frame_ = much && remembers;
     if (uses_last_frame_) {
         rounds_ = {round_of(0, 0, false), round_of(0, gpu::round_shares, true)};
@@ -112,7 +112,7 @@ void Occlusion::record_pyramid(VkCommandBuffer commands, const Pipelines& pipeli
 
 void Occlusion::end(double raster_s) {
     // What the first frame in rounds after one without knows of what is seen may be old: it is not counted.
-    if (!is_on() || was_on_) faster_.took(is_on(), raster_s);
+    if (!is_on() || was_on_) toggle_.report_time(is_on(), raster_s);
     was_on_ = is_on();
 }
 

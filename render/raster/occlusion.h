@@ -8,7 +8,7 @@
 #include "core/frame/frame_plan.h"
 #include "render/device/resources.h"
 #include "render/pipelines/pipelines.h"
-#include "render/raster/faster_way.h"
+#include "render/raster/adaptive_toggle.h"
 
 namespace oro {
 
@@ -16,7 +16,7 @@ namespace oro {
 enum class OcclusionUse {
     off,
     on,
-    if_it_pays  // as it took less time when both were tried (faster_way.h)
+    if_it_pays  // as it took less time when both were tried (adaptive_toggle.h)
 };
 
 class Occlusion {
@@ -53,7 +53,7 @@ class Occlusion {
     std::vector<gpu::FrameRound> rounds_;
     gpu::FrameConstants
         last_{};        // of the last frame that was drawn in rounds; its page_count 0: there is none
-    FasterWay faster_;  // of if_it_pays
+    AdaptiveToggle toggle_;  // of if_it_pays
     bool was_on_{};
     Buffer pyramid_, ids_before_;
 };

@@ -99,7 +99,7 @@ std::uint64_t PageStore::block_bytes(const PageIndex& page) const {
     return handle == cache_.items().none ? 0 : cache_.items().at(handle).bytes - block_offset_;
 }
 
-void PageStore::note_hidden(const PageIndex& page) {
+void PageStore::mark_occluded(const PageIndex& page) {
     auto& items = cache_.items();
     const auto handle = items.find(page);
     if (handle != items.none && items.at(handle).rank == items.frame())

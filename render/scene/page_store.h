@@ -47,9 +47,9 @@ class PageStore {
     // count as use.
     [[nodiscard]] std::uint64_t block_bytes(const PageIndex& page) const;
     // The current frame uses it, and does not show it: other ground hides it.
-    void note_hidden(const PageIndex& page);
+    void mark_occluded(const PageIndex& page);
     // How far before a page's block its means lie, bytes; 0 where none are kept.
-    [[nodiscard]] std::uint64_t means_before() const { return parts_.means ? block_offset_ : 0; }
+    [[nodiscard]] std::uint64_t means_offset() const { return parts_.means ? block_offset_ : 0; }
     // How far before a page's block its places lie, bytes; 0 where none are kept.
     [[nodiscard]] std::uint64_t places_before() const { return places_before_; }
     // From here on pages are used by the next frame. All frames before are completed on the GPU.

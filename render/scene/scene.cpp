@@ -65,30 +65,30 @@ bool GridScene::is_hidden(const PageIndex& page) const {
     return hidden_.contains({page.level, page.row, page.column});
 }
 
-bool GridScene::saw(const FrameSights& sights) {
-    if (clusters_) clusters_->saw(sights);
-    return seen_.add(sights);
+bool GridScene::apply_feedback(const FrameFeedback& feedback) {
+    if (clusters_) clusters_->apply_feedback(feedback);
+    return seen_.add(feedback);
 }
 
 // Where the last frame's pages filled the GPU and more of them show, those that do not show are planned
 // without: what comes next may take their place.
 Result<GridPlan> GridScene::plan_of_pages(const FrameView& view) {
-    const double spacing_px = store_.means_before() > 0 ? means_spacing_px_ : gpu::shading_spacing_px;
+    const double spacing_px = store_.means_offset() > 0 ? means_spacing_px_ : gpu::shading_spacing_px;
     const auto planned = [&](const Residency& residency) {
         store_.begin_frame();
         return plan_grid(*pages_, residency, view, store_.coding(), spacing_px,
                          [&](const PageIndex& page) { return seen_.is_hidden(page); });
     };
     ORO_TRY(GridPlan plan, planned([&](const PageIndex& page) { return store_.address(page); }));
-    if (store_.means_before() > 0 && spacing_px < gpu::means_spacing_px &&
+    if (store_.means_offset() > 0 && spacing_px < gpu::means_spacing_px &&
         (full_ || plan.pages.size() + plan.missing.size() > store_.capacity())) {
         means_spacing_px_ = gpu::means_spacing_px;
         full_ = false;
         return plan_of_pages(view);
     }
-    can_give_way_ = plan.missing.size() > plan.missing_hidden && !plan.hidden.empty();
-    if (!std::exchange(full_, false) || !can_give_way_) return plan;
-    can_give_way_ = false;
+    can_evict_hidden_ = plan.missing.size() > plan.missing_hidden && !plan.hidden.empty();
+    if (!std::exchange(full_, false) || !can_evict_hidden_) return plan;
+    can_evict_hidden_ = false;
     hidden_.clear();
     for (const PageIndex& page : plan.hidden) hidden_.insert({page.level, page.row, page.column});
     ORO_TRY(plan, planned([&](const PageIndex& page) { return is_hidden(page) ? 0 : store_.address(page); }));
@@ -127,8 +127,8 @@ Result<void> GridScene::add_clusters(const FrameView& view, Clusters clusters, G
     if (!clusters_ || model.earth != Earth::ellipsoid || plan.pages.empty()) return {};
     const HorizonOccluder& occluder = pages_->facts().shape.occluder;
     if (clusters == Clusters::waited_for)
-        return clusters_->add_to(plan, camera, tile, tau_px, model, occluder, store_.coding());
-    return clusters_->add_what_is_here(plan, camera, tile, tau_px, model, occluder, store_.coding());
+        return clusters_->append_full_cut(plan, camera, tile, tau_px, model, occluder, store_.coding());
+    return clusters_->append_resident_cut(plan, camera, tile, tau_px, model, occluder, store_.coding());
 }
 
 Result<GridPlan> GridScene::plan(const FrameView& view, Clusters clusters) {
@@ -139,7 +139,7 @@ Result<GridPlan> GridScene::plan(const FrameView& view, Clusters clusters) {
 
 Result<GridPlan> GridScene::begun_plan(const FrameView& view, Clusters clusters) {
     ORO_TRY(GridPlan plan, plan_of_pages(view));
-    for (const PageIndex& page : plan.hidden) store_.note_hidden(page);
+    for (const PageIndex& page : plan.hidden) store_.mark_occluded(page);
     ORO_CHECK(add_clusters(view, clusters, plan));
     return plan;
 }
@@ -151,11 +151,11 @@ Result<void> GridScene::end_plan(const FrameView& view, GridPlan& plan) {
     hidden_.clear();
     for (const PageIndex& page : std::span(plan.missing).last(plan.missing_hidden))
         hidden_.insert({page.level, page.row, page.column});
-    plan.wants_sights = !plan.missing.empty() || !store_.has_capacity() || plan.clusters.missing > 0 ||
-                        (plan.clusters.on && !clusters_->has_capacity());
-    if (store_.means_before() > 0) {
+    plan.request_feedback = !plan.missing.empty() || !store_.has_capacity() || plan.clusters.missing > 0 ||
+                            (plan.clusters.on && !clusters_->has_capacity());
+    if (store_.means_offset() > 0) {
         plan.constants.has_means = 1;
-        for (gpu::FramePage& page : plan.pages) page.means = before(page, store_.means_before());
+        for (gpu::FramePage& page : plan.pages) page.means = before(page, store_.means_offset());
     }
     if (store_.places_before() > 0) {
         for (gpu::FramePage& page : plan.pages) page.places = before(page, store_.places_before());
@@ -196,15 +196,15 @@ Result<bool> GridScene::advance() {
     full_for_hidden_ = full_for_hidden_ || sent.hidden_left;
     full_ = sent.shown_left;
     if (full_) loader_->cancel();
-    return better || sent.count > 0 || (full_ && can_give_way_);
+    return better || sent.count > 0 || (full_ && can_evict_hidden_);
 }
 
 void GridScene::forget_frames(bool gives_back) {
-    seen_ = SeenGround(*pages_);
+    seen_ = VisibilityFeedback(*pages_);
     hidden_.clear();
     missed_.clear();
     receivers_.clear();
-    full_ = full_for_hidden_ = can_give_way_ = false;
+    full_ = full_for_hidden_ = can_evict_hidden_ = false;
     means_spacing_px_ = asked_means_px_;
     loader_->cancel();
     if (gives_back) {
@@ -217,7 +217,7 @@ void GridScene::forget_frames(bool gives_back) {
 
 // Pages become ready in any order, so no more are asked for than there is room for. Where they differ in size
 // there may be room for others then.
-Result<bool> GridScene::bring(std::span<const PageIndex> all_pages) {
+Result<bool> GridScene::load_pages(std::span<const PageIndex> all_pages) {
     while (!all_pages.empty()) {
         const std::span<const PageIndex> pages =
             all_pages.first(std::min(all_pages.size(), store_.free_capacity()));
@@ -241,13 +241,13 @@ Result<GridPlan> GridScene::settled_plan(const FrameView& view) {
     for (bool begun_anew = false;;) {
         ORO_TRY(GridPlan frame, plan(view, Clusters::waited_for));
         if (frame.missing.empty()) return frame;
-        ORO_TRY(bool fits, bring(shown_of(frame.missing)));
-        if (!fits && can_give_way_) {
+        ORO_TRY(bool fits, load_pages(shown_of(frame.missing)));
+        if (!fits && can_evict_hidden_) {
             full_ = true;  // so that the next plan lets hidden pages give way
             continue;
         }
         if (fits && frame.missing_hidden == frame.missing.size()) {
-            ORO_TRY(fits, bring(frame.missing));
+            ORO_TRY(fits, load_pages(frame.missing));
         }
         // What other frames left may lie so that there is room, and not in one piece.
         if (!fits && store_.has_pieces() && !std::exchange(begun_anew, true)) {
@@ -276,21 +276,21 @@ void Scene::draw_clusters(ClusterScene clusters) {
     grids_.front().clusters_.emplace(std::move(clusters));
 }
 
-void Scene::cast(const CastRequest& request) {
+void Scene::set_shadow_request(const ShadowRequest& request) {
     cast_ = request;
     // What lies between grids casts nothing: they do.
     for (GridScene& grid : grids_)
         if (!grid.pages_->is_seam()) grid.cast_ = request;
 }
 
-void Scene::hold_means(double spacing_px) {
+void Scene::set_footprint_spacing(double spacing_px) {
     for (GridScene& grid : grids_)
         if (spacing_px != grid.asked_means_px_) grid.means_spacing_px_ = grid.asked_means_px_ = spacing_px;
 }
 
-void Scene::hold_for(const gpu::FrameStyle& style) {
-    cast(cast_request(style));
-    hold_means(means_spacing_px(style));
+void Scene::require_fields(const gpu::FrameStyle& style) {
+    set_shadow_request(shadow_request(style));
+    set_footprint_spacing(means_spacing_px(style));
 }
 
 std::vector<DrapeStore*> Scene::drapes() const {
@@ -299,10 +299,10 @@ std::vector<DrapeStore*> Scene::drapes() const {
     return all;
 }
 
-PagesOfGrids Scene::pages() const {
+RegionPagesList Scene::pages() const {
     std::vector<const RegionPages*> all;
     for (const GridScene& grid : grids_) all.push_back(grid.pages_.get());
-    return PagesOfGrids(std::move(all));
+    return RegionPagesList(std::move(all));
 }
 
 std::size_t Scene::image_tiles_max() const {
@@ -325,11 +325,11 @@ std::uint64_t Scene::block_bytes(const FramePlan& plan) {
 }
 
 // Ground that another grid draws is ground that a grid's terrain may darken.
-Result<void> Scene::tell_receivers(const FrameView& view, std::span<const GridPlan> plans) {
+Result<void> Scene::share_shadow_receivers(const FrameView& view, std::span<const GridPlan> plans) {
     for (GridScene& grid : grids_) grid.receivers_.clear();
     if (!cast_.sun_enu || grids_.size() == 1) return {};
     for (std::size_t i = 0; i < plans.size(); ++i) {
-        ORO_TRY(const std::vector<CastReceiver> shown, cast_receivers(*grids_[i].pages_, view, plans[i]));
+        ORO_TRY(const std::vector<ShadowReceiver> shown, shadow_receivers(*grids_[i].pages_, view, plans[i]));
         for (std::size_t j = 0; j < grids_.size(); ++j)
             if (j != i) std::ranges::copy(shown, std::back_inserter(grids_[j].receivers_));
     }
@@ -342,15 +342,15 @@ Result<FramePlan> Scene::plan(const FrameView& view) {
         ORO_TRY(GridPlan begun, grid.begun_plan(view, GridScene::Clusters::that_are_here));
         plan.grids.push_back(std::move(begun));
     }
-    ORO_CHECK(tell_receivers(view, plan.grids));
+    ORO_CHECK(share_shadow_receivers(view, plan.grids));
     for (std::size_t i = 0; i < grids_.size(); ++i) ORO_CHECK(grids_[i].end_plan(view, plan.grids[i]));
     return plan;
 }
 
-bool Scene::saw(std::span<const FrameSights> sights) {
+bool Scene::apply_feedback(std::span<const FrameFeedback> feedback) {
     bool is_new = false;
     for (std::size_t i = 0; i < grids_.size(); ++i)
-        is_new = grids_[i].saw(i < sights.size() ? sights[i] : FrameSights()) || is_new;
+        is_new = grids_[i].apply_feedback(i < feedback.size() ? feedback[i] : FrameFeedback()) || is_new;
     return is_new;
 }
 
@@ -362,7 +362,7 @@ Result<bool> Scene::advance() {
         ORO_TRY(const bool more, grid.advance());
         better = better || more;
     }
-    if (grids_.size() > 1 && std::ranges::any_of(grids_, &GridScene::full_)) make_room();
+    if (grids_.size() > 1 && std::ranges::any_of(grids_, &GridScene::full_)) evict_unused();
     return better;
 }
 
@@ -373,18 +373,18 @@ void Scene::forget_frames() {
     for (GridScene& grid : grids_) grid.forget_frames(full);
 }
 
-bool Scene::make_room() {
+bool Scene::evict_unused() {
     bool any = false;
     for (GridScene& grid : grids_) any = grid.store_.release_unused() || any;
     return any;
 }
 
 Result<FramePlan> Scene::settled_plan(const FrameView& view) {
-    ORO_CHECK(tell_receivers(view, {}));
+    ORO_CHECK(share_shadow_receivers(view, {}));
     ORO_TRY(std::vector<GridPlan> plans, settled_plans(view));
     if (grids_.size() > 1 && cast_.sun_enu) {
         // What each of them shows is known: what the others need to cast on that comes, too.
-        ORO_CHECK(tell_receivers(view, plans));
+        ORO_CHECK(share_shadow_receivers(view, plans));
         ORO_TRY(plans, settled_plans(view));
     }
     return FramePlan{view, std::move(plans)};
@@ -398,7 +398,7 @@ Result<std::vector<GridPlan>> Scene::settled_plans(const FrameView& view) {
             // Others may hold what earlier frames used. What this frame uses of theirs they say by a plan.
             for (GridScene& other : grids_)
                 if (&other != &grid) ORO_CHECK(other.plan(view, GridScene::Clusters::waited_for));
-            if (make_room()) {
+            if (evict_unused()) {
                 ORO_TRY(plan, grid.settled_plan(view));
             }
         }

@@ -13,7 +13,7 @@
 
 #include "core/frame/frame_plan.h"
 #include "core/frame/region_pages.h"
-#include "core/frame/seen_ground.h"
+#include "core/frame/visibility_feedback.h"
 #include "render/clusters/cluster_scene.h"
 #include "render/scene/drape_store.h"
 #include "render/scene/page_loader.h"
@@ -66,7 +66,7 @@ class GridScene {
     };
     Result<Sent> send_ready(bool wait);
     // Waits for all of them: false where there was no room.
-    Result<bool> bring(std::span<const PageIndex> pages);
+    Result<bool> load_pages(std::span<const PageIndex> pages);
     Result<GridPlan> plan_of_pages(const FrameView& view);
     Result<void> add_casters(const FrameView& view, GridPlan& plan);
     // Those of missing pages that may show.
@@ -80,7 +80,7 @@ class GridScene {
     Result<GridPlan> plan(const FrameView& view, Clusters clusters);
     Result<GridPlan> settled_plan(const FrameView& view);
     Result<bool> advance();
-    bool saw(const FrameSights& sights);
+    bool apply_feedback(const FrameFeedback& feedback);
     // gives_back: memory of pages, too.
     void forget_frames(bool gives_back);
 
@@ -90,15 +90,15 @@ class GridScene {
     std::unique_ptr<DrapeStore> drape_;
     Buffer undulation_;
     std::uint64_t number_{};  // GridPlan::heights
-    SeenGround seen_;
+    VisibilityFeedback seen_;
     std::vector<PageIndex> missed_;               // by the last plan
     std::set<std::tuple<int, int, int>> hidden_;  // of those
     bool full_{false};                            // of the last frame's pages
     bool full_for_hidden_{false};                 // at least for those
-    bool can_give_way_{false};                    // hidden pages of the last plan could, for missing ones
-    CastRequest cast_;
+    bool can_evict_hidden_{false};                // hidden pages of the last plan could, for missing ones
+    ShadowRequest cast_;
     double asked_means_px_{gpu::means_spacing_px}, means_spacing_px_{gpu::means_spacing_px};
-    std::vector<CastReceiver> receivers_;  // shown by other grids of the frame
+    std::vector<ShadowReceiver> receivers_;  // shown by other grids of the frame
     std::optional<double> top_m_;          // of the region, once it was asked for
     std::optional<ClusterScene> clusters_;
 };
@@ -123,34 +123,34 @@ class Scene {
 
     // From the next plan on it also holds what a style needs of the terrain around (core/frame/casters.h):
     // for shadows of all its grids, on the ground of all. How open the sky is each grid's own terrain tells.
-    void cast(const CastRequest& request);
+    void set_shadow_request(const ShadowRequest& request);
     // ... and squares of means that are at most so large on the screen (core/lod/ground_means.h), where it
     // has any; once the GPU has no room for them, as large as other styles take.
-    void hold_means(double spacing_px);
+    void set_footprint_spacing(double spacing_px);
     // Both, as a style asks for them.
-    void hold_for(const gpu::FrameStyle& style);
+    void require_fields(const gpu::FrameStyle& style);
     // What a frame draws with the pages and clusters that are on the GPU now.
     Result<FramePlan> plan(const FrameView& view);
     // Lets the background read what the last plan misses, and sends what is ready: true when the next plan
     // may be better. Does not wait for what is not ready; asks for no pages of a grid once the frame's own
     // fill the GPU. Errors: what cannot be read, the device.
     Result<bool> advance();
-    // What a frame of this scene has shown (FrameReport::sights): from the next plan on ground that is hidden
-    // comes last, and where the GPU is full gives way to what shows. True where that is news.
-    bool saw(std::span<const FrameSights> sights);
+    // What a frame of this scene has shown (FrameReport::feedback): from the next plan on ground that is
+    // hidden comes last, and where the GPU is full gives way to what shows. True where that is news.
+    bool apply_feedback(std::span<const FrameFeedback> feedback);
     // The next frame is as the first one: what frames have shown is forgotten, and what they left on the GPU
     // is let go of where it could take the room of what comes. Not between a plan and the frame that draws
     // it.
     void forget_frames();
     // A plan once all that tau asks for is there: waits for it. Where a frame needs more than the GPU may
-    // hold, `missing` names the rest; drawing it, saw() and another plan may bring what of that shows. Of
-    // clusters it tells how many there is no room for.
+    // hold, `missing` names the rest; drawing it, apply_feedback() and another plan may bring what of that
+    // shows. Of clusters it tells how many there is no room for.
     Result<FramePlan> settled_plan(const FrameView& view);
 
     // Its grids, in the order of FramePlan::grids.
     [[nodiscard]] std::span<GridScene> grids() { return grids_; }
     [[nodiscard]] std::span<const GridScene> grids() const { return grids_; }
-    [[nodiscard]] PagesOfGrids pages() const;
+    [[nodiscard]] RegionPagesList pages() const;
     // Images over the ground of a grid.
     void set_drape(std::unique_ptr<DrapeStore> drape, std::size_t grid) {
         grids_[grid].drape_ = std::move(drape);
@@ -168,12 +168,12 @@ class Scene {
   private:
     Result<std::vector<GridPlan>> settled_plans(const FrameView& view);
     // To each grid what the plans of the others show.
-    Result<void> tell_receivers(const FrameView& view, std::span<const GridPlan> plans);
+    Result<void> share_shadow_receivers(const FrameView& view, std::span<const GridPlan> plans);
     // Lets go of what the grids' frames do not use: true where there is more room now.
-    bool make_room();
+    bool evict_unused();
 
     std::vector<GridScene> grids_;
-    CastRequest cast_;
+    ShadowRequest cast_;
 };
 
 }  // namespace oro

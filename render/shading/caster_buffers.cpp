@@ -13,7 +13,7 @@ namespace {
 constexpr VkBufferUsageFlags on_device =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
     VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-constexpr std::uint32_t groups_a_page = 4;  // of tops.comp
+constexpr std::uint32_t groups_a_page = 4;  // of caster_heights.comp
 
 VkDeviceSize aligned(VkDeviceSize size) {
     return (size + 15) / 16 * 16;
@@ -31,7 +31,7 @@ VkDeviceSize bytes_of_shares(VkExtent2D extent) {
 }
 
 // Towards the sun in ECEF, in steps of 0.0005: an eye that moves changes it little, and which nodes are
-// gentle (tops.comp) has room for 0.0028 radians.
+// gentle (caster_heights.comp) has room for 0.0028 radians.
 glm::ivec3 sun_roughly(const gpu::FrameConstants& constants) {
     const gpu::vec2 latitude = constants.eye_post.latitude, meridian = constants.eye_meridian;
     const gpu::vec3 sun = constants.style.sun_enu;
@@ -232,7 +232,7 @@ void CasterBuffers::record_casters(VkCommandBuffer commands, const Pipelines& pi
     vkCmdCopyBuffer(commands, staging_.handle.get(), data_.handle.get(), 1, &copy);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
-    if (casts_) dispatch(pipelines.caster_tops, groups_a_page * pages_);
+    if (casts_) dispatch(pipelines.caster_heights, groups_a_page * pages_);
     if (opens_) dispatch(pipelines.openness, gpu::open_groups_a_page * frame_pages_);
     wait_for_shaders(commands);
     made_.swap(wanted_);

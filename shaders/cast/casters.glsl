@@ -33,7 +33,7 @@ struct CasterCell {
     ivec2 from;
     ivec2 to;
     ivec4 heights;  // north-west, north-east, south-west, south-east
-    bool rises;     // from its south-west to its north-east post
+    bool sw_ne;     // from its south-west to its north-east post
 };
 // All but which way it is split, for what looks at its posts alone.
 CasterCell unsplit_caster_cell(PageBlocks block, uint level, ivec2 post) {
@@ -43,27 +43,27 @@ CasterCell unsplit_caster_cell(PageBlocks block, uint level, ivec2 post) {
     cell.to = min(cell.from + (1 << level), ivec2(FRAME.last_row, FRAME.last_column));
     uvec2 place = (number & 127u) + 1u;
     [[unroll]] for (uint i = 0u; i < 4u; ++i) cell.heights[i] = stored_height(block, place + uvec2(i >> 1u, i & 1u));
-    cell.rises = false;
+    cell.sw_ne = false;
     return cell;
 }
-bool caster_rises(PageBlocks block, uint level, ivec2 post) { return rises_at(block, uvec2(post) >> level & 127u); }
+bool caster_sw_ne(PageBlocks block, uint level, ivec2 post) { return sw_ne_at(block, uvec2(post) >> level & 127u); }
 CasterCell caster_cell(PageBlocks block, uint level, ivec2 post) {
     CasterCell cell = unsplit_caster_cell(block, level, post);
-    cell.rises = caster_rises(block, level, post);
+    cell.sw_ne = caster_sw_ne(block, level, post);
     return cell;
 }
 
 const float no_ground_m = -1.0e9;
 
 // How far a place in a cell, of 1, is on the side of its western triangle.
-float west_of_diagonal(CasterCell cell, vec2 share) { return cell.rises ? 1.0 - share.x - share.y : share.x - share.y; }
+float west_of_diagonal(CasterCell cell, vec2 share) { return cell.sw_ne ? 1.0 - share.x - share.y : share.x - share.y; }
 
 // Metres above a height (in steps) of a cell's triangle at a place in it, of 1; no_ground_m where it has none.
 float above_base(CasterCell cell, vec2 share, bool west, int base) {
     // A cell that rises is one that falls, seen in a mirror: its east is west there.
-    ivec4 heights = cell.rises ? cell.heights.yxwz : cell.heights;
-    if (cell.rises) share.y = 1.0 - share.y;
-    bool first = west != cell.rises;
+    ivec4 heights = cell.sw_ne ? cell.heights.yxwz : cell.heights;
+    if (cell.sw_ne) share.y = 1.0 - share.y;
+    bool first = west != cell.sw_ne;
     int corner = first ? heights.z : heights.y;
     if (heights.x == void_height || heights.w == void_height || corner == void_height) return no_ground_m;
     float north = float(heights.x - base), south = float(heights.w - base), other = float(corner - base);

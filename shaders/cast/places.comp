@@ -49,10 +49,10 @@ vec2 angles_of_post(CastPoint point) {
 // Of a seam's triangle: what closes a gap begins where the ground ends, without what it reaches beyond (seam.glsl); where no more of a step
 // shows than a line, all of it is the rim of the ground above.
 void hold_to_ground(FramePage page, uvec2 posts[3], vec3 view, inout float heights_m[3], inout vec3 at[3]) {
-    if ((page.cull & closes_gaps) == 0u) return;
+    if ((page.cull & is_skirt) == 0u) return;
     float step_m = abs(posts[0].y == posts[1].y ? heights_m[0] - heights_m[1] : heights_m[1] - heights_m[2]);
     bool is_line = step_m <= 2.0 * FRAME.tau_px / FRAME.pixels_per_tangent * length(view);
-    page.cull &= ~closes_gaps;
+    page.cull &= ~is_skirt;
     for (int i = 0; i < 3; ++i) {
         uvec2 post = is_line ? uvec2(quad_of_post(posts[i]).x, posts[i].y) : posts[i];
         int height = post_height(PageBlocks(page.block), post);

@@ -254,7 +254,7 @@ struct CellCrossing {
 CellCrossing crossing_of(CastPiece piece, CasterCell cell, ivec2 post, float t_m, float out_m) {
     vec2 low = as_floats(cell.from - post), size = as_floats(cell.to - post) - low;
     vec2 here = (piece.at + (t_m - piece.from_m) * piece.per_m - low) / size, step = piece.per_m / size;
-    float apart = west_of_diagonal(cell, here), change = cell.rises ? -step.x - step.y : step.x - step.y;
+    float apart = west_of_diagonal(cell, here), change = cell.sw_ne ? -step.x - step.y : step.x - step.y;
     CellCrossing crossing;
     crossing.diagonal_m = change == 0.0 ? -1.0 : t_m - apart / change;
     crossing.crosses = crossing.diagonal_m > t_m && crossing.diagonal_m < out_m;
@@ -286,7 +286,7 @@ void look_at_node(SunLine line, CastPiece piece, CasterNode node, uint level, fl
         float matters_m = min(z_m, out_z_m) - (out_m - t_m) * (out_m - t_m) / 5.0e7 - max(search.least, 0.0) * out_m * per_slope;
         bool low_enough = float(highest) * height_step_m - base_m < matters_m && search.step_m == 0.0 && !meets && out_m + step_m < to_m;
         if (!low_enough) {
-            cell.rises = caster_rises(PageBlocks(node.block), level, post);
+            cell.sw_ne = caster_sw_ne(PageBlocks(node.block), level, post);
             CellCrossing crossing = crossing_of(piece, cell, search.post, t_m, out_m);
             if (meets) meet_level(piece, cell, t_m, to_m, crossing.west_before, search);
             meets = false;
@@ -360,7 +360,7 @@ float rise_over(vec3 per_m, CasterCell cell, bool west) {
     ivec4 h = cell.heights;
     if (h.x == void_height || h.w == void_height || (west ? h.z : h.y) == void_height) return 0.0;
     // Along the triangle's own sides: southwards, eastwards.
-    vec2 steps = vec2(west ? h.z - h.x : h.w - h.y, west != cell.rises ? h.w - h.z : h.y - h.x);
+    vec2 steps = vec2(west ? h.z - h.x : h.w - h.y, west != cell.sw_ne ? h.w - h.z : h.y - h.x);
     vec2 rise = height_step_m * steps / as_floats(cell.to - cell.from);  // a post
     return dot(rise, per_m.xy) - per_m.z;
 }

@@ -1,5 +1,5 @@
-// Which nodes are drawn and how their edges meet their neighbours', from the bits that accept.comp has left; the rules of
-// core/lod/levels.cpp. Needs frame.glsl, levels.glsl, select.glsl and verdict.glsl.
+// Which nodes are drawn and how their edges meet their neighbours', from the bits that lod_test.comp has left; the rules of
+// core/lod/levels.cpp. Needs frame.glsl, levels.glsl, select.glsl and cull_result.glsl.
 
 bool accepted(uint page_number, uvec2 node) {
     if (page_number == no_page) return false;
@@ -29,7 +29,7 @@ uint edges_beside_coarser(FramePage page, uvec2 node) {
 
 // A node that this frame draws, and its edges.
 struct ChosenNode {
-    uint verdict;
+    uint cull_result;
     uint edges;
 };
 
@@ -38,5 +38,5 @@ ChosenNode choose_node(uint page_number, uint meshlet) {
     uvec2 node = uvec2(meshlet / meshlets_per_side, meshlet % meshlets_per_side);
     if (!accepted(page_number, node) || accepted(page.parent, parent_node(page, node))) return ChosenNode(is_not_chosen, 0u);
     atomicAdd(Counts(FRAME.counts).at.nodes_chosen, 1u);
-    return ChosenNode(verdict_on(page, PageBlocks(page.block).at[0].meshlets[meshlet]), edges_beside_coarser(page, node));
+    return ChosenNode(cull_result_of(page, PageBlocks(page.block).at[0].meshlets[meshlet]), edges_beside_coarser(page, node));
 }

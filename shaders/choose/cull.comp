@@ -1,14 +1,14 @@
 #version 460
 // The first round: one workgroup a page that has something to draw, one invocation a node. Those that neither the frustum nor the
 // horizon hides are kept; of a frame with occlusion those of the nearest pages, and those that were seen in the last frame, are drawn
-// at once, the others wait for uncover.comp.
+// at once, the others wait for cull_second_pass.comp.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/choose/select.glsl"
-#include "shaders/choose/verdict.glsl"
+#include "shaders/choose/cull_result.glsl"
 #include "shaders/choose/choose.glsl"
-#include "shaders/choose/sights.glsl"
+#include "shaders/choose/feedback.glsl"
 #include "shaders/choose/lists.glsl"
 #include "shaders/choose/rounds.glsl"
 
@@ -41,8 +41,8 @@ void main() {
     if (lane < edges_words) edges_here[lane] = 0u;
     barrier();
     ChosenNode chosen = choose_node(page_number, lane);
-    count_verdict(chosen.verdict);
-    bool kept = chosen.verdict == is_kept;
+    count_cull_result(chosen.cull_result);
+    bool kept = chosen.cull_result == is_kept;
     if (kept) atomicOr(edges_here[lane / 8u], chosen.edges << (lane % 8u * 4u));
     barrier();
     if (lane < edges_words) Words(FRAME.edges).at[page_number * edges_words + lane] = edges_here[lane];
@@ -54,10 +54,10 @@ void main() {
         if (kept && waits) now = was_seen(page_number, page, node);
         write_bits(FRAME.kept, page_number, kept);
         write_bits(FRAME.drawn, page_number, now);
-        if (FRAME.sights != uvec2(0u)) {
-            bool asked = kept || (chosen.verdict != is_not_chosen && stands_for_finer(page, lane) &&
+        if (FRAME.feedback != uvec2(0u)) {
+            bool asked = kept || (chosen.cull_result != is_not_chosen && stands_for_finer(page, lane) &&
                                   may_be_in_picture(page, PageBlocks(page.block).at[0].meshlets[lane]));
-            write_bits_at(FRAME.sights, page_number * sight_words, asked);
+            write_bits_at(FRAME.feedback, page_number * feedback_words, asked);
         }
     }
     draw_nodes(page_number, now, chosen.edges);

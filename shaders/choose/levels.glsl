@@ -50,9 +50,9 @@ ORO_FUNCTION bool node_acceptable(uint level, MeshletBounds bounds, vec3 centre_
 // Whether a quad of a drawn node is split from its south-west to its north-east post, where its page says `rises`: not where two stitched
 // edges meet in its south-east corner. Its north-west post is then half way between the two others, and those beside it keep that post.
 // cell: (row, column) within the node; quads and edges as below.
-ORO_FUNCTION bool drawn_rising(bool rises, uvec2 cell, uvec2 quads, uint edges) {
+ORO_FUNCTION bool drawn_sw_ne(bool sw_ne, uvec2 cell, uvec2 quads, uint edges) {
     const uint corner = edge_south | edge_east;
-    return rises && ((edges & corner) != corner || cell.x + 1u != quads.x || cell.y + 1u != quads.y);
+    return sw_ne && ((edges & corner) != corner || cell.x + 1u != quads.x || cell.y + 1u != quads.y);
 }
 
 // Where a post of a drawn node goes: posts that the coarser neighbour does not have go to the one before, by number, so that both

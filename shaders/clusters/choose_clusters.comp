@@ -1,7 +1,7 @@
 #version 460
 // A round of clusters, one invocation for each that the frame's cut may draw: those that the round draws. The first round makes the cut,
 // and draws the nearest, and those that the last frame saw; a later one those that the ground drawn so far does not hide. The last asks of all, so that
-// the next frame knows which are seen. The same steps as of a page's nodes (cull.comp, uncover.comp).
+// the next frame knows which are seen. The same steps as of a page's nodes (cull.comp, cull_second_pass.comp).
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/lists.glsl"

@@ -73,21 +73,21 @@ uvec2 first_post(uint meshlet) {
 
 // Whether a quad is split from its south-west to its north-east post, by its number in a meshlet of a page, row by row; by its row and
 // column in the page. What is drawn asks triangle_posts().
-bool rises_in_meshlet(PageBlocks block, uint meshlet, uint quad) {
-    return (block.at[0].rises[meshlet * 2u + quad / 32u] >> (quad % 32u) & 1u) != 0u;
+bool sw_ne_in_meshlet(PageBlocks block, uint meshlet, uint quad) {
+    return (block.at[0].sw_ne[meshlet * 2u + quad / 32u] >> (quad % 32u) & 1u) != 0u;
 }
-bool rises_at(PageBlocks block, uvec2 quad) {
+bool sw_ne_at(PageBlocks block, uvec2 quad) {
     uint meshlet = quad.x / meshlet_quads * meshlets_per_side + quad.y / meshlet_quads;
-    return rises_in_meshlet(block, meshlet, quad.x % meshlet_quads * meshlet_quads + quad.y % meshlet_quads);
+    return sw_ne_in_meshlet(block, meshlet, quad.x % meshlet_quads * meshlet_quads + quad.y % meshlet_quads);
 }
 
 // The posts of one of a quad's two triangles (0: that with its western edge) as (row, column), counter-clockwise seen from above;
 // as core/terrain/cell_diagonal.h has them.
-void quad_posts(uvec2 nw, bool rises, uint odd, out uvec2 a, out uvec2 b, out uvec2 c) {
+void quad_posts(uvec2 nw, bool sw_ne, uint odd, out uvec2 a, out uvec2 b, out uvec2 c) {
     uvec2 sw = nw + uvec2(1u, 0u), se = nw + uvec2(1u, 1u), ne = nw + uvec2(0u, 1u);
-    a = rises && odd != 0u ? sw : nw;
+    a = sw_ne && odd != 0u ? sw : nw;
     b = odd == 0u ? sw : se;
-    c = rises || odd != 0u ? ne : se;
+    c = sw_ne || odd != 0u ? ne : se;
 }
 
 // Posts of a page as row << 8 | column: are they on both sides of the meridian where the flat Earth is cut? Between them it would

@@ -45,7 +45,7 @@ vec3 place_on_net(FramePage page, uvec2 post) {
         uvec2 begin = places_begin(page, places, post, axis);
         position[axis] = lattice_m(begin.x, begin.y, places.at[0].steps[first + axis]) - FRAME.eye_remainder[axis];
     }
-    if ((page.cull & closes_gaps) != 0u) position += gap_reach_m(page, post, position);
+    if ((page.cull & is_skirt) != 0u) position += gap_reach_m(page, post, position);
     return position;
 }
 
@@ -129,7 +129,7 @@ uvec2 vertex_post(FramePage page, uint meshlet, uvec2 vertex, uint edges) {
 void triangle_posts(FramePage page, uint meshlet, uint triangle, uint edges, out uvec2 a, out uvec2 b, out uvec2 c) {
     uint cell = triangle >> 1u;
     uvec2 nw = uvec2(cell / meshlet_quads, cell % meshlet_quads);
-    bool rises = rises_in_meshlet(PageBlocks(page.block), meshlet, cell);
-    if (rises && edges != 0u) rises = drawn_rising(rises, nw, quads_of(page, meshlet), edges);
-    quad_posts(nw, rises, triangle & 1u, a, b, c);
+    bool sw_ne = sw_ne_in_meshlet(PageBlocks(page.block), meshlet, cell);
+    if (sw_ne && edges != 0u) sw_ne = drawn_sw_ne(sw_ne, nw, quads_of(page, meshlet), edges);
+    quad_posts(nw, sw_ne, triangle & 1u, a, b, c);
 }

@@ -23,7 +23,7 @@ vec3 gap_reach_m(FramePage page, uvec2 post, vec3 position) {
 // The smooth ground's normal at a post of a quad, along the axes of ECEF.
 vec3 seam_normal(FramePage page, uvec2 post) {
     uvec2 quad = quad_of_post(post), in_quad = post - quad;
-    bool second = (page.cull & closes_gaps) != 0u ? in_quad.y == 1u : in_quad.x == 1u;
-    if ((page.cull & closes_gaps) == 0u && in_quad == uvec2(1u, 1u)) return beside_quad(page, quad + uvec2(2u, 0u));
+    bool second = (page.cull & is_skirt) != 0u ? in_quad.y == 1u : in_quad.x == 1u;
+    if ((page.cull & is_skirt) == 0u && in_quad == uvec2(1u, 1u)) return beside_quad(page, quad + uvec2(2u, 0u));
     return beside_quad(page, quad + uvec2(second ? 1u : 0u, 2u));
 }

@@ -244,7 +244,7 @@ void look_for_snow(inout SurfacePoint point) {
 }
 
 // Without air.
-vec3 seen_ground(SurfacePoint point) {
+vec3 colour_of_surface(SurfacePoint point) {
     vec3 colour = ground_colour(point);
     return as_map && FRAME.style.is_map == 1u ? colour : in_haze(colour, point.h_m, length(point.view));
 }

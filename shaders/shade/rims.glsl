@@ -33,8 +33,8 @@ uint corners_px(FramePage page, uvec2 posts[3], vec2 origin, out vec2 corners[3]
 }
 
 // Of a quad that another page may have: as if it fell.
-bool rises_in(FramePage page, ivec2 cell) {
-    return all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, ivec2(page_quads))) && rises_at(PageBlocks(page.block), uvec2(cell));
+bool sw_ne_in(FramePage page, ivec2 cell) {
+    return all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, ivec2(page_quads))) && sw_ne_at(PageBlocks(page.block), uvec2(cell));
 }
 
 uint corners_of_grid_px(FramePage page, GridTriangle triangle, vec2 origin, out vec2 corners[3]) {
@@ -43,7 +43,7 @@ uint corners_of_grid_px(FramePage page, GridTriangle triangle, vec2 origin, out 
         return corners_none;
     if (any(lessThan(triangle.cell, ivec2(0))) || any(greaterThanEqual(triangle.cell, ivec2(page_quads)))) return corners_unknown;
     uvec2 posts[3];
-    quad_posts(uvec2(triangle.cell), rises_in(page, triangle.cell), triangle.odd, posts[0], posts[1], posts[2]);
+    quad_posts(uvec2(triangle.cell), sw_ne_in(page, triangle.cell), triangle.odd, posts[0], posts[1], posts[2]);
     return corners_px(page, posts, origin, corners);
 }
 
@@ -56,10 +56,10 @@ GridTriangle beyond(FramePage page, GridTriangle triangle, int edge) {
     // Of cells that fall, the western and the eastern triangle, then of those that rise.
     const ivec2 steps[12] = {ivec2(0, -1), ivec2(1, 0), ivec2(0),    ivec2(0),    ivec2(0, 1), ivec2(-1, 0),
                              ivec2(0, -1), ivec2(0),    ivec2(-1, 0), ivec2(1, 0), ivec2(0, 1), ivec2(0)};
-    ivec2 to = steps[(rises_in(page, triangle.cell) ? 6u : 0u) + triangle.odd * 3u + uint(edge)];
+    ivec2 to = steps[(sw_ne_in(page, triangle.cell) ? 6u : 0u) + triangle.odd * 3u + uint(edge)];
     // What is beyond a northern edge has it as its southern one.
     uint odd = 1u - triangle.odd;
-    if (to.x != 0) odd = rises_in(page, triangle.cell + to) == (to.x < 0) ? 1u : 0u;
+    if (to.x != 0) odd = sw_ne_in(page, triangle.cell + to) == (to.x < 0) ? 1u : 0u;
     return GridTriangle(triangle.cell + to, odd);
 }
 
@@ -102,7 +102,7 @@ uint first_of_rim(uint id, vec2 middle, out FramePage page, out GridTriangle tri
     page = frame_pages().at[descend(page_number(id), page, post, length(share_a * at[0] + shares.x * at[1] + shares.y * at[2]))];
     ivec2 cell = clamp(ivec2(floor(post)), ivec2(0), ivec2(int(page_quads) - 1));
     vec2 in_cell = post - vec2(cell);
-    bool west = rises_in(page, cell) ? in_cell.x + in_cell.y <= 1.0 : in_cell.x >= in_cell.y;
+    bool west = sw_ne_in(page, cell) ? in_cell.x + in_cell.y <= 1.0 : in_cell.x >= in_cell.y;
     triangle = GridTriangle(cell, west ? 0u : 1u);
     return corners_of_grid_px(page, triangle, middle, corners);
 }
@@ -127,18 +127,18 @@ bool finds_rim(uint id, vec2 middle, vec2 towards, out Rim rim) {
     FramePage page;
     GridTriangle triangle;
     vec2 corners[3];
-    uint told = first_of_rim(id, middle, page, triangle, corners);
+    uint state = first_of_rim(id, middle, page, triangle, corners);
     float side = sign(FRAME.projection_scale.x * FRAME.projection_scale.y), area = doubled_area_px(corners);
     // A pixel's middle on a rim may show either of its two triangles: both tell the same.
-    bool is_behind = told == corners_here && area * side < 0.0;
-    for (int i = is_behind ? -1 : 0; i < rim_triangles && told == corners_here && (i < 0 || area * side > 0.0); ++i) {
+    bool is_behind = state == corners_here && area * side < 0.0;
+    for (int i = is_behind ? -1 : 0; i < rim_triangles && state == corners_here && (i < 0 || area * side > 0.0); ++i) {
         int edge = i < 0 ? edge_at_middle(corners) : edge_out(corners, side, towards);
         if (edge < 0) return false;
         vec2 at = corners[edge], along = side * (corners[(edge + 1) % 3] - at);
         triangle = beyond(page, triangle, edge);
-        told = corners_of_grid_px(page, triangle, middle, corners);
+        state = corners_of_grid_px(page, triangle, middle, corners);
         area = doubled_area_px(corners);
-        if (i >= 0 && (told == corners_none || (told == corners_here && area * side < 0.0))) {
+        if (i >= 0 && (state == corners_none || (state == corners_here && area * side < 0.0))) {
             rim = Rim(at, vec2(-along.y, along.x) / length(along));
             return true;
         }

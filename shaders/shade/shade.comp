@@ -108,7 +108,7 @@ bool shade(ivec2 pixel) {
     if (!is_sky) colour = through_air(sent_by(place), place.view);
     colour = shown(colour);
 #else
-        colour = seen_ground(point);
+        colour = colour_of_surface(point);
     }
 #endif
     // From the triangle and the pixel alone, so that both ways of drawing give the same.

@@ -247,7 +247,7 @@ vec3 normal_of_seam(FramePage page, uvec2 posts[3], vec3 shares, float heights_m
     float reach_m = FRAME.tau_px / FRAME.pixels_per_tangent * length(view);
     // A step that is more than a line: between a top and the foot below it.
     float step_m = abs(posts[0].y == posts[1].y ? heights_m[0] - heights_m[1] : heights_m[1] - heights_m[2]);
-    if ((page.cull & closes_gaps) != 0u && step_m > 2.0 * reach_m) {
+    if ((page.cull & is_skirt) != 0u && step_m > 2.0 * reach_m) {
         vec3 upright = cross(at[1] - at[0], at[2] - at[0]);
         normal = dot(upright, view) > 0.0 ? -upright : upright;
     }

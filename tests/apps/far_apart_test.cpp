@@ -71,9 +71,9 @@ TEST_F(FilesFarApart, AreEachDrawnAsAlone) {
             words({"shot", north_, south_, "--out", both.string(), "--overwrite", "--json"}, eye));
         ASSERT_EQ(two.exit_code, 0) << two.err;
         EXPECT_EQ(pixels(alone), pixels(both)) << place;
-        const json told = json::parse(two.out);
-        EXPECT_EQ(told["sources"].size(), 2U);
-        EXPECT_EQ(told["region"]["posts"]["rows"], 1201);
+        const json reported = json::parse(two.out);
+        EXPECT_EQ(reported["sources"].size(), 2U);
+        EXPECT_EQ(reported["region"]["posts"]["rows"], 1201);
         const Outcome again = run_orograph({"shot", "--view", both.string(), "--out",
                                             (folder_ / "again.png").string(), "-q", "--overwrite"});
         ASSERT_EQ(again.exit_code, 0) << again.err;
@@ -84,10 +84,10 @@ TEST_F(FilesFarApart, AreEachDrawnAsAlone) {
 TEST_F(FilesFarApart, AreListedAsRegionsOfTheirOwn) {
     const Outcome info = run_orograph({"info", north_, south_, "--json"});
     ASSERT_EQ(info.exit_code, 0) << info.err;
-    const json told = json::parse(info.out);
-    ASSERT_EQ(told["apart"].size(), 1U);
-    EXPECT_EQ(told["region"]["posts"]["rows"], 1201);
-    EXPECT_EQ(told["apart"][0]["region"]["posts"]["rows"], 1201);
+    const json reported = json::parse(info.out);
+    ASSERT_EQ(reported["apart"].size(), 1U);
+    EXPECT_EQ(reported["region"]["posts"]["rows"], 1201);
+    EXPECT_EQ(reported["apart"][0]["region"]["posts"]["rows"], 1201);
     const Outcome text = run_orograph({"info", north_, south_});
     EXPECT_NE(text.out.find("2 grids of posts"), std::string::npos) << text.out;
 }
@@ -101,10 +101,11 @@ TEST_F(FilesFarApart, AreMeasured) {
     for (const Words& words : {Words{"compare", both.string(), "--json", "-q"},
                                Words{"shot", "--view", both.string(), "--verify", "--json", "-q", "--out",
                                      (folder_ / "x.png").string()}}) {
-        const json told = object_said_by(words);
-        EXPECT_GT(told["error"]["drawn_pixels"].get<int>(), 1000);
-        EXPECT_EQ(told["error"]["pixels_beyond_data"], 0);
-        EXPECT_LE(told["error"]["largest_px"].get<double>(), 1.0 + told["error"]["slack_px"].get<double>());
+        const json reported = object_said_by(words);
+        EXPECT_GT(reported["error"]["drawn_pixels"].get<int>(), 1000);
+        EXPECT_EQ(reported["error"]["pixels_beyond_data"], 0);
+        EXPECT_LE(reported["error"]["largest_px"].get<double>(),
+                  1.0 + reported["error"]["slack_px"].get<double>());
     }
 }
 
@@ -140,9 +141,9 @@ TEST_F(FilesFarApart, AreOneRegionWhereTheGapIsSmall) {
     const std::string near = tile(folder_, "N46E010.hgt", 600).string();
     const Outcome info = run_orograph({"info", north_, near, "--json"});
     ASSERT_EQ(info.exit_code, 0) << info.err;
-    const json told = json::parse(info.out);
-    EXPECT_FALSE(told.contains("apart"));
-    EXPECT_EQ(told["region"]["posts"]["columns"], 3601);
+    const json reported = json::parse(info.out);
+    EXPECT_FALSE(reported.contains("apart"));
+    EXPECT_EQ(reported["region"]["posts"]["columns"], 3601);
 }
 
 }  // namespace

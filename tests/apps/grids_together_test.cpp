@@ -51,8 +51,8 @@ class GridsOverEachOther : public ::testing::Test {
         words.push_back(place);
         words.push_back("--out");
         words.push_back(folder_ / "eye.png");
-        const json told = object_said_by(words);
-        return told["eye"]["h_m"].get<double>();
+        const json reported = object_said_by(words);
+        return reported["eye"]["h_m"].get<double>();
     }
     fs::path folder_;
     std::string coarse_, fine_;
@@ -100,11 +100,11 @@ TEST_F(GridsOverEachOther, AreTheSamePictureInAnyOrder) {
 }
 
 TEST_F(GridsOverEachOther, AreToldOneByOne) {
-    const json told = object_said_by({"info", coarse_, fine_, "--json"});
-    ASSERT_EQ(told["apart"].size(), 1U);
-    EXPECT_EQ(told["region"]["own_posts"], false);
-    EXPECT_EQ(told["apart"][0]["region"]["own_posts"], true);
-    EXPECT_EQ(told["apart"][0]["region"]["posts"]["rows"], 125);
+    const json reported = object_said_by({"info", coarse_, fine_, "--json"});
+    ASSERT_EQ(reported["apart"].size(), 1U);
+    EXPECT_EQ(reported["region"]["own_posts"], false);
+    EXPECT_EQ(reported["apart"][0]["region"]["own_posts"], true);
+    EXPECT_EQ(reported["apart"][0]["region"]["posts"]["rows"], 125);
     const json one = object_said_by({"info", coarse_, fine_, "--resample", "--json"});
     EXPECT_FALSE(one.contains("apart"));
 }
@@ -116,10 +116,10 @@ TEST_F(GridsOverEachOther, AreToldWhereOneHasFarCloserPosts) {
                            "4048010", "-tr", "0.05", "0.05", "-r", "cubic", "-ot", "Float32", coarse_, close})
                   .exit_code,
               0);
-    const json told = object_said_by({"info", coarse_, close, "--json"});
-    ASSERT_TRUE(told.contains("apart")) << told.dump(1);
-    ASSERT_EQ(told["apart"].size(), 1U);
-    EXPECT_FALSE(told.contains("error"));
+    const json reported = object_said_by({"info", coarse_, close, "--json"});
+    ASSERT_TRUE(reported.contains("apart")) << reported.dump(1);
+    ASSERT_EQ(reported["apart"].size(), 1U);
+    EXPECT_FALSE(reported.contains("error"));
     const Outcome one = run_orograph({"info", coarse_, close, "--resample"});
     EXPECT_NE(one.exit_code, 0);
     EXPECT_NE(one.err.find("0.05 m apart, are those of " + close), std::string::npos) << one.err;
@@ -134,11 +134,11 @@ TEST_F(GridsOverEachOther, AreForetold) {
         shot{"shot", "--json", "--tolerance", "1px", "--verify", "--out", folder_ / "foretold.png"};
     plan.insert(plan.end(), view.begin(), view.end());
     shot.insert(shot.end(), view.begin(), view.end());
-    const json told = object_said_by(plan);
-    EXPECT_FALSE(told.contains("resampling"));
-    EXPECT_TRUE(told["view"]["several_grids"].get<bool>());
-    EXPECT_EQ(told["cheapest"]["accuracy"], "balanced");
-    EXPECT_TRUE(told["cheapest"]["holds"].get<bool>());
+    const json reported = object_said_by(plan);
+    EXPECT_FALSE(reported.contains("resampling"));
+    EXPECT_TRUE(reported["view"]["several_grids"].get<bool>());
+    EXPECT_EQ(reported["cheapest"]["accuracy"], "balanced");
+    EXPECT_TRUE(reported["cheapest"]["holds"].get<bool>());
     const json drawn = object_said_by(shot);
     EXPECT_EQ(drawn["beside"].size(), 1U);
     EXPECT_LE(drawn["error"]["largest_px"].get<double>(), 1.0) << drawn["error"].dump(1);
@@ -154,13 +154,13 @@ TEST_F(GridsOverEachOther, HaveARimThatIsForetold) {
             "shot", "--tau", tau, "--verify", "--overwrite", "--out", folder_ / "rim.png"};
         plan.insert(plan.end(), view.begin(), view.end());
         shot.insert(shot.end(), view.begin(), view.end());
-        const json told = object_said_by(plan)["total"], drawn = object_said_by(shot)["error"];
+        const json reported = object_said_by(plan)["total"], drawn = object_said_by(shot)["error"];
         EXPECT_GT(drawn["pixels_between_grids"].get<int>(), 0);
-        EXPECT_LE(drawn["largest_px"].get<double>(), told["worst_px"].get<double>()) << "tau " << tau;
-        EXPECT_LE(drawn["displacement_m"]["max"].get<double>(), told["worst_m"].get<double>())
+        EXPECT_LE(drawn["largest_px"].get<double>(), reported["worst_px"].get<double>()) << "tau " << tau;
+        EXPECT_LE(drawn["displacement_m"]["max"].get<double>(), reported["worst_m"].get<double>())
             << "tau " << tau;
         constexpr double rounded_px = 0.01;
-        EXPECT_LE(told["worst_px"].get<double>(),
+        EXPECT_LE(reported["worst_px"].get<double>(),
                   drawn["slack_px"].get<double>() + rounded_px + std::stod(tau));
     }
 }
@@ -189,11 +189,11 @@ TEST_F(GridsOverEachOther, AreInTheOrderThatIsAskedFor) {
 // The step goes over into the ground below, which is told, and drawn again from the view.
 TEST_F(GridsOverEachOther, AreFeatheredWhereThatIsAskedFor) {
     const fs::path picture = folder_ / "soft.png", again = folder_ / "again.png";
-    const json told =
+    const json reported =
         object_said_by({"shot", coarse_, fine_, "--feather", "400", "--at", "36.53,-84.35", "--above", "900",
                         "--heading", "70", "--size", "96x64", "-q", "--json", "--out", picture});
-    EXPECT_EQ(told["region"].contains("feathered") || told["apart"][0].contains("feathered"), true)
-        << told.dump(1);
+    EXPECT_EQ(reported["region"].contains("feathered") || reported["apart"][0].contains("feathered"), true)
+        << reported.dump(1);
     EXPECT_EQ(json::parse(oro::test::view_in(picture))["feather_m"], 400.0);
     ASSERT_EQ(run_orograph({"shot", "--view", picture, "-q", "--out", again}).exit_code, 0);
     EXPECT_EQ(json::parse(oro::test::view_in(picture))["fingerprints"]["pixels"],
@@ -208,11 +208,11 @@ TEST_F(GridsOverEachOther, AreMeasured) {
     const fs::path picture = folder_ / "measured.png";
     for (const char* pipeline : {"mesh", "compute"}) {
         for (const char* tau : {"0.5", "2"}) {
-            const json told = object_said_by(
+            const json reported = object_said_by(
                 {"shot", coarse_,    fine_,    "--at",   "36.53,-84.35", "--above",    "400",    "--heading",
                  "70",   "--fov",    "50",     "--size", "160x120",      "--pipeline", pipeline, "--tau",
                  tau,    "--verify", "--json", "-q",     "--overwrite",  "--out",      picture});
-            const json& error = told["error"];
+            const json& error = reported["error"];
             EXPECT_GT(error["drawn_pixels"].get<int>(), 8000);
             EXPECT_GT(error["pixels_between_grids"].get<int>(), 10);
             EXPECT_EQ(error["pixels_beyond_data"], 0);
@@ -272,17 +272,17 @@ TEST_F(GridsOverEachOther, HaveAStepInTheirProfile) {
 // What stands 100 m higher in the middle hides what lies behind, and sight says the same of each post.
 TEST_F(GridsOverEachOther, AreLookedOverTogether) {
     const std::string out = folder_ / "seen.tif", eye = "36.53,-84.35";
-    const json told = object_said_by({"viewshed", coarse_, fine_, "-q", "--json", "--at", eye, "--above",
-                                      "20", "--target", "2", "--radius", "7", "--out", out});
-    EXPECT_EQ(told["posts_of"], coarse_);
-    EXPECT_GT(told["seen"].get<int>(), 100);
+    const json reported = object_said_by({"viewshed", coarse_, fine_, "-q", "--json", "--at", eye, "--above",
+                                          "20", "--target", "2", "--radius", "7", "--out", out});
+    EXPECT_EQ(reported["posts_of"], coarse_);
+    EXPECT_GT(reported["seen"].get<int>(), 100);
     const json corners = json::parse(run_program({"gdalinfo", "-json", out}).out)["geoTransform"];
     std::vector<std::string> places;
     const std::string list = folder_ / "places.txt";
     for (int step = -8; step <= 8; ++step) {
         if (step == 0) continue;
-        const double column = told["columns"].get<int>() / 2 + step * 9,
-                     row = told["rows"].get<int>() / 2 - step * 4;
+        const double column = reported["columns"].get<int>() / 2 + step * 9,
+                     row = reported["rows"].get<int>() / 2 - step * 4;
         char lon[40], lat[40];
         std::snprintf(lon, sizeof lon, "%.12f",
                       corners[0].get<double>() + (column + 0.5) * corners[1].get<double>());
@@ -313,11 +313,11 @@ TEST_F(GridsOverEachOther, AreLookedOverTogether) {
 
 TEST_F(GridsOverEachOther, AreToldApartByLayers) {
     const fs::path picture = folder_ / "layers.png";
-    const json told =
+    const json reported =
         object_said_by({"shot",      coarse_,    fine_,     "--at", "36.53,-84.35", "--above", "900",
                         "--heading", "70",       "--pitch", "-15",  "--size",       "96x64",   "--tau",
                         "0",         "--layers", "--json",  "-q",   "--out",        picture});
-    ASSERT_EQ(told["sources"].size(), 2U);
+    ASSERT_EQ(reported["sources"].size(), 2U);
     const Outcome info = run_program({"gdalinfo", "-mm", (folder_ / "layers.source.tif").string()});
     EXPECT_NE(info.out.find("Computed Min/Max=0.000,1.000"), std::string::npos) << info.out;
     const Outcome heights = run_program({"gdalinfo", "-mm", (folder_ / "layers.height.tif").string()});
@@ -353,9 +353,10 @@ TEST_F(GridsOverEachOther, StandInPanoramasWithNames) {
     std::ofstream(names) << R"({"type":"FeatureCollection","features":[
         {"type":"Feature","properties":{"name":"Inside"},"geometry":{"type":"Point","coordinates":[-84.30,36.555]}},
         {"type":"Feature","properties":{"name":"Near"},"geometry":{"type":"Point","coordinates":[-84.34,36.535]}}]})";
-    const json told = object_said_by({"panorama", coarse_, fine_, "--at", "36.53,-84.37", "--above", "600",
-                                      "--width", "360", "--names", names, "--json", "-q", "--out", picture});
-    EXPECT_EQ(told["names"]["named"].size(), 2U) << told["names"].dump(1);
+    const json reported =
+        object_said_by({"panorama", coarse_, fine_, "--at", "36.53,-84.37", "--above", "600", "--width",
+                        "360", "--names", names, "--json", "-q", "--out", picture});
+    EXPECT_EQ(reported["names"]["named"].size(), 2U) << reported["names"].dump(1);
 }
 
 }  // namespace

@@ -31,10 +31,10 @@ class KinkedGrid : public oro::test::Bake {
 };
 
 TEST_F(KinkedGrid, IsNotResampled) {
-    const Outcome told = run_orograph({"info", tif});
-    EXPECT_EQ(told.exit_code, 0) << told.err;
-    EXPECT_EQ(told.out.find("resampl"), std::string::npos) << told.out;
-    EXPECT_NE(told.out.find("DHDN to WGS 84 (4)"), std::string::npos) << told.out;
+    const Outcome reported = run_orograph({"info", tif});
+    EXPECT_EQ(reported.exit_code, 0) << reported.err;
+    EXPECT_EQ(reported.out.find("resampl"), std::string::npos) << reported.out;
+    EXPECT_NE(reported.out.find("DHDN to WGS 84 (4)"), std::string::npos) << reported.out;
     const json info = object_said_by({"info", tif, "--json"});
     EXPECT_EQ(info["region"]["posts"]["rows"], 400);
     EXPECT_EQ(info["region"]["posts"]["columns"], 500);

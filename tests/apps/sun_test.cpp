@@ -16,7 +16,7 @@ using oro::test::Outcome;
 using oro::test::run_orograph;
 using oro::test::Words;
 
-nlohmann::json told(Words words) {
+nlohmann::json reported(Words words) {
     words.insert(words.begin(), "sun");
     words.emplace_back("--json");
     const Outcome outcome = run_orograph(words);
@@ -26,7 +26,7 @@ nlohmann::json told(Words words) {
 
 // US Naval Observatory, Rise and Set for the Sun, 36.95 N 112.52 W: 5:11 and 19:53 in -07:00.
 TEST(SunCommand, APlainHorizonIsTheAlmanacs) {
-    const auto sun = told({"--at", "36.95,-112.52", "--date", "2023-06-21", "--zone", "-07:00"});
+    const auto sun = reported({"--at", "36.95,-112.52", "--date", "2023-06-21", "--zone", "-07:00"});
     EXPECT_EQ(sun["from"], "2023-06-21T00:00:00-07:00");
     EXPECT_TRUE(sun["terrain"].is_null());
     EXPECT_EQ(sun["plain"]["day"], "rises_or_sets");
@@ -41,7 +41,7 @@ TEST(SunCommand, APlainHorizonIsTheAlmanacs) {
 // The day of a place begins with its own midnight, wherever it is: the sun rises first, then sets.
 TEST(SunCommand, WithoutAZoneTheDayIsThePlacesOwn) {
     for (const char* at : {"46,8", "-36.84,174.74", "0,-179.9", "61.2,-149.9", "0,180"}) {
-        const auto sun = told({"--at", at, "--date", "2026-03-21"});
+        const auto sun = reported({"--at", at, "--date", "2026-03-21"});
         const auto& crossings = sun["plain"]["crossings"];
         ASSERT_EQ(crossings.size(), 2U) << at;
         EXPECT_TRUE(crossings[0]["rising"].get<bool>()) << at;
@@ -58,7 +58,7 @@ TEST(SunCommand, WithoutAZoneTheDayIsThePlacesOwn) {
 // N 13.19 E, 2026-06-12 in +02:00: set 00:37, rise 01:38, set 00:42 of the 13th, rise 01:33.
 TEST(SunCommand, TheEveningIsThatOfTheDay) {
     const Words north{"--at", "65.84,13.19", "--date", "2026-06-12", "--zone", "+02:00"};
-    const auto sun = told(north);
+    const auto sun = reported(north);
     const auto time = [](const nlohmann::json& crossing) { return crossing["time"].get<std::string>(); };
     EXPECT_EQ(sun["date"], "2026-06-12");
     EXPECT_EQ(time(sun["plain"]["first_light"]).substr(0, 13), "2026-06-12T01") << sun["plain"];
@@ -73,7 +73,7 @@ TEST(SunCommand, TheEveningIsThatOfTheDay) {
     EXPECT_EQ(text.out.find("hidden"), std::string::npos) << text.out;
     EXPECT_NE(text.out.find("    night        2026-06-13T00:"), std::string::npos) << text.out;
     // The same day by a clock that is far from the place's.
-    const auto utc = told({"--at", "61.2,-149.9", "--date", "2026-06-21", "--zone", "Z"});
+    const auto utc = reported({"--at", "61.2,-149.9", "--date", "2026-06-21", "--zone", "Z"});
     EXPECT_EQ(time(utc["plain"]["first_light"]).substr(0, 13), "2026-06-21T12") << utc["plain"];
     EXPECT_EQ(time(utc["plain"]["last_light"]).substr(0, 13), "2026-06-22T07") << utc["plain"];
 }
@@ -93,16 +93,16 @@ TEST(SunCommand, PolarDayAndNightAreToldPlainly) {
     EXPECT_NE(day.out.find("polar day: the sun does not set\n"), std::string::npos) << day.out;
     const Outcome night = run_orograph({"sun", "--at", "78.2,15.6", "--date", "2026-12-21"});
     EXPECT_NE(night.out.find("polar night: the sun does not rise\n"), std::string::npos) << night.out;
-    EXPECT_EQ(told({"--at", "-90,0", "--date", "2026-12-21"})["plain"]["day"], "up_all_day");
+    EXPECT_EQ(reported({"--at", "-90,0", "--date", "2026-12-21"})["plain"]["day"], "up_all_day");
 }
 
 // A valley's sun comes later than the plain's and goes earlier; on a tower above all ridges it does neither.
 TEST(SunCommand, OverTerrain) {
     const Words day{bundled(), "--at", "36.5,-84.2", "--date", "2026-03-21", "--zone", "-04:00"};
-    const auto low = told(day);
+    const auto low = reported(day);
     Words tower = day;
     tower.insert(tower.end(), {"--above", "3000"});
-    const auto high = told(tower);
+    const auto high = reported(tower);
     const auto span = [](const nlohmann::json& light) {
         return std::pair(light["first_light"]["time_utc_s"].get<std::int64_t>(),
                          light["last_light"]["time_utc_s"].get<std::int64_t>());

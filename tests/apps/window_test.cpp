@@ -100,8 +100,8 @@ json object_of(const oro::test::Outcome& outcome) {
 }
 
 // The sun by time is that of the place where the picture was taken, not of where the flight began.
-void expect_sun_of_there(const json& told) {
-    const json &sun = told.at("sun"), &eye = told.at("eye");
+void expect_sun_of_there(const json& reported) {
+    const json &sun = reported.at("sun"), &eye = reported.at("eye");
     const oro::SunPosition there_then = oro::sun_position(
         1782072000.0, {eye.at("lat_deg").get<double>(), eye.at("lon_deg").get<double>(), 0.0});
     EXPECT_EQ(sun.at("time"), "2026-06-21T16:00-04:00");

@@ -22,14 +22,14 @@ CellHeights heights_of(const std::function<double(double, double)>& h_m) {
 // A crest from south-west to north-east through the cell's middle, 10 m a post steep, level along its top:
 // the ground does not bend along it. (Its two other posts are as near to each other in height.)
 TEST(DiagonalRules, JoinACrest) {
-    const CellHeights rises =
+    const CellHeights sw_ne =
         heights_of([](double row, double column) { return -10.0 * std::abs(row + column - 3.0); });
-    EXPECT_DOUBLE_EQ(middle_m(rises, Diagonal::rises), 0.0);
-    EXPECT_DOUBLE_EQ(middle_m(rises, Diagonal::falls), -10.0);
-    for (const auto rule : {least_bend, nearest_smooth}) EXPECT_EQ(rule(rises), Diagonal::rises);
-    const CellHeights falls =
+    EXPECT_DOUBLE_EQ(middle_m(sw_ne, Diagonal::sw_ne), 0.0);
+    EXPECT_DOUBLE_EQ(middle_m(sw_ne, Diagonal::nw_se), -10.0);
+    for (const auto rule : {least_bend, nearest_smooth}) EXPECT_EQ(rule(sw_ne), Diagonal::sw_ne);
+    const CellHeights nw_se =
         heights_of([](double row, double column) { return -10.0 * std::abs(row - column); });
-    for (const auto rule : {least_bend, nearest_smooth}) EXPECT_EQ(rule(falls), Diagonal::falls);
+    for (const auto rule : {least_bend, nearest_smooth}) EXPECT_EQ(rule(nw_se), Diagonal::nw_se);
 }
 
 // The same crest on a slope of 30 m a post along it: its posts are far apart in height, those across it are
@@ -38,16 +38,16 @@ TEST(DiagonalRules, NearestHeightsCutACrestThatClimbs) {
     const CellHeights climbs = heights_of([](double row, double column) {
         return 30.0 * (column - row) - 10.0 * std::abs(row + column - 3.0);
     });
-    EXPECT_EQ(nearest_heights(climbs), Diagonal::falls);
-    EXPECT_EQ(least_bend(climbs), Diagonal::rises);
-    EXPECT_EQ(nearest_smooth(climbs), Diagonal::rises);
+    EXPECT_EQ(nearest_heights(climbs), Diagonal::nw_se);
+    EXPECT_EQ(least_bend(climbs), Diagonal::sw_ne);
+    EXPECT_EQ(nearest_smooth(climbs), Diagonal::sw_ne);
 }
 
 // On a plane both will do, and the first is taken.
 TEST(DiagonalRules, TakeTheFirstOnAPlane) {
     const CellHeights plane = heights_of([](double row, double column) { return 2.0 * row + 4.0 * column; });
-    EXPECT_EQ(least_bend(plane), Diagonal::falls);
-    EXPECT_EQ(nearest_smooth(plane), Diagonal::falls);
+    EXPECT_EQ(least_bend(plane), Diagonal::nw_se);
+    EXPECT_EQ(nearest_smooth(plane), Diagonal::nw_se);
 }
 
 // The smooth middle of a cubic along one axis is exact: 1.5 cubed is 3.375.
@@ -56,9 +56,9 @@ TEST(DiagonalRules, TheSmoothMiddleIsThatOfACubic) {
     // Both diagonals have 4.5 there; lowering one post by less than 4 * (4.5 - 3.375) brings its diagonal
     // nearer.
     cubic[1][1] -= 0.5;
-    EXPECT_EQ(nearest_smooth(cubic), Diagonal::falls);
+    EXPECT_EQ(nearest_smooth(cubic), Diagonal::nw_se);
     cubic[1][1] += 1.0;
-    EXPECT_EQ(nearest_smooth(cubic), Diagonal::rises);
+    EXPECT_EQ(nearest_smooth(cubic), Diagonal::sw_ne);
 }
 
 }  // namespace

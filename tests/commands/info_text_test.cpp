@@ -222,7 +222,7 @@ TEST(InfoText, ResamplingIsToldInMetresWithItsPlace) {
 TEST(InfoText, VoidsThatAreNotToldApartAreNotOfferedToBeFilled) {
     RegionGrid region = region_of({tile("a.hgt")});
     region.voids = 12;
-    region.tells_voids_apart = false;
+    region.classifies_voids = false;
     const std::string text = info_text(region);
     expect_words(text, {"void posts  12 without a height, void in their file or outside the rasters",
                         "outside     not told apart from void posts in this baked region\n"});

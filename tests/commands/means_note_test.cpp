@@ -17,19 +17,19 @@ class PagesWithoutMeans : public RegionPages {
     Result<void> load(const PageIndex&, gpu::PageBlock&) const override { return {}; }
 };
 
-TEST(NoteOfMeans, IsGivenWhereTheyAreAskedForAndNotKnown) {
+TEST(NoteOfMissingFootprints, IsGivenWhereTheyAreAskedForAndNotKnown) {
     const HeightField field = test::rough_field(46.0, 8.0, 40, 50);
     const std::unique_ptr<RegionPages> known = pages_in_memory(field, 1.0, 1);
     const PagesWithoutMeans unknown(known->facts());
     gpu::FrameStyle style{};
     style.footprint = gpu::footprint_mean;
-    EXPECT_EQ(note_of_means(style, *known), "");
+    EXPECT_EQ(note_of_missing_footprints(style, *known), "");
     EXPECT_EQ(
-        note_of_means(style, unknown),
+        note_of_missing_footprints(style, unknown),
         "note: the region has 2,000 posts, too many to colour pixels by the mean of the ground that they "
         "cover: each has the colour of the ground in its middle");
     style.footprint = gpu::footprint_point;
-    EXPECT_EQ(note_of_means(style, unknown), "");
+    EXPECT_EQ(note_of_missing_footprints(style, unknown), "");
 }
 
 }  // namespace

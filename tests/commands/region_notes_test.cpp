@@ -38,7 +38,7 @@ TEST(RegionNotes, AssumedHeightsAreTold) {
     EXPECT_EQ(note_of_assumed_heights(many.grids[0]).find("a.tif and 2 more files do not say"), 0U)
         << note_of_assumed_heights(many.grids[0]);
     for (const DatumFrom known : {DatumFrom::crs, DatumFrom::dted_egm96, DatumFrom::dted_egm2008,
-                                  DatumFrom::hgt_format, DatumFrom::told, DatumFrom::product})
+                                  DatumFrom::hgt_format, DatumFrom::specified, DatumFrom::product})
         EXPECT_EQ(note_of_assumed_heights(region_from({{"a.tif", known}}).grids[0]), "");
 }
 

@@ -57,11 +57,11 @@ TEST(UnseenWords, APartThatWasChosenIsNotMissing) {
         beyond_part_ending(part),
         "The part of the data that you chose ends here: in 320 of 640 columns ground beyond it could be up "
         "to 100 px higher.");
-    const auto told = unseen_json(part);
-    EXPECT_EQ(told.at("missing").size(), 0U);
-    EXPECT_EQ(told.at("chosen_part_ends").at("columns_beyond"), 320);
-    EXPECT_EQ(told.at("chosen_part_ends").at("bound_px"), 99.5);
-    EXPECT_EQ(told.at("chosen_part_ends").at("cells"), nlohmann::json::array({"N46E008"}));
+    const auto reported = unseen_json(part);
+    EXPECT_EQ(reported.at("missing").size(), 0U);
+    EXPECT_EQ(reported.at("chosen_part_ends").at("columns_beyond"), 320);
+    EXPECT_EQ(reported.at("chosen_part_ends").at("bound_px"), 99.5);
+    EXPECT_EQ(reported.at("chosen_part_ends").at("cells"), nlohmann::json::array({"N46E008"}));
     EXPECT_EQ(beyond_part_ending(beyond(1)), "");
 }
 

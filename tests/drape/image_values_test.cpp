@@ -86,17 +86,17 @@ TEST(ImageValues, AreWhatAProfileSays) {
     using test::profile_with;
     constexpr auto light = ImageValues::reflectance, codes = ImageValues::codes;
     for (const char* const tag : {"rTRC", "kTRC"}) {
-        EXPECT_EQ(told_by_profile(profile_with(tag, curve_of({}))), light);
-        EXPECT_EQ(told_by_profile(profile_with(tag, curve_of({256}))), light);
-        EXPECT_EQ(told_by_profile(profile_with(tag, curve_of({563}))), codes);
-        EXPECT_EQ(told_by_profile(profile_with(tag, curve_of({0, 32768, 65535}))), light);
-        EXPECT_EQ(told_by_profile(profile_with(tag, curve_of({0, 14025, 65535}))), codes);
-        EXPECT_EQ(told_by_profile(profile_with(tag, formula_of(65536))), light);
-        EXPECT_EQ(told_by_profile(profile_with(tag, formula_of(157286))), codes);
+        EXPECT_EQ(values_by_profile(profile_with(tag, curve_of({}))), light);
+        EXPECT_EQ(values_by_profile(profile_with(tag, curve_of({256}))), light);
+        EXPECT_EQ(values_by_profile(profile_with(tag, curve_of({563}))), codes);
+        EXPECT_EQ(values_by_profile(profile_with(tag, curve_of({0, 32768, 65535}))), light);
+        EXPECT_EQ(values_by_profile(profile_with(tag, curve_of({0, 14025, 65535}))), codes);
+        EXPECT_EQ(values_by_profile(profile_with(tag, formula_of(65536))), light);
+        EXPECT_EQ(values_by_profile(profile_with(tag, formula_of(157286))), codes);
     }
-    EXPECT_EQ(told_by_profile(profile_with("A2B0", curve_of({}))), codes) << "tables, no curve";
-    EXPECT_EQ(told_by_profile({}), std::nullopt);
-    EXPECT_EQ(told_by_profile(test::ProfileBytes(200)), std::nullopt) << "no profile";
+    EXPECT_EQ(values_by_profile(profile_with("A2B0", curve_of({}))), codes) << "tables, no curve";
+    EXPECT_EQ(values_by_profile({}), std::nullopt);
+    EXPECT_EQ(values_by_profile(test::ProfileBytes(200)), std::nullopt) << "no profile";
 }
 
 // Wherever a profile ends there is an answer, and nothing beyond its end is read.
@@ -104,14 +104,14 @@ TEST(ImageValues, AreFoundInCutProfiles) {
     const test::ProfileBytes whole = test::profile_with("rTRC", test::curve_of({0, 32768, 65535}));
     for (std::size_t size = 0; size < whole.size(); ++size) {
         const test::ProfileBytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
-        EXPECT_EQ(told_by_profile(cut).has_value(), size >= 40) << size;
+        EXPECT_EQ(values_by_profile(cut).has_value(), size >= 40) << size;
         if (size >= 40) {
-            EXPECT_EQ(told_by_profile(cut), ImageValues::codes) << size;
+            EXPECT_EQ(values_by_profile(cut), ImageValues::codes) << size;
         }
     }
     test::ProfileBytes endless = whole;
     for (std::size_t at = 144 + 8; at < 144 + 12; ++at) endless[at] = std::byte{255};
-    EXPECT_EQ(told_by_profile(endless), ImageValues::codes);
+    EXPECT_EQ(values_by_profile(endless), ImageValues::codes);
 }
 
 const test::ProfileBytes& profile_of_pictures() {

@@ -163,7 +163,7 @@ TEST_F(HeightsOnGpu, PackedDrawTheSamePictures) {
             const Camera eye = camera(std::pow(1.5, i), 37.0 * i, i % 3 == 0 ? -90.0 : -20.0);
             const gpu::FrameStyle style = lit_style(i % 4 >= 2);
             const auto drawn = [&](Scene& from) {
-                from.cast(cast_request(style));
+                from.set_shadow_request(shadow_request(style));
                 EXPECT_TRUE(renderer.draw(plan(from, eye, i % 2 ? 1.0 : 0.0), style).ok());
                 return std::tuple(*renderer.read_ids(side_px, side_px),
                                   *renderer.read_depths(side_px, side_px),

@@ -262,7 +262,7 @@ class Markers : public test::GpuTest {
     // What plan promises of such a picture, against the largest displacement in it.
     void hold_bound(const MarkedPlain& plain, const Camera& camera, const WorldModel& model,
                     const Air& true_air, double measured_px) {
-        TrueWorld world;
+        EarthParameters world;
         world.air = true_air;
         const EffectPrediction prediction(plain.surface, *plain.pages, camera, world, 2);
         DrawingModel drawing;

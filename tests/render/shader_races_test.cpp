@@ -6,7 +6,7 @@
 #include <set>
 #include <span>
 
-#include "spirv/accept_comp.h"
+#include "spirv/lod_test_comp.h"
 #include "spirv/raster_clip_comp.h"
 #include "spirv/raster_comp.h"
 #include "spirv/raster_large_comp.h"
@@ -62,11 +62,11 @@ TEST(ShaderRaces, TheVisibilityBufferIsAtomic) {
     }
 }
 
-// `live` of accept.comp: stored once, by one invocation before the barrier; raised by atomics.
+// `live` of lod_test.comp: stored once, by one invocation before the barrier; raised by atomics.
 TEST(ShaderRaces, SharedFlagsAreRaisedByAtomics) {
     std::set<std::uint32_t> integers, pointers, flags;
     int stores = 0;
-    for_each_instruction(Words(accept_comp_spirv), [&](std::uint32_t opcode, Words words) {
+    for_each_instruction(Words(lod_test_comp_spirv), [&](std::uint32_t opcode, Words words) {
         if (opcode == op_type_int && words[2] == 32) integers.insert(words[1]);
         if (opcode == op_type_pointer && words[2] == workgroup && integers.contains(words[3]))
             pointers.insert(words[1]);

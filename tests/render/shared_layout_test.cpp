@@ -15,9 +15,9 @@
 #include <vector>
 
 #include "shaders/shared.h"
+#include "spirv/caster_heights_comp.h"
 #include "spirv/choose_clusters_comp.h"
 #include "spirv/cluster_raster_comp.h"
-#include "spirv/drape_wants_comp.h"
 #include "spirv/live_pages_comp.h"
 #include "spirv/places_comp.h"
 #include "spirv/raster_comp.h"
@@ -28,7 +28,7 @@
 #include "spirv/shade_net_comp.h"
 #include "spirv/terrain_mesh.h"
 #include "spirv/terrain_task.h"
-#include "spirv/tops_comp.h"
+#include "spirv/texture_tile_feedback_comp.h"
 #include "spirv/triangles_comp.h"
 #include "tests/render/shared_members.h"
 #include "tests/support/test_data.h"
@@ -70,9 +70,10 @@ std::map<std::string, std::uint32_t> offsets_of_all_shaders() {
           std::span<const std::uint32_t>(shade_net_comp_spirv),
           std::span<const std::uint32_t>(shade_map_comp_spirv),
           std::span<const std::uint32_t>(shade_air_comp_spirv),
-          std::span<const std::uint32_t>(drape_wants_comp_spirv),
+          std::span<const std::uint32_t>(texture_tile_feedback_comp_spirv),
           std::span<const std::uint32_t>(triangles_comp_spirv),
-          std::span<const std::uint32_t>(tops_comp_spirv), std::span<const std::uint32_t>(places_comp_spirv),
+          std::span<const std::uint32_t>(caster_heights_comp_spirv),
+          std::span<const std::uint32_t>(places_comp_spirv),
           std::span<const std::uint32_t>(cluster_raster_comp_spirv),
           std::span<const std::uint32_t>(choose_clusters_comp_spirv)}) {
         all.merge(member_offsets(words));

@@ -74,8 +74,8 @@ class GridsTogether : public test::GpuTest, public ::testing::WithParamInterface
         const auto between = [&](double a, double b) {
             return std::uniform_real_distribution<double>(a, b)(random);
         };
-        const SeamCloser& closer = seam_.closers[random() % seam_.closers.size()];
-        const PostPlace at = place_of_normal(closer.up);
+        const SeamSkirt& skirt = seam_.skirts[random() % seam_.skirts.size()];
+        const PostPlace at = place_of_normal(skirt.up);
         Camera camera;
         const double lat_deg = at.lat_deg + between(-0.002, 0.002),
                      lon_deg = at.lon_deg + between(-0.002, 0.002);
@@ -129,7 +129,7 @@ TEST_P(GridsTogether, LeaveNoGap) {
         pixels += drawn.size();
     }
     std::printf("seed %u: %d views, %zu pixels, %zu of background; %zu pieces, %zu closers\n", seed, views,
-                pixels, background, seam_.pieces.size(), seam_.closers.size());
+                pixels, background, seam_.pieces.size(), seam_.skirts.size());
     EXPECT_EQ(background, 0U);
 }
 
@@ -241,9 +241,9 @@ std::vector<test::NearTriangle> all_triangles(const Region& region, const Region
     for (const SeamPiece& piece : seam.pieces)
         all.push_back(
             {piece.corners[0].at.m - eye, piece.corners[1].at.m - eye, piece.corners[2].at.m - eye});
-    for (const SeamCloser& closer : seam.closers) {
-        all.push_back({closer.top[0].at.m - eye, closer.foot[0].at.m - eye, closer.foot[1].at.m - eye});
-        all.push_back({closer.top[0].at.m - eye, closer.foot[1].at.m - eye, closer.top[1].at.m - eye});
+    for (const SeamSkirt& skirt : seam.skirts) {
+        all.push_back({skirt.top[0].at.m - eye, skirt.foot[0].at.m - eye, skirt.foot[1].at.m - eye});
+        all.push_back({skirt.top[0].at.m - eye, skirt.foot[1].at.m - eye, skirt.top[1].at.m - eye});
     }
     return all;
 }

@@ -49,9 +49,9 @@ TEST_P(OccludedScene, GridsWithSeamsAreThoseWithout) {
     const std::vector<RegionGrid>& grids = region.grids;
     for (std::size_t i = 0; i < grids.size(); ++i) {
         HeightField rest = grids[i].field;
-        const CutOut& cut = cuts->grids[i];
-        for (std::size_t post = 0; post < cut.left_out.size(); ++post)
-            if (cut.left_out[post] != 0) rest.H_m[post] = void_height_m;
+        const GridClip& cut = cuts->grids[i];
+        for (std::size_t post = 0; post < cut.masked_posts.size(); ++post)
+            if (cut.masked_posts[post] != 0) rest.H_m[post] = void_height_m;
         Scene one = scene_of(pages_in_memory(rest, 1.0, 2));
         if (i == 0)
             scene.emplace(std::move(one));

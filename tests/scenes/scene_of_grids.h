@@ -14,10 +14,10 @@
 namespace oro::test {
 
 // What is left of a grid that others are cut out of.
-inline HeightField rest_of(const HeightField& field, const CutOut& cut) {
+inline HeightField rest_of(const HeightField& field, const GridClip& cut) {
     HeightField rest = field;
-    for (std::size_t post = 0; post < cut.left_out.size(); ++post)
-        if (cut.left_out[post] != 0) rest.H_m[post] = void_height_m;
+    for (std::size_t post = 0; post < cut.masked_posts.size(); ++post)
+        if (cut.masked_posts[post] != 0) rest.H_m[post] = void_height_m;
     return rest;
 }
 

@@ -57,8 +57,8 @@ class Areas : public test::StyleTest {
         view.tau_px = 0.0;
         view.vectors.overlay = {file};
         view.vectors.overlay_width_px = 0.5;
-        std::vector<Fingerprints::OfSource> prints;
-        auto read = open_vectors(view.vectors, prints);
+        std::vector<Fingerprints::OfSource> fingerprints;
+        auto read = open_vectors(view.vectors, fingerprints);
         EXPECT_TRUE(read.ok()) << read.error().line();
         view.vectors_read = *read;
         return view;

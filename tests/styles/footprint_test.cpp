@@ -63,7 +63,7 @@ class Footprint : public test::GpuTest {
     std::vector<std::uint8_t> picture(const Camera& camera, gpu::FrameStyle style, gpu::uint footprint,
                                       double tau_px, int count) {
         style.footprint = footprint;
-        scene_->hold_means(means_spacing_px(style));
+        scene_->set_footprint_spacing(means_spacing_px(style));
         FrameRenderer& renderer = count == 1 ? *single_ : *renderer_;
         for (int i = 0; i < count; ++i) {
             auto plan = scene_->settled_plan(
@@ -157,7 +157,7 @@ TEST_F(Footprint, ShadowsOfFarGroundAreNoSpeckle) {
          {std::array{315.0, 38.0, 0.015, 2.0}, std::array{250.0, 25.0, 0.03, 2.6}}) {
         gpu::FrameStyle natural = style("natural", azimuth_deg, elevation_deg);
         ASSERT_EQ(natural.shadows, 1U);
-        scene_->cast(cast_request(natural));
+        scene_->set_shadow_request(shadow_request(natural));
         const auto truth = picture(far, natural, gpu::footprint_finest, 0.0, samples);
         const auto one = picture(far, natural, gpu::footprint_mean, 1.0, 1);
         natural.shadows = 0;
@@ -192,7 +192,7 @@ TEST_F(Footprint, SlopesTakeLargerSquaresWhereMemoryIsShort) {
         memory.gpu_memory_mb = memory_mb;
         auto scene = test::create_scene(*gpu_, region_, {.memory = memory, .means = true});
         EXPECT_TRUE(scene.ok()) << scene.error().line();
-        scene->hold_means(spacing_px);
+        scene->set_footprint_spacing(spacing_px);
         const auto plan = scene->settled_plan({down, test::whole_picture(down), 1.0});
         EXPECT_TRUE(plan.ok()) << plan.error().line();
         EXPECT_TRUE(plan->grids[0].missing.empty()) << memory_mb << " MB, squares of " << spacing_px << " px";
@@ -222,7 +222,7 @@ TEST_F(Footprint, HoldsOnTurnedRows) {
 // lines to the sun; a processor one for each of the two.
 TEST_F(Footprint, IsTheSameByOneProgramOrSeveral) {
     const gpu::FrameStyle natural = style("natural", 315.0, 20.0);
-    scene_->cast(cast_request(natural));
+    scene_->set_shadow_request(shadow_request(natural));
     const Camera low = over(46.1, 7.5, 4500.0, 0.0, -6.0, 30.0);       // near ground, far ground, sky
     const Camera lake = over(46.60, 7.72, 2500.0, 20.0, -25.0, 60.0);  // ... and water
     const Camera beyond = over(46.9, 7.9, 9000.0, 30.0, -30.0, 60.0);  // ... and what is outside the data
@@ -252,7 +252,7 @@ TEST_F(Footprint, IsTheSameByOneProgramOrSeveral) {
 TEST_F(Footprint, ShadowsFollowTheSunInOneRenderer) {
     const Camera low = over(46.1, 7.5, 4500.0, 0.0, -6.0, 30.0);
     const gpu::FrameStyle noon = style("natural", 180.0, 60.0), evening = style("natural", 270.0, 8.0);
-    scene_->cast(cast_request(evening));
+    scene_->set_shadow_request(shadow_request(evening));
     const auto fresh = picture(low, evening, gpu::footprint_mean, 1.0, 1);
     const auto at_noon = picture(low, noon, gpu::footprint_mean, 1.0, 1);
     EXPECT_NE(at_noon, fresh);

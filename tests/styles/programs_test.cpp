@@ -67,13 +67,13 @@ TEST_F(Programs, NaturalMakesNoneForWhatIsNotInItsPicture) {
     EXPECT_EQ(count(made->sun_shares[0]), by_processor ? 2U : 3U);
     // No net, no clusters, no images, no other grid, and nothing that is measured or explained.
     EXPECT_EQ(count(made->sun_shares[1]) + count(made->sun_shares[2]), 0U);
-    EXPECT_EQ(count(made->drape_wants), 0U);
+    EXPECT_EQ(count(made->texture_tile_feedback), 0U);
     EXPECT_EQ(count(made->cast_places), 0U);
     EXPECT_EQ(count(made->joined_shares[0]) + count(made->joined_shares[1]), 0U);
     for (const OwnedPipeline* program :
-         {&made->join_shares, &made->triangles, &made->show, &made->choose_clusters, &made->uncover_clusters,
-          &made->cluster_raster, &made->cluster_clip, &made->cluster_triangles, &made->terrain,
-          &made->terrain_ties})
+         {&made->join_shares, &made->triangles, &made->show, &made->choose_clusters,
+          &made->choose_clusters_second_pass, &made->cluster_raster, &made->cluster_clip,
+          &made->cluster_triangles, &made->terrain, &made->terrain_ties})
         EXPECT_FALSE(static_cast<bool>(*program));
 }
 

@@ -118,14 +118,14 @@ using RasterPlace = std::function<glm::dvec2(const DrawnPoint&)>;
 
 // `told`: from the fall expected at a pixel and its bytes, how far off it is; nothing where it is not asked.
 Held hold(const DepthPicture& picture, const GdalSlopes& truth, const RasterPlace& place,
-          const std::function<std::optional<double>(const glm::dvec2&, const glm::ivec3&)>& told) {
+          const std::function<std::optional<double>(const glm::dvec2&, const glm::ivec3&)>& reported) {
     Held held;
     for (std::size_t pixel = 0; pixel < picture.points.size(); ++pixel) {
         if (picture.points[pixel].background()) continue;
         const glm::dvec2 at = place(picture.points[pixel]);
         const auto fall = truth.fall(at.x, at.y);
         if (!fall) continue;
-        const auto off = told(*fall, bytes_at(picture, pixel));
+        const auto off = reported(*fall, bytes_at(picture, pixel));
         const glm::dvec2 from_post = at - glm::round(at);
         if (off) held.add(*off, glm::length(from_post) < 0.03);
     }
@@ -200,7 +200,7 @@ class Slopes : public test::StyleTest {
 };
 
 // The bytes of a style tell an angle, or the test would see nothing.
-TEST(ToldAngles, AreReadBack) {
+TEST(StatedAngles, AreReadBack) {
     double worst = 0.0;
     for (double value = 0.0; value < 359.9; value += 0.01) {
         const double in_stops = value / 5.0, part = in_stops - std::floor(in_stops);

@@ -36,8 +36,8 @@ class WrittenFrame : public test::StyleTest {
         view.camera.height_px = 360;
         view.vectors.names = {file};
         view.vectors.overlay = {file};
-        std::vector<Fingerprints::OfSource> prints;
-        auto read = open_vectors(view.vectors, prints);
+        std::vector<Fingerprints::OfSource> fingerprints;
+        auto read = open_vectors(view.vectors, fingerprints);
         EXPECT_TRUE(read.ok()) << read.error().line();
         view.vectors_read = *read;
         return view;

@@ -9,15 +9,15 @@ namespace oro::test {
 
 // The number in a variable of the environment, at least 1, or `otherwise` where there is none.
 inline int asked_count(const char* variable, int otherwise) {
-    const char* const told = std::getenv(variable);
-    return told != nullptr ? std::max(1, std::atoi(told)) : otherwise;
+    const char* const specified = std::getenv(variable);
+    return specified != nullptr ? std::max(1, std::atoi(specified)) : otherwise;
 }
 
 // The whole number in a variable of the environment, or `otherwise` where there is none: seeds, and large
 // counts.
 inline std::uint64_t asked_number(const char* variable, std::uint64_t otherwise) {
-    const char* const told = std::getenv(variable);
-    return told != nullptr && *told != '\0' ? std::strtoull(told, nullptr, 10) : otherwise;
+    const char* const specified = std::getenv(variable);
+    return specified != nullptr && *specified != '\0' ? std::strtoull(specified, nullptr, 10) : otherwise;
 }
 
 }  // namespace oro::test

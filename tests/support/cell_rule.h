@@ -15,11 +15,11 @@ namespace oro::test {
 // nearer to the smooth surface through the 4 x 4 posts of the level around it. Heights count in steps of
 // 2^-11 m. Of regions without a pole, whose first and last column have the same heights where they are one
 // meridian.
-inline bool rises_by_rule(const HeightField& field, int row, int column, int level = 0) {
+inline bool sw_ne_by_rule(const HeightField& field, int row, int column, int level = 0) {
     const LevelGrid grid = level_grid(field.grid, level);
     const auto H = [&](int r, int c) -> std::optional<double> {
-        if (field.grid.goes_round() && c == -1) c = grid.column.quads - 1;
-        if (field.grid.goes_round() && c == grid.column.quads + 1) c = 1;
+        if (field.grid.wraps_longitude() && c == -1) c = grid.column.quads - 1;
+        if (field.grid.wraps_longitude() && c == grid.column.quads + 1) c = 1;
         if (r < 0 || c < 0 || r > grid.row.quads || c > grid.column.quads) return std::nullopt;
         const float H_m = field.H_at_post_m(grid.row.region_post(r), grid.column.region_post(c));
         if (is_void(H_m)) return std::nullopt;
@@ -34,9 +34,9 @@ inline bool rises_by_rule(const HeightField& field, int row, int column, int lev
             smooth += weights[static_cast<std::size_t>(i)] * weights[static_cast<std::size_t>(j)] * *one;
         }
     }
-    const double falls = 0.5 * (*H(row, column) + *H(row + 1, column + 1));
-    const double rises = 0.5 * (*H(row, column + 1) + *H(row + 1, column));
-    return std::abs(rises - smooth) < std::abs(falls - smooth);
+    const double nw_se = 0.5 * (*H(row, column) + *H(row + 1, column + 1));
+    const double sw_ne = 0.5 * (*H(row, column + 1) + *H(row + 1, column));
+    return std::abs(sw_ne - smooth) < std::abs(nw_se - smooth);
 }
 
 }  // namespace oro::test

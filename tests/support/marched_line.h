@@ -147,7 +147,7 @@ class MarchedLine {
             return field_.h_at_post_m(r, c);
         };
         const auto a = post(row, column), d = post(row + 1, column + 1);
-        if (rises_by_rule(field_, row, column)) {
+        if (sw_ne_by_rule(field_, row, column)) {
             const auto b = post(row, column + 1), c = post(row + 1, column);
             return down + right <= 1.0 ? *a + down * (*c - *a) + right * (*b - *a)
                                        : *d + (1.0 - down) * (*b - *d) + (1.0 - right) * (*c - *d);

@@ -45,14 +45,14 @@ struct PlaneOfPosts {
     static constexpr double mean_m = 6371000.0;
 };
 
-inline std::shared_ptr<const GridNet> net_of(const PlaneOfPosts& plane) {
-    auto net =
-        GridNet::fit(plane.rows, plane.columns,
-                     [&](std::span<const PostNumber> posts, std::span<PostPlace> places) -> Result<void> {
-                         for (std::size_t i = 0; i < posts.size(); ++i)
-                             places[i] = plane.place_of(posts[i].row, posts[i].column);
-                         return {};
-                     });
+inline std::shared_ptr<const LatticeGeoreference> net_of(const PlaneOfPosts& plane) {
+    auto net = LatticeGeoreference::fit(
+        plane.rows, plane.columns,
+        [&](std::span<const PostNumber> posts, std::span<PostPlace> places) -> Result<void> {
+            for (std::size_t i = 0; i < posts.size(); ++i)
+                places[i] = plane.place_of(posts[i].row, posts[i].column);
+            return {};
+        });
     EXPECT_TRUE(net.ok()) << net.error().line();
     return net.ok() ? *net : nullptr;
 }
@@ -81,17 +81,16 @@ struct KinkedPlane {
     }
 };
 
-inline Result<std::shared_ptr<const GridNet>> fit_of(
+inline Result<std::shared_ptr<const LatticeGeoreference>> fit_of(
     int rows, int columns, const std::function<PostPlace(double row, double column)>& place) {
-    return GridNet::fit(rows, columns,
-                        [&](std::span<const PostNumber> posts, std::span<PostPlace> places) -> Result<void> {
-                            for (std::size_t i = 0; i < posts.size(); ++i)
-                                places[i] = place(posts[i].row, posts[i].column);
-                            return {};
-                        });
+    return LatticeGeoreference::fit(
+        rows, columns, [&](std::span<const PostNumber> posts, std::span<PostPlace> places) -> Result<void> {
+            for (std::size_t i = 0; i < posts.size(); ++i) places[i] = place(posts[i].row, posts[i].column);
+            return {};
+        });
 }
 
-inline std::shared_ptr<const GridNet> kinked_net_of(const KinkedPlane& kinked) {
+inline std::shared_ptr<const LatticeGeoreference> kinked_net_of(const KinkedPlane& kinked) {
     auto net = fit_of(kinked.plane.rows, kinked.plane.columns,
                       [&](double row, double column) { return kinked.place_of(row, column); });
     EXPECT_TRUE(net.ok()) << net.error().line();

@@ -170,7 +170,7 @@ class RandomViews : public test::GpuTest {
     }
 
     static std::string effects_text(const EffectPrediction& prediction, const DrawingModel& drawing,
-                                    const TrueWorld& world) {
+                                    const EarthParameters& world) {
         std::string text;
         for (const EffectFacts& facts : effect_table()) {
             if (facts.group == EffectGroup::data || !facts.in_picture(drawing, world)) continue;
@@ -187,7 +187,7 @@ class RandomViews : public test::GpuTest {
     // Where levels are all that is left out, no error exceeds tau and what drawing rounds off: what --verify
     // says is allowed.
     static void hold_tau(const Opened& opened, const RandomView& one, const View& view,
-                         const TrueWorld& world, const Drawn& drawn, Tally& tally) {
+                         const EarthParameters& world, const Drawn& drawn, Tally& tally) {
         if (view.model.air != world.air || view.model.earth != Earth::ellipsoid || !view.has_geoid ||
             view.model.precision != Precision::relative || view.heights != HeightStorage::f32)
             return;
@@ -201,8 +201,9 @@ class RandomViews : public test::GpuTest {
     }
 
     // (a) What plan says of a drawing holds.
-    void hold_prediction(Opened& opened, const RandomView& one, const View& view, const TrueWorld& world,
-                         const TruePicture& truth, const Camera& camera, Tally& tally) {
+    void hold_prediction(Opened& opened, const RandomView& one, const View& view,
+                         const EarthParameters& world, const TruePicture& truth, const Camera& camera,
+                         Tally& tally) {
         const auto pages = opened.pages(*gpu_);
         ASSERT_TRUE(pages.ok());
         const EffectPrediction prediction(opened.surface(), **pages, camera, world, thread_count());
@@ -280,7 +281,7 @@ class RandomViews : public test::GpuTest {
         ASSERT_TRUE(view.ok()) << view.error().line() << test::command_line(opened.options, one.drawing);
         const auto pages = opened.pages(*gpu_);
         ASSERT_TRUE(pages.ok());
-        const auto world = true_world(*view, opened.region, **pages);
+        const auto world = earth_parameters(*view, opened.region, **pages);
         ASSERT_TRUE(world.ok()) << world.error().line();
         const Camera camera = true_camera(*view, opened.region);
         const Sight sight = sight_from(camera.eye, world->air);

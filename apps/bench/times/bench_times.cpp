@@ -44,7 +44,7 @@ Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Came
                                const BenchOptions& options) {
     const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
     const gpu::FrameStyle& style = options.style;
-    scene.hold_for(style);
+    scene.require_fields(style);
     std::vector<double> choose, raster, shade, whole, planned, frame;
     BenchTimes times;
     const auto beginning = Clock::now();

@@ -206,14 +206,14 @@ Result<void> draw(const PanoramaOptions& options, const RegionGround& ground, co
     const View& view = report.view;
     const auto drawing = Clock::now();
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
-    ORO_TRY(GridPages pages, pages_of_grids(report.region, cuts, view.exaggeration,
-                                            [&](double share) { bar.show(share, "measuring levels"); }));
+    ORO_TRY(GridPages pages, make_grid_pages(report.region, cuts, view.exaggeration,
+                                             [&](double share) { bar.show(share, "measuring levels"); }));
     ORO_TRY(RegionScene whole,
             scene_of_region(*gpu, report.region, cuts, std::move(pages),
                             {view.exaggeration, memory_of_pages(view, options.memory), view.heights,
                              asks_for_means(style.frame), view.mesh == "clusters", view.mesh_level}));
     Scene& scene = whole.scene;
-    if (const std::string note = note_of_means(style.frame, scene.pages()); !note.empty())
+    if (const std::string note = note_of_missing_footprints(style.frame, scene.pages()); !note.empty())
         say(options.quiet, note);
     ORO_CHECK(lay_images(view, options.memory, *gpu, scene, options.quiet));
     ORO_TRY(report.scene, draw_scene(view, report.region, ground.ground(), report.laid.around, *gpu, scene,
@@ -281,7 +281,7 @@ Result<void> run_panorama(const PanoramaOptions& options) {
     ORO_TRY(PanoramaFile written, write_panorama(options.out, options.overwrite, view, report.region, style,
                                                  report.laid, report.scene));
     view.camera.height_px = report.laid.sheet.height_px;
-    view.prints = written.prints;
+    view.fingerprints = written.fingerprints;
     ORO_CHECK(written.file.commit());
     bar.clear();
     tell(options, style, report);

@@ -117,7 +117,7 @@ Result<std::vector<WholeFile>> layers_of(const ShotOptions& options, const Pictu
 
 // The cheapest bundle that keeps the view within the tolerance; single options of the command line win over
 // it.
-Result<void> choose_bundle(const ShotOptions& options, const PagesOfGrids& pages, ShotResult& shot) {
+Result<void> choose_bundle(const ShotOptions& options, const RegionPagesList& pages, ShotResult& shot) {
     ORO_TRY(const double tolerance_px, parse_tolerance(*options.view.tolerance));
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(shot.view, shot.region));
     FixedAccuracy fixed;
@@ -189,7 +189,7 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
     shot.names = picture.names;
     shot.overlay = picture.overlay;
     for (const std::string& note : notes_of(shot.names)) say(options.quiet, "note: " + note);
-    shot.view.prints = picture.prints;
+    shot.view.fingerprints = picture.fingerprints;
     shot.times.draw_s = seconds_since(drawing);
     if (shot.picture.ground_px == 0)
         say(options.quiet, "note: " + (nothing.ok() ? *nothing : nothing.error().what));
@@ -254,8 +254,8 @@ Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, P
 Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& gpu, const Style& style,
                        const ShotGround& ground, ProgressBar& bar, ShotResult& shot) {
     const auto start = Clock::now();
-    ORO_TRY(GridPages pages, pages_of_grids(shot.region, ground.cuts, shot.view.exaggeration,
-                                            [&](double share) { bar.show(share, "measuring levels"); }));
+    ORO_TRY(GridPages pages, make_grid_pages(shot.region, ground.cuts, shot.view.exaggeration,
+                                             [&](double share) { bar.show(share, "measuring levels"); }));
     if (options.view.tolerance) ORO_CHECK(choose_bundle(options, pointers_to(pages), shot));
     if (!shot.view.map) {
         ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
@@ -267,7 +267,7 @@ Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& 
                         {shot.view.exaggeration, memory_of_pages(shot.view, options.memory),
                          shot.view.heights, asks_for_means(style.frame), clusters, shot.view.mesh_level}));
     Scene& scene = whole.scene;
-    const std::string note = note_of_means(style.frame, scene.pages());
+    const std::string note = note_of_missing_footprints(style.frame, scene.pages());
     if (!note.empty()) say(options.quiet, note);
     shot.has_means = asks_for_means(style.frame) && note.empty();
     ORO_CHECK(lay_images(shot.view, options.memory, gpu, scene, options.quiet));
@@ -335,8 +335,8 @@ Result<void> run_shot(const ShotOptions& asked) {
     ORO_TRY(const PictureFiles files, shot_files(options));
     options.view.takes_maps = true;
     if (!options.view_file.empty()) {
-        ORO_TRY(const View told, read_view(options.view_file));
-        options.ortho = told.map.has_value();
+        ORO_TRY(const View recorded, read_view(options.view_file));
+        options.ortho = recorded.map.has_value();
         if (options.ortho && (options.verify || options.layers))
             return refused(options.verify ? "--verify" : "--layers", "",
                            "is for pictures from an eye; " + options.view_file + " is a map");

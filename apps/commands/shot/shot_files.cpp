@@ -101,9 +101,9 @@ Result<void> finish_shot(const ShotOptions& options, const PictureFiles& files, 
     }
     ORO_CHECK(commit_together(together));
     ORO_TRY(shot.same_bytes, is_same(picture, files.picture));
-    const std::optional<Fingerprints>& told = shot.view.told->prints;
+    const std::optional<Fingerprints>& recorded = shot.view.recorded->fingerprints;
     const bool same_pixels = shot.beside && shot.beside->any.count == 0;
-    if (shot.same_bytes || (same_pixels && (!told || told->program != program_print()))) return {};
+    if (shot.same_bytes || (same_pixels && (!recorded || recorded->program != program_print()))) return {};
     const std::string where = same_pixels || !shot.beside
                                   ? ""
                                   : ": " + pixels_words(shot.beside->any, shot.beside->pixels) + " differ";

@@ -136,8 +136,8 @@ void put_map(const MapFrame& map, const PictureFiles& files, ordered_json& json)
 // The files by what is in them.
 void put_layers(const LayersReport& layers, const ShotTimes& times, const PictureFiles& files,
                 ordered_json& json) {
-    ordered_json& told = json["layers"] = ordered_json::object();
-    for (const char* layer : layer_names) told[layer] = layer_path(files.picture, layer);
+    ordered_json& layer_files = json["layers"] = ordered_json::object();
+    for (const char* layer : layer_names) layer_files[layer] = layer_path(files.picture, layer);
     json["layer_pixels"] = json_object("ground", layers.ground_px, "beside", layers.beside_px);
     json["times_s"]["layers"] = times.layers_s;
 }

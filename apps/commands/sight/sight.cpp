@@ -22,20 +22,20 @@ SightReport look(const Geodetic& from, const Geodetic& to, const Air& air, const
     report.to = to;
     report.air = air;
     report.path = geodesic_between(from.lat_deg, from.lon_deg, to.lat_deg, to.lon_deg);
-    const Lookout lookout(ground.ground(), from, air);
-    const glm::dvec3 offset_m = ecef_from_geodetic(to).m - lookout.sight().eye.m;
+    const Observer observer(ground.ground(), from, air);
+    const glm::dvec3 offset_m = ecef_from_geodetic(to).m - observer.sight().eye.m;
     report.slant_m = glm::length(offset_m);
-    const glm::dvec3 seen_m = lookout.sight().refraction.apparent_m(offset_m);
+    const glm::dvec3 seen_m = observer.sight().refraction.apparent_m(offset_m);
     const glm::dvec3 enu_m = seen_m * ecef_from_enu(from.lat_deg, from.lon_deg);
     report.elevation_deg = deg_from_radians(Radians{std::atan2(enu_m.z, std::hypot(enu_m.x, enu_m.y))});
-    report.line = lookout.line_to(to);
-    report.obstacle = lookout.obstacle(to);
+    report.line = observer.line_to(to);
+    report.obstacle = observer.obstacle(to);
     if (!report.obstacle) return report;
     const Geodetic& at = report.obstacle->point;
     report.obstacle_distance_m =
         geodesic_between(from.lat_deg, from.lon_deg, at.lat_deg, at.lon_deg).distance_m;
-    report.target_missed_by_m = lookout.missed_by_m(to);
-    report.eye_missed_by_m = eye_missed_by_m(ground.ground(), from, air, to);
+    report.target_clearance_deficit_m = observer.clearance_deficit_m(to);
+    report.eye_clearance_deficit_m = eye_clearance_deficit_m(ground.ground(), from, air, to);
     return report;
 }
 

@@ -8,7 +8,7 @@
 #include "apps/options/view_limits.h"
 #include "apps/report/json_object.h"
 #include "apps/view/view.h"
-#include "core/sight/lookout.h"
+#include "core/sight/observer.h"
 #include "geo/opening/open_region.h"
 
 namespace oro {

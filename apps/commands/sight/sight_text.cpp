@@ -43,12 +43,12 @@ double distance_m(const SightReport& report, const Geodetic& point) {
 
 std::string hidden_text(const SightReport& report, const SightGround& ground) {
     std::string text = "Hidden";
-    if (report.target_missed_by_m)
-        text += printed(": the target would have to be %.2f m higher", *report.target_missed_by_m);
-    if (report.eye_missed_by_m)
-        text += printed(
-            report.target_missed_by_m ? ", or the eye %.2f m" : ": the eye would have to be %.2f m higher",
-            *report.eye_missed_by_m);
+    if (report.target_clearance_deficit_m)
+        text += printed(": the target would have to be %.2f m higher", *report.target_clearance_deficit_m);
+    if (report.eye_clearance_deficit_m)
+        text += printed(report.target_clearance_deficit_m ? ", or the eye %.2f m"
+                                                          : ": the eye would have to be %.2f m higher",
+                        *report.eye_clearance_deficit_m);
     return text +
            "\nFirst obstacle: " + ground_text(report.obstacle->point, report.obstacle_distance_m, ground) +
            "\n";
@@ -86,8 +86,9 @@ ordered_json sight_json(const SightReport& report, const SightGround& ground) {
     json["from"] = end_json(report.from, ground);
     if (report.moved) json["on_summit"] = summit_json(*report.moved);
     json["to"] = end_json(report.to, ground);
-    json["target_missed_by_m"] = report.obstacle ? or_null(report.target_missed_by_m) : ordered_json(0.0);
-    json["eye_missed_by_m"] = report.obstacle ? or_null(report.eye_missed_by_m) : ordered_json(0.0);
+    json["target_missed_by_m"] =
+        report.obstacle ? or_null(report.target_clearance_deficit_m) : ordered_json(0.0);
+    json["eye_missed_by_m"] = report.obstacle ? or_null(report.eye_clearance_deficit_m) : ordered_json(0.0);
     json["obstacle"] = nullptr;
     if (report.obstacle) {
         ordered_json& obstacle = json["obstacle"] = point_json(ground, report.obstacle->point);

@@ -7,7 +7,7 @@
 
 #include "apps/commands/sight/sight_ground.h"
 #include "core/earth/world_model.h"
-#include "core/sight/lookout.h"
+#include "core/sight/observer.h"
 #include "geo/places/geodesic.h"
 
 namespace oro {
@@ -24,8 +24,8 @@ struct SightReport {
     std::optional<SightHit> obstacle;  // nothing: it is seen
     double obstacle_distance_m{};      // over the ellipsoid
     // How much higher one of them would have to be; nothing: no height would do, or it is seen.
-    std::optional<double> target_missed_by_m;
-    std::optional<double> eye_missed_by_m;
+    std::optional<double> target_clearance_deficit_m;
+    std::optional<double> eye_clearance_deficit_m;
 };
 
 std::string sight_text(const SightReport& report, const SightGround& ground);

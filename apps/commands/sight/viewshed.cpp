@@ -41,7 +41,7 @@ struct ViewshedReport {
     double radius_km{};
     std::size_t grid{};  // whose posts the file has
     ViewshedWindow window;
-    std::vector<float> missed_by_m;  // of the eye that misses it least
+    std::vector<float> clearance_deficit_m;  // of the eye that misses it least
     std::vector<float> count;        // of eyes that see it
     std::size_t cells{}, seen{}, asked{};
     double looking_s{};
@@ -68,7 +68,7 @@ Result<void> check_words(const ViewshedOptions& options) {
 
 // A window moved by whole turns so that its columns are nearest to those of another.
 ViewshedWindow beside(ViewshedWindow window, const ViewshedWindow& other, const PostGrid& grid) {
-    if (!grid.goes_round() || window.columns == 0) return window;
+    if (!grid.wraps_longitude() || window.columns == 0) return window;
     const int turn = grid.columns() - 1;
     while (window.first_column - other.first_column > turn / 2) window.first_column -= turn;
     while (other.first_column - window.first_column > turn / 2) window.first_column += turn;
@@ -103,7 +103,7 @@ Result<void> make_window(const ViewshedOptions& options, const SightGround& grou
         return Error{ErrorKind::no_data, "--at " + options.at.front(),
                      "no elevation data within the radius" +
                          where_data_are(grid, report.eyes.front().lat_deg, report.eyes.front().lon_deg)};
-    report.missed_by_m.assign(static_cast<std::size_t>(posts), Viewshed::unknown);
+    report.clearance_deficit_m.assign(static_cast<std::size_t>(posts), Viewshed::unknown);
     report.count.assign(static_cast<std::size_t>(posts), Viewshed::unknown);
     return {};
 }
@@ -112,10 +112,10 @@ void take_in(const Viewshed& shed, const PostGrid& grid, ViewshedReport& report)
     const ViewshedWindow window = beside(shed.window, report.window, grid);
     for (int row = window.first_row; row < window.first_row + window.rows; ++row) {
         for (int column = window.first_column; column < window.first_column + window.columns; ++column) {
-            const float missed_m = shed.missed_by_m[window.number(row, column)];
+            const float missed_m = shed.clearance_deficit_m[window.number(row, column)];
             if (missed_m == Viewshed::unknown) continue;
             const std::size_t cell = report.window.number(row, column);
-            float& least_m = report.missed_by_m[cell];
+            float& least_m = report.clearance_deficit_m[cell];
             if (report.count[cell] == Viewshed::unknown) {
                 report.count[cell] = 0.0F;
                 least_m = missed_m;
@@ -149,10 +149,10 @@ PostRaster raster_of(ViewshedReport& report, const SightGround& ground) {
         if (report.count[i] == Viewshed::unknown) continue;
         seen[i] = report.count[i] > 0.0F ? 1.0F : 0.0F;
         // A target that no height brings into sight is missed by no number.
-        if (std::isinf(report.missed_by_m[i])) report.missed_by_m[i] = Viewshed::unknown;
+        if (std::isinf(report.clearance_deficit_m[i])) report.clearance_deficit_m[i] = Viewshed::unknown;
     }
     raster.bands.push_back({"seen (1) or hidden (0)", std::move(seen)});
-    raster.bands.push_back({"missed by, metres of height (0: seen)", std::move(report.missed_by_m)});
+    raster.bands.push_back({"missed by, metres of height (0: seen)", std::move(report.clearance_deficit_m)});
     if (report.eyes.size() > 1) raster.bands.push_back({"observers that see it", std::move(report.count)});
     for (std::size_t i = 0; i < report.eyes.size(); ++i)
         raster.tags.emplace_back("OBSERVER_" + std::to_string(i + 1), eye_text(report.eyes[i], ground));
@@ -223,7 +223,7 @@ std::string sides_beyond(const ViewshedReport& report, const PostGrid& grid) {
         }
         beyond[0] |= rim(0.0).lat_deg > grid.north_deg();
         beyond[2] |= rim(180.0).lat_deg < grid.south_deg();
-        if (grid.goes_round()) continue;
+        if (grid.wraps_longitude()) continue;
         beyond[1] |= eye_deg + std::remainder(rim(90.0).lon_deg - eye.lon_deg, 360.0) > grid.east_deg();
         beyond[3] |= eye_deg + std::remainder(rim(270.0).lon_deg - eye.lon_deg, 360.0) < grid.west_deg();
     }

@@ -36,9 +36,9 @@ class Accuracy : public testing::Test {
     }
     json said(const Outcome& outcome) const {
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-        const json told = json::parse(outcome.out, nullptr, false);
-        EXPECT_TRUE(told.is_object()) << outcome.out;
-        return told.is_object() ? told : json::object();
+        const json reported = json::parse(outcome.out, nullptr, false);
+        EXPECT_TRUE(reported.is_object()) << outcome.out;
+        return reported.is_object() ? reported : json::object();
     }
     json view_of_picture() const { return json::parse(oro::test::view_in(picture), nullptr, false); }
     // What `plan` says a view would be: the same resolution of options, and nothing drawn.

@@ -45,7 +45,7 @@ class ComparedPixels : public testing::Test {
     }
     void edit(const Pixels& pixels) const { write_bytes(edited, with_pixels(bytes_of(picture), pixels)); }
     // The same file as one of before there were fingerprints: then a device may have drawn otherwise.
-    void forget_prints() const {
+    void forget_fingerprints() const {
         const std::string view = oro::test::view_in(edited);
         write_bytes(edited, oro::test::with_tags(bytes_of(edited),
                                                  oro::test::part_of(view, ",\"fingerprints\"", "\"}}"), "}"));
@@ -53,7 +53,7 @@ class ComparedPixels : public testing::Test {
     void expect_refused(const std::string& which) const {
         expect_refusal(run_orograph({"compare", edited, "-q"}), 1,
                        {"q.png: its pixels are not what its view draws", which});
-        forget_prints();
+        forget_fingerprints();
         expect_refusal(run_orograph({"compare", edited, "-q"}), 1,
                        {"q.png: its pixels are not what its view draws"});
     }

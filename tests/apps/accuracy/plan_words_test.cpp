@@ -16,7 +16,7 @@ using oro::test::run_orograph;
 using oro::test::says;
 using oro::test::Words;
 
-Outcome told_plan(const Words& more) {
+Outcome reported_plan(const Words& more) {
     const auto land = oro::test::bundled_data() / "jacksboro.tif";
     Words words{"plan",      land,    "--at",    "36.6,-84.2", "--above", "300",
                 "--heading", "200.5", "--pitch", "-5",         "--size",  "96x54"};
@@ -40,11 +40,11 @@ TEST(Plan, BeginsWithTheEye) {
 
 // The effective k: that of the air which is taken for true.
 TEST(Plan, SaysHowLightGoes) {
-    EXPECT_TRUE(says(told_plan({"--accuracy", "survey"}).out, "\nLight: k 0.12 at the eye's h of "));
-    EXPECT_TRUE(says(told_plan({"--accuracy", "survey"}).out, " m (standard air).\n"));
-    EXPECT_TRUE(says(told_plan({}).out, " m (standard air); in this picture it goes straight.\n"));
-    EXPECT_TRUE(says(told_plan({"--refraction", "0.2"}).out, "\nLight: k 0.2 at all heights.\n"));
-    const json light = json::parse(told_plan({"--json", "-q", "--refraction", "0.2"}).out).at("light");
+    EXPECT_TRUE(says(reported_plan({"--accuracy", "survey"}).out, "\nLight: k 0.12 at the eye's h of "));
+    EXPECT_TRUE(says(reported_plan({"--accuracy", "survey"}).out, " m (standard air).\n"));
+    EXPECT_TRUE(says(reported_plan({}).out, " m (standard air); in this picture it goes straight.\n"));
+    EXPECT_TRUE(says(reported_plan({"--refraction", "0.2"}).out, "\nLight: k 0.2 at all heights.\n"));
+    const json light = json::parse(reported_plan({"--json", "-q", "--refraction", "0.2"}).out).at("light");
     EXPECT_EQ(light.at("k"), 0.2);
     EXPECT_EQ(light.at("air"), "constant");
     // An eye in space bends no light by itself: refraction left out costs nothing there.
@@ -62,12 +62,12 @@ TEST(Plan, SaysHowLightGoes) {
 
 // Found: "no" in the table for 1.03 px, and "Good to 1 px." below it.
 TEST(Plan, TheLastLineIsOnTheTablesSideOfTheTolerance) {
-    const json said = json::parse(told_plan({"--json", "-q", "--accuracy", "draft"}).out);
+    const json said = json::parse(reported_plan({"--json", "-q", "--accuracy", "draft"}).out);
     const double worst_px = said.at("total").at("worst_px").get<double>();
     for (const double off : {-0.003, 0.003}) {
         char tolerance[40];
         std::snprintf(tolerance, sizeof tolerance, "%.4f", worst_px + off);
-        const std::string text = told_plan({"--accuracy", "draft", "--tolerance", tolerance}).out;
+        const std::string text = reported_plan({"--accuracy", "draft", "--tolerance", tolerance}).out;
         const std::size_t at = text.find("\nGood to ") + 9;
         const double shown_px = std::stod(text.substr(at));
         EXPECT_EQ(shown_px > std::stod(tolerance), off < 0.0) << text;
@@ -78,11 +78,11 @@ TEST(Plan, TheLastLineIsOnTheTablesSideOfTheTolerance) {
 }
 
 TEST(Plan, QuietLeavesTheTableAlone) {
-    const Outcome outcome = told_plan({"-q"});
+    const Outcome outcome = reported_plan({"-q"});
     EXPECT_EQ(outcome.exit_code, 0);
     EXPECT_EQ(outcome.err, "");
     EXPECT_TRUE(says(outcome.out, "full detail")) << outcome.out;
-    EXPECT_EQ(told_plan({}).out, outcome.out);
+    EXPECT_EQ(reported_plan({}).out, outcome.out);
 }
 
 }  // namespace

@@ -59,12 +59,12 @@ class ClustersBake : public Bake {
 };
 
 TEST_F(ClustersBake, IsToldAndDrawn) {
-    const json told =
+    const json reported =
         object_said_by({"bake", bundled(), "--mesh", "clusters", "--out", out_, "-q", "--json"});
-    EXPECT_GT(told["clusters"]["levels"], 10);
+    EXPECT_GT(reported["clusters"]["levels"], 10);
     EXPECT_EQ(names_in(folder), Words{"tile.oro"});
     const json info = object_said_by({"info", out_, "--check", "--json"});
-    EXPECT_EQ(info["file"]["clusters"]["triangles"], told["clusters"]["triangles"]);
+    EXPECT_EQ(info["file"]["clusters"]["triangles"], reported["clusters"]["triangles"]);
     EXPECT_NE(run_orograph({"info", out_}).out.find("clusters"), std::string::npos);
     for (const char* pipeline : {"mesh", "compute"}) {
         const Words by{"--pipeline", pipeline};

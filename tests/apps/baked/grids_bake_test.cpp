@@ -59,8 +59,8 @@ class GridsBake : public Bake {
 };
 
 TEST_F(GridsBake, IsDrawnAsTheFilesAre) {
-    const json told = object_said_by(joined(joined({"bake", "--out", out_}, input_), {"-q", "--json"}));
-    EXPECT_EQ(told["grids"], 2);
+    const json reported = object_said_by(joined(joined({"bake", "--out", out_}, input_), {"-q", "--json"}));
+    EXPECT_EQ(reported["grids"], 2);
     EXPECT_EQ(names_in(folder), Words{"both.oro"});
     const Words eye{"--at",    "36.53,-84.35", "--above", "900",     "--heading", "70",
                     "--pitch", "-15",          "--size",  "160x120", "-q",        "--overwrite"};

@@ -32,7 +32,7 @@ class Environment : public testing::Test {
             run_program({"gdal_translate", "-q", "-mo", "AREA_OR_POINT=Point", oro::test::bundled(), land});
         ASSERT_EQ(made.exit_code, 0) << made.err;
     }
-    std::string told(const Circumstances& circumstances = {}) const {
+    std::string reported(const Circumstances& circumstances = {}) const {
         const Outcome outcome = run_orograph({"info", land, "--json"}, circumstances);
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
         return outcome.out;
@@ -40,27 +40,27 @@ class Environment : public testing::Test {
 };
 
 TEST_F(Environment, ChangesNothingThatAFileMeans) {
-    const std::string plain = told();
+    const std::string plain = reported();
     for (const char* option :
          {"GTIFF_POINT_GEO_IGNORE=YES", "GTIFF_IGNORE_READ_ERRORS=YES", "GDAL_PAM_ENABLED=NO",
           "GTIFF_HONOUR_NEGATIVE_SCALEY=YES", "GTIFF_REPORT_COMPD_CS=NO", "GTIFF_SRS_SOURCE=EPSG",
           "GDAL_GEOREF_SOURCES=NONE", "OSR_STRIP_TOWGS84=NO", "GTIFF_DIRECT_IO=YES",
           "GDAL_DRIVER_PATH=/nowhere", "VRT_VIRTUAL_OVERVIEWS=YES"})
-        EXPECT_EQ(told(with({option})), plain) << option;
+        EXPECT_EQ(reported(with({option})), plain) << option;
 }
 
 TEST_F(Environment, FilesOfOptionsChangeNothing) {
-    const std::string plain = told(), options = "[configoptions]\nGTIFF_POINT_GEO_IGNORE=YES\n";
+    const std::string plain = reported(), options = "[configoptions]\nGTIFF_POINT_GEO_IGNORE=YES\n";
     write_bytes(folder / "rc", options);
-    EXPECT_EQ(told(with({"GDAL_CONFIG_FILE=" + (folder / "rc").string()})), plain);
+    EXPECT_EQ(reported(with({"GDAL_CONFIG_FILE=" + (folder / "rc").string()})), plain);
     fs::create_directory(folder / ".gdal");
     write_bytes(folder / ".gdal" / "gdalrc", options);
-    EXPECT_EQ(told(with({"HOME=" + folder.string(), "GDAL_CONFIG_FILE"})), plain);
+    EXPECT_EQ(reported(with({"HOME=" + folder.string(), "GDAL_CONFIG_FILE"})), plain);
 }
 
 // Options that make GDAL faster stay the user's.
 TEST_F(Environment, MayMakeGdalFaster) {
-    EXPECT_EQ(told(with({"GDAL_CACHEMAX=16", "GDAL_NUM_THREADS=2"})), told());
+    EXPECT_EQ(reported(with({"GDAL_CACHEMAX=16", "GDAL_NUM_THREADS=2"})), reported());
 }
 
 TEST_F(Environment, DoctorPrintsNoControlCharacters) {

@@ -38,10 +38,10 @@ TEST(DamagedGeoidGrid, EveryCommandRefusesAndDoctorNamesTheFile) {
               Words{"info", bundled(), "--strict-datum"}})
             expect_refusal(run_orograph(words, damaged), 1, {grid.string(), "damaged"});
         EXPECT_FALSE(fs::exists(picture) || fs::exists(baked));
-        const Outcome told = run_orograph({"doctor", "--json"}, damaged);
-        EXPECT_EQ(told.exit_code, 0) << told.err;
-        EXPECT_EQ(told.err, "");
-        const nlohmann::json geoid = nlohmann::json::parse(told.out)["geoids"][0];
+        const Outcome reported = run_orograph({"doctor", "--json"}, damaged);
+        EXPECT_EQ(reported.exit_code, 0) << reported.err;
+        EXPECT_EQ(reported.err, "");
+        const nlohmann::json geoid = nlohmann::json::parse(reported.out)["geoids"][0];
         EXPECT_EQ(geoid["found"], true);
         EXPECT_NE(geoid["damage"].get<std::string>().find(grid.string()), std::string::npos) << geoid.dump();
     }

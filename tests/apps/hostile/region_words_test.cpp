@@ -141,21 +141,22 @@ TEST(RegionWords, FilesThatMakeNoRegionAreToldOneByOne) {
                                "<SrcRect xOff='0' yOff='0' xSize='300' ySize='300'/>"
                                "<DstRect xOff='0' yOff='0' xSize='400000' ySize='400000'/>"
                                "</SimpleSource></VRTRasterBand></VRTDataset>");
-    const Outcome told = run_orograph({"info", folder});
-    EXPECT_EQ(told.exit_code, 1);
+    const Outcome reported = run_orograph({"info", folder});
+    EXPECT_EQ(reported.exit_code, 1);
     for (const char* name : {"N00E000.hgt", "huge.vrt", "S80W170.hgt"})
-        EXPECT_NE(told.out.find(name), std::string::npos) << told.out;
-    EXPECT_NE(told.out.find("H not read"), std::string::npos) << told.out;
-    EXPECT_NE(told.err.find("region too large: the region would have 400000 x 400000"), std::string::npos)
-        << told.err;
-    EXPECT_NE(told.err.find("Narrow it with --bbox"), std::string::npos) << told.err;
-    EXPECT_EQ(told.err_lines().size(), 1U) << told.err;
+        EXPECT_NE(reported.out.find(name), std::string::npos) << reported.out;
+    EXPECT_NE(reported.out.find("H not read"), std::string::npos) << reported.out;
+    EXPECT_NE(reported.err.find("region too large: the region would have 400000 x 400000"), std::string::npos)
+        << reported.err;
+    EXPECT_NE(reported.err.find("Narrow it with --bbox"), std::string::npos) << reported.err;
+    EXPECT_EQ(reported.err_lines().size(), 1U) << reported.err;
     // Found: a raster that is too large alone was not named.
     const std::string huge = (folder / "huge.vrt").string();
-    EXPECT_NE(told.err.find("; without " + huge + " the others make a region"), std::string::npos)
-        << told.err;
-    EXPECT_NE(told.out.find("to be left out: 1 file\n" + huge + "  region too large: "), std::string::npos)
-        << told.out;
+    EXPECT_NE(reported.err.find("; without " + huge + " the others make a region"), std::string::npos)
+        << reported.err;
+    EXPECT_NE(reported.out.find("to be left out: 1 file\n" + huge + "  region too large: "),
+              std::string::npos)
+        << reported.out;
     fs::remove(folder / "N00E000.hgt");
     fs::remove(folder / "S80W170.hgt");
     oro::test::write_bytes(folder / "broken.txt", "no raster");

@@ -63,7 +63,7 @@ class Panorama : public testing::Test {
     [[nodiscard]] Outcome draw(const std::string& out, const Words& more = {}) const {
         return run_orograph(words(out, more));
     }
-    [[nodiscard]] json told(const std::string& out, const Words& more) const {
+    [[nodiscard]] json reported(const std::string& out, const Words& more) const {
         Words all = words(out, more);
         all.insert(all.end(), {"--json", "-q"});
         return object_said_by(all);
@@ -94,9 +94,9 @@ int darkness(const Pixels& pixels, double x, double y) {
 }
 
 TEST_F(Panorama, SaysTheSameInAllFormats) {
-    const json said = told("p.png", {"--names", points});
-    EXPECT_EQ(told("p.svg", {"--names", points})["names"], said["names"]);
-    EXPECT_EQ(told("p.tif", {"--names", points})["names"], said["names"]);
+    const json said = reported("p.png", {"--names", points});
+    EXPECT_EQ(reported("p.svg", {"--names", points})["names"], said["names"]);
+    EXPECT_EQ(reported("p.tif", {"--names", points})["names"], said["names"]);
     const Pixels png = pixels_of(path("p.png"));
     EXPECT_EQ(png.width, 800U);
     EXPECT_EQ(png.height, said["size_px"][1]);

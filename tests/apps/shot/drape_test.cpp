@@ -40,7 +40,7 @@ class Drape : public testing::Test {
         words.insert(words.end(), more.begin(), more.end());
         return run_orograph(words);
     }
-    static json prints_in(const std::string& png) { return json::parse(view_in(png))["fingerprints"]; }
+    static json fingerprints_in(const std::string& png) { return json::parse(view_in(png))["fingerprints"]; }
 };
 
 TEST_F(Drape, IsInTheViewWhichDrawsItAgain) {
@@ -59,13 +59,13 @@ TEST_F(Drape, IsInTheViewWhichDrawsItAgain) {
 TEST_F(Drape, LeavesPicturesWithoutItAsTheyWere) {
     ASSERT_EQ(shoot({land, "--out", path("bare.png")}).exit_code, 0);
     EXPECT_FALSE(json::parse(view_in(path("bare.png"))).contains("drape"));
-    EXPECT_FALSE(prints_in(path("bare.png")).contains("images"));
+    EXPECT_FALSE(fingerprints_in(path("bare.png")).contains("images"));
     // Images that nothing is seen of.
     ASSERT_EQ(shoot({land, "--drape", image, "--drape-opacity", "0", "--out", path("clear.png")}).exit_code,
               0);
-    EXPECT_EQ(prints_in(path("bare.png"))["pixels"], prints_in(path("clear.png"))["pixels"]);
+    EXPECT_EQ(fingerprints_in(path("bare.png"))["pixels"], fingerprints_in(path("clear.png"))["pixels"]);
     ASSERT_EQ(shoot({land, "--drape", image, "--out", path("draped.png")}).exit_code, 0);
-    EXPECT_NE(prints_in(path("bare.png"))["pixels"], prints_in(path("draped.png"))["pixels"]);
+    EXPECT_NE(fingerprints_in(path("bare.png"))["pixels"], fingerprints_in(path("draped.png"))["pixels"]);
 }
 
 TEST_F(Drape, IsTheSameOverABakedRegion) {
@@ -76,7 +76,7 @@ TEST_F(Drape, IsTheSameOverABakedRegion) {
     baked.insert(baked.end(), eye.begin(), eye.end());
     ASSERT_EQ(shoot(tile).exit_code, 0);
     ASSERT_EQ(shoot(baked).exit_code, 0);
-    EXPECT_EQ(prints_in(path("tile.png"))["pixels"], prints_in(path("baked.png"))["pixels"]);
+    EXPECT_EQ(fingerprints_in(path("tile.png"))["pixels"], fingerprints_in(path("baked.png"))["pixels"]);
 }
 
 TEST_F(Drape, ThatChangedIsTold) {
@@ -118,7 +118,7 @@ TEST_F(Drape, OfSixteenBitsIsWhatItsProfileOrTheOptionSays) {
         Words words{land, "--drape", path(file), "--out", png};
         words.insert(words.end(), more.begin(), more.end());
         EXPECT_EQ(shoot(words).exit_code, 0);
-        return prints_in(png)["pixels"];
+        return fingerprints_in(png)["pixels"];
     };
     const json bytes = drawn("bytes.tif");
     EXPECT_EQ(drawn("picture.tif"), bytes);

@@ -50,13 +50,13 @@ double value_at(const fs::path& file, int x, int y) {
 
 TEST(ShotLayers, AreFilesThatGdalReads) {
     const fs::path folder = oro::test::scratch_folder(), picture = folder / "p.png";
-    const auto told = object_said_by(shot_with_layers(picture, {"--json", "--tau", "0"}));
+    const auto reported = object_said_by(shot_with_layers(picture, {"--json", "--tau", "0"}));
     EXPECT_EQ(names_in(folder), all_names);
-    EXPECT_EQ(told["layers"].size(), 8U);
-    EXPECT_EQ(told["layers"]["ellipsoidal-height"], (folder / "p.ellipsoidal-height.tif").string());
-    EXPECT_GT(told["layer_pixels"]["ground"].get<int>(), 1000);
+    EXPECT_EQ(reported["layers"].size(), 8U);
+    EXPECT_EQ(reported["layers"]["ellipsoidal-height"], (folder / "p.ellipsoidal-height.tif").string());
+    EXPECT_GT(reported["layer_pixels"]["ground"].get<int>(), 1000);
     if (run_program({"gdalinfo", "--version"}).exit_code == 127) GTEST_SKIP() << "needs gdalinfo";
-    for (const auto& [layer, file] : told["layers"].items()) {
+    for (const auto& [layer, file] : reported["layers"].items()) {
         const auto info = oro::test::one_object(run_program({"gdalinfo", "-json", file}).out);
         EXPECT_EQ(info["size"], nlohmann::json({64, 48})) << layer;
         ASSERT_EQ(info["bands"].size(), 1U);

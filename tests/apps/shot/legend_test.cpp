@@ -34,11 +34,11 @@ Words shot_with_legend(const fs::path& out, const Words& more = {}) {
 TEST(ShotLegend, StandsBelowThePictureAsItIs) {
     const fs::path folder = oro::test::scratch_folder();
     ASSERT_EQ(run_orograph(shot_with_legend(folder / "bare.png")).exit_code, 0);
-    const auto told = object_said_by(shot_with_legend(folder / "with.png", {"--legend", "--json"}));
+    const auto reported = object_said_by(shot_with_legend(folder / "with.png", {"--legend", "--json"}));
     const auto bare = pixels_of(folder / "bare.png"), with = pixels_of(folder / "with.png");
     ASSERT_EQ(bare.height, 120U);
     ASSERT_EQ(with.width, 320U);
-    const int strip_px = told["view"]["legend_px"].get<int>();
+    const int strip_px = reported["view"]["legend_px"].get<int>();
     EXPECT_EQ(with.height, 120U + static_cast<unsigned>(strip_px));
     EXPECT_GT(strip_px, 120);
     EXPECT_TRUE(std::equal(bare.rgb.begin(), bare.rgb.end(), with.rgb.begin()));
@@ -47,7 +47,7 @@ TEST(ShotLegend, StandsBelowThePictureAsItIs) {
     for (std::size_t i = bare.rgb.size(); i < with.rgb.size(); i += 3) dark += with.rgb[i] < 90;
     EXPECT_GT(dark, 500U);
     EXPECT_LT(dark, (with.rgb.size() - bare.rgb.size()) / 12);
-    EXPECT_EQ(told["view"]["size_px"], nlohmann::json({320, 120}));
+    EXPECT_EQ(reported["view"]["size_px"], nlohmann::json({320, 120}));
 }
 
 TEST(ShotLegend, ItsViewDrawsItAgain) {
@@ -81,14 +81,15 @@ TEST(ShotLegend, OfAMapIsOpaqueBelowIt) {
 // What explains a frame has a legend without being asked, and needs nothing but a word to have none.
 TEST(ShotLegend, OfShowIsThereByItself) {
     const fs::path folder = oro::test::scratch_folder();
-    const auto told = object_said_by(shot_with_legend(folder / "with.png", {"--show", "levels", "--json"}));
+    const auto reported =
+        object_said_by(shot_with_legend(folder / "with.png", {"--show", "levels", "--json"}));
     const auto none =
         object_said_by(shot_with_legend(folder / "bare.png", {"--show", "levels", "--no-legend", "--json"}));
-    ASSERT_TRUE(told["view"].contains("legend_px"));
+    ASSERT_TRUE(reported["view"].contains("legend_px"));
     EXPECT_FALSE(none["view"].contains("legend_px"));
     const auto bare = pixels_of(folder / "bare.png"), with = pixels_of(folder / "with.png");
     EXPECT_EQ(bare.height, 120U);
-    EXPECT_EQ(with.height, 120U + told["view"]["legend_px"].get<unsigned>());
+    EXPECT_EQ(with.height, 120U + reported["view"]["legend_px"].get<unsigned>());
     EXPECT_TRUE(std::equal(bare.rgb.begin(), bare.rgb.end(), with.rgb.begin()));
     for (const char* name : {"with.png", "bare.png"}) {
         const fs::path again = folder / ("again-" + std::string(name));
@@ -141,8 +142,8 @@ TEST(ShotLegend, OfAFileWithALatin1Name) {
         const auto again = run_orograph({"shot", "--view", (folder / "p.png").string(), "-q"});
         EXPECT_EQ(again.exit_code, 0) << again.err;
     }
-    const auto told = run_orograph({"info", land.string()});
-    EXPECT_NE(told.out.find("Z\xEF\xBF\xBDrich?.tif"), std::string::npos) << told.out;
+    const auto reported = run_orograph({"info", land.string()});
+    EXPECT_NE(reported.out.find("Z\xEF\xBF\xBDrich?.tif"), std::string::npos) << reported.out;
 }
 
 }  // namespace

@@ -40,12 +40,12 @@ Words map(const fs::path& out, const Words& more = {}) {
 
 TEST(ShotOrtho, IsAGeoTiffInItsCrs) {
     const fs::path folder = oro::test::scratch_folder(), out = folder / "m.tif";
-    const auto told = object_said_by(map(out, {"--json", "--resolution", "100"}));
+    const auto reported = object_said_by(map(out, {"--json", "--resolution", "100"}));
     EXPECT_EQ(names_in(folder), (Words{"m.tfw", "m.tif"}));
     // The middle of the region is 84.25 degrees west: zone 16, from 90 to 84 W.
-    EXPECT_EQ(told["map"]["crs"], "EPSG:32616 WGS 84 / UTM zone 16N");
-    EXPECT_EQ(told["map"]["unit"], "metre");
-    EXPECT_EQ(told["view"]["map"]["crs"], "EPSG:32616");
+    EXPECT_EQ(reported["map"]["crs"], "EPSG:32616 WGS 84 / UTM zone 16N");
+    EXPECT_EQ(reported["map"]["unit"], "metre");
+    EXPECT_EQ(reported["view"]["map"]["crs"], "EPSG:32616");
     const auto shown = run_program({"gdalinfo", "-json", out.string()});
     if (shown.exit_code == 127) GTEST_SKIP() << "needs gdalinfo";
     const auto info = oro::test::one_object(shown.out);
@@ -53,7 +53,7 @@ TEST(ShotOrtho, IsAGeoTiffInItsCrs) {
               std::string::npos);
     EXPECT_EQ(info["geoTransform"][1], 100.0);
     EXPECT_EQ(info["geoTransform"][5], -100.0);
-    EXPECT_EQ(info["geoTransform"][0], told["map"]["left"]);
+    EXPECT_EQ(info["geoTransform"][0], reported["map"]["left"]);
     // 0.1 degree is some 9 km by 11 km there.
     EXPECT_NEAR(info["size"][0].get<int>(), 92, 4);
     EXPECT_NEAR(info["size"][1].get<int>(), 113, 4);
@@ -63,7 +63,7 @@ TEST(ShotOrtho, IsAGeoTiffInItsCrs) {
     EXPECT_NEAR(middle[0].get<double>(), -84.3, 0.01);
     EXPECT_NEAR(middle[1].get<double>(), 36.55, 0.01);
     char first[40];
-    std::snprintf(first, sizeof first, "%.17g", told["map"]["left"].get<double>() + 50.0);
+    std::snprintf(first, sizeof first, "%.17g", reported["map"]["left"].get<double>() + 50.0);
     EXPECT_EQ(bytes_of(folder / "m.tfw").find("100\n0\n0\n-100\n" + std::string(first) + "\n"), 0U);
 }
 

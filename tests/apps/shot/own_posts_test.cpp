@@ -91,8 +91,8 @@ TEST(OwnPostsOfShots, AreWithinTauOfTheTruth) {
     const fs::path folder = oro::test::scratch_folder();
     const Outcome shown = run_orograph(shot_of_posts(utm(folder), folder / "a.png", {"--verify", "--json"}));
     ASSERT_EQ(shown.exit_code, 0) << shown.err;
-    const json told = json::parse(shown.out);
-    EXPECT_TRUE(told.dump().find("\"within\":false") == std::string::npos) << told.dump();
+    const json reported = json::parse(shown.out);
+    EXPECT_TRUE(reported.dump().find("\"within\":false") == std::string::npos) << reported.dump();
 }
 
 TEST(OwnPostsOfShots, AreWhatInfoTells) {

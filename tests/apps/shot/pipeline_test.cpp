@@ -77,11 +77,11 @@ TEST_F(Pipeline, IsMeasuredOnceAndRemembered) {
     EXPECT_NE(again["why"].get<std::string>().find("(measured 2026-11-21)"), std::string::npos) << again;
 
     pretend("mesh");
-    const Outcome told = run_orograph({"doctor"}, here());
-    EXPECT_NE(
-        told.out.find("--pipeline auto takes mesh: 2.0 times faster than compute here (measured 2026-11-21)"),
-        std::string::npos)
-        << told.out;
+    const Outcome reported = run_orograph({"doctor"}, here());
+    EXPECT_NE(reported.out.find(
+                  "--pipeline auto takes mesh: 2.0 times faster than compute here (measured 2026-11-21)"),
+              std::string::npos)
+        << reported.out;
 
     json other_driver = json::parse(bytes_of(file));
     other_driver["measured"][0]["driver"] = "another 1.0";
@@ -128,10 +128,10 @@ TEST_F(Pipeline, NothingIsMeasuredWhereThereIsOneWay) {
         EXPECT_EQ(device["auto"]["mesh_ms"], nullptr);
         EXPECT_EQ(device["auto"]["measured"], nullptr);
         EXPECT_EQ(device["auto"]["measured_now"], false);
-        const Outcome told = run_orograph({"doctor"}, one_way);
-        EXPECT_NE(told.out.find(std::string("auto takes ") + way + ": the only way here\n"),
+        const Outcome reported = run_orograph({"doctor"}, one_way);
+        EXPECT_NE(reported.out.find(std::string("auto takes ") + way + ": the only way here\n"),
                   std::string::npos)
-            << told.out;
+            << reported.out;
     }
     EXPECT_FALSE(fs::exists(cache));
 }

@@ -22,11 +22,11 @@ using oro::test::run_orograph;
 using oro::test::Words;
 
 json exif_of(const fs::path& picture) {
-    const Outcome told = oro::test::run_program({"exiftool", "-n", "-j", picture});
-    EXPECT_EQ(told.exit_code, 0) << told.err;
-    EXPECT_EQ(told.err, "");
-    const json list = json::parse(told.out, nullptr, false);
-    EXPECT_TRUE(list.is_array() && list.size() == 1) << told.out;
+    const Outcome reported = oro::test::run_program({"exiftool", "-n", "-j", picture});
+    EXPECT_EQ(reported.exit_code, 0) << reported.err;
+    EXPECT_EQ(reported.err, "");
+    const json list = json::parse(reported.out, nullptr, false);
+    EXPECT_TRUE(list.is_array() && list.size() == 1) << reported.out;
     return list.is_array() && list.size() == 1 ? list[0] : json::object();
 }
 
@@ -139,9 +139,9 @@ TEST_F(Shot, WholeRegionAndSamples) {
 
 TEST_F(Shot, OverwritesOnlyWhenTold) {
     oro::test::write_bytes(folder / "p.png", "mine");
-    Words told = plain_eye;
-    told.push_back("--overwrite");
-    shoot(folder / "p.png", told);
+    Words reported = plain_eye;
+    reported.push_back("--overwrite");
+    shoot(folder / "p.png", reported);
     EXPECT_EQ(bytes_of(folder / "p.png").substr(1, 3), "PNG");
 }
 

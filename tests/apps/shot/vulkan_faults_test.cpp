@@ -124,7 +124,7 @@ std::set<std::string> results_of(const std::string& call, bool first) {
 }
 
 // One clear line, the right exit code, nothing left behind: neither on the disk nor on the device.
-void expect_told(const FaultyRun& run, const std::string& result) {
+void expect_reported(const FaultyRun& run, const std::string& result) {
     EXPECT_EQ(run.faults, 1);
     expect_refusal(run.outcome, failed, {result});
     EXPECT_EQ(run.files, Words{});
@@ -169,7 +169,7 @@ TEST_P(EachCallOfVulkan, FailsWithALineAndNothingLeft) {
                 if (made_do_with_fewer_pages(call, result, run, good)) {
                     ++fewer_pages;
                 } else {
-                    expect_told(run, result);
+                    expect_reported(run, result);
                 }
             }
         }
@@ -207,7 +207,7 @@ TEST(GpuMemory, FewerPagesAreEnoughWhereTheyAre) {
 TEST(WindowFaults, EndItWithALine) {
     const std::string loss = std::string("vkQueuePresentKHR 2 ") + lost;
     const FaultyRun good = run_with_faults(window(), loss);
-    expect_told(good, lost);
+    expect_reported(good, lost);
     for (const char* call :
          {"vkGetPhysicalDeviceSurfaceSupportKHR", "vkGetPhysicalDeviceSurfaceCapabilitiesKHR",
           "vkGetPhysicalDeviceSurfaceFormatsKHR", "vkCreateXcbSurfaceKHR", "vkCreateSemaphore",
@@ -217,7 +217,7 @@ TEST(WindowFaults, EndItWithALine) {
         for (const std::string& result : results_of(call, false)) {
             const std::string fault = std::string(call) + " 1 " + result;
             SCOPED_TRACE(fault);
-            expect_told(run_with_faults(window(), fault), result);
+            expect_reported(run_with_faults(window(), fault), result);
         }
     }
 }

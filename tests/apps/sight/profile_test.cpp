@@ -43,10 +43,10 @@ std::vector<std::vector<double>> rows_of(const std::string& csv) {
 
 TEST(ProfileCommand, ATableHasTheSumsThatAreTold) {
     const fs::path out = oro::test::scratch_folder() / "p.csv";
-    const auto told = object_said_by(
+    const auto reported = object_said_by(
         {"profile", bundled(), "-q", "--json", "--along", line_of_three, "--out", out.string()});
     const auto rows = rows_of(bytes_of(out));
-    ASSERT_EQ(rows.size(), told["points"].get<std::size_t>());
+    ASSERT_EQ(rows.size(), reported["points"].get<std::size_t>());
     double ascent_m = 0.0, descent_m = 0.0, highest_m = -1e9;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         ASSERT_EQ(rows[i].size(), 5U);
@@ -58,9 +58,9 @@ TEST(ProfileCommand, ATableHasTheSumsThatAreTold) {
         const double rise_m = rows[i][3] - rows[i - 1][3];
         (rise_m > 0 ? ascent_m : descent_m) += std::abs(rise_m);
     }
-    EXPECT_NEAR(ascent_m, told["ascent_m"].get<double>(), 1.0);
-    EXPECT_NEAR(descent_m, told["descent_m"].get<double>(), 1.0);
-    EXPECT_NEAR(highest_m, told["highest"]["H_m"].get<double>(), 0.001);
+    EXPECT_NEAR(ascent_m, reported["ascent_m"].get<double>(), 1.0);
+    EXPECT_NEAR(descent_m, reported["descent_m"].get<double>(), 1.0);
+    EXPECT_NEAR(highest_m, reported["highest"]["H_m"].get<double>(), 0.001);
     EXPECT_EQ(rows.front()[0], 0.0);
     // Vincenty's formulae (Survey Review 23, 1975): 14535.0160 m and 7128.3499 m.
     EXPECT_NEAR(rows.back()[0], 14535.0160 + 7128.3499, 1e-3);
@@ -75,8 +75,8 @@ TEST(ProfileCommand, TheSumThatGuidesUseIsToldWithItsThreshold) {
     EXPECT_LT(usual["over_threshold"]["descent_m"].get<double>(), usual["descent_m"].get<double>());
     const auto every = object_said_by(with({"--json", "--climb-threshold", "0"}));
     EXPECT_NEAR(every["over_threshold"]["ascent_m"].get<double>(), every["ascent_m"].get<double>(), 1e-6);
-    const Outcome told = run_orograph(with({"--climb-threshold", "25"}));
-    EXPECT_TRUE(oro::test::says(told.out, " m, in rises and falls of 25 m or more\n")) << told.out;
+    const Outcome reported = run_orograph(with({"--climb-threshold", "25"}));
+    EXPECT_TRUE(oro::test::says(reported.out, " m, in rises and falls of 25 m or more\n")) << reported.out;
     expect_refusal(run_orograph(with({"--climb-threshold", "-1"})), 2,
                    {"--climb-threshold -1: must be between 0 and 10000"});
 }
@@ -107,10 +107,10 @@ TEST(ProfileCommand, ADrawingNamesItsAxesAndItsExaggeration) {
 
 TEST(ProfileCommand, ALineThatLeavesTheDataIsCut) {
     const fs::path out = oro::test::scratch_folder() / "p.geojson";
-    const auto told =
+    const auto reported =
         object_said_by({"profile", bundled(), "-q", "--json", "--along",
                         "36.5,-84.2; 36.5,-83.9; 36.55,-83.9; 36.55,-84.2", "--out", out.string()});
-    EXPECT_GT(told["without_data_m"].get<double>(), 1000.0);
+    EXPECT_GT(reported["without_data_m"].get<double>(), 1000.0);
     const auto feature = nlohmann::json::parse(bytes_of(out));
     EXPECT_EQ(feature["type"], "Feature");
     EXPECT_EQ(feature["geometry"]["type"], "MultiLineString");
@@ -225,8 +225,8 @@ TEST(ProfileCommand, AMillionPlacesAreALine) {
                 << "]";
         out << "]}}";
     }
-    const auto told = object_said_by({"profile", bundled(), "-q", "--json", "--along", path.string()});
-    EXPECT_EQ(told["places"], 1000000);
+    const auto reported = object_said_by({"profile", bundled(), "-q", "--json", "--along", path.string()});
+    EXPECT_EQ(reported["places"], 1000000);
 }
 
 TEST(ProfileCommand, WhatIsWrongIsSaidInOneLine) {

@@ -16,20 +16,20 @@ using oro::test::Outcome;
 using oro::test::run_orograph;
 using oro::test::Words;
 
-nlohmann::json told(Words words) {
+nlohmann::json reported(Words words) {
     words.insert(words.begin(), {"sight", bundled(), "--json", "-q"});
     return object_said_by(words);
 }
 
 TEST(SightCommand, AHiddenTargetIsSeenFromSoMuchHigherUp) {
-    const auto hidden = told({"--from", "36.5,-84.2", "--to", "36.55,-84.35", "--target", "2"});
+    const auto hidden = reported({"--from", "36.5,-84.2", "--to", "36.55,-84.35", "--target", "2"});
     ASSERT_FALSE(hidden["visible"].get<bool>());
     const double by_m = hidden["target_missed_by_m"], eye_by_m = hidden["eye_missed_by_m"];
     EXPECT_GT(by_m, 1.0);
     EXPECT_LT(hidden["clearance"]["least_m"].get<double>(), 0.0);
     const auto higher = [&](const char* option, double height_m) {
-        return told({"--from", "36.5,-84.2", "--to", "36.55,-84.35", option, std::to_string(height_m),
-                     option == std::string("--target") ? "--above" : "--target", "2"})["visible"]
+        return reported({"--from", "36.5,-84.2", "--to", "36.55,-84.35", option, std::to_string(height_m),
+                         option == std::string("--target") ? "--above" : "--target", "2"})["visible"]
             .get<bool>();
     };
     EXPECT_TRUE(higher("--target", 2.0 + by_m + 0.001));
@@ -43,7 +43,7 @@ TEST(SightCommand, AHiddenTargetIsSeenFromSoMuchHigherUp) {
 
 // By Vincenty's formulae (Survey Review 23, 1975): 14535.0160 m at 292.4854484 degrees.
 TEST(SightCommand, DistanceAndDirectionAreTheGeodesics) {
-    const auto sight = told({"--from", "36.5,-84.2", "--to", "36.55,-84.35", "--above", "500"});
+    const auto sight = reported({"--from", "36.5,-84.2", "--to", "36.55,-84.35", "--above", "500"});
     EXPECT_NEAR(sight["distance_m"].get<double>(), 14535.0160, 1e-4);
     EXPECT_NEAR(sight["azimuth_deg"].get<double>(), 292.4854484, 1e-7);
 }
@@ -52,7 +52,7 @@ TEST(SightCommand, LightBendsAsItIsAsked) {
     const Words line{"--from", "36.5,-84.2", "--to", "36.55,-84.35", "--above", "500"};
     const auto with = [&](Words more) {
         more.insert(more.begin(), line.begin(), line.end());
-        return told(more);
+        return reported(more);
     };
     const auto straight = with({"--refraction", "0"}), bent = with({"--refraction", "0.13"});
     EXPECT_EQ(straight["light"]["k"], 0.0);

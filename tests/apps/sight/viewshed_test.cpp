@@ -40,10 +40,11 @@ Words values_at(const fs::path& file, const std::string& lon, const std::string&
 
 TEST(ViewshedCommand, IsAGeoTiffThatSaysWhatSightSays) {
     const fs::path out = oro::test::scratch_folder() / "v.tif";
-    const auto told = object_said_by({"viewshed", bundled(), "-q", "--json", "--at", "36.5,-84.2", "--above",
-                                      "30", "--target", "2", "--radius", "8", "--out", out.string()});
-    EXPECT_GT(told["seen"].get<int>(), 100);
-    EXPECT_LT(told["seen"].get<int>(), told["cells"].get<int>());
+    const auto reported =
+        object_said_by({"viewshed", bundled(), "-q", "--json", "--at", "36.5,-84.2", "--above", "30",
+                        "--target", "2", "--radius", "8", "--out", out.string()});
+    EXPECT_GT(reported["seen"].get<int>(), 100);
+    EXPECT_LT(reported["seen"].get<int>(), reported["cells"].get<int>());
     const auto info = run_program({"gdalinfo", "-json", out.string()});
     if (info.exit_code == 127) GTEST_SKIP() << "needs gdalinfo";
     const auto raster = oro::test::one_object(info.out);
@@ -51,14 +52,14 @@ TEST(ViewshedCommand, IsAGeoTiffThatSaysWhatSightSays) {
     EXPECT_EQ(raster["bands"].size(), 2U);
     EXPECT_EQ(raster["bands"][0]["noDataValue"], -9999.0);
     EXPECT_EQ(raster["metadata"][""]["TARGET_ABOVE_GROUND_M"], "2");
-    EXPECT_EQ(raster["size"][0], told["columns"]);
+    EXPECT_EQ(raster["size"][0], reported["columns"]);
     const auto corners = raster["geoTransform"];
     // Of some posts, seen and hidden: what sight says of the same place.
     int compared = 0;
     for (int step = -6; step <= 6; ++step) {
         if (step == 0) continue;
-        const double column = told["columns"].get<int>() / 2 + step * 9,
-                     row = told["rows"].get<int>() / 2 + step * 5;
+        const double column = reported["columns"].get<int>() / 2 + step * 9,
+                     row = reported["rows"].get<int>() / 2 + step * 5;
         const double lon = corners[0].get<double>() + (column + 0.5) * corners[1].get<double>();
         const double lat = corners[3].get<double>() + (row + 0.5) * corners[5].get<double>();
         char to[80], east[40], north[40];
@@ -84,10 +85,10 @@ TEST(ViewshedCommand, OfAProjectedFileLiesOnItsOwnPosts) {
                                      "bilinear", "-dstnodata", "-9999", bundled(), utm});
     if (warped.exit_code == 127) GTEST_SKIP() << "needs gdalwarp";
     const fs::path out = folder / "v.tif";
-    const auto told = object_said_by({"viewshed", utm, "-q", "--json", "--at", "36.55,-84.25", "--above",
-                                      "30", "--target", "2", "--radius", "6", "--out", out.string()});
-    EXPECT_GT(told["seen"].get<int>(), 100);
-    EXPECT_LT(told["seen"].get<int>(), told["cells"].get<int>());
+    const auto reported = object_said_by({"viewshed", utm, "-q", "--json", "--at", "36.55,-84.25", "--above",
+                                          "30", "--target", "2", "--radius", "6", "--out", out.string()});
+    EXPECT_GT(reported["seen"].get<int>(), 100);
+    EXPECT_LT(reported["seen"].get<int>(), reported["cells"].get<int>());
     const auto raster = oro::test::one_object(run_program({"gdalinfo", "-json", out.string()}).out);
     const auto source = oro::test::one_object(run_program({"gdalinfo", "-json", utm}).out);
     EXPECT_EQ(raster["coordinateSystem"]["wkt"], source["coordinateSystem"]["wkt"]);
@@ -100,8 +101,8 @@ TEST(ViewshedCommand, OfAProjectedFileLiesOnItsOwnPosts) {
     int compared = 0;
     for (int step = -6; step <= 6; ++step) {
         if (step == 0) continue;
-        const double column = told["columns"].get<int>() / 2 + step * 9,
-                     row = told["rows"].get<int>() / 2 + step * 5;
+        const double column = reported["columns"].get<int>() / 2 + step * 9,
+                     row = reported["rows"].get<int>() / 2 + step * 5;
         char x[40], y[40];
         std::snprintf(x, sizeof x, "%.3f", is[0].get<double>() + (column + 0.5) * 80.0);
         std::snprintf(y, sizeof y, "%.3f", is[3].get<double>() - (row + 0.5) * 80.0);

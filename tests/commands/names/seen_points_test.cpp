@@ -168,9 +168,9 @@ TEST(SeenPoints, HaveTheirOwnHeightWhereItCanBe) {
     }
     const double N_m = stage->region->grids[0].field.undulation.at_m(hit->point.lat_deg, hit->point.lon_deg),
                  ground_H_m = hit->point.h_m - N_m;
-    const auto seen_as = [&](HeightAbove heights, double height_m, std::optional<double> told) {
+    const auto seen_as = [&](HeightAbove heights, double height_m, std::optional<double> reported) {
         NamedPoint point = named("p", hit->point.lat_deg, hit->point.lon_deg);
-        point.heights = heights, point.height_m = height_m, point.told_H_m = told;
+        point.heights = heights, point.height_m = height_m, point.stated_H_m = reported;
         PointCounts counts;
         const auto seen = view.seen({point}, counts);
         EXPECT_EQ(seen.size(), 1U);

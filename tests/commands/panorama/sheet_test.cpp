@@ -13,7 +13,7 @@
 namespace oro {
 namespace {
 
-Sheet ruled(const Cylinder& around, const Rulers& rulers, const std::string& told = "eye") {
+Sheet ruled(const Cylinder& around, const Rulers& rulers, const std::string& reported = "eye") {
     const auto face = TextFace::open();
     EXPECT_TRUE(face.ok());
     Sheet sheet;
@@ -21,7 +21,7 @@ Sheet ruled(const Cylinder& around, const Rulers& rulers, const std::string& tol
     sheet.scene_top_px = 40;
     sheet.scene_rows_px = around.height_px();
     sheet.height_px = sheet.scene_top_px + sheet.scene_rows_px + rulers.strip_px();
-    EXPECT_TRUE(put_rulers(rulers, around, *face, told, "data", sheet).ok());
+    EXPECT_TRUE(put_rulers(rulers, around, *face, reported, "data", sheet).ok());
     return sheet;
 }
 

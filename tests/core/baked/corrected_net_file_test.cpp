@@ -45,7 +45,7 @@ TEST(CorrectedNetFile, BringsBackPostsPagesAndPlaces) {
     ASSERT_TRUE(opened.ok()) << opened.error().line();
     ASSERT_TRUE(opened->verify().ok());
     const auto file = std::make_shared<const RegionFile>(std::move(*opened));
-    const GridNet &was = *field.grid.net, &is = *file->outline().grid.net;
+    const LatticeGeoreference &was = *field.grid.net, &is = *file->outline().grid.net;
     const auto corrections = was.stored().corrections;
     ASSERT_GT(corrections.size(), 2U);
     EXPECT_EQ(is.stored().corrections.size(), corrections.size());
@@ -134,29 +134,33 @@ TEST(CorrectedNetFile, RefusesBytesThatAreNoCorrections) {
 
 // Numbers that unpack well.
 TEST(CorrectedNetFile, RefusesCorrectionsThatAreNone) {
-    const GridNet::Stored stored = kinked_net_of(kinked)->stored();
-    const auto refusal_with = [&](const std::function<void(GridNet::Stored&)>& change) {
-        GridNet::Stored changed = stored;
+    const LatticeGeoreference::Stored stored = kinked_net_of(kinked)->stored();
+    const auto refusal_with = [&](const std::function<void(LatticeGeoreference::Stored&)>& change) {
+        LatticeGeoreference::Stored changed = stored;
         change(changed);
-        const auto net = GridNet::from(changed);
+        const auto net = LatticeGeoreference::from(changed);
         return net.ok() ? "" : net.error().what;
     };
-    EXPECT_EQ(refusal_with([](GridNet::Stored&) {}), "");
+    EXPECT_EQ(refusal_with([](LatticeGeoreference::Stored&) {}), "");
     for (const std::int16_t most : {std::int16_t{32767}, std::int16_t{-32768}})
-        EXPECT_TRUE(says(refusal_with([&](GridNet::Stored& net) { net.corrections[0].posts[100][1] = most; }),
-                         "moves a post by more than 95 mm"));
-    EXPECT_TRUE(says(refusal_with([](GridNet::Stored& net) { net.corrections[0].posts[100][1] = 30000; }),
-                     "jumps from one post to the next"));
-    EXPECT_TRUE(says(refusal_with([](GridNet::Stored& net) { net.corrections[1].posts.pop_back(); }),
-                     " posts, expected "));
+        EXPECT_TRUE(says(
+            refusal_with([&](LatticeGeoreference::Stored& net) { net.corrections[0].posts[100][1] = most; }),
+            "moves a post by more than 95 mm"));
+    EXPECT_TRUE(
+        says(refusal_with([](LatticeGeoreference::Stored& net) { net.corrections[0].posts[100][1] = 30000; }),
+             "jumps from one post to the next"));
+    EXPECT_TRUE(
+        says(refusal_with([](LatticeGeoreference::Stored& net) { net.corrections[1].posts.pop_back(); }),
+             " posts, expected "));
     // All of a patch moved by 3 mm: it meets no other.
-    EXPECT_TRUE(says(refusal_with([](GridNet::Stored& net) {
+    EXPECT_TRUE(says(refusal_with([](LatticeGeoreference::Stored& net) {
                          for (auto& post : net.corrections[0].posts) post[2] += 1000;
                      }),
                      "do not meet"));
-    EXPECT_TRUE(
-        says(refusal_with([](GridNet::Stored& net) { net.corrections.erase(net.corrections.begin()); }),
-             "do not meet"));
+    EXPECT_TRUE(says(refusal_with([](LatticeGeoreference::Stored& net) {
+                         net.corrections.erase(net.corrections.begin());
+                     }),
+                     "do not meet"));
 }
 
 // Any numbers at all: a net or a refusal, and no place that is no number.

@@ -20,7 +20,7 @@ namespace {
 using namespace test;
 
 // The middle of a net in several patches: 300 x 420 posts.
-std::shared_ptr<const GridNet> middle_of_net(double middle_lon_deg) {
+std::shared_ptr<const LatticeGeoreference> middle_of_net(double middle_lon_deg) {
     const auto part = net_of({700, 900, {46.5, middle_lon_deg}, 2500.0, 12.0})->part(200, 300, 300, 420);
     EXPECT_TRUE(part.ok());
     return *part;
@@ -68,7 +68,7 @@ TEST(NetFile, BringsBackPostsPagesAndPlaces) {
     ASSERT_TRUE(opened.ok()) << opened.error().line();
     ASSERT_TRUE(opened->verify().ok());
     const auto file = std::make_shared<const RegionFile>(std::move(*opened));
-    const GridNet &was = *field.grid.net, &is = *file->outline().grid.net;
+    const LatticeGeoreference &was = *field.grid.net, &is = *file->outline().grid.net;
     ASSERT_GT(was.stored().coefficients.size(), 81U) << "several patches";
     EXPECT_EQ(is.row_m(), was.row_m());
     EXPECT_EQ(is.bend(), was.bend());

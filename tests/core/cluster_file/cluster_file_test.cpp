@@ -60,7 +60,7 @@ TEST(ClusterFile, WindowOfARegion) {
     ASSERT_TRUE(read.ok()) << read.error().line();
     expect_same(*read, graph);
     EXPECT_GT(std::count_if(graph.groups.begin(), graph.groups.end(),
-                            [](const ClusterGroup& group) { return !group.whole; }),
+                            [](const ClusterGroup& group) { return !group.complete; }),
               0);
 }
 

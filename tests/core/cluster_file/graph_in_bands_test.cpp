@@ -63,7 +63,7 @@ TEST(GraphInBands, WindowOfARegion) {
     const ClusterGraph graph = build_cluster_graph(window, terrain.bounds);
     ASSERT_GE(graph.levels.size(), 4U);
     const auto whole = std::count_if(graph.groups.begin(), graph.groups.end(),
-                                     [](const ClusterGroup& group) { return group.whole; });
+                                     [](const ClusterGroup& group) { return group.complete; });
     EXPECT_GT(whole, 100);
     EXPECT_LT(whole, static_cast<std::ptrdiff_t>(graph.groups.size()) - 20);
     expect_same_in_bands(terrain, window);

@@ -83,7 +83,7 @@ inline void expect_same(const ClusterGraph& a, const ClusterGraph& b) {
         EXPECT_EQ(of_a.members, of_b.members);
         EXPECT_EQ(of_a.first_made, of_b.first_made);
         EXPECT_EQ(of_a.made, of_b.made);
-        EXPECT_EQ(of_a.whole, of_b.whole);
+        EXPECT_EQ(of_a.complete, of_b.complete);
     }
     ASSERT_EQ(a.levels.size(), b.levels.size());
     for (std::size_t i = 0; i < a.levels.size(); ++i)

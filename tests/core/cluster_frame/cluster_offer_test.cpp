@@ -26,31 +26,31 @@ class ClusterOffers : public test::StreamedChoices {
     }
     // By loops over all of the graph: groups that give way, but may stand: all that they made, and that all
     // above them made, is here, as far as it can be seen.
-    Numbers may_stand(RegionClusters& region, const ClusterView& view, const Numbers& gave_way,
+    Numbers may_stand(RegionClusters& region, const ClusterView& view, const Numbers& all_deselected,
                       const Numbers& here) {
-        Numbers may = gave_way;
+        Numbers may = all_deselected;
         for (bool changed = true; changed;) {
             changed = std::erase_if(may, [&](std::uint32_t number) {
-                          return lacks(region, view, number, gave_way, here) ||
-                                 lower_must_give_way(number, gave_way, may);
+                          return lacks(region, view, number, all_deselected, here) ||
+                                 lower_must_be_deselected(number, all_deselected, may);
                       }) > 0;
         }
         return may;
     }
-    bool lacks(RegionClusters& region, const ClusterView& view, std::uint32_t number, const Numbers& gave_way,
-               const Numbers& here) {
+    bool lacks(RegionClusters& region, const ClusterView& view, std::uint32_t number,
+               const Numbers& all_deselected, const Numbers& here) {
         const ClusterGroup& group = graph_.groups[number];
         for (std::uint32_t made = group.first_made; made < group.first_made + group.made; ++made) {
             const std::uint32_t user = graph_.clusters[made].used_by;
-            if (user != no_group && !gave_way.contains(user)) continue;
+            if (user != no_group && !all_deselected.contains(user)) continue;
             if (!here.contains(made) && view.look_at(*region.reach(made)).seen == Seen::yes) return true;
         }
         return false;
     }
-    bool lower_must_give_way(std::uint32_t number, const Numbers& gave_way, const Numbers& may) {
+    bool lower_must_be_deselected(std::uint32_t number, const Numbers& all_deselected, const Numbers& may) {
         return std::ranges::any_of(graph_.members_of(graph_.groups[number]), [&](std::uint32_t member) {
             const std::uint32_t maker = graph_.clusters[member].made_by;
-            return maker != no_group && gave_way.contains(maker) && !may.contains(maker);
+            return maker != no_group && all_deselected.contains(maker) && !may.contains(maker);
         });
     }
 };
@@ -72,7 +72,7 @@ TEST_F(ClusterOffers, AreACutByAnyRuleThatAsksForLess) {
             if (unit(random) <= here_share) here.insert(cluster);
         const Camera camera = test::random_camera(random, terrain_.field);
         const ClusterView eye = view(camera, 1.0);
-        const Numbers gave_way = brute_force(*region, eye, here);
+        const Numbers all_deselected = brute_force(*region, eye, here);
         const StreamedChoice choice = choose(*region, eye, 1'000'000, here);
         EXPECT_EQ(cut_of_offer(choice.offer, choice.offer.rule).clusters, choice.drawn.clusters);
         asked += choice.offer.asked.size();
@@ -80,17 +80,17 @@ TEST_F(ClusterOffers, AreACutByAnyRuleThatAsksForLess) {
         const ClusterOffer waits = offer_of(choice.drawn);
         EXPECT_TRUE(waits.asked.empty());
         EXPECT_EQ(cut_of_offer(waits, choice.offer.rule).clusters, choice.drawn.clusters);
-        const Numbers may = may_stand(*region, eye, gave_way, here);
+        const Numbers may = may_stand(*region, eye, all_deselected, here);
         for (const ClusterView& other :
              {view(camera, 1.5), view(camera, 8.0), view(camera, 1.0, 1 + i % 6)}) {
-            Numbers gives_way = gave_way;
-            std::erase_if(gives_way, [&](std::uint32_t group) {
+            Numbers deselected = all_deselected;
+            std::erase_if(deselected, [&](std::uint32_t group) {
                 return may.contains(group) && other.stands(graph_.groups[group]);
             });
             const ClusterChoice cut = cut_of_offer(choice.offer, other.cut_rule());
-            expect_cut(*region, eye, whole, gives_way, cut);
-            coarser += gives_way.size() < gave_way.size() ? 1 : 0;
-            bound += may.size() < gave_way.size() ? 1 : 0;
+            expect_cut(*region, eye, whole, deselected, cut);
+            coarser += deselected.size() < all_deselected.size() ? 1 : 0;
+            bound += may.size() < all_deselected.size() ? 1 : 0;
         }
     }
     std::printf("seed %u: 14 eyes, %zu groups asked, %zu of 42 cuts coarser than the frame's, %zu bound\n",

@@ -74,12 +74,12 @@ TEST_F(HeldOfAGraph, HiddenOnesGiveWayFirst) {
         held_.begin_frame();
         put(group);
     }
-    held_.note_hidden({2, 3, 4, no_group});  // the last: of a cluster alone, which no group made or uses
+    held_.mark_occluded({2, 3, 4, no_group});  // the last: of a cluster alone, which no group made or uses
     held_.begin_frame();
     held_.use(3);
     put(4);
     EXPECT_EQ(here(), (test::Numbers{0, 1, 3, 4}));
-    held_.note_hidden({});
+    held_.mark_occluded({});
     held_.begin_frame();
     put(2);
     EXPECT_EQ(here(), (test::Numbers{1, 2, 3, 4}));

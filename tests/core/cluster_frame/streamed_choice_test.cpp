@@ -36,10 +36,10 @@ TEST_F(StreamedChoices, CoverEachPlaceOnceWhateverIsHere) {
         }
         const Camera camera = test::random_camera(random, terrain_.field);
         const ClusterView eye = view(camera, i % 2 == 0 ? 1.0 : 4.0);
-        const Numbers gave_way = brute_force(*region, eye, here);
+        const Numbers deselected = brute_force(*region, eye, here);
         const StreamedChoice choice = choose(*region, eye, 1'000'000, here);
         for (const std::uint32_t cluster : choice.drawn.clusters) EXPECT_TRUE(here.contains(cluster));
-        expect_cut(*region, eye, whole, gave_way, choice.drawn);
+        expect_cut(*region, eye, whole, deselected, choice.drawn);
         EXPECT_EQ(choice.without_room, 0U);
         drawn += choice.drawn.clusters.size();
         (choice.missing > 0 ? coarser : whole_cuts) += 1;
@@ -189,7 +189,7 @@ TEST_F(StreamedChoices, WhatIsHiddenComesLast) {
             return !at->second.first && at->second.second;
         };
         is_hidden = [&](std::uint32_t cluster) {
-            if (const auto told = shown.find(cluster); told != shown.end()) return !told->second;
+            if (const auto reported = shown.find(cluster); reported != shown.end()) return !reported->second;
             const std::uint32_t user = graph_.clusters[cluster].used_by;
             return user != no_group && is_group_hidden(user);
         };

@@ -37,7 +37,7 @@ class StreamedChoices : public ::testing::Test {
     }
     static StreamedChoice choose(RegionClusters& region, const ClusterView& view, std::size_t room,
                                  const Numbers& here, const ShownClusters& shown = {}) {
-        auto choice = choose_clusters_here(
+        auto choice = select_resident_cut(
             region, view, room, [&](std::uint32_t c) { return here.contains(c); }, shown);
         EXPECT_TRUE(choice.ok()) << choice.error().line();
         return std::move(choice).value();
@@ -81,9 +81,9 @@ class StreamedChoices : public ::testing::Test {
     // The clusters that are drawn are those of a cut that covers each place once, but for what cannot be
     // seen.
     void expect_cut(RegionClusters& region, const ClusterView& view, const Whole& whole,
-                    const Numbers& gave_way, const ClusterChoice& drawn) {
+                    const Numbers& deselected, const ClusterChoice& drawn) {
         std::vector<char> stands(graph_.groups.size(), 1);
-        for (const std::uint32_t group : gave_way) stands[group] = 0;
+        for (const std::uint32_t group : deselected) stands[group] = 0;
         const auto cut = cut_of(graph_, stands);
         expect_cover(terrain_, whole, cut);
         const Numbers chosen(drawn.clusters.begin(), drawn.clusters.end());

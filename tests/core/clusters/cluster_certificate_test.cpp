@@ -57,7 +57,7 @@ class Check {
         const bool north_west = row - cell_row + column - cell_column <= 1.0;
         std::array corners = south_west ? std::array{post(0, 0), post(1, 1), post(1, 0)}
                                         : std::array{post(0, 0), post(0, 1), post(1, 1)};
-        if (test::rises_by_rule(terrain_.field, cell_row, cell_column))
+        if (test::sw_ne_by_rule(terrain_.field, cell_row, cell_column))
             corners = north_west ? std::array{post(0, 0), post(0, 1), post(1, 0)}
                                  : std::array{post(0, 1), post(1, 1), post(1, 0)};
         const FlatTriangle3 original(terrain_.bounds, corners);

@@ -22,7 +22,7 @@ TEST(ClusterWalk, TellsWhatIsOpen) {
     walk.add(0, 1, 3);
     EXPECT_EQ(walk.open_edges(0), 2);
     EXPECT_EQ(walk.open_edges(2), 0);
-    EXPECT_FALSE(walk.is_told(2));
+    EXPECT_FALSE(walk.is_coded(2));
     EXPECT_FALSE(walk.may_be(1, 3, 2));  // has the edge from 1 to 3 already
     EXPECT_TRUE(walk.may_be(3, 1, 2));
     const auto edge = walk.next();

@@ -187,9 +187,9 @@ TEST(ClusterGraph, SpikesAsHighAsHeightsGo) {
 // Round the Earth the first and the last column are the same posts: whatever is drawn has all of them.
 TEST(ClusterGraph, RoundTheEarthTheSeamStays) {
     const HeightField field = made_field(60.0, -180.0, 0.5, 40, 181, rough_H_m);
-    ASSERT_TRUE(field.grid.goes_round());
+    ASSERT_TRUE(field.grid.wraps_longitude());
     const DrawnHeights heights = drawn_heights(field, 1.0, 1);
-    const GridSurface surface(heights, {.goes_round = true});
+    const GridSurface surface(heights, {.wraps_longitude = true});
     const ClusterGraph graph = build_cluster_graph(surface, GridBounds(field.grid, heights.highest_steps));
     for (const double error_m : {0.0, 1.0e4, 1.0e9}) {
         std::set<VertexNumber> drawn;

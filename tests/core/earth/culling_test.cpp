@@ -188,29 +188,29 @@ struct Tally {
 };
 
 // What a frame does to one meshlet.
-struct Verdict {
+struct CullResult {
     bool beyond_frustum;
     bool beyond_horizon;
 };
-Verdict verdict_on(const Place& place, const Camera& camera, const Tile& tile, int meshlet) {
+CullResult cull_result_of(const Place& place, const Camera& camera, const Tile& tile, int meshlet) {
     const Result<GridPlan> plan =
         plan_grid(*place.pages, [](const PageIndex&) { return 1U; }, {camera, tile, 0.0});
     EXPECT_TRUE(plan.ok());
     if (plan->pages.empty()) return {plan->pages_beyond_frustum == 1, plan->pages_beyond_horizon == 1};
     const gpu::FramePage& page = plan->pages[0];
     const gpu::MeshletBounds& bounds = place.block.meshlets[meshlet];
-    // As shaders/choose/verdict.glsl.
-    Verdict verdict{false, false};
+    // As shaders/choose/cull_result.glsl.
+    CullResult cull_result{false, false};
     for (const gpu::vec4& plane : page.planes) {
         const bool beyond = gpu::sphere_beyond_plane_cpu(bounds.centre, bounds.radius, plane);
-        verdict.beyond_frustum =
-            verdict.beyond_frustum || ((page.cull & gpu::cull_by_frustum) != 0 && beyond);
+        cull_result.beyond_frustum =
+            cull_result.beyond_frustum || ((page.cull & gpu::cull_by_frustum) != 0 && beyond);
     }
-    verdict.beyond_horizon =
+    cull_result.beyond_horizon =
         (page.cull & gpu::cull_by_horizon) != 0 &&
         gpu::beyond_horizon_cpu(page.horizon_direction - bounds.horizon_offset,
                                 plan->constants.horizon_angle_rad, bounds.horizon_angle_rad);
-    return verdict;
+    return cull_result;
 }
 
 // Is any post of the meshlet not behind the occluder?
@@ -244,23 +244,23 @@ void judge(const Place& place, std::mt19937_64& random, Tally& tally) {
     const Camera aimed = aimed_camera(eye, place.post(meshlet, static_cast<int>(random() % 81)));
     const Tile picture{0, 0, aimed.width_px, aimed.height_px, {0.5, 0.5}};
     ++tally.meshlets;
-    const Verdict aimed_verdict = verdict_on(place, aimed, picture, meshlet);
+    const CullResult aimed_cull_result = cull_result_of(place, aimed, picture, meshlet);
     const bool above_horizon = any_above_horizon(place, aimed.eye_ecef(), meshlet);
-    tally.frustum_lost += aimed_verdict.beyond_frustum ? 1 : 0;  // one post is in the picture's centre
-    tally.horizon_lost += aimed_verdict.beyond_horizon && above_horizon ? 1 : 0;
+    tally.frustum_lost += aimed_cull_result.beyond_frustum ? 1 : 0;  // one post is in the picture's centre
+    tally.horizon_lost += aimed_cull_result.beyond_horizon && above_horizon ? 1 : 0;
     tally.horizon_hidden += above_horizon ? 0 : 1;
-    tally.horizon_kept += !above_horizon && !aimed_verdict.beyond_horizon ? 1 : 0;
+    tally.horizon_kept += !above_horizon && !aimed_cull_result.beyond_horizon ? 1 : 0;
 
     const Camera wandering = wandering_camera(random, aimed);
     const Tile tile = random_tile(random, wandering, place, meshlet);
-    const Verdict verdict = verdict_on(place, wandering, tile, meshlet);
+    const CullResult cull_result = cull_result_of(place, wandering, tile, meshlet);
     const bool in_frustum = any_in_frustum(place, wandering, tile, meshlet);
-    tally.horizon_lost += verdict.beyond_horizon && above_horizon ? 1 : 0;
-    tally.frustum_lost += verdict.beyond_frustum && in_frustum ? 1 : 0;
+    tally.horizon_lost += cull_result.beyond_horizon && above_horizon ? 1 : 0;
+    tally.frustum_lost += cull_result.beyond_frustum && in_frustum ? 1 : 0;
     // A page that the horizon hides is not asked for its place in the picture.
-    if (verdict.beyond_horizon) return;
+    if (cull_result.beyond_horizon) return;
     tally.frustum_hidden += in_frustum ? 0 : 1;
-    tally.frustum_kept += !in_frustum && !verdict.beyond_frustum ? 1 : 0;
+    tally.frustum_kept += !in_frustum && !cull_result.beyond_frustum ? 1 : 0;
 }
 
 Tally judge_many(unsigned seed, int places, int cameras_per_place,

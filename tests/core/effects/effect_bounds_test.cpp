@@ -63,7 +63,7 @@ DrawingModel balanced() {
 }
 
 TEST(EffectBounds, AreInTheDrawingsThatLeaveThingsOut) {
-    const TrueWorld world;
+    const EarthParameters world;
     const auto in = [&](const DrawingModel& drawing) {
         std::vector<EffectKind> kinds;
         for (const EffectFacts& effect : effect_table()) {
@@ -94,7 +94,7 @@ TEST(EffectBounds, AreInTheDrawingsThatLeaveThingsOut) {
 
 // A flat Earth is no ellipsoid either: the picture has neither, though only the plane's error counts.
 TEST(EffectBounds, WhatALargerEffectContainsIsNotModelled) {
-    const TrueWorld world;
+    const EarthParameters world;
     const auto not_modelled = [&](const DrawingModel& drawing) {
         std::vector<EffectKind> kinds;
         for (const EffectFacts& effect : effect_table()) {
@@ -132,7 +132,7 @@ TEST(EffectTable, SaysAllOfEveryEffect) {
 
 // The sum of what is in, but for what no drawing can help.
 TEST(EffectBounds, TotalIsTheSum) {
-    TrueWorld world;
+    EarthParameters world;
     world.grids.front().source_le90_m = 16.0;
     world.grids.front().sixteen = sixteen_bits(height_steps(-1000.0), height_steps(5000.0));
     HeightField field = test::rough_field(0.3, 0.2, 241, 241);
@@ -174,7 +174,7 @@ TEST(EffectBounds, TotalIsTheSum) {
 
 // Nothing but sky: sizes of 0, none of them no number.
 TEST(EffectBounds, OfTheSkyThereAreNone) {
-    TrueWorld world;
+    EarthParameters world;
     world.grids.front().source_le90_m = 16.0;
     Camera camera = half_way_down();
     camera.attitude.pitch_deg = 60.0;

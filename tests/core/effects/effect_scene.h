@@ -17,7 +17,7 @@ struct EffectScene {
     std::unique_ptr<RegionPages> pages;
     EffectPrediction prediction;
 
-    EffectScene(HeightField of, const Camera& camera, const TrueWorld& world = {})
+    EffectScene(HeightField of, const Camera& camera, const EarthParameters& world = {})
         : field(std::move(of)),
           surface(field, 1.0, thread_count()),
           pages(pages_in_memory(field, 1.0, thread_count())),

@@ -104,7 +104,7 @@ TEST(Effects, GeoidThatIsTheSameEverywhere) {
 // 16 bits with a step of 2^11 / 2,048 m = 1 m: what a height is off them. 1.207107 * 0.25 / 2,000
 // = 1.50889e-4 px. Steps of 1 / 2,048 m: half of one is 0.000244 m.
 TEST(Effects, StepsOfHeights) {
-    TrueWorld world;
+    EarthParameters world;
     world.grids.front().sixteen = {true, 11, 0};
     // 0.25 m goes to the step of 0 m: 0.25 m off, everywhere.
     const Scene scene(test::level_at(0.25), half_way_down(), world);
@@ -122,7 +122,7 @@ TEST(Effects, StepsOfHeights) {
 // A step is as fine as 65,534 of them allow: 4,000 m in steps of 2^-11 m are 8,192,000, 2^7 of them 125 to a
 // code: shift 7, a step of 0.0625 m, at most 0.03125 m off.
 TEST(Effects, SixteenBitsOfAKnownRange) {
-    TrueWorld world;
+    EarthParameters world;
     world.grids.front().sixteen = sixteen_bits(height_steps(0.0), height_steps(4000.0));
     ASSERT_EQ(world.grids.front().sixteen.shift, 7);
     // 0.02 m goes to 0, 0.05 m to 0.0625.
@@ -162,7 +162,7 @@ TEST(Effects, SlopesMultiply) {
 // The source's own figure, as it is stated; half of a normal distribution's errors are within 0.6745 / 1.6449
 // = 0.41 of it. Source: M. Abramowitz, I. Stegun, Handbook of Mathematical Functions, 1964, table 26.5.
 TEST(Effects, SourceSaysItsAccuracyOrNothing) {
-    TrueWorld world;
+    EarthParameters world;
     const Scene silent(sea_level(), half_way_down(), world);
     const auto none = silent.prediction.size(EffectKind::source, 1.0);
     ASSERT_TRUE(none.ok());

@@ -171,7 +171,7 @@ TEST(FrameChoice, MeetsItselfRoundTheEarth) {
                                         {420, 209},
                                         {640, 150}}) {
         const Region region(round_field(columns, rows));
-        ASSERT_TRUE(region.pyramid.goes_round);
+        ASSERT_TRUE(region.pyramid.wraps_longitude);
         const PyramidPages pages(region.field, region.unhidden);
         for (int i = 0; i < 40; ++i) {
             Camera camera = random_camera(random, region);
@@ -290,7 +290,7 @@ TEST(FrameChoice, HasNoGapsWhateverIsMissing) {
     std::mt19937_64 random(seed);
     const Region regions[] = {Region(patchy_field(1100, 1050)), Region(round_field(600, 300)),
                               Region(round_field(380, 189)), Region(patchy_with_voids())};
-    std::size_t missing = 0, stitched = 0, stand_ins = 0, waiting = 0;
+    std::size_t missing = 0, stitched = 0, fallbacks = 0, waiting = 0;
     for (int i = 0; i < 400; ++i) {
         const Region& region = regions[i % 4];
         const bool with_voids = i % 4 == 3;
@@ -313,11 +313,11 @@ TEST(FrameChoice, HasNoGapsWhateverIsMissing) {
         missing += plan.missing.size();
         waiting += plan.pages_wanted - plan.missing.size() - plan.pages.size();
         for (const DrawnNode& node : drawn) stitched += node.edges != 0 ? 1 : 0;
-        for (const gpu::FramePage& page : plan.pages) stand_ins += page.stand_in != 0 ? 1 : 0;
+        for (const gpu::FramePage& page : plan.pages) fallbacks += page.fallback_quarters != 0 ? 1 : 0;
     }
     std::printf(
         "seed %u: 400 frames, %zu pages missing, %zu waiting; %zu pages stand in, %zu nodes stitched\n", seed,
-        missing, waiting, stand_ins, stitched);
+        missing, waiting, fallbacks, stitched);
     EXPECT_GT(missing, 1000U);
     EXPECT_GT(waiting, 1000U);
     EXPECT_GT(stitched, 1000U);

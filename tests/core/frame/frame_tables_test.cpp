@@ -84,7 +84,7 @@ void expect_one_place(const HeightField& field, const Geodetic& eye, Placed& pla
             for (int j = 0; j <= quads && page.column * quads + j <= level.column.quads; ++j) {
                 // Round the Earth the last column's posts are the first one's.
                 int column = level.column.region_post(page.column * quads + j);
-                if (grid.goes_round() && column == grid.columns() - 1) column = 0;
+                if (grid.wraps_longitude() && column == grid.columns() - 1) column = 0;
                 const gpu::ColumnTerms& u = columns.at(frame[n].column_terms + static_cast<std::size_t>(j));
                 ASSERT_TRUE(same_as_first(column_terms[static_cast<std::size_t>(column)], u)) << column;
                 const gpu::vec3 at = test::place_from_eye(
@@ -104,7 +104,7 @@ void expect_one_place(const HeightField& field, const Geodetic& eye, Placed& pla
         const auto* of_row =
             &places[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns())];
         // All columns of a pole's row are one point (0 and -0 are one).
-        const int last = grid.columns() - (grid.goes_round() ? 2 : 1);
+        const int last = grid.columns() - (grid.wraps_longitude() ? 2 : 1);
         for (int column = 1; column <= last; ++column) ASSERT_EQ(*of_row[column], *of_row[0]) << column;
     }
 }
@@ -116,8 +116,8 @@ TEST(FrameTables, APostHasTheSameBitsInEveryPageAndLevel) {
         region_of(3600.0, 90 * 3600, -7, 300, 259),      // from a pole
         region_of(300.0 / 360.0, -40, -150, 36, 301),    // round the Earth, to the other pole but for a post
     };
-    ASSERT_TRUE(regions[0].grid.goes_round());
-    ASSERT_TRUE(regions[3].grid.goes_round());
+    ASSERT_TRUE(regions[0].grid.wraps_longitude());
+    ASSERT_TRUE(regions[3].grid.wraps_longitude());
     const Geodetic eyes[] = {{46.5, 8.1, 2000.0},     {47.0, 180.0, 900.0},      {46.9, -179.95, 3.6e7},
                              {90.0, 0.0, 4000.0},     {-90.0, 77.0, 5.0e5},      {89.99, -123.4, 3000.0},
                              {-12.3, 533.25, -430.0}, {0.0, -100.0 / 2.3, 3.8e8}};
@@ -292,7 +292,7 @@ TEST(FrameConstants, TellWhereTheFlatEarthIsCut) {
         };
         const glm::dvec3 east = ecef_from_enu(0.0, lon_deg)[0];
         for (int column = 0; column + 1 < field.grid.columns(); ++column) {
-            const bool twin = column + 2 == field.grid.columns() && field.grid.goes_round();
+            const bool twin = column + 2 == field.grid.columns() && field.grid.wraps_longitude();
             if (glm::dot(east, offset_m(twin ? 0 : column + 1) - offset_m(column)) < 0.0)
                 cuts.insert(static_cast<unsigned>(column));
         }

@@ -71,7 +71,7 @@ TEST(RegionPages, InMemoryGiveWhatThePyramidHas) {
     field.reset();  // is not needed any more
 
     EXPECT_EQ(pages->levels(), 3);
-    EXPECT_FALSE(pages->goes_round());
+    EXPECT_FALSE(pages->wraps_longitude());
     EXPECT_EQ(pages->layout(0).rows, 3);
     EXPECT_EQ(pages->layout(1).columns, 2);
     EXPECT_EQ(pages->layout(2).columns, 1);
@@ -133,7 +133,7 @@ TEST(RegionPages, TellHowFarTheyAre) {
 TEST(RegionPages, GoRoundTheEarthAndMayHaveNothing) {
     const HeightField round = test::world_field(1.0, 20, -180, 30, 361, [](double, double) { return 7.0; });
     const auto pages = pages_in_memory(round, 1.0, 1);
-    EXPECT_TRUE(pages->goes_round());
+    EXPECT_TRUE(pages->wraps_longitude());
     EXPECT_EQ(pages->facts().triangles, 2U * 29U * 360U);
     const HeightField one_post = test::world_field(1200.0, 0, 0, 1, 1, [](double, double) { return 7.0; });
     const auto nothing = pages_in_memory(one_post, 1.0, 1);

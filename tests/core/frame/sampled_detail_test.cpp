@@ -116,7 +116,7 @@ TEST(SampledDetail, IsExactAtTauZero) {
 
 // Where the region's last column is its first again, a node there takes on the edge of a coarser one beyond
 // it.
-TEST(SampledDetail, GoesRoundTheEarth) {
+TEST(SampledDetail, WrapsAroundTheEarth) {
     // Rough in the west, from post to post; even in the east.
     const auto H_m = [](double lat_deg, double lon_deg) {
         return lon_deg < 0.0 ? 3000.0 * std::sin(9.6 * lat_deg) * std::sin(10.1 * lon_deg) : 0.0;
@@ -126,7 +126,7 @@ TEST(SampledDetail, GoesRoundTheEarth) {
         per_deg, 20 * per_deg, -180 * per_deg, rows, columns,
         [&](double lat, double lon) { return lon >= 180.0 ? H_m(lat, lon - 360.0) : H_m(lat, lon); });
     const auto pages = pages_in_memory(field, 1.0, 2);
-    ASSERT_TRUE(pages->goes_round());
+    ASSERT_TRUE(pages->wraps_longitude());
     Camera camera;
     camera.eye = {3.0, 180.0, 400.0e3};
     camera.attitude = {0.0, -90.0, 0.0};

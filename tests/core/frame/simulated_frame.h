@@ -1,5 +1,5 @@
-// What the GPU draws of a frame's plan, on the CPU: shaders/choose/accept.comp by hand, and
-// shaders/choose/choose.glsl and verdict.glsl themselves.
+// What the GPU draws of a frame's plan, on the CPU: shaders/choose/lod_test.comp by hand, and
+// shaders/choose/choose.glsl and cull_result.glsl themselves.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +43,7 @@ class SimulatedFrame {
 
   private:
     [[nodiscard]] static bool acceptable(const FrameConstants& frame, const FramePage& page, uvec2 node);
-    void accept(uint page_number);
+    void lod_test(uint page_number);
 
     struct Words {
         explicit Words(uvec2 address) : at(at_address<const uint>(address)) {}
@@ -73,11 +73,11 @@ class SimulatedFrame {
     }
     FrameConstants FRAME;
 // A struct is made by its name and parentheses in GLSL.
-#define ChosenNode(verdict, edges) \
-    ChosenNode {                   \
-        verdict, edges             \
+#define ChosenNode(cull_result, edges) \
+    ChosenNode {                       \
+        cull_result, edges             \
     }
-#include "shaders/choose/verdict.glsl"
+#include "shaders/choose/cull_result.glsl"
 // Needs what is above.
 #include "shaders/choose/choose.glsl"
 #undef ChosenNode
@@ -96,19 +96,19 @@ inline SimulatedFrame::SimulatedFrame(const GridPlan& plan)
     FRAME.pages = device_address(pages_.data());
     FRAME.accepted = device_address(accepted_.data());
     FRAME.counts = device_address(&counts_);
-    for (uint page = 0; page < pages_.size(); ++page) accept(page);
+    for (uint page = 0; page < pages_.size(); ++page) lod_test(page);
 }
 
 inline bool SimulatedFrame::acceptable(const FrameConstants& frame, const FramePage& page, uvec2 node) {
     const MeshletBounds& bounds = PageBlocks(page.block).at[0].meshlets[node.x * meshlets_per_side + node.y];
     const uint quarter = node.x / (meshlets_per_side / 2U) * 2U + node.y / (meshlets_per_side / 2U);
-    if ((page.stand_in >> quarter & 1U) != 0U) return bounds.radius >= 0.0F;
+    if ((page.fallback_quarters >> quarter & 1U) != 0U) return bounds.radius >= 0.0F;
     const vec3 centre_view = page.view_from_page * bounds.centre + page.origin_view;
     return node_acceptable(page.level, bounds, centre_view, frame.pixels_per_tangent, frame.corner_tangent,
                            frame.tau_px);
 }
 
-inline void SimulatedFrame::accept(uint page_number) {
+inline void SimulatedFrame::lod_test(uint page_number) {
     const FramePage& page = pages_[page_number];
     for (uint lane = 0; lane < meshlets_per_page; ++lane) {
         const uvec2 node(lane / meshlets_per_side, lane % meshlets_per_side);
@@ -128,9 +128,9 @@ inline std::vector<SimulatedFrame::Node> SimulatedFrame::choose() {
         if (!live_[page]) continue;
         for (uint meshlet = 0; meshlet < meshlets_per_page; ++meshlet) {
             const ChosenNode chosen = choose_node(page, meshlet);
-            count_verdict(chosen.verdict);
-            if (chosen.verdict != is_not_chosen)
-                nodes.push_back({page, meshlet, chosen.edges, chosen.verdict == is_kept});
+            count_cull_result(chosen.cull_result);
+            if (chosen.cull_result != is_not_chosen)
+                nodes.push_back({page, meshlet, chosen.edges, chosen.cull_result == is_kept});
         }
     }
     return nodes;

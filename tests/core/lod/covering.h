@@ -55,7 +55,7 @@ inline void expect_steps_of_one(const Region& region, const std::vector<int>& le
             };
             if (row > 0) expect(level_at[static_cast<std::size_t>((row - 1) * columns + column)]);
             if (column > 0) expect(level_at[static_cast<std::size_t>(row * columns + column - 1)]);
-            if (column == 0 && region.pyramid.goes_round)
+            if (column == 0 && region.pyramid.wraps_longitude)
                 expect(level_at[static_cast<std::size_t>(row * columns + columns - 1)]);
         }
     }
@@ -68,7 +68,7 @@ inline void expect_watertight(const Region& region, const std::vector<DrawnNode>
     std::vector<Edge> edges;
     const int last_column = region.heights.columns - 1;
     const auto closed = [&](RegionPost post) {
-        if (region.pyramid.goes_round && post.column == last_column) post.column = 0;
+        if (region.pyramid.wraps_longitude && post.column == last_column) post.column = 0;
         return post;
     };
     for (const DrawnNode& node : nodes) {

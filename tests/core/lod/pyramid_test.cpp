@@ -17,7 +17,7 @@ namespace {
 
 // The rows and columns of the nodes below one and around these, by the rule as it is said.
 std::vector<std::pair<int, int>> nodes_below(const PyramidLevel& below, int row, int column,
-                                             bool goes_round) {
+                                             bool wraps_longitude) {
     const int rows = below.grid.row.nodes();
     const int columns = below.grid.column.nodes();
     std::vector<std::pair<int, int>> nodes;
@@ -26,7 +26,7 @@ std::vector<std::pair<int, int>> nodes_below(const PyramidLevel& below, int row,
             const auto inside = [&](int rr, int cc) {
                 return rr / 2 == row && cc / 2 == column && rr >= 0 && cc >= 0;
             };
-            const auto round = [&](int cc) { return goes_round ? (cc + columns) % columns : cc; };
+            const auto round = [&](int cc) { return wraps_longitude ? (cc + columns) % columns : cc; };
             if (inside(r, c) || inside(r - 1, c) || inside(r + 1, c) || inside(r, round(c - 1)) ||
                 inside(r, round(c + 1)))
                 nodes.emplace_back(r, c);
@@ -70,7 +70,7 @@ void expect_nested(const LevelPyramid& pyramid) {
         for (int row = 0; row < level.grid.row.nodes(); ++row) {
             for (int column = 0; column < level.grid.column.nodes(); ++column) {
                 const gpu::MeshletBounds& node = level.node(row, column);
-                const auto lower = nodes_below(below, row, column, pyramid.goes_round);
+                const auto lower = nodes_below(below, row, column, pyramid.wraps_longitude);
                 ASSERT_GE(lower.size(), 1U);
                 for (const auto& [r, c] : lower) {
                     const gpu::MeshletBounds& other = below.node(r, c);
@@ -187,9 +187,9 @@ TEST(Pyramid, RoundTheEarthTheLastColumnMeetsTheFirst) {
             return 1000.0 +
                    (lon_deg < -170.0 ? 900.0 * std::sin(77.0 * lat_deg) : 10.0 * std::sin(0.1 * lat_deg));
         });
-    ASSERT_TRUE(field.grid.goes_round());
+    ASSERT_TRUE(field.grid.wraps_longitude());
     const LevelPyramid pyramid = build_pyramid(field, region_shape(field, 1.0), 2);
-    ASSERT_TRUE(pyramid.goes_round);
+    ASSERT_TRUE(pyramid.wraps_longitude);
     EXPECT_EQ(pyramid.levels.size(), 3U);
     expect_nested(pyramid);
 }

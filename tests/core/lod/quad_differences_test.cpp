@@ -22,14 +22,14 @@ TEST(QuadDifferences, AreThoseOfEachPost) {
         const auto at = [&](int row, int column) {
             return posts[static_cast<std::size_t>(row * stride + column)];
         };
-        for (const Diagonal diagonal : {Diagonal::falls, Diagonal::rises}) {
+        for (const Diagonal diagonal : {Diagonal::nw_se, Diagonal::sw_ne}) {
             const auto plane = [&](bool west) {
                 return cell_plane(diagonal, west, at(0, 0), at(0, size), at(size, 0), at(size, size));
             };
             double largest = 0.0;
             for (int i = 0; i <= size; ++i) {
                 for (int j = 0; j <= size; ++j) {
-                    const CellPlane own = plane(j <= (diagonal == Diagonal::falls ? i : size - i));
+                    const CellPlane own = plane(j <= (diagonal == Diagonal::nw_se ? i : size - i));
                     const double share = 1.0 / size;
                     const double on =
                         own.at_corner + i * (share * own.change_down) + j * (share * own.change_right);
@@ -43,7 +43,7 @@ TEST(QuadDifferences, AreThoseOfEachPost) {
         }
         posts[random() % static_cast<std::size_t>(size + 1)] = void_height_steps;
         const CellPlane flat{0.0, 0.0, 0.0};
-        EXPECT_EQ(quad_differences(posts.data(), stride, size, Diagonal::falls, flat, flat).lowest_steps,
+        EXPECT_EQ(quad_differences(posts.data(), stride, size, Diagonal::nw_se, flat, flat).lowest_steps,
                   void_height_steps);
     }
 }

@@ -26,15 +26,15 @@ int twice_area(const Triangle& t) {
 
 // rises: by quad. drawn: as the shaders have it, or each quad as its level says.
 std::vector<Triangle> triangles_of(const glm::uvec2& quads, std::uint32_t edges,
-                                   const std::vector<bool>& rises, bool drawn) {
+                                   const std::vector<bool>& sw_ne, bool drawn) {
     std::vector<Triangle> triangles;
     for (unsigned row = 0; row < quads.x; ++row) {
         for (unsigned column = 0; column < quads.y; ++column) {
-            bool rising = rises[row * quads.y + column];
-            if (drawn) rising = gpu::drawn_rising(rising, {row, column}, quads, edges);
+            bool is_sw_ne = sw_ne[row * quads.y + column];
+            if (drawn) is_sw_ne = gpu::drawn_sw_ne(is_sw_ne, {row, column}, quads, edges);
             for (const bool west : {true, false}) {
                 Triangle triangle;
-                const CellCorners at = cell_corners(rising ? Diagonal::rises : Diagonal::falls, west);
+                const CellCorners at = cell_corners(is_sw_ne ? Diagonal::sw_ne : Diagonal::nw_se, west);
                 for (std::size_t i = 0; i < 3; ++i) {
                     const glm::uvec2 post(row + static_cast<unsigned>(at[i][0]),
                                           column + static_cast<unsigned>(at[i][1]));
@@ -91,11 +91,11 @@ TEST(StitchedQuads, AreWholeWhicheverDiagonalsTheyHave) {
         for (unsigned columns = 1; columns <= 8; ++columns) {
             for (std::uint32_t edges = 0; edges < 16; ++edges) {
                 for (int run = 0; run < 40; ++run) {
-                    std::vector<bool> rises(std::size_t{rows} * columns);
-                    for (std::size_t i = 0; i < rises.size(); ++i)
-                        rises[i] = run == 0 ? false : run == 1 || random() % 2 == 0;
+                    std::vector<bool> sw_ne(std::size_t{rows} * columns);
+                    for (std::size_t i = 0; i < sw_ne.size(); ++i)
+                        sw_ne[i] = run == 0 ? false : run == 1 || random() % 2 == 0;
                     ASSERT_EQ(
-                        fault_of(triangles_of({rows, columns}, edges, rises, true), {rows, columns}, edges),
+                        fault_of(triangles_of({rows, columns}, edges, sw_ne, true), {rows, columns}, edges),
                         "")
                         << "seed " << seed << ", " << rows << " x " << columns << ", edges " << edges;
                     ++nodes;
@@ -110,9 +110,9 @@ TEST(StitchedQuads, AreWholeWhicheverDiagonalsTheyHave) {
 TEST(StitchedQuads, AllOfASmallNode) {
     for (std::uint32_t edges = 0; edges < 16; ++edges) {
         for (unsigned bits = 0; bits < 512; ++bits) {
-            std::vector<bool> rises(9);
-            for (std::size_t i = 0; i < 9; ++i) rises[i] = (bits >> i & 1U) != 0;
-            ASSERT_EQ(fault_of(triangles_of({3, 3}, edges, rises, true), {3, 3}, edges), "")
+            std::vector<bool> sw_ne(9);
+            for (std::size_t i = 0; i < 9; ++i) sw_ne[i] = (bits >> i & 1U) != 0;
+            ASSERT_EQ(fault_of(triangles_of({3, 3}, edges, sw_ne, true), {3, 3}, edges), "")
                 << edges << " " << bits;
         }
     }

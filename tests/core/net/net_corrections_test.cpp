@@ -5,7 +5,7 @@
 #include <cstring>
 #include <random>
 
-#include "core/net/grid_net.h"
+#include "core/net/lattice_georeference.h"
 #include "tests/support/net_terrain.h"
 
 namespace oro {
@@ -34,7 +34,7 @@ TEST(NetCorrections, PutEveryPostWhereItIs) {
     for (const KinkedPlane& of : kinked) {
         const auto net = kinked_net_of(of);
         ASSERT_TRUE(net);
-        EXPECT_LE(net->error_m(), GridNet::largest_error_m);
+        EXPECT_LE(net->error_m(), LatticeGeoreference::largest_error_m);
         EXPECT_GT(net->kink(), 0.0);
         double worst_m = 0.0, worst_back = 0.0;
         for (int row = 0; row < of.plane.rows; ++row) {
@@ -45,14 +45,14 @@ TEST(NetCorrections, PutEveryPostWhereItIs) {
                 worst_back = std::max({worst_back, std::abs(back.row - row), std::abs(back.column - column)});
             }
         }
-        const GridNet::Stored stored = net->stored();
+        const LatticeGeoreference::Stored stored = net->stored();
         std::printf(
             "%dx%d posts every %g m, shifts every %g: %zu of %d patches of %d x %d corrected, %.1e m "
             "off, %.1e of a post on the way back\n",
             of.plane.rows, of.plane.columns, of.plane.post_m, of.node_posts, stored.corrections.size(),
             stored.down.patches * stored.across.patches, stored.down.patch_posts, stored.across.patch_posts,
             worst_m, worst_back);
-        EXPECT_LE(worst_m, GridNet::largest_error_m + 1.0e-8);
+        EXPECT_LE(worst_m, LatticeGeoreference::largest_error_m + 1.0e-8);
         EXPECT_LE(worst_back, 1.0e-9 + 3.0e-9 / of.plane.post_m) << "or what doubles of degrees are off";
     }
 }
@@ -64,7 +64,7 @@ TEST(NetCorrections, GoOnBetweenPosts) {
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     for (const KinkedPlane& of : kinked) {
         const auto net = kinked_net_of(of);
-        const GridNet::Stored stored = net->stored();
+        const LatticeGeoreference::Stored stored = net->stored();
         double worst_m = 0.0, worst_back = 0.0;
         for (int i = 0; i < 40000; ++i) {
             double row = unit(random) * (of.plane.rows - 1), column = unit(random) * (of.plane.columns - 1);
@@ -81,7 +81,7 @@ TEST(NetCorrections, GoOnBetweenPosts) {
         std::printf("seed %u, shifts every %g: %.1e m off between posts, %.1e m on the way back\n", seed,
                     of.node_posts, worst_m, worst_back);
         // A kink between two posts turns the way by up to four shifts in a node's distance.
-        EXPECT_LE(worst_m, GridNet::largest_error_m + 2.0 * of.shift_m / of.node_posts);
+        EXPECT_LE(worst_m, LatticeGeoreference::largest_error_m + 2.0 * of.shift_m / of.node_posts);
         EXPECT_LE(worst_back, 2.0e-5);
     }
 }
@@ -97,7 +97,7 @@ TEST(NetCorrections, GiveAPostOnePlace) {
         ASSERT_TRUE((*part)->is_corrected());
         const auto middle = (*part)->part(5, 80, 120, 100);
         ASSERT_TRUE(middle.ok()) << middle.error().line();
-        const auto stored = GridNet::from((*part)->stored());
+        const auto stored = LatticeGeoreference::from((*part)->stored());
         ASSERT_TRUE(stored.ok()) << stored.error().line();
         std::vector<glm::dvec3> row(columns);
         for (int i = 0; i < rows; ++i) {

@@ -8,13 +8,13 @@
 #include <random>
 
 #include "core/base/parallel.h"
-#include "tests/core/sight/against_lookouts.h"
+#include "tests/core/sight/against_observers.h"
 #include "tests/support/net_terrain.h"
 
 namespace oro {
 namespace {
 
-using test::expect_lookouts;
+using test::expect_observers;
 using test::eye_over;
 
 TEST(NetViewshed, IsTheLookoutsTurnedOverTheAntimeridianAndAPole) {
@@ -36,14 +36,14 @@ TEST(NetViewshed, IsTheLookoutsTurnedOverTheAntimeridianAndAPole) {
             const PostPlace under = plane.place_of(0.4 * plane.rows + 0.3, 0.55 * plane.columns + 0.6);
             const ViewshedRequest request{eye_over(surface, under.lat_deg, under.lon_deg, above_m),
                                           standard_air, 2.0, 9.0e3, thread_count()};
-            expect_lookouts(name, surface, request, 20000);
+            expect_observers(name, surface, request, 20000);
         }
         // On a post, and beside the data.
         const PostPlace post = field.grid.place_at(200, 130);
-        expect_lookouts(name, surface,
-                        {eye_over(surface, post.lat_deg, post.lon_deg, 3.0), {0.13}, 0.0, 6e3, 2}, 10000);
+        expect_observers(name, surface,
+                         {eye_over(surface, post.lat_deg, post.lon_deg, 3.0), {0.13}, 0.0, 6e3, 2}, 10000);
         const PostPlace beside = field.grid.place_at(-20.0, 100.0);
-        expect_lookouts(name, surface, {{beside.lat_deg, beside.lon_deg, 600.0}, {}, 0.0, 8e3, 2}, 5000);
+        expect_observers(name, surface, {{beside.lat_deg, beside.lon_deg, 600.0}, {}, 0.0, 8e3, 2}, 5000);
     }
 }
 

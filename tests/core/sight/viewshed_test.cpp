@@ -8,14 +8,14 @@
 #include <random>
 
 #include "core/base/parallel.h"
-#include "tests/core/sight/against_lookouts.h"
+#include "tests/core/sight/against_observers.h"
 #include "tests/support/made_terrain.h"
 #include "tests/support/rough_terrain.h"
 
 namespace oro {
 namespace {
 
-using test::expect_lookouts;
+using test::expect_observers;
 using test::eye_over;
 
 float hills_H_m(double lat_deg, double lon_deg) {
@@ -29,25 +29,25 @@ TEST(Viewshed, IsTheLookoutsOverHills) {
         for (const double target_m : {0.0, 2.0, 50.0}) {
             const ViewshedRequest request{eye_over(surface, 46.43, 8.51, above_m), standard_air, target_m,
                                           12.0e3, thread_count()};
-            expect_lookouts("hills", surface, request, 60000);
+            expect_observers("hills", surface, request, 60000);
         }
     }
     // On a post, on an edge, in a corner, and beyond the data.
-    expect_lookouts("post", surface,
-                    {eye_over(surface, 46.6 - 200 / 1200.0, 8.3 + 250 / 1200.0, 2.0), {}, 1.0, 8e3, 2},
-                    30000);
-    expect_lookouts("edge", surface,
-                    {eye_over(surface, 46.6 - 200 / 1200.0, 8.3 + 250.4 / 1200.0, 2.0), {0.13}, 1.0, 8e3, 2},
-                    30000);
-    expect_lookouts("corner", surface, {eye_over(surface, 46.6, 8.3, 20.0), {0.2}, 0.0, 9e3, 2}, 7000);
-    expect_lookouts("outside", surface, {{46.61, 8.25, 2500.0}, {-0.3}, 2.0, 25e3, 2}, 50000);
+    expect_observers("post", surface,
+                     {eye_over(surface, 46.6 - 200 / 1200.0, 8.3 + 250 / 1200.0, 2.0), {}, 1.0, 8e3, 2},
+                     30000);
+    expect_observers("edge", surface,
+                     {eye_over(surface, 46.6 - 200 / 1200.0, 8.3 + 250.4 / 1200.0, 2.0), {0.13}, 1.0, 8e3, 2},
+                     30000);
+    expect_observers("corner", surface, {eye_over(surface, 46.6, 8.3, 20.0), {0.2}, 0.0, 9e3, 2}, 7000);
+    expect_observers("outside", surface, {{46.61, 8.25, 2500.0}, {-0.3}, 2.0, 25e3, 2}, 50000);
 }
 
 TEST(Viewshed, IsTheLookoutsOverTheAntimeridianAndNearThePole) {
     const HeightField fiji = test::made_field(-16.9, 179.9, 600.0, 120, 140, hills_H_m);
     const TrueSurface over(fiji, 1.0, thread_count());
-    expect_lookouts("antimeridian", over, {eye_over(over, -17.0, -179.99, 10.0), standard_air, 2.0, 9e3, 2},
-                    5000);
+    expect_observers("antimeridian", over, {eye_over(over, -17.0, -179.99, 10.0), standard_air, 2.0, 9e3, 2},
+                     5000);
     const auto polar_H_m = [](double lat, double lon) {
         // No seam.
         const double x = (90.0 - lat) * std::cos(lon * 0.017453292519943295);
@@ -62,10 +62,10 @@ TEST(Viewshed, IsTheLookoutsOverTheAntimeridianAndNearThePole) {
             whole.H_m.push_back(polar_H_m(whole.grid.lat.at_deg(row), whole.grid.lon.at_deg(column)));
     }
     const TrueSurface polar(whole, 1.0, thread_count());
-    expect_lookouts("89 N", polar, {eye_over(polar, 89.0, 179.98, 20.0), standard_air, 2.0, 20e3, 2}, 500,
-                    5.0);
-    expect_lookouts("over the pole", polar, {eye_over(polar, 89.9, 20.3, 200.0), standard_air, 2.0, 15e3, 2},
-                    3000, 5.0);
+    expect_observers("89 N", polar, {eye_over(polar, 89.0, 179.98, 20.0), standard_air, 2.0, 20e3, 2}, 500,
+                     5.0);
+    expect_observers("over the pole", polar, {eye_over(polar, 89.9, 20.3, 200.0), standard_air, 2.0, 15e3, 2},
+                     3000, 5.0);
 }
 
 TEST(Viewshed, HasNoAnswerForVoidsAndLooksOverThem) {
@@ -85,12 +85,12 @@ TEST(Viewshed, HasNoAnswerForVoidsAndLooksOverThem) {
     const TrueSurface surface(field, 1.0, thread_count());
     const ViewshedRequest request{
         eye_over(surface, 46.6 - 150.5 / 1200.0, 8.3 + 150.4 / 1200.0, 1200.0), {0.13}, 2.0, 9e3, 2};
-    expect_lookouts("voids", surface, request, 20000);
+    expect_observers("voids", surface, request, 20000);
     const Viewshed shed = viewshed(surface, 0, request);
     for (int row = 100; row < 200; ++row) {
         for (int column = 100; column < 200; ++column) {
             if (!is_void(field.H_at_post_m(row, column))) continue;
-            EXPECT_EQ(shed.missed_by_m[shed.window.number(row, column)], Viewshed::unknown);
+            EXPECT_EQ(shed.clearance_deficit_m[shed.window.number(row, column)], Viewshed::unknown);
         }
     }
 }
@@ -101,7 +101,7 @@ TEST(Viewshed, IsTheSameForAnyNumberOfThreads) {
     ViewshedRequest request{eye_over(surface, 46.52, 8.38, 5.0), standard_air, 1.0, 6e3, 1};
     const Viewshed one = viewshed(surface, 0, request);
     request.threads = 5;
-    EXPECT_EQ(one.missed_by_m, viewshed(surface, 0, request).missed_by_m);
+    EXPECT_EQ(one.clearance_deficit_m, viewshed(surface, 0, request).clearance_deficit_m);
 }
 
 TEST(Viewshed, WindowsHoldTheCircle) {

@@ -32,13 +32,13 @@ HeightField field_of(const std::vector<std::vector<float>>& rows) {
 // 9 * 2 * 100 + 1 * 2 * 100) / 256 = 64.06 m, that of the falling diagonal 0, that of the rising one 100.
 TEST(CellDiagonal, FollowsARidge) {
     const HeightField ridge = field_of({{0, 0, 0, 100}, {0, 0, 100, 0}, {0, 100, 0, 0}, {100, 0, 0, 0}});
-    EXPECT_EQ(cell_diagonal(ridge, 1, 1), Diagonal::rises);
+    EXPECT_EQ(cell_diagonal(ridge, 1, 1), Diagonal::sw_ne);
     const HeightField other = field_of({{100, 0, 0, 0}, {0, 100, 0, 0}, {0, 0, 100, 0}, {0, 0, 0, 100}});
-    EXPECT_EQ(cell_diagonal(other, 1, 1), Diagonal::falls);
+    EXPECT_EQ(cell_diagonal(other, 1, 1), Diagonal::nw_se);
     // Cells at the rim have not all the posts around them.
     for (const int cell : {0, 2}) {
-        EXPECT_EQ(cell_diagonal(ridge, cell, 1), Diagonal::falls);
-        EXPECT_EQ(cell_diagonal(ridge, 1, cell), Diagonal::falls);
+        EXPECT_EQ(cell_diagonal(ridge, cell, 1), Diagonal::nw_se);
+        EXPECT_EQ(cell_diagonal(ridge, 1, cell), Diagonal::nw_se);
     }
 }
 
@@ -46,24 +46,24 @@ TEST(CellDiagonal, FollowsARidge) {
 TEST(CellDiagonal, LooksAtSixteenPosts) {
     const HeightField field = field_of({{0, 0, 0, 90}, {0, 0, 50, 0}, {0, 50, 0, 0}, {90, 0, 0, 0}});
     // Smooth: (81 * 100 + 1 * 180) / 256 = 32.34: nearer to 50 than to 0.
-    EXPECT_EQ(cell_diagonal(field, 1, 1), Diagonal::rises);
+    EXPECT_EQ(cell_diagonal(field, 1, 1), Diagonal::sw_ne);
     HeightField lower = field;
     // Eight posts beside the cell at 40: -9 / 256 each takes 11.25 off: 21.09, nearer to 0 than to 50.
     for (const int i : {1, 2, 4, 7, 8, 11, 13, 14}) lower.H_m[static_cast<std::size_t>(i)] = 40.0F;
-    EXPECT_EQ(cell_diagonal(lower, 1, 1), Diagonal::falls);
+    EXPECT_EQ(cell_diagonal(lower, 1, 1), Diagonal::nw_se);
 }
 
 TEST(CellDiagonal, FallsWhereBothAreAsNearAndBesideVoids) {
     EXPECT_EQ(cell_diagonal(field_of({{1, 2, 3, 4}, {2, 3, 4, 5}, {3, 4, 5, 6}, {4, 5, 6, 7}}), 1, 1),
-              Diagonal::falls);
+              Diagonal::nw_se);
     for (std::size_t post = 0; post < 16; ++post) {
         HeightField ridge = field_of({{0, 0, 0, 100}, {0, 0, 100, 0}, {0, 100, 0, 0}, {100, 0, 0, 0}});
         ridge.H_m[post] = void_height_m;
-        EXPECT_EQ(cell_diagonal(ridge, 1, 1), Diagonal::falls) << post;
+        EXPECT_EQ(cell_diagonal(ridge, 1, 1), Diagonal::nw_se) << post;
         ridge.H_m[post] = 0.0F;
         std::vector<char> left_out(16, 0);
         left_out[post] = 1;
-        EXPECT_EQ(cell_diagonal(ridge, 1, 1, &left_out), Diagonal::falls) << post;
+        EXPECT_EQ(cell_diagonal(ridge, 1, 1, &left_out), Diagonal::nw_se) << post;
     }
 }
 
@@ -73,14 +73,14 @@ TEST(CellDiagonal, IsTheSameOneStepApart) {
     const auto with = [&](float more) {
         return field_of({{0, 0, 0, 0}, {0, 0, more, 0}, {0, more, 0, 0}, {0, 0, 0, 0}});
     };
-    EXPECT_EQ(cell_diagonal(with(0.49F * step), 1, 1), Diagonal::falls);
-    EXPECT_EQ(cell_diagonal(with(step), 1, 1), Diagonal::rises);
+    EXPECT_EQ(cell_diagonal(with(0.49F * step), 1, 1), Diagonal::nw_se);
+    EXPECT_EQ(cell_diagonal(with(step), 1, 1), Diagonal::sw_ne);
 }
 
 // The two triangles of a cell: heights of a saddle, by each diagonal.
 TEST(CellDiagonal, PlanesGoThroughTheirPosts) {
     const std::array<std::array<double, 2>, 2> h{{{10.0, 17.0}, {31.0, 2.0}}};
-    for (const Diagonal diagonal : {Diagonal::falls, Diagonal::rises}) {
+    for (const Diagonal diagonal : {Diagonal::nw_se, Diagonal::sw_ne}) {
         double area = 0.0;
         for (const bool west : {true, false}) {
             const CellPlane plane = cell_plane(diagonal, west, h[0][0], h[0][1], h[1][0], h[1][1]);
@@ -170,22 +170,22 @@ TEST(CellDiagonals, OfRegionsAndPagesAreTheRules) {
         // Round the Earth: that ends with a page, and within one.
         const int columns = round ? (run % 4 == 1 ? 257 : 361) : 5 + static_cast<int>(random() % 300);
         const HeightField field = random_field(random, rows, columns, round);
-        ASSERT_EQ(field.grid.goes_round(), round);
+        ASSERT_EQ(field.grid.wraps_longitude(), round);
         const auto all = CellDiagonals::of(field, 2);
         const DrawnHeights heights = drawn_heights(field, 1.5, 1);
         for (int level = 0; level < level_count(field.grid); ++level) {
             const LevelGrid grid = level_grid(field.grid, level);
             for (int row = 0; row < grid.row.quads; ++row) {
                 for (int column = 0; column < grid.column.quads; ++column) {
-                    const bool rises = test::rises_by_rule(field, row, column, level);
-                    ASSERT_EQ(all->at(level, row, column) == Diagonal::rises, rises)
+                    const bool sw_ne = test::sw_ne_by_rule(field, row, column, level);
+                    ASSERT_EQ(all->at(level, row, column) == Diagonal::sw_ne, sw_ne)
                         << "seed " << seed << " run " << run << " level " << level << " " << row << " "
                         << column;
                     if (level == 0) {
-                        ASSERT_EQ(cell_diagonal(field, row, column) == Diagonal::rises, rises);
+                        ASSERT_EQ(cell_diagonal(field, row, column) == Diagonal::sw_ne, sw_ne);
                     }
                     ++asked;
-                    rising += rises ? 1 : 0;
+                    rising += sw_ne ? 1 : 0;
                 }
             }
             for (std::uint64_t i = 0; i < grid.pages().count(); ++i) {
@@ -196,19 +196,19 @@ TEST(CellDiagonals, OfRegionsAndPagesAreTheRules) {
                 const auto elevations = std::make_unique<PageElevations>(page_elevations(field, index));
                 const auto of_file = std::make_unique<PageHeights>(
                     page_heights(field.grid, field.undulation, 1.5, *elevations, index));
-                ASSERT_EQ(of_region->rises, of_file->rises)
+                ASSERT_EQ(of_region->sw_ne, of_file->sw_ne)
                     << "seed " << seed << " run " << run << " page " << i;
                 ASSERT_EQ(of_region->steps, of_file->steps);
                 for (int row = 0; row < 128; ++row) {
                     for (int column = 0; column < 128; ++column) {
                         const int meshlet = row / 8 * 16 + column / 8, cell = row % 8 * 8 + column % 8;
                         const bool bit =
-                            (of_region->rises[static_cast<std::size_t>(2 * meshlet + cell / 32)] >>
+                            (of_region->sw_ne[static_cast<std::size_t>(2 * meshlet + cell / 32)] >>
                                  (cell % 32) &
                              1U) != 0;
                         const int r = index.row * 128 + row, c = index.column * 128 + column;
                         const bool there = r < grid.row.quads && c < grid.column.quads;
-                        ASSERT_EQ(bit, there && all->at(level, r, c) == Diagonal::rises);
+                        ASSERT_EQ(bit, there && all->at(level, r, c) == Diagonal::sw_ne);
                     }
                 }
             }

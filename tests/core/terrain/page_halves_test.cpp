@@ -28,7 +28,7 @@ std::unique_ptr<gpu::PageBlock> block_of(const HeightField& field) {
     return block;
 }
 
-gpu::uint told(const gpu::PageBlock& block, int row, int column) {
+gpu::uint reported(const gpu::PageBlock& block, int row, int column) {
     return block.boxes[row * page_meshlets + column] >> gpu::halves_bit;
 }
 
@@ -43,10 +43,10 @@ TEST(HalvesOfAPage, EndWithTheRegion) {
             const auto block = block_of(hills(8 + rows + 1, 8 + columns + 1));
             const gpu::uint by_columns = columns <= 4 ? gpu::first_columns : gpu::both_halves;
             const gpu::uint by_rows = rows <= 4 ? gpu::first_rows : gpu::both_halves;
-            EXPECT_EQ(told(*block, 0, 0), gpu::both_halves) << rows << " x " << columns;
-            EXPECT_EQ(told(*block, 1, 0), by_rows) << rows << " x " << columns;
-            EXPECT_EQ(told(*block, 0, 1), by_columns) << rows << " x " << columns;
-            EXPECT_EQ(told(*block, 1, 1), rows <= 4 ? by_rows : by_columns) << rows << " x " << columns;
+            EXPECT_EQ(reported(*block, 0, 0), gpu::both_halves) << rows << " x " << columns;
+            EXPECT_EQ(reported(*block, 1, 0), by_rows) << rows << " x " << columns;
+            EXPECT_EQ(reported(*block, 0, 1), by_columns) << rows << " x " << columns;
+            EXPECT_EQ(reported(*block, 1, 1), rows <= 4 ? by_rows : by_columns) << rows << " x " << columns;
         }
     }
 }
@@ -64,10 +64,11 @@ TEST(HalvesOfAPage, EndWithTheData) {
         }
         const auto of_north = block_of(north), of_south = block_of(south), of_east = block_of(east);
         // A row of posts that is left has no triangle.
-        EXPECT_EQ(told(*of_north, 1, 3), line >= 12 && line < 16 ? gpu::last_rows : gpu::both_halves) << line;
+        EXPECT_EQ(reported(*of_north, 1, 3), line >= 12 && line < 16 ? gpu::last_rows : gpu::both_halves)
+            << line;
         if (line < 9) continue;
-        EXPECT_EQ(told(*of_south, 1, 3), line <= 12 ? gpu::first_rows : gpu::both_halves) << line;
-        EXPECT_EQ(told(*of_east, 3, 1), line <= 12 ? gpu::first_columns : gpu::both_halves) << line;
+        EXPECT_EQ(reported(*of_south, 1, 3), line <= 12 ? gpu::first_rows : gpu::both_halves) << line;
+        EXPECT_EQ(reported(*of_east, 3, 1), line <= 12 ? gpu::first_columns : gpu::both_halves) << line;
     }
 }
 
@@ -78,16 +79,16 @@ std::array<int, 4> triangles_of(const gpu::PageBlock& block, int meshlet, gpu::u
     for (gpu::uint edges = 0; edges < 16; ++edges) {
         for (gpu::uint quad = 0; quad < 64; ++quad) {
             const gpu::uvec2 nw(quad / 8, quad % 8);
-            const bool rises = gpu::drawn_rising(
-                (block.rises[static_cast<gpu::uint>(meshlet) * 2 + quad / 32] >> quad % 32 & 1U) != 0, nw,
+            const bool sw_ne = gpu::drawn_sw_ne(
+                (block.sw_ne[static_cast<gpu::uint>(meshlet) * 2 + quad / 32] >> quad % 32 & 1U) != 0, nw,
                 quads, edges);
             const auto at = [&](gpu::uint row, gpu::uint column) {
                 return first + gpu::stitched_post(nw + gpu::uvec2(row, column), quads, edges);
             };
             for (const gpu::uint odd : {0U, 1U}) {
-                const gpu::uvec2 a = rises && odd != 0 ? at(1, 0) : at(0, 0),
+                const gpu::uvec2 a = sw_ne && odd != 0 ? at(1, 0) : at(0, 0),
                                  b = odd == 0 ? at(1, 0) : at(1, 1),
-                                 c = rises || odd != 0 ? at(0, 1) : at(1, 1);
+                                 c = sw_ne || odd != 0 ? at(0, 1) : at(1, 1);
                 const auto there = [&](gpu::uvec2 post) {
                     return block.heights[(post.x + 1) * 131 + post.y + 1] != gpu::void_height;
                 };

@@ -83,7 +83,7 @@ std::int32_t height_by_rule(const PostGrid& grid, const DrawnHeights& heights, P
     const int last = level.column.quads;
     const int r = index.row * quads + row;
     int c = index.column * quads + column;
-    const bool round = grid.goes_round();
+    const bool round = grid.wraps_longitude();
     if (round && c == -1) c = last - 1;
     if (round && c == last + 1 && column == quads + 1) c = 1;
     if (r < 0 || c < 0 || r > level.row.quads || c > last) return void_height_steps;
@@ -168,7 +168,7 @@ TEST(Page, TheWholeEarthClosesWhateverTheSourceSays) {
     field.undulation.lat = {1.0, 0.0, 90, -1, 181};
     field.undulation.lon = {1.0, 0.0, -180, +1, 361};
     for (int i = 0; i < 181 * 361; ++i) field.undulation.N_m.push_back(static_cast<float>(i % 89));
-    ASSERT_TRUE(field.grid.goes_round());
+    ASSERT_TRUE(field.grid.wraps_longitude());
     for (int row = 0; row < 1315; ++row)
         ASSERT_TRUE(same_bits(post_ecef(field, row, 0, 1.0), post_ecef(field, row, 2628, 1.0))) << row;
     for (int column = 1; column <= 2628; ++column) {
@@ -238,7 +238,7 @@ TEST(Page, HeightsComeFromElevationsAsFromDrawnHeights) {
 
 TEST(Page, ElevationsAreThoseOfTheCanonicalPost) {
     const HeightField field = difficult_earth();
-    ASSERT_TRUE(field.grid.goes_round());
+    ASSERT_TRUE(field.grid.wraps_longitude());
     const PageElevations north_west = page_elevations(field, {0, 0, 0});
     const PageElevations east = page_elevations(field, {0, 6, 0});  // columns 768 .. 828
     const auto H_m = [](const PageElevations& page, int row, int column) {

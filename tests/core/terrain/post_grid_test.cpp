@@ -63,13 +63,13 @@ TEST(PostGrid, ColumnsAreFoundInAnyWholeTurn) {
     EXPECT_NEAR(grid.column_at(-178.0), 30.0, 1e-9);
     EXPECT_NEAR(grid.column_at(0.5), -1785.0, 1e-9);
     EXPECT_NEAR(grid.column_at(-0.5), 1805.0, 1e-9);
-    EXPECT_FALSE(grid.goes_round());
+    EXPECT_FALSE(grid.wraps_longitude());
     grid.lon = {10.0, 0.0, -1800, +1, 3601};
-    EXPECT_TRUE(grid.goes_round());
+    EXPECT_TRUE(grid.wraps_longitude());
     EXPECT_NEAR(grid.column_at(190.0), 100.0, 1e-9);
     EXPECT_NEAR(grid.column_at(-190.0), 3500.0, 1e-9);
     grid.lon.count = 3600;
-    EXPECT_FALSE(grid.goes_round());
+    EXPECT_FALSE(grid.wraps_longitude());
 }
 
 TEST(HeightField, IsLinearOnTheTrianglesOfTheNorthWestSouthEastDiagonal) {
@@ -151,7 +151,7 @@ TEST(HeightField, LiftsPostsByTheUndulation) {
     EXPECT_DOUBLE_EQ(field.h_at_post_m(2, 1), 218.0);
 }
 
-TEST(HeightField, GoesRoundTheEarth) {
+TEST(HeightField, WrapsAroundTheEarth) {
     const HeightField field = test::world_field(
         1.0, 90, -180, 181, 361, [](double lat_deg, double lon_deg) { return lat_deg + std::abs(lon_deg); });
     EXPECT_FLOAT_EQ(field.H_at_m(10.0, 179.5), 189.5F);

@@ -33,12 +33,12 @@ inline std::vector<PostTriangle> drawn_triangles(const DrawnHeights& heights, co
         for (unsigned column = 0; column < quads.y; ++column) {
             const glm::uvec2 nw(row, column), se(row + 1, column + 1), sw(row + 1, column),
                 ne(row, column + 1);
-            bool rises = heights.diagonal(grid.level(), node_row * 8 + static_cast<int>(row),
-                                          node_column * 8 + static_cast<int>(column)) == Diagonal::rises;
-            if ((edges & gpu::edge_south) != 0 && (edges & gpu::edge_east) != 0 && se == quads) rises = false;
+            bool sw_ne = heights.diagonal(grid.level(), node_row * 8 + static_cast<int>(row),
+                                          node_column * 8 + static_cast<int>(column)) == Diagonal::sw_ne;
+            if ((edges & gpu::edge_south) != 0 && (edges & gpu::edge_east) != 0 && se == quads) sw_ne = false;
             for (const std::array<glm::uvec2, 3>& corners :
-                 {rises ? std::array{nw, sw, ne} : std::array{nw, sw, se},
-                  rises ? std::array{ne, sw, se} : std::array{nw, se, ne}}) {
+                 {sw_ne ? std::array{nw, sw, ne} : std::array{nw, sw, se},
+                  sw_ne ? std::array{ne, sw, se} : std::array{nw, se, ne}}) {
                 PostTriangle triangle;
                 bool drawn = true;
                 for (std::size_t i = 0; i < 3; ++i) {
@@ -74,10 +74,10 @@ inline std::array<double, 3> shares_at(const PostTriangle& triangle, double row,
 inline std::optional<PostTriangle> finest_triangle(const DrawnHeights& heights, double row, double column) {
     const int r = std::min(static_cast<int>(row), heights.rows - 2);
     const int c = std::min(static_cast<int>(column), heights.columns - 2);
-    const bool rises = heights.diagonal(0, r, c) == Diagonal::rises;
+    const bool sw_ne = heights.diagonal(0, r, c) == Diagonal::sw_ne;
     const RegionPost nw{r, c}, ne{r, c + 1}, sw{r + 1, c}, se{r + 1, c + 1};
     PostTriangle triangle = row - r >= column - c ? PostTriangle{nw, sw, se} : PostTriangle{nw, se, ne};
-    if (rises)
+    if (sw_ne)
         triangle = (row - r) + (column - c) <= 1.0 ? PostTriangle{nw, sw, ne} : PostTriangle{ne, sw, se};
     for (const RegionPost& post : triangle) {
         if (heights.at(post.row, post.column) == void_height_steps) return std::nullopt;

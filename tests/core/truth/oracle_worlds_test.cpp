@@ -121,7 +121,7 @@ TEST(OracleOverThePlane, FindsTheFirstGroundOfAWholeEarth) {
     const HeightField field = test::world_field(2.0, 180, -360, 361, 721, [](double lat_deg, double lon_deg) {
         return 40000.0 * std::sin(lat_deg * 0.3) * std::cos(radians_from_deg(lon_deg).rad * 9.0);
     });
-    ASSERT_TRUE(field.grid.goes_round());
+    ASSERT_TRUE(field.grid.wraps_longitude());
     const TrueSurface surface(field, 1.0, 2);
     int hits = 0, far_hits = 0, earlier = 0, of_the_other_end = 0;
     double farthest_m = 0.0;

@@ -178,7 +178,7 @@ TEST(BakedRegion, BoxesOutOfARegionRoundTheEarth) {
                                           [](int r, int c) { return 10.0 * r + 5.0 * std::abs(c - 180); });
     const auto whole = opened(request_for({path}));
     ASSERT_TRUE(whole);
-    ASSERT_TRUE(whole->field.grid.goes_round());
+    ASSERT_TRUE(whole->field.grid.wraps_longitude());
     const std::string file = baked(*whole, folder / "region.oro");
     for (const BoundingBox& box :
          {BoundingBox{-10.0, -10.0, 10.0, 10.0}, {170.0, -20.0, -170.0, 20.0}, {-180.0, 60.0, 180.0, 90.0}}) {
@@ -206,7 +206,7 @@ TEST(BakedRegion, OfPostsInTheirOwnCrsIsThatOfItsSource) {
     ASSERT_TRUE(whole && whole->field.grid.net);
     EXPECT_EQ(whole->posts_crs->wkt, source->posts_crs->wkt);
     EXPECT_EQ(whole->posts_crs->crs_from_post, source->posts_crs->crs_from_post);
-    EXPECT_EQ(whole->posts_print, source->posts_print);
+    EXPECT_EQ(whole->posts_hash, source->posts_hash);
     const PostPlace middle = source->field.grid.place_at(250, 200);
     RegionRequest of_source = request_for({(folder / "own.tif").string()}),
                   of_file = request_for({(folder / "own.oro").string()});
@@ -231,7 +231,7 @@ TEST(BakedRegion, OfPostsInTheirOwnCrsIsThatOfItsSource) {
                 ASSERT_EQ(one->field.grid.place_at(row, column).lon_deg, grid.place_at(row, column).lon_deg);
             }
         }
-        EXPECT_EQ(one->posts_print.value_or(1), expected->posts_print.value_or(2));
+        EXPECT_EQ(one->posts_hash.value_or(1), expected->posts_hash.value_or(2));
     }
     RegionRequest resampled = request_for({(folder / "own.oro").string()});
     resampled.resample = true;
@@ -308,11 +308,11 @@ TEST_F(BakedRegionErrors, DescriptionsThatDoNotFit) {
     ASSERT_TRUE(bake_region(tiles->field, how).ok());
     EXPECT_NE(error_of(request_for({how.path})).line().find("its description cannot be read"),
               std::string::npos);
-    RegionGrid told = *tiles;
-    ASSERT_GT(told.voids, 0U);
-    told.voids = 0;
+    RegionGrid reported = *tiles;
+    ASSERT_GT(reported.voids, 0U);
+    reported.voids = 0;
     how.path = (folder_ / "another.oro").string();
-    how.description = region_description(told);
+    how.description = region_description(reported);
     ASSERT_TRUE(bake_region(tiles->field, how).ok());
     EXPECT_NE(error_of(request_for({how.path})).line().find("void posts"), std::string::npos);
 }

@@ -285,7 +285,7 @@ TEST(Companions, ContradictionsAreNotesOfTheRegion) {
         write_raster(other / "p.tif", coarser, hills_m);
         write_raster(other / "q.tif", finer, some);
         RegionRequest request = request_for({other.string()});
-        request.grids_apart = true;
+        request.allow_multiple_grids = true;
         const auto grids = open_region(request);
         ASSERT_TRUE(grids.ok()) << grids.error().line();
         EXPECT_EQ(grids->grids.size(), metres ? 2U : 1U);

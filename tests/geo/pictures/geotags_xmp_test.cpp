@@ -69,7 +69,7 @@ TEST(ViewInXmp, DamageIsTold) {
     const std::string whole = described("<orograph:View>{\"a\":1}</orograph:View>");
     struct Case {
         std::string xmp;
-        std::string told;
+        std::string reported;
     };
     for (const Case& c :
          {Case{whole.substr(0, whole.find("</orograph:View>")), "damaged at its byte"},
@@ -83,7 +83,7 @@ TEST(ViewInXmp, DamageIsTold) {
           Case{"", "no view of Orograph"}}) {
         const auto view = view_in_xmp(c.xmp, "a.png");
         ASSERT_FALSE(view.ok()) << c.xmp;
-        EXPECT_NE(view.error().line().find(c.told), std::string::npos) << view.error().line();
+        EXPECT_NE(view.error().line().find(c.reported), std::string::npos) << view.error().line();
     }
 }
 

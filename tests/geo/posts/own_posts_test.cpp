@@ -119,7 +119,7 @@ TEST_P(OwnPostsOf, LieWhereProjAndGeographicLibPutThem) {
     ASSERT_EQ(field.grid.columns(), of.columns);
     EXPECT_EQ(field.grid.net->is_corrected(), !std::string(of.shifts).empty());
     EXPECT_FALSE(region->sources.at(0).resampling);
-    EXPECT_LE(field.grid.net->error_m(), GridNet::largest_error_m);
+    EXPECT_LE(field.grid.net->error_m(), LatticeGeoreference::largest_error_m);
 
     const auto proj = to_wgs84(of.crs);
     ASSERT_TRUE(proj);
@@ -149,7 +149,7 @@ TEST_P(OwnPostsOf, LieWhereProjAndGeographicLibPutThem) {
         worst_back = std::max({worst_back, std::abs(back.row - row), std::abs(back.column - column)});
     }
     OCTDestroyCoordinateTransformation(proj);
-    const GridNet::Stored net = field.grid.net->stored();
+    const LatticeGeoreference::Stored net = field.grid.net->stored();
     std::printf(
         "%s: seed %u, %d posts: at most %.3f mm off, and %.1e of a post back; net %.1e m, %zu of %d "
         "patches of %d x %d corrected; opened in %.2f s\n",
@@ -232,7 +232,7 @@ TEST(OwnPosts, OfTilesAreThoseOfOneFile) {
         request.paths = tiles;
         const auto joined = test::open_grid(request);
         ASSERT_TRUE(joined.ok()) << joined.error().line();
-        EXPECT_EQ(joined->posts_print, whole->posts_print);
+        EXPECT_EQ(joined->posts_hash, whole->posts_hash);
         EXPECT_EQ(joined->seams.shared_posts, static_cast<std::uint64_t>(of.rows + of.columns - 1));
         EXPECT_EQ(joined->seams.disagreeing_posts, 0U);
         EXPECT_EQ(joined->voids, 0U);
@@ -274,7 +274,7 @@ TEST(OwnPosts, OfSeveralLatticesAreResampled) {
         request.resample = true;
         const auto asked = test::open_grid(request);
         ASSERT_TRUE(asked.ok());
-        EXPECT_EQ(asked->posts_print, region->posts_print);
+        EXPECT_EQ(asked->posts_hash, region->posts_hash);
         EXPECT_EQ(asked->notes.size() + 1, region->notes.size()) << "what is asked for needs no note";
     }
 }
@@ -323,7 +323,7 @@ TEST(OwnPosts, OfDegreesAreAsEver) {
     const auto asked = test::open_grid(request);
     ASSERT_TRUE(usual.ok() && asked.ok());
     EXPECT_FALSE(asked->field.grid.net);
-    EXPECT_EQ(asked->posts_print, usual->posts_print);
+    EXPECT_EQ(asked->posts_hash, usual->posts_hash);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ std::optional<double> on_triangles(const HeightField& field, double lat_deg, dou
     if (row < 0 || column < 0 || row + 1 >= grid.rows() || column + 1 >= grid.columns()) return std::nullopt;
     const double v = y - row, u = x - column;
     const float nw = field.H_at_post_m(row, column), se = field.H_at_post_m(row + 1, column + 1);
-    if (rises_by_rule(field, row, column)) {
+    if (sw_ne_by_rule(field, row, column)) {
         const auto a = static_cast<double>(nw), d = static_cast<double>(se),
                    b = static_cast<double>(field.H_at_post_m(row, column + 1)),
                    c = static_cast<double>(field.H_at_post_m(row + 1, column));

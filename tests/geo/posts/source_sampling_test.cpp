@@ -81,7 +81,7 @@ TEST(Cubic, AStepThrowsNoPits) {
     }
 }
 
-TEST(Cubic, GoesRoundTheEarth) {
+TEST(Cubic, WrapsAroundTheEarth) {
     const PostBlock block = block_of(4, 12, [](int, int c) { return std::cos(c * std::numbers::pi / 6.0); });
     for (double c = -3.0; c < 15.0; c += 0.37)
         EXPECT_NEAR(static_cast<double>(cubic_height_m(block, 4, 12, true, c, 1.5, no_limit_m)),

@@ -187,7 +187,7 @@ Verdicts seen_by_viewshed(const PostGrid& grid, const Viewshed& shed, const Cell
         if (row < window.first_row || row >= window.first_row + window.rows || column < window.first_column ||
             column >= window.first_column + window.columns)
             continue;
-        const float missed_m = shed.missed_by_m[window.number(row, column)];
+        const float missed_m = shed.clearance_deficit_m[window.number(row, column)];
         if (missed_m != Viewshed::unknown) verdicts[i] = missed_m == 0.0F ? visible : hidden;
     }
     return verdicts;
@@ -246,7 +246,7 @@ void print(const char* name, const Agreement& of) {
         of.differing, 100.0 * of.near_share(), near_cells, percent(of.near_oracles_edges, of.differing));
 }
 
-struct Observer {
+struct NamedEye {
     const char* name;
     double lat_deg;
     double lon_deg;
@@ -254,31 +254,31 @@ struct Observer {
 
 // `file` is what GDAL opens of the ground, `path` what the region is opened from.
 void compare(const std::string& file, const std::string& path, double reach_m,
-             const std::vector<Observer>& observers) {
+             const std::vector<NamedEye>& named_eyes) {
     const ProjectedCopy copy(file);
     ASSERT_TRUE(copy.made()) << file;
     const auto region = test::opened(test::request_for({path}));
     ASSERT_TRUE(region);
     const TrueSurface surface(region->field, 1.0, thread_count());
-    for (const Observer& observer : observers) {
-        const auto at_m = copy.middle_m(observer.lat_deg, observer.lon_deg);
+    for (const NamedEye& named_eye : named_eyes) {
+        const auto at_m = copy.middle_m(named_eye.lat_deg, named_eye.lon_deg);
         std::vector<double> lon_deg{at_m[0]}, lat_deg{at_m[1]};
         copy.to_degrees(lon_deg, lat_deg);
         const auto ground_m = surface.h_m(lat_deg[0], lon_deg[0]);
-        ASSERT_TRUE(ground_m) << observer.name;
+        ASSERT_TRUE(ground_m) << named_eye.name;
         Cells cells;
         const auto gdal_begin = Clock::now();
         const Verdicts gdal = copy.viewshed(at_m, reach_m, cells);
         const double gdal_s = seconds_since(gdal_begin);
-        ASSERT_FALSE(gdal.empty()) << observer.name;
+        ASSERT_FALSE(gdal.empty()) << named_eye.name;
         const Agreement of = agreement(
             cells, gdal,
             seen_by_oracle(surface, {lat_deg[0], lon_deg[0], *ground_m + observer_above_m}, cells, gdal));
         std::printf("observer %.4f,%.4f ", lat_deg[0], lon_deg[0]);
-        print(observer.name, of);
-        EXPECT_EQ(of.without_ground, 0) << observer.name << ": the circle leaves the data";
-        EXPECT_GE(of.share(), least_agreement) << observer.name;
-        EXPECT_GE(of.near_share(), least_near_edges) << observer.name;
+        print(named_eye.name, of);
+        EXPECT_EQ(of.without_ground, 0) << named_eye.name << ": the circle leaves the data";
+        EXPECT_GE(of.share(), least_agreement) << named_eye.name;
+        EXPECT_GE(of.near_share(), least_near_edges) << named_eye.name;
         const Geodetic eye{lat_deg[0], lon_deg[0], *ground_m + observer_above_m};
         ViewshedRequest request{eye, matched_air(eye), target_above_m, reach_m + 2.0 * cell_m, 1};
         const auto one_begin = Clock::now();
@@ -292,12 +292,12 @@ void compare(const std::string& file, const std::string& path, double reach_m,
             agreement(cells, gdal, seen_by_viewshed(region->field.grid, shed, cells, gdal));
         print("    its nearest posts", posts);
         std::printf("    GDAL %.3f s, viewshed %.3f s on 1 core, %.3f s on 2\n", gdal_s, one_s, two_s);
-        EXPECT_GE(posts.share(), least_agreement) << observer.name;
-        EXPECT_GE(posts.near_share(), least_near_edges) << observer.name;
-        EXPECT_EQ(posts.without_ground, 0) << observer.name;
+        EXPECT_GE(posts.share(), least_agreement) << named_eye.name;
+        EXPECT_GE(posts.near_share(), least_near_edges) << named_eye.name;
+        EXPECT_EQ(posts.without_ground, 0) << named_eye.name;
         // Where most is hidden, two that see nothing would agree, too.
-        EXPECT_GT(of.seen_by_both, 0.9 * of.seen_by_either) << observer.name;
-        EXPECT_GT(of.seen_by_either, of.cells / 50) << observer.name;
+        EXPECT_GT(of.seen_by_both, 0.9 * of.seen_by_either) << named_eye.name;
+        EXPECT_GT(of.seen_by_either, of.cells / 50) << named_eye.name;
     }
 }
 

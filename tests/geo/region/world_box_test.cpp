@@ -86,7 +86,7 @@ TEST(WorldBox, EveryPartOfEveryWorldIsTheRastersOwn) {
                 EXPECT_TRUE(region->missing_cells.empty());
                 const PostGrid& grid = region->field.grid;
                 const double east_deg = box.east_deg + (box.west_deg > box.east_deg ? 360.0 : 0.0);
-                EXPECT_TRUE(grid.goes_round() ||
+                EXPECT_TRUE(grid.wraps_longitude() ||
                             (grid.west_deg() <= box.west_deg && grid.east_deg() >= east_deg))
                     << grid.west_deg() << " .. " << grid.east_deg();
                 EXPECT_EQ(placement_words(region->sources[0]), "posts copied");

@@ -144,9 +144,9 @@ TEST(HeightUnit, AnUnknownOneNamesTheOption) {
         {write_bytes((folder / "keys.tif").string(), tiff_with_vertical_unit(false, true, 9102, 1000))}));
     ASSERT_FALSE(keys.ok());  // 9102 is the degree
     EXPECT_NE(keys.error().line().find("--height-unit"), std::string::npos) << keys.error().line();
-    RegionRequest told = request_for({file});
-    told.height_unit = "ft";
-    EXPECT_TRUE(opened(told));
+    RegionRequest reported = request_for({file});
+    reported.height_unit = "ft";
+    EXPECT_TRUE(opened(reported));
 }
 
 // International foot 0.3048 m, US survey foot 1200/3937 m: NIST Special Publication 811, B.6.
@@ -178,9 +178,9 @@ TEST(HeightUnit, ZunitsThatAreNoUnitAreRefused) {
                                     "no known unit of height; --height-unit m, ft, us-ft"),
         std::string::npos)
         << refused.error().line();
-    RegionRequest told = request_for({file});
-    told.height_unit = "m";
-    EXPECT_TRUE(opened(told));
+    RegionRequest reported = request_for({file});
+    reported.height_unit = "m";
+    EXPECT_TRUE(opened(reported));
 }
 
 TEST(HeightUnit, ZunitsOfOldPrjFiles) {
@@ -237,10 +237,10 @@ TEST(HeightUnit, AssumedMetresBesideACrsInFeetAreTold) {
         "a.tif and 1 more file: its coordinate reference system counts in US survey foot, and nothing says "
         "what its heights count in; metres are assumed (--height-unit us-ft tells it otherwise)");
     request.height_unit = "us-ft";
-    const auto told = opened(request);
-    ASSERT_TRUE(told);
-    EXPECT_TRUE(about_unit(*told).empty());
-    EXPECT_NEAR(static_cast<double>(told->field.H_at_post_m(0, 0)), 304.8006096, 1e-4);
+    const auto reported = opened(request);
+    ASSERT_TRUE(reported);
+    EXPECT_TRUE(about_unit(*reported).empty());
+    EXPECT_NEAR(static_cast<double>(reported->field.H_at_post_m(0, 0)), 304.8006096, 1e-4);
     request.height_unit = "";
     raster.unit = "US survey foot";
     request.paths = {write_raster(folder / "c.tif", raster, slope_m)};
@@ -256,11 +256,11 @@ TEST(HeightUnit, ABandAndACrsThatContradictEachOtherAreTold) {
     const auto region = opened(request_for({write_raster(folder / "a.tif", raster, slope_m)}));
     ASSERT_TRUE(region);
     EXPECT_NEAR(static_cast<double>(region->field.H_at_post_m(0, 0)), 304.8, 2.0);  // NAVD88 to EGM96
-    std::size_t told = 0;
+    std::size_t reported = 0;
     for (const std::string& note : region->notes)
-        told += note.find("its band gives heights in ft") != std::string::npos &&
-                note.find("ft is taken (--height-unit tells it otherwise)") != std::string::npos;
-    EXPECT_EQ(told, 1U);
+        reported += note.find("its band gives heights in ft") != std::string::npos &&
+                    note.find("ft is taken (--height-unit tells it otherwise)") != std::string::npos;
+    EXPECT_EQ(reported, 1U);
 }
 
 }  // namespace

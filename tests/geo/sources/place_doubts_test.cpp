@@ -107,13 +107,14 @@ TEST(PlaceDoubts, FarOutsideTheAreaOfUseIsTold) {
                                    forty("EPSG:32632", 5000000.0, 500000.0, 100.0), relief_m);
     const auto region = opened(request_for({file}));
     ASSERT_TRUE(region);
-    std::size_t told = 0;
+    std::size_t reported = 0;
     for (const std::string& note : region->notes)
-        told += note.find("swapped.tif: its posts lie ") != std::string::npos &&
-                note.find(
-                    "degrees outside the area that its coordinate reference system is made for (0 N to 84 N, "
-                    "6 E to 12 E)") != std::string::npos;
-    EXPECT_EQ(told, 1U) << (region->notes.empty() ? "" : region->notes[0]);
+        reported +=
+            note.find("swapped.tif: its posts lie ") != std::string::npos &&
+            note.find(
+                "degrees outside the area that its coordinate reference system is made for (0 N to 84 N, "
+                "6 E to 12 E)") != std::string::npos;
+    EXPECT_EQ(reported, 1U) << (region->notes.empty() ? "" : region->notes[0]);
 }
 
 }  // namespace

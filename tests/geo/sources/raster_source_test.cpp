@@ -135,10 +135,10 @@ TEST(Raster, AreaAndPointAgreeToTheHalfPost) {
 
 TEST(Raster, UnitsScaleAndOffset) {
     const fs::path folder = scratch_folder();
-    const auto highest = [&](const std::string& name, const Raster& raster, const std::string& told) {
+    const auto highest = [&](const std::string& name, const Raster& raster, const std::string& reported) {
         RegionRequest request =
             request_for({write_raster(folder / name, raster, [](int, int) { return 1000.0; })});
-        request.height_unit = told;
+        request.height_unit = reported;
         std::string reason;
         const auto region = opened(request, &reason);
         EXPECT_TRUE(region) << reason;

@@ -25,12 +25,12 @@ TEST(SourceWords, FormatsComeBack) {
 }
 
 TEST(SourceWords, DatumsComeBack) {
-    for (const DatumFrom from :
-         {DatumFrom::crs, DatumFrom::told, DatumFrom::product, DatumFrom::dted_egm96, DatumFrom::dted_egm2008,
-          DatumFrom::hgt_format, DatumFrom::assumed_unstated, DatumFrom::assumed_unreadable}) {
+    for (const DatumFrom from : {DatumFrom::crs, DatumFrom::specified, DatumFrom::product,
+                                 DatumFrom::dted_egm96, DatumFrom::dted_egm2008, DatumFrom::hgt_format,
+                                 DatumFrom::assumed_unstated, DatumFrom::assumed_unreadable}) {
         for (const bool stands_in : {false, true}) {
             const bool is_named =
-                from == DatumFrom::crs || from == DatumFrom::told || from == DatumFrom::product;
+                from == DatumFrom::crs || from == DatumFrom::specified || from == DatumFrom::product;
             const HeightDatum datum{from, is_named ? "EPSG:5703 NAVD88 height" : "", stands_in};
             const std::string words = datum_words(datum);
             EXPECT_NE(words, "");

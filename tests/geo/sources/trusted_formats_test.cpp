@@ -89,20 +89,20 @@ void expect_no_lies(const fs::path& folder, const fs::path& raster) {
     const auto whole = opened(request_for({raster.string()}), &reason);
     ASSERT_TRUE(whole) << reason;
     EXPECT_NEAR(static_cast<double>(whole->field.H_at_post_m(60, 60)), hilly(60, 60), 1.0);
-    int told = 0;
+    int reported = 0;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
         const fs::path file = entry.path();
         const std::string content = content_of(file);
         for (const std::size_t cut : cuts_of(content.size())) {
             std::ofstream(file, std::ios::binary) << content.substr(0, cut);
             const auto region = test::open_grid(request_for({raster.string()}));
-            told += !region.ok();
+            reported += !region.ok();
             EXPECT_TRUE(is_no_lie(region, *whole))
                 << file.filename() << " of " << content.size() << " bytes, cut at " << cut;
         }
         std::ofstream(file, std::ios::binary) << content;
     }
-    EXPECT_GT(told, 40);
+    EXPECT_GT(reported, 40);
     EXPECT_TRUE(is_no_lie(test::open_grid(request_for({raster.string()})), *whole));
 }
 

@@ -17,7 +17,7 @@ namespace oro {
 namespace {
 
 const std::vector<char>* left_out_of(const RegionCuts& cuts, std::size_t grid) {
-    return cuts.grids[grid].left_out.empty() ? nullptr : &cuts.grids[grid].left_out;
+    return cuts.grids[grid].masked_posts.empty() ? nullptr : &cuts.grids[grid].masked_posts;
 }
 
 // The third grid lies over the second, and that over the first.
@@ -95,7 +95,7 @@ TEST(Feather, LeavesNoSteps) {
         const auto ground = RegionGround::of(region, 1.0);
         EXPECT_TRUE(ground.ok());
         double most_m = 0.0;
-        for (const GroundPiece& piece : (*ground)->ground().pieces())
+        for (const SurfaceTriangle& piece : (*ground)->ground().pieces())
             for (std::size_t i = 0; i < 3; ++i) {
                 const Geodetic &one = piece.corners[i], &next = piece.corners[(i + 1) % 3];
                 // Where the coarse grid ends beside a finer one there is nothing to go over to.

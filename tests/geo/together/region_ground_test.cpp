@@ -11,7 +11,7 @@
 #include <random>
 
 #include "core/sight/ground_profile.h"
-#include "core/sight/lookout.h"
+#include "core/sight/observer.h"
 #include "core/truth/oracle.h"
 #include "geo/together/cut_regions.h"
 #include "tests/support/three_grids.h"
@@ -131,7 +131,7 @@ TEST(RegionGround, StepsAreAsHighAsTheSurfacesDiffer) {
     ASSERT_TRUE(grounds.ok()) << grounds.error().line();
     const TrueGround& ground = (*grounds)->ground();
     double worst_m = 0.0;
-    for (const GroundPiece& piece : ground.pieces()) {
+    for (const SurfaceTriangle& piece : ground.pieces()) {
         for (const Geodetic& corner : piece.corners) {
             double nearest_m = 1.0e9;
             for (std::size_t grid = 0; grid < ground.grids(); ++grid) {
@@ -180,14 +180,14 @@ TEST(RegionGround, ProfilesFollowTheGridThatIsTheGround) {
             const Geodetic place = way(along_m);
             const auto h_m = ground.h_m(place.lat_deg, place.lon_deg);
             if (!h_m || !before->has_ground || !after->has_ground) continue;
-            const double told_m = std::lerp(before->h_m, after->h_m,
-                                            (along_m - before->along_m) / (after->along_m - before->along_m));
+            const double reported_m = std::lerp(
+                before->h_m, after->h_m, (along_m - before->along_m) / (after->along_m - before->along_m));
             if (after->along_m - before->along_m < 3.0 * beside_rim_m) {
                 ++beside_rims;
                 continue;
             }
             ++compared;
-            worst_m = std::max(worst_m, std::abs(told_m - *h_m));
+            worst_m = std::max(worst_m, std::abs(reported_m - *h_m));
         }
     }
     std::printf("seed %u: %d places of 60 profiles, at most %.4f m off; %d on a rim left out\n", seed,
@@ -214,10 +214,10 @@ TEST(RegionGround, LookoutsSeeOverSteps) {
         };
         const Geodetic eye = point(between(random, 2.0, 60.0)), target = point(between(random, 2.0, 60.0));
         if (eye.h_m < -1.0e5 || target.h_m < -1.0e5) continue;
-        const Lookout lookout(ground, eye, Air{});
-        const glm::dvec3 offset_m = ecef_from_geodetic(target).m - lookout.sight().eye.m;
+        const Observer observer(ground, eye, Air{});
+        const glm::dvec3 offset_m = ecef_from_geodetic(target).m - observer.sight().eye.m;
         const double length_m = glm::length(offset_m);
-        const Line line{ground, lookout.sight(), offset_m / length_m};
+        const Line line{ground, observer.sight(), offset_m / length_m};
         double least_m = 1.0e9;
         bool lost = false;
         for (double t_m = 0.0; t_m < length_m; t_m += 0.5) {
@@ -227,9 +227,9 @@ TEST(RegionGround, LookoutsSeeOverSteps) {
         }
         if (lost || std::abs(least_m) < 0.3) continue;  // between two steps of the march
         ++asked;
-        seen += lookout.sees(target) ? 1 : 0;
-        if (lookout.sees(target) != (least_m > 0.0)) ++wrong;
-        const double clearance_m = lookout.line_to(target).clearance_m;
+        seen += observer.sees(target) ? 1 : 0;
+        if (observer.sees(target) != (least_m > 0.0)) ++wrong;
+        const double clearance_m = observer.line_to(target).clearance_m;
         if ((clearance_m > 0.0) != (least_m > 0.0) && least_m < 0.0) ++wrong;
     }
     std::printf("seed %u: %d lines asked, %d seen, %d wrong\n", seed, asked, seen, wrong);

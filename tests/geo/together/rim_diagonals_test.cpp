@@ -19,17 +19,17 @@ HeightField ridge(int rows, int columns) {
     return field;
 }
 
-CutOut cut_at(const HeightField& field, int row, int column) {
-    CutOut cut;
-    cut.left_out.resize(field.H_m.size());
-    cut.left_out[static_cast<std::size_t>(row * field.grid.columns() + column)] = 1;
+GridClip cut_at(const HeightField& field, int row, int column) {
+    GridClip cut;
+    cut.masked_posts.resize(field.H_m.size());
+    cut.masked_posts[static_cast<std::size_t>(row * field.grid.columns() + column)] = 1;
     return cut;
 }
 
 // Found: 10.9 m at 46.40552033,8.57052069, where N46E008 lies beside a finer file.
 TEST(RimDiagonals, AreThoseOfCellsWithinTwoPostsOfTheRim) {
     const HeightField field = ridge(20, 20);
-    ASSERT_EQ(cell_diagonal(field, 4, 5), Diagonal::rises);
+    ASSERT_EQ(cell_diagonal(field, 4, 5), Diagonal::sw_ne);
     EXPECT_FALSE(rim_diagonals(field, {}));
     EXPECT_FALSE(rim_diagonals(field, cut_at(field, 18, 18))) << "no cell near it rises";
     const auto found = rim_diagonals(field, cut_at(field, 5, 5));

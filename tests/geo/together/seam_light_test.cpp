@@ -24,12 +24,12 @@ Key key(const glm::dvec3& m) {
 // What a page beside the cut knows: heights of posts that are left, one-sided where no other is.
 struct Rest {
     const HeightField& field;
-    const CutOut& cut;
+    const GridClip& cut;
 
     [[nodiscard]] bool has(int row, int column) const {
         if (row < 0 || column < 0 || row >= field.grid.rows() || column >= field.grid.columns()) return false;
         const auto post = static_cast<std::size_t>(row * field.grid.columns() + column);
-        return cut.left_out[post] == 0 && !is_void(field.H_m[post]);
+        return cut.masked_posts[post] == 0 && !is_void(field.H_m[post]);
     }
     // From one post to another where there is one beside, else from or to the post itself.
     [[nodiscard]] glm::dvec3 across(int row, int column, int down, int right) const {
@@ -53,9 +53,9 @@ TEST(SeamLight, IsThatOfThePagesBeside) {
     double most_deg = 0.0, most_uncut_deg = 0.0;
     const std::vector<RegionGrid>& grids = region.grids;
     for (std::size_t i = 0; i < grids.size(); ++i) {
-        const CutOut& cut = cuts->grids[i];
-        if (cut.left_out.empty()) continue;
-        const CutOut uncut{std::vector<char>(cut.left_out.size(), 0), {}, {}};
+        const GridClip& cut = cuts->grids[i];
+        if (cut.masked_posts.empty()) continue;
+        const GridClip uncut{std::vector<char>(cut.masked_posts.size(), 0), {}, {}};
         const Rest rest{grids[i].field, cut}, whole{grids[i].field, uncut};
         for (int row = 0; row < rest.field.grid.rows(); ++row) {
             for (int column = 0; column < rest.field.grid.columns(); ++column) {

@@ -49,7 +49,7 @@ TEST(ViewshedOfGrids, IsWhatMarchedLinesSee) {
                                 std::uniform_int_distribution<int>(0, shed.window.rows - 1)(random);
                 const int column = shed.window.first_column +
                                    std::uniform_int_distribution<int>(0, shed.window.columns - 1)(random);
-                const float missed_m = shed.missed_by_m[shed.window.number(row, column)];
+                const float missed_m = shed.clearance_deficit_m[shed.window.number(row, column)];
                 Geodetic target = target_over_post(ground.surface(grid), row, column, 0.0);
                 const auto ground_m = ground.h_m(target.lat_deg, target.lon_deg);
                 if (missed_m == Viewshed::unknown || !ground_m) continue;
@@ -86,8 +86,8 @@ TEST(ViewshedOfGrids, IsThatOfOneWhereNoOtherIsNear) {
     const ViewshedRequest request{eye, standard_air, 0.0, 1500.0, 1};
     const Viewshed all = viewshed(ground, 0, request), one = viewshed(ground.surface(0), 0, request);
     EXPECT_EQ(all.window, one.window);
-    EXPECT_EQ(all.missed_by_m, one.missed_by_m);
-    EXPECT_FALSE(one.missed_by_m.empty());
+    EXPECT_EQ(all.clearance_deficit_m, one.clearance_deficit_m);
+    EXPECT_FALSE(one.clearance_deficit_m.empty());
 }
 
 TEST(ViewshedOfGrids, TakesThePostsOfWhatCoversMost) {

@@ -31,8 +31,8 @@ TEST_F(ClustersOnGpu, EvictHiddenOnesFirst) {
         store.begin_frame();
         send(store, i, 1);
     }
-    for (const std::uint32_t cluster : {2U, 4U, 5U, 19U}) store.note_hidden(cluster, true);
-    store.note_hidden(4, false);
+    for (const std::uint32_t cluster : {2U, 4U, 5U, 19U}) store.mark_occluded(cluster, true);
+    store.mark_occluded(4, false);
     store.begin_frame();
     store.use(2);
     send(store, 10, 1);

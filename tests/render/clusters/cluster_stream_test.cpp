@@ -112,7 +112,7 @@ TEST_F(ClusterStreams, GoOnWhileOthersChoose) {
                 std::ranges::for_each(group.seen, keep);
             }
             std::ranges::for_each(ready.clusters, keep);
-            const auto choice = choose_clusters_here(
+            const auto choice = select_resident_cut(
                 *region, eye, 100'000, [&](std::uint32_t cluster) { return here.contains(cluster); });
             std::vector<std::uint32_t> to_come;
             std::ranges::copy_if(choice->clusters_wanted, std::back_inserter(to_come),
@@ -154,7 +154,7 @@ TEST_F(ClusterStreams, LoadAgainWhatWasEvicted) {
                 region->keep(cluster.number, cluster.reach);
                 on_gpu.insert(cluster.number);
             }
-            const auto choice = choose_clusters_here(*region, eye, 100'000, is_here);
+            const auto choice = select_resident_cut(*region, eye, 100'000, is_here);
             std::vector<std::uint32_t> to_come;
             std::ranges::copy_if(choice->clusters_wanted, std::back_inserter(to_come),
                                  [&](std::uint32_t cluster) { return !is_here(cluster); });

@@ -205,13 +205,13 @@ TEST_P(StreamedClusters, BringWhatShowsBeforeWhatIsHidden) {
         EXPECT_EQ(*streams.renderer().read_picture(streamed_px, streamed_px), picture);
         return groups;
     };
-    const std::size_t told = groups_until(true), untold = groups_until(false);
-    std::printf("%zu groups until all is there that shows, %zu where nothing is told\n", told, untold);
-    EXPECT_GT(told, 0U);
+    const std::size_t reported = groups_until(true), untold = groups_until(false);
+    std::printf("%zu groups until all is there that shows, %zu where nothing is told\n", reported, untold);
+    EXPECT_GT(reported, 0U);
     // More readers read what is hidden, too, for want of other work; the order itself is the business of
     // StreamedChoices and ClusterStreams.
     if (thread_count() <= 4) {
-        EXPECT_LT(5 * told, 4 * untold);
+        EXPECT_LT(5 * reported, 4 * untold);
     }
 }
 

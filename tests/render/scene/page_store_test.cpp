@@ -55,7 +55,7 @@ TEST_F(Store, EvictsHiddenPagesFirst) {
     for (int frame = 0; frame < 5; ++frame) {
         store.begin_frame();
         for (int i = 0; i < 20; ++i) EXPECT_NE(store.address({0, i, 0}), 0U);
-        for (int i = 10; i < 15; ++i) store.note_hidden({0, i, 0});
+        for (int i = 10; i < 15; ++i) store.mark_occluded({0, i, 0});
     }
     EXPECT_EQ(*store.send(some(100, 1)), 0U) << "the frame uses all, hidden ones, too";
     store.begin_frame();

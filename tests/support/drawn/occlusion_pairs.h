@@ -88,7 +88,7 @@ class OcclusionPair {
         for (std::size_t i = 0; i < one.size(); ++i) {
             if (one[i] == two[i]) continue;
             ++differ;
-            if (++told_ <= 5)
+            if (++reported_ <= 5)
                 std::printf("pixel %zu, %zu of %u x %u: %u without, %u with\n", i % width, i / width, width,
                             height, one[i], two[i]);
         }
@@ -116,7 +116,7 @@ class OcclusionPair {
     }
 
     std::optional<FrameRenderer> plain_, with_;
-    int told_{};
+    int reported_{};
 };
 
 // Pairs of eyes over a scene: each eye's picture, and of some a part of it with the eye's rays moved, is

@@ -30,7 +30,7 @@ inline StreamedFrames stream_frames(DrawnScene& drawn, const Camera& camera, dou
         ++streamed.frames;
         streamed.coarser += streamed.last.plan.grids[0].clusters.missing > 0 ? 1 : 0;
         each(streamed.last);
-        if (tells) drawn.scene().saw(streamed.last.report.sights);
+        if (tells) drawn.scene().apply_feedback(streamed.last.report.feedback);
         is_over = streamed.last.plan.is_settled();
         for (int turn = 0; !is_over; ++turn) {
             const auto better = drawn.scene().advance();

@@ -1,0 +1,77 @@
+#include "apps/drawing/background_pyramid_build.h"
+
+#include <chrono>
+#include <system_error>
+
+#include "apps/drawing/region_scene.h"
+#include "core/base/parallel.h"
+
+namespace oro {
+namespace {
+
+// Some 0.1 s of work on one processor (core/lod/pyramid.h).
+constexpr std::size_t posts_in_a_moment = 1'000'000;
+
+GridAxis every(const GridAxis& axis, int step) {
+    GridAxis coarse = axis;
+    coarse.posts_per_deg = axis.posts_per_deg / step;
+    coarse.phase_deg = axis.at_deg(0);
+    coarse.first = 0;
+    coarse.count = (axis.count - 1) / step + 1;
+    return coarse;
+}
+
+}  // namespace
+
+bool measures_long(const Region& region) {
+    // Of posts on a net, and of several grids, nothing coarser is made: their levels are waited for.
+    const RegionGrid& first = region.grids.front();
+    return region.grids.size() == 1 && !first.file && !first.field.posts && !first.field.grid.net &&
+           first.field.grid.post_count() > 4 * posts_in_a_moment;
+}
+
+int coarse_step(const HeightField& field) {
+    int step = 1;
+    while (field.grid.post_count() / static_cast<std::size_t>(step * step) > posts_in_a_moment) step *= 2;
+    return step;
+}
+
+HeightField coarse_field(const HeightField& field) {
+    const int step = coarse_step(field);
+    HeightField coarse;
+    coarse.grid = {every(field.grid.lat, step), every(field.grid.lon, step)};
+    coarse.undulation = field.undulation;
+    coarse.H_m.reserve(coarse.grid.post_count());
+    for (int row = 0; row < coarse.grid.rows(); ++row) {
+        for (int column = 0; column < coarse.grid.columns(); ++column)
+            coarse.H_m.push_back(field.H_at_post_m(row * step, column * step));
+    }
+    return coarse;
+}
+
+BackgroundPyramidBuild::BackgroundPyramidBuild(const Region& region, double exaggeration) {
+    const auto measure = [this, &region, exaggeration] {
+        return grid_pages(
+            region.grids.front(), {}, exaggeration, [this](double share) { share_ = share; },
+            stop_.get_token());
+    };
+    try {
+        pages_ = std::async(std::launch::async, measure);
+    } catch (const std::system_error&) {
+        pages_ = std::async(std::launch::deferred, measure);
+    }
+}
+
+BackgroundPyramidBuild::~BackgroundPyramidBuild() {
+    stop_.request_stop();
+}
+
+bool BackgroundPyramidBuild::ready() const {
+    return pages_.wait_for(std::chrono::seconds(0)) != std::future_status::timeout;
+}
+
+Result<std::unique_ptr<RegionPages>> BackgroundPyramidBuild::wait() {
+    return pages_.get();
+}
+
+}  // namespace oro

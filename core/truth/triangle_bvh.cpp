@@ -1,0 +1,138 @@
+#include "core/truth/triangle_bvh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+namespace oro {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr std::uint32_t most_in_leaf = 4;
+
+// By what rounding, and turning into the frame, may move a line from 1e9 m away.
+constexpr double rounded_m = 1.0e-6;
+
+// How far along a line a box begins, or infinity: it is not met nearer than reach_m. `inverse` is finite.
+double begin_m(const glm::dvec3& start, const glm::dvec3& inverse, const glm::dvec3& low,
+               const glm::dvec3& high, double reach_m) {
+    const glm::dvec3 one_m = (low - start) * inverse, other_m = (high - start) * inverse;
+    const glm::dvec3 from_m = glm::min(one_m, other_m), to_m = glm::max(one_m, other_m);
+    const double begin_m = std::max(std::max(from_m.x, from_m.y), std::max(from_m.z, 0.0));
+    const double end_m = std::min(std::min(to_m.x, to_m.y), std::min(to_m.z, reach_m));
+    return begin_m <= end_m ? begin_m : infinite;
+}
+
+// Source: T. Möller, B. Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997, eq. 6; a share may
+// be below 0 by rounding.
+std::optional<double> along_m(const std::array<glm::dvec3, 3>& triangle, const glm::dvec3& start,
+                              const glm::dvec3& direction) {
+    const glm::dvec3 one = triangle[1] - triangle[0], other = triangle[2] - triangle[0];
+    const glm::dvec3 across = glm::cross(direction, other);
+    const double determinant = glm::dot(one, across);
+    if (determinant == 0.0) return std::nullopt;
+    constexpr double rounded = 1.0e-9;
+    const glm::dvec3 to_start = start - triangle[0];
+    const double share_1 = glm::dot(to_start, across) / determinant;
+    if (share_1 < -rounded || share_1 > 1.0 + 2.0 * rounded) return std::nullopt;
+    const glm::dvec3 around = glm::cross(to_start, one);
+    const double share_2 = glm::dot(direction, around) / determinant;
+    if (share_2 < -rounded || share_1 + share_2 > 1.0 + rounded) return std::nullopt;
+    return glm::dot(other, around) / determinant;
+}
+
+}  // namespace
+
+TriangleBvh::TriangleBvh(std::vector<std::array<glm::dvec3, 3>> triangles, const glm::dmat3& frame)
+    : frame_from_ecef_(glm::transpose(frame)), triangles_(std::move(triangles)) {
+    if (triangles_.empty()) return;
+    std::vector<Bounds> bounds(triangles_.size());
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+        const glm::dvec3 a = frame_from_ecef_ * triangles_[i][0], b = frame_from_ecef_ * triangles_[i][1],
+                         c = frame_from_ecef_ * triangles_[i][2];
+        bounds[i] = {glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)), (a + b + c) / 3.0,
+                     static_cast<std::uint32_t>(i)};
+    }
+    nodes_.reserve(triangles_.size());
+    nodes_.emplace_back();
+    split(0, bounds, 0, static_cast<std::uint32_t>(bounds.size()));
+    std::vector<std::array<glm::dvec3, 3>> sorted(triangles_.size());
+    for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = triangles_[bounds[i].triangle];
+    triangles_ = std::move(sorted);
+}
+
+// Halves them along the longest side of the box around their middles.
+void TriangleBvh::split(std::uint32_t node, std::vector<Bounds>& bounds, std::uint32_t first,
+                        std::uint32_t last) {
+    glm::dvec3 low(infinite), high(-infinite), least(infinite), most(-infinite);
+    for (std::uint32_t i = first; i < last; ++i) {
+        low = glm::min(low, bounds[i].low);
+        high = glm::max(high, bounds[i].high);
+        least = glm::min(least, bounds[i].middle);
+        most = glm::max(most, bounds[i].middle);
+    }
+    nodes_[node].low = low - rounded_m;
+    nodes_[node].high = high + rounded_m;
+    if (last - first <= most_in_leaf) {
+        nodes_[node].first = first;
+        nodes_[node].count = last - first;
+        return;
+    }
+    const glm::dvec3 size = most - least;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const std::uint32_t half = first + (last - first) / 2;
+    const auto at = [&](std::uint32_t i) { return bounds.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(first), at(half), at(last),
+                     [axis](const Bounds& a, const Bounds& b) { return a.middle[axis] < b.middle[axis]; });
+    const auto below = static_cast<std::uint32_t>(nodes_.size());
+    nodes_[node].first = below;
+    nodes_.resize(nodes_.size() + 2);
+    split(below, bounds, first, half);
+    split(below + 1, bounds, half, last);
+}
+
+std::optional<double> TriangleBvh::first_hit(const glm::dvec3& start_m, const glm::dvec3& direction,
+                                             double reach_m) const {
+    if (nodes_.empty()) return std::nullopt;
+    const glm::dvec3 start = frame_from_ecef_ * start_m;
+    glm::dvec3 inverse = frame_from_ecef_ * direction;
+    for (int axis = 0; axis < 3; ++axis) {
+        // Along a box's side: farther away than any reach, or never left.
+        constexpr double least = 1.0e-200;
+        inverse[axis] = 1.0 / (std::abs(inverse[axis]) < least ? least : inverse[axis]);
+    }
+    std::optional<double> nearest_m;
+    double most_m = reach_m;
+    struct Waiting {
+        std::uint32_t node;
+        double begin_m;
+    };
+    const auto begin_of = [&](std::uint32_t node) {
+        return begin_m(start, inverse, nodes_[node].low, nodes_[node].high, most_m);
+    };
+    std::array<Waiting, 64> waiting{};  // 2^32 triangles are 32 levels
+    std::size_t count = 0;
+    Waiting next{0, begin_of(0)};
+    for (;;) {
+        const Node& node = nodes_[next.node];
+        if (next.begin_m <= most_m && node.count == 0) {
+            Waiting near{node.first, begin_of(node.first)}, far{node.first + 1, begin_of(node.first + 1)};
+            if (far.begin_m < near.begin_m) std::swap(near, far);
+            if (far.begin_m < infinite) waiting[count++] = far;
+            next = near;
+            if (near.begin_m < infinite) continue;
+        } else if (next.begin_m <= most_m) {
+            for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+                const auto at_m = along_m(triangles_[i], start_m, direction);
+                if (at_m && *at_m >= 0.0 && *at_m < most_m) nearest_m = most_m = *at_m;
+            }
+        }
+        if (count == 0) return nearest_m;
+        next = waiting[--count];
+    }
+}
+
+}  // namespace oro
