@@ -14,7 +14,7 @@
 namespace oro {
 namespace {
 
-const Geodetic eye{46.5, 8.1, 3000.0};
+const Geodetic cylinder_eye{46.5, 8.1, 3000.0};
 
 std::vector<Cylinder> cylinders() {
     return {cylinder_around(0.0, 360.0, -14.0, 4.0, 1000), cylinder_around(300.0, 120.0, -35.0, 35.0, 777),
@@ -26,7 +26,7 @@ TEST(CylinderTiles, AreEachPixelOnce) {
     for (const Cylinder& around : cylinders()) {
         std::vector<int> covered(static_cast<std::size_t>(around.width_px) *
                                  static_cast<std::size_t>(around.height_px()));
-        const std::vector<CylinderTile> tiles = cylinder_tiles(around, eye, {2.0, 512, 45.0, 3.0});
+        const std::vector<CylinderTile> tiles = cylinder_tiles(around, cylinder_eye, {2.0, 512, 45.0, 3.0});
         const bool is_level =
             std::max(around.elevation_deg_at(0.0), -around.elevation_deg_at(around.height_px())) < 36.0;
         for (const CylinderTile& tile : tiles) {
@@ -48,9 +48,10 @@ TEST(CylinderTiles, AreEachPixelOnce) {
 // much finer as was asked for, or more.
 TEST(CylinderTiles, SeeWhatTheyAreForFinely) {
     for (const Cylinder& around : cylinders()) {
-        for (const CylinderTile& tile : cylinder_tiles(around, eye, {2.0, 512, 45.0, 0.0})) {
+        for (const CylinderTile& tile : cylinder_tiles(around, cylinder_eye, {2.0, 512, 45.0, 0.0})) {
             const Camera& camera = tile.camera;
-            const glm::dmat3 turn = camera.view_from_ecef() * ecef_from_enu(eye.lat_deg, eye.lon_deg);
+            const glm::dmat3 turn =
+                camera.view_from_ecef() * ecef_from_enu(cylinder_eye.lat_deg, cylinder_eye.lon_deg);
             const auto seen_px = [&](double x, double y) {
                 const glm::dvec3 seen = turn * around.enu_at({x, y});
                 EXPECT_LT(seen.z, 0.0);
@@ -82,8 +83,9 @@ TEST(CylinderTiles, UnrollToTheColoursOfTheirDirections) {
     for (const Cylinder& around : cylinders()) {
         std::vector<std::uint8_t> rgb(3 * static_cast<std::size_t>(around.width_px) *
                                       static_cast<std::size_t>(around.height_px()));
-        const glm::dmat3 enu_from_ecef = glm::transpose(ecef_from_enu(eye.lat_deg, eye.lon_deg));
-        for (const CylinderTile& tile : cylinder_tiles(around, eye, {2.0, 512, 45.0, 0.0})) {
+        const glm::dmat3 enu_from_ecef =
+            glm::transpose(ecef_from_enu(cylinder_eye.lat_deg, cylinder_eye.lon_deg));
+        for (const CylinderTile& tile : cylinder_tiles(around, cylinder_eye, {2.0, 512, 45.0, 0.0})) {
             std::vector<std::uint8_t> drawn;
             for (int y = 0; y < tile.camera.height_px; ++y) {
                 for (int x = 0; x < tile.camera.width_px; ++x) {
@@ -120,8 +122,9 @@ TEST(CylinderTiles, UnrollToTheirPlaces) {
          {cylinder_around(0.0, 360.0, -14.0, 4.0, 1600), cylinder_around(300.0, 120.0, -35.0, 35.0, 800)}) {
         std::vector<std::uint8_t> rgb(3 * static_cast<std::size_t>(around.width_px) *
                                       static_cast<std::size_t>(around.height_px()));
-        const glm::dmat3 enu_from_ecef = glm::transpose(ecef_from_enu(eye.lat_deg, eye.lon_deg));
-        for (const CylinderTile& tile : cylinder_tiles(around, eye, {2.0, 512, 45.0, 0.0})) {
+        const glm::dmat3 enu_from_ecef =
+            glm::transpose(ecef_from_enu(cylinder_eye.lat_deg, cylinder_eye.lon_deg));
+        for (const CylinderTile& tile : cylinder_tiles(around, cylinder_eye, {2.0, 512, 45.0, 0.0})) {
             std::vector<std::uint8_t> drawn;
             for (int y = 0; y < tile.camera.height_px; ++y) {
                 for (int x = 0; x < tile.camera.width_px; ++x) {
@@ -151,7 +154,7 @@ TEST(CylinderTiles, UnrollToTheirPlaces) {
 // that of half the code.
 TEST(CylinderTiles, MixLightAndNotCodes) {
     const Cylinder around = cylinder_around(0.0, 20.0, -5.0, 5.0, 200);
-    const std::vector<CylinderTile> tiles = cylinder_tiles(around, eye, {2.0, 2048, 45.0, 0.0});
+    const std::vector<CylinderTile> tiles = cylinder_tiles(around, cylinder_eye, {2.0, 2048, 45.0, 0.0});
     ASSERT_EQ(tiles.size(), 1U);
     const Camera& camera = tiles.front().camera;
     std::vector<std::uint8_t> drawn;
