@@ -349,7 +349,7 @@ TEST_P(Models, CullingChangesNoPixel) {
                 const Camera camera =
                     random_camera(random, field, 2.0, 50000.0, i % 2 ? -90.0 : -10.0, i % 2 ? 20.0 : 2.0);
                 FramePlan culled = plan_of(scene, camera, 0.0, model);
-                culled_pages += culled.pages_beyond_frustum + culled.pages_beyond_horizon;
+                culled_pages += culled.grids[0].pages_beyond_frustum + culled.grids[0].pages_beyond_horizon;
                 FramePlan everything = plan_of(all, camera, 0.0, model);
                 ASSERT_EQ(everything.grids[0].pages.size(), 9U + 4U + 1U);
                 for (gpu::FramePage& page : everything.grids[0].pages) page.cull = 0;
