@@ -81,7 +81,7 @@ Result<void> check_sum(const OpenFile& file, const Chunk& chunk, std::uint64_t s
 // That the chunks are what they may be, and fill the file.
 Result<void> check_chunks(const OpenFile& file, const ChunkTable& table) {
     std::uint64_t end = table.bytes();
-    std::vector<std::pair<std::uint32_t, ChunkType>> told;
+    std::vector<std::pair<std::uint32_t, ChunkType>> keys;
     for (std::size_t i = 0; i < table.chunks.size(); ++i) {
         const Chunk& chunk = table.chunks[i];
         const std::uint64_t at = ChunkTable::header_bytes + i * ChunkTable::entry_bytes;
@@ -95,13 +95,13 @@ Result<void> check_chunks(const OpenFile& file, const ChunkTable& table) {
                                              " bytes, expected to end within the file's " +
                                              std::to_string(table.file_bytes));
         end += chunk.bytes;
-        told.emplace_back(chunk.grid, chunk.type);
+        keys.emplace_back(chunk.grid, chunk.type);
     }
     if (end != table.file_bytes)
         return file.damaged(16, "a size of " + std::to_string(table.file_bytes) +
                                     " bytes, but its chunks end at byte " + std::to_string(end));
-    std::ranges::sort(told);
-    if (std::ranges::adjacent_find(told) == told.end()) return {};
+    std::ranges::sort(keys);
+    if (std::ranges::adjacent_find(keys) == keys.end()) return {};
     return file.damaged(ChunkTable::header_bytes, "its table has a chunk twice");
 }
 

@@ -13,7 +13,7 @@
 
 #include "core/base/result.h"
 #include "core/cluster_file/cluster_file.h"
-#include "core/cluster_frame/held_groups.h"
+#include "core/cluster_frame/group_cache.h"
 #include "core/clusters/cluster_graph.h"
 #include "core/earth/culling.h"
 #include "core/frame/height_quantization.h"
@@ -33,7 +33,7 @@ using UnsoundGroupError = std::function<Error(std::uint32_t number, const std::s
 // question to the whole graph: ClusterFile::check().)
 //
 // For one thread at a time, but for what says otherwise. Keeps 5 bytes a post, and what was asked for: some
-// 40 bytes a triangle of the graph above the leaves, as much of it as may be held (HeldGroups). What gave way
+// 40 bytes a triangle of the graph above the leaves, as much of it as may be held (GroupCache). What gave way
 // is read again when it is asked for.
 class RegionClusters {
   public:
@@ -63,7 +63,7 @@ class RegionClusters {
     void begin_frame() { held_.begin_frame(); }
     void mark_occluded(std::vector<std::uint32_t> groups) { held_.mark_occluded(std::move(groups)); }
     void end_frame() { held_.end_frame(); }
-    [[nodiscard]] const HeldGroups& held() const { return held_; }
+    [[nodiscard]] const GroupCache& held() const { return held_; }
     // Reads groups, and the reach of clusters, that are not here, by several threads. Errors: damage.
     Result<void> read(std::span<const std::uint32_t> groups);
     Result<void> reach_all(std::span<const std::uint32_t> clusters);
@@ -150,7 +150,7 @@ class RegionClusters {
     std::vector<std::uint32_t> roots_;
     ReadGroup read_;
     UnsoundGroupError unsound_;
-    HeldGroups held_;
+    GroupCache held_;
 };
 
 // Of a cluster file over the posts of a region. Errors: a file of other posts (told by `fingerprint`),

@@ -145,7 +145,7 @@ Result<void> LatticeGeoreference::measure() {
     };
     const double row_look = looks(row_step, down_.last()), column_look = looks(column_step, across_.last());
     double bend = 1.0, turn = 0.0;
-    std::vector<LatticeFrame> local_frames;
+    std::vector<LatticeFrame> frames;
     for (int i = 0; i <= side; ++i) {
         for (int j = 0; j <= side; ++j) {
             const double row = i * row_step, column = j * column_step;
@@ -171,18 +171,18 @@ Result<void> LatticeGeoreference::measure() {
             bent(below.by_row - jet.by_row, row_way, down, down);
             bent(beside.by_column - jet.by_column, column_way, right, right);
             bent(below.by_column - jet.by_column, row_way, down, right);
-            local_frames.push_back(local_frame_at(row, column));
+            frames.push_back(local_frame_at(row, column));
         }
     }
     // Between two samples it is larger than at both by no more than they differ.
     const auto largest = [&](double LatticeFrame::*length_m) {
         double most_m = 0.0, change_m = 0.0;
-        for (std::size_t i = 0; i < local_frames.size(); ++i) {
-            most_m = std::max(most_m, local_frames[i].*length_m);
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            most_m = std::max(most_m, frames[i].*length_m);
             for (const std::size_t before : {std::size_t{1}, std::size_t{side + 1}})
                 if (i >= before)
-                    change_m = std::max(
-                        change_m, std::abs(local_frames[i].*length_m - local_frames[i - before].*length_m));
+                    change_m =
+                        std::max(change_m, std::abs(frames[i].*length_m - frames[i - before].*length_m));
         }
         return most_m + std::min(change_m, 0.02 * most_m);
     };

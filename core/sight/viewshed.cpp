@@ -369,7 +369,7 @@ class Reach {
     double tangent_;
 };
 
-float missed_by_lookout_m(const Observer& observer, const Geodetic& target) {
+float clearance_deficit_to_m(const Observer& observer, const Geodetic& target) {
     const std::optional<double> by_m = observer.clearance_deficit_m(target);
     return by_m ? static_cast<float>(*by_m) : std::numeric_limits<float>::infinity();
 }
@@ -444,7 +444,7 @@ Viewshed viewshed(const TrueGround& ground, std::size_t grid, const ViewshedRequ
             target.h_m = *ground_m;
             if (!reach.holds(target)) continue;
             target.h_m += std::max(request.target_m, least_above_m);
-            viewshed.clearance_deficit_m[window.number(row, column)] = missed_by_lookout_m(observer, target);
+            viewshed.clearance_deficit_m[window.number(row, column)] = clearance_deficit_to_m(observer, target);
             ++asked;
         }
         const std::lock_guard lock(telling);

@@ -35,7 +35,7 @@ Result<ClusterScene> ClusterScene::create(const Gpu& gpu, std::unique_ptr<Region
                                           std::uint64_t bytes, std::uint64_t main_bytes) {
     ClusterStore store(gpu,
                        std::max<std::uint64_t>(bytes, clusters->roots().size() * sizeof(gpu::ClusterBlock)));
-    if (main_bytes != HeldGroups::no_limit) clusters->hold_at_most(main_bytes - main_bytes / 4);
+    if (main_bytes != GroupCache::no_limit) clusters->hold_at_most(main_bytes - main_bytes / 4);
     return ClusterScene(std::move(clusters), std::move(store), most_on_the_way(main_bytes));
 }
 

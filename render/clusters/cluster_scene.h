@@ -23,7 +23,7 @@ class ClusterScene {
     // those on their way, `main_bytes` of the processor's memory, or what a frame needs of them. Errors: out
     // of memory.
     static Result<ClusterScene> create(const Gpu& gpu, std::unique_ptr<RegionClusters> clusters,
-                                       std::uint64_t bytes, std::uint64_t main_bytes = HeldGroups::no_limit);
+                                       std::uint64_t bytes, std::uint64_t main_bytes = GroupCache::no_limit);
 
     // From now on the cut is that of a level of the graph, the same from everywhere; tau is for shading
     // alone.
@@ -56,7 +56,7 @@ class ClusterScene {
 
     [[nodiscard]] const ClusterStore& store() const { return store_; }
     // What groups take of the processor's memory: those that were read, without those on their way.
-    [[nodiscard]] const HeldGroups& groups() const { return clusters_->held(); }
+    [[nodiscard]] const GroupCache& groups() const { return clusters_->held(); }
     // The most clusters of a plan that there was no room for, of all plans so far.
     [[nodiscard]] std::size_t most_without_room() const { return most_without_room_; }
 

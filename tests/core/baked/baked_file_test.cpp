@@ -64,7 +64,7 @@ class BakedFile : public ::testing::Test {
         return refusal(folder_ / "damaged.oro");
     }
     // Any byte of it, and any end.
-    void expect_damage_to_be_told() const {
+    void expect_damage_to_be_reported() const {
         constexpr unsigned seed = 331;
         std::mt19937_64 random(seed);
         const std::string whole = test::bytes_of(path_);
@@ -137,7 +137,7 @@ TEST_F(BakedFile, HasSeveralGridsInTheirOrder) {
     EXPECT_EQ((*opened)[1].region->bytes(), fs::file_size(other));
     EXPECT_EQ(refusal(path_), "");
     EXPECT_NE(RegionFile::open(path_).error().line().find("holds 2 grids of posts"), std::string::npos);
-    expect_damage_to_be_told();
+    expect_damage_to_be_reported();
     // Grids without an order.
     join({{region_, 2}, {other, 0}});
     EXPECT_NE(refusal(path_).find("a chunk of grid 2, which is none of its 2"), std::string::npos)
@@ -147,7 +147,7 @@ TEST_F(BakedFile, HasSeveralGridsInTheirOrder) {
 }
 
 TEST_F(BakedFile, DamageIsToldInOneLine) {
-    expect_damage_to_be_told();
+    expect_damage_to_be_reported();
 }
 
 // Parts that are whole, of two regions; and clusters alone.

@@ -97,7 +97,7 @@ TEST(SourcePaths, OtherThingsWithEndingsOfRasters) {
         EXPECT_TRUE(std::ranges::any_of(region->notes, [&](const std::string& note) {
             return note.find(name) != std::string::npos;
         })) << name;
-        expect_error((folder / name).string(), ErrorKind::failed, "trusted");
+        expect_error((folder / name).string(), ErrorKind::failed, "accepted format");
     }
 }
 

@@ -176,7 +176,7 @@ TEST(TrustedFormat, OthersAreRefused) {
     for (const char* name : {"a.nc", "b.img", "c.bil"}) {
         const auto region = test::open_grid(request_for({(folder / name).string()}));
         ASSERT_FALSE(region.ok()) << name;
-        EXPECT_NE(region.error().line().find("trusted"), std::string::npos) << region.error().line();
+        EXPECT_NE(region.error().line().find("accepted format"), std::string::npos) << region.error().line();
     }
     std::ofstream(folder / "raw.vrt")
         << "<VRTDataset rasterXSize=\"4\" rasterYSize=\"4\"><SRS>EPSG:4326</SRS><GeoTransform>8, 0.1, 0, 47, "

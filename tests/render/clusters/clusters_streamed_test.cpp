@@ -18,11 +18,11 @@ class StreamedClusters : public test::GpuTest, public ::testing::WithParamInterf
   protected:
     test::ClusterTerrain terrain_{test::rough_field(47.0, 8.0, 260, 310)};
 
-    test::DrawnScene scene(std::uint64_t bytes, std::uint64_t main_bytes = HeldGroups::no_limit) {
+    test::DrawnScene scene(std::uint64_t bytes, std::uint64_t main_bytes = GroupCache::no_limit) {
         return scene_of(terrain_, bytes, main_bytes);
     }
     test::DrawnScene scene_of(const test::ClusterTerrain& terrain, std::uint64_t bytes,
-                              std::uint64_t main_bytes = HeldGroups::no_limit) {
+                              std::uint64_t main_bytes = GroupCache::no_limit) {
         test::DrawnScene drawn(*gpu_, pages_in_memory(terrain.field, 1.0, 2), GetParam(), streamed_px,
                                streamed_px);
         test::draw_by_clusters(*gpu_, terrain, drawn.scene(), bytes, {}, main_bytes);

@@ -21,7 +21,7 @@ namespace oro::test {
 inline void draw_by_clusters(const Gpu& gpu, const ClusterTerrain& terrain, Scene& scene,
                              std::uint64_t bytes = std::uint64_t{64} << 20U,
                              std::optional<std::uint32_t> level = {},
-                             std::uint64_t main_bytes = HeldGroups::no_limit) {
+                             std::uint64_t main_bytes = GroupCache::no_limit) {
     auto clusters =
         clusters_of_graph(terrain.graph, terrain.field, scene.grids()[0].pages().facts().shape.occluder);
     ASSERT_TRUE(clusters.ok()) << clusters.error().line();

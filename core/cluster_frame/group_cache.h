@@ -34,7 +34,7 @@ struct ClusterReach {
 //
 // For one thread, but for what says otherwise. What it points to is good until the next frame begins, if the
 // frame has used it.
-class HeldGroups {
+class GroupCache {
   public:
     static constexpr std::uint64_t no_limit = std::numeric_limits<std::uint64_t>::max();
 

@@ -1,4 +1,4 @@
-#include "core/cluster_frame/held_groups.h"
+#include "core/cluster_frame/group_cache.h"
 
 #include <utility>
 
@@ -11,19 +11,19 @@ std::uint64_t held_bytes(const GroupPart& part) {
            part.triangles.capacity() * sizeof(VertexTriangle);
 }
 
-void HeldGroups::make_places(std::size_t groups, std::size_t clusters, std::uint32_t leaves) {
+void GroupCache::make_places(std::size_t groups, std::size_t clusters, std::uint32_t leaves) {
     held_.resize(groups);
     reaches_.resize(clusters);
     users_.assign(leaves, no_group);
 }
 
-void HeldGroups::begin_frame() {
+void GroupCache::begin_frame() {
     ++frame_;
     for (const std::uint32_t group : hidden_)
         if (group < held_.size() && held_[group]) order_.splice(order_.begin(), order_, held_[group]->place);
 }
 
-const GroupPart* HeldGroups::use(std::uint32_t group) {
+const GroupPart* GroupCache::use(std::uint32_t group) {
     Held* const held = held_[group].get();
     if (held == nullptr) return nullptr;
     if (held->used < frame_) {
@@ -33,12 +33,12 @@ const GroupPart* HeldGroups::use(std::uint32_t group) {
     return held->part.get();
 }
 
-std::shared_ptr<const GroupPart> HeldGroups::share(std::uint32_t group) const {
+std::shared_ptr<const GroupPart> GroupCache::share(std::uint32_t group) const {
     const std::scoped_lock lock(mutex_);
     return held_[group] ? held_[group]->part : nullptr;
 }
 
-const GroupPart* HeldGroups::put(std::uint32_t group, std::unique_ptr<GroupPart> part) {
+const GroupPart* GroupCache::put(std::uint32_t group, std::unique_ptr<GroupPart> part) {
     if (const GroupPart* const here = use(group)) return here;
     const std::uint64_t bytes = held_bytes(*part);
     evict_unused(bytes);
@@ -54,7 +54,7 @@ const GroupPart* HeldGroups::put(std::uint32_t group, std::unique_ptr<GroupPart>
     return held_[group]->part.get();
 }
 
-void HeldGroups::put_reach(std::uint32_t cluster, std::uint32_t maker, const ClusterReach& reach) {
+void GroupCache::put_reach(std::uint32_t cluster, std::uint32_t maker, const ClusterReach& reach) {
     if (const std::uint32_t group = keeper(cluster, maker);
         group == no_group ? !held_.empty() : use(group) == nullptr)
         return;
@@ -64,13 +64,13 @@ void HeldGroups::put_reach(std::uint32_t cluster, std::uint32_t maker, const Clu
     bytes_ += held_reach_bytes;
 }
 
-void HeldGroups::evict_unused(std::uint64_t more) {
+void GroupCache::evict_unused(std::uint64_t more) {
     // The frame's own are the last.
     while (bytes_ + more > most_bytes_ && !order_.empty() && held_[order_.front()]->used < frame_)
         drop(order_.front());
 }
 
-void HeldGroups::drop(std::uint32_t group) {
+void GroupCache::drop(std::uint32_t group) {
     std::unique_ptr<Held> held;
     {
         const std::scoped_lock lock(mutex_);
@@ -84,7 +84,7 @@ void HeldGroups::drop(std::uint32_t group) {
     order_.erase(held->place);
 }
 
-void HeldGroups::drop_reach(std::uint32_t cluster) {
+void GroupCache::drop_reach(std::uint32_t cluster) {
     if (!reaches_[cluster]) return;
     reaches_[cluster].reset();
     bytes_ -= held_reach_bytes;

@@ -1,5 +1,5 @@
 // Groups that were read, within a budget of memory.
-#include "core/cluster_frame/held_groups.h"
+#include "core/cluster_frame/group_cache.h"
 
 #include <cstring>
 #include <random>
@@ -12,7 +12,7 @@ namespace {
 // Five groups over a dozen leaves: group i uses leaves 2 i and 2 i + 1, and makes cluster 12 + i.
 class HeldOfAGraph : public ::testing::Test {
   protected:
-    HeldGroups held_;
+    GroupCache held_;
 
     void SetUp() override { held_.make_places(5, 17, 12); }
     static std::unique_ptr<GroupPart> part(std::uint32_t number) {
