@@ -68,13 +68,13 @@ set_tests_properties(
   Pipeline.ViewsNameTheWayThatDrewThem
   Pipelines/EachCallOfVulkan.FailsWithALineAndNothingLeft/compute
   Pipelines/EachCallOfVulkan.FailsWithALineAndNothingLeft/mesh
-  Prints.AnotherGeoidGridIsTold
-  Prints.AnotherVersionIsANoteUnlessPixelsDiffer
-  Prints.DataChangedGoesOnAndSaysSo
-  Prints.EachOfTheFourHasALineOfItsOwn
-  Prints.SwappedDataAreTold
-  Prints.TheSameDataUnderAnotherNameOrBakedAreTheSame
-  Prints.ViewsWithoutAnyOpenAsTheyDid
+  FingerprintsOfViews.AnotherGeoidGridIsTold
+  FingerprintsOfViews.AnotherVersionIsANoteUnlessPixelsDiffer
+  FingerprintsOfViews.DataChangedGoesOnAndSaysSo
+  FingerprintsOfViews.EachOfTheFourHasALineOfItsOwn
+  FingerprintsOfViews.SwappedDataAreTold
+  FingerprintsOfViews.TheSameDataUnderAnotherNameOrBakedAreTheSame
+  FingerprintsOfViews.ViewsWithoutAnyOpenAsTheyDid
   RegionWords.VoidsAndMissingTilesAreCountedApart
   ResamplingReported.WithoutBeingAskedForThereIsNone
   SameEverywhere.AViewUnderAnImage
