@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <span>
 
 #include "core/net/chebyshev.h"
 
@@ -11,6 +12,20 @@ namespace oro {
 namespace {
 
 constexpr double smallest_radius_m = wgs84_b_m * wgs84_b_m / wgs84_a_m;  // of curvature, on the ellipsoid
+
+// The largest length of frames that were sampled in rows of `columns`: between two samples it is larger than
+// at both by no more than they differ.
+double largest_length_m(std::span<const LatticeGeoreference::LatticeFrame> frames, std::size_t columns,
+                        double LatticeGeoreference::LatticeFrame::*length_m) {
+    double most_m = 0.0, change_m = 0.0;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const double one_m = frames[i].*length_m;
+        most_m = std::max(most_m, one_m);
+        for (const std::size_t before : {std::size_t{1}, columns})
+            if (i >= before) change_m = std::max(change_m, std::abs(one_m - frames[i - before].*length_m));
+    }
+    return most_m + std::min(change_m, 0.02 * most_m);
+}
 
 }  // namespace
 
@@ -174,20 +189,8 @@ Result<void> LatticeGeoreference::measure() {
             frames.push_back(local_frame_at(row, column));
         }
     }
-    // Between two samples it is larger than at both by no more than they differ.
-    const auto largest = [&](double LatticeFrame::*length_m) {
-        double most_m = 0.0, change_m = 0.0;
-        for (std::size_t i = 0; i < frames.size(); ++i) {
-            most_m = std::max(most_m, frames[i].*length_m);
-            for (const std::size_t before : {std::size_t{1}, std::size_t{side + 1}})
-                if (i >= before)
-                    change_m =
-                        std::max(change_m, std::abs(frames[i].*length_m - frames[i - before].*length_m));
-        }
-        return most_m + std::min(change_m, 0.02 * most_m);
-    };
-    row_m_ = largest(&LatticeFrame::row_m);
-    column_m_ = largest(&LatticeFrame::column_m);
+    row_m_ = largest_length_m(frames, side + 1, &LatticeFrame::row_m);
+    column_m_ = largest_length_m(frames, side + 1, &LatticeFrame::column_m);
     bend_ = 1.1 * bend * wgs84_a_m / smallest_radius_m;
     // Between two samples ways may turn one way and back: twice what they differ by.
     if (!corrections_.empty()) kink_ = 2.0 * turn;
