@@ -108,6 +108,7 @@ TEST_P(SeveralGrids, AreDrawnAsOneOfAllTheirPosts) {
         const Camera camera = camera_over(field, random);
         const Drawn one = draw(whole, camera, 0.0), two = draw(halves, camera, 0.0),
                     left = draw(half, camera, 0.0);
+        const std::size_t before = ground;
         for (std::size_t pixel = 0; pixel < one.depths.size(); ++pixel) {
             ground += one.depths[pixel] > 0.0F;
             others += left.depths[pixel] != one.depths[pixel];
@@ -117,7 +118,8 @@ TEST_P(SeveralGrids, AreDrawnAsOneOfAllTheirPosts) {
                 most = std::max(most, std::abs(one.rgba[4 * pixel + c] - two.rgba[4 * pixel + c]));
             colours += most > 3;
         }
-        EXPECT_EQ(one.counts.triangles_drawn > 0, true);
+        // On this slope an eye may look over all of the ground.
+        EXPECT_TRUE(ground == before || one.counts.triangles_drawn > 0);
     }
     std::printf(
         "seed %u: %zu pixels of ground, %zu of them of the other half; depths of %zu differ, colours "

@@ -141,7 +141,7 @@ TEST_F(TradeCommand, CallsPartsOfTheModelAsPlanDoes) {
         ++of_model;
         ASSERT_EQ(name.rfind("no ", 0), 0U);
         EXPECT_NE(plan.find("\n" + name.substr(3) + "  "), std::string::npos) << plan;
-        const std::string setting = name + (effect.at("kind") == "detail" ? ", tau 1" : "");
+        const std::string setting = effect.at("kind") == "detail" ? "tau 1" : name;
         EXPECT_TRUE(settings.contains(setting));
         EXPECT_TRUE(effects.contains(setting));
         EXPECT_NE(csv.find(setting), std::string::npos) << csv;
@@ -217,8 +217,7 @@ TEST_F(TradeCommand, MakesItsFolder) {
         std::istringstream words(line);
         Words row{std::istream_iterator<std::string>(words), {}};
         if (row.size() > 2 && row[0] == "*") row.erase(row.begin());
-        if (row.size() > 2 && row[0] == "no" && row[1] == "full") row.erase(row.begin());
-        for (const char* name : {"full", "balanced", "survey", "draft"}) {
+        for (const char* name : {"full", "tau", "balanced", "survey", "draft"}) {
             if (row.size() < 7 || row[0] != name) continue;
             limits.push_back(row.back());
         }

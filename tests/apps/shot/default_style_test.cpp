@@ -85,9 +85,9 @@ TEST_F(DefaultStyle, OpensViewsWithASeaAndARimThatItDoesNotDraw) {
     EXPECT_EQ(view_of("again.png").at("rim"), "none");
     EXPECT_EQ(view_of("again.png").at("fingerprints").at("pixels"), pixels);
     oro::test::expect_refusal(shoot("low.png", {"--view", folder / "view.json", "--sea", "low"}), 2,
-                              {"--sea low: is for styles with water; default has none"});
+                              {"--sea low: is for styles with water; haze has none"});
     oro::test::expect_refusal(shoot("rim.png", {"--view", folder / "view.json", "--rim", "none"}), 2,
-                              {"--rim none: is for styles with voids; default has none"});
+                              {"--rim none: is for styles with voids; haze has none"});
 }
 
 }  // namespace
