@@ -47,10 +47,63 @@ set_tests_properties(
   Observer.TenThousandPairsAreTheMarchedLines
   GridsOverEachOther.AreLookedOverTogether
   ShadowsOfPictures.OfRealTerrainAreTheOracles
-  AirTables.PlacesAreLitAsBruteForceGives
   AirTables.SkyIsWhatBruteForceGives
   TradeOfViews.PredictionsHoldOnSeveralGrids
   BrokenOffBake.KilledAtAnyMoment
   GraphInBands.RoughGround
   Footprint.HoldsForRandomViews
   PROPERTIES COST 10)
+set_tests_properties(
+  All/TrustedFormats
+  BadInput
+  Bake
+  DisplayText
+  Plan
+  PROPERTIES COST 30)
+set_tests_properties(
+  Accuracy
+  ComparedPixels
+  DamagedGeoid
+  DeviceChoice
+  GridsOverEachOther
+  HatchToTheHorizon
+  Help
+  HostileInput
+  Region
+  Shape
+  Shot
+  ShotLayers
+  Verify
+  Window
+  PROPERTIES COST 20)
+set_tests_properties(
+  BakedRegion
+  ClusterFile
+  Clusters
+  Environment
+  ExtremeMeasures
+  FingerprintsOfViews
+  GridClip
+  GridsUnderImages
+  Hgt
+  Jacksboro/GoldenPicture
+  NetBake
+  OnSummit
+  OrthoMaps
+  OwnPostsOfShots
+  Panorama
+  Paths/Choice
+  Paths/ClustersByPath
+  Paths/Cracks
+  Paths/GroundErrorOfPictures
+  Paths/Models
+  Paths/Occluded
+  Paths/ShownParts
+  Paths/StreamedClusters
+  RecordedView
+  RegionWords
+  ResamplingReported
+  ShotLegend
+  SunOfAShot
+  Triangles/FullLists
+  PROPERTIES COST 12)
