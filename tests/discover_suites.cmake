@@ -1,6 +1,7 @@
 # Writes the ctest entries of a GoogleTest program: one process runs a suite, so that libraries, devices and pipelines are
 # made once for it. Each test that LONG names (tests/long.cmake) is an entry by itself, with the label `long`; so is each
 # test of a program with EACH, whose tests must not share a process.
+# A test that leaves itself out does not mark its suite as skipped: scripts/test lists such tests with their reasons.
 # -DPROGRAM, -DOUT, -DWORK (the working folder), -DLONG (file), -DEACH=ON|OFF, -DPROPERTIES="NAME value ..." (as
 # set_tests_properties takes them).
 cmake_minimum_required(VERSION 3.22)

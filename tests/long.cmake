@@ -25,7 +25,7 @@ set_tests_properties(
   DefaultStyle.IsNatural
   DeviceChoice.TakesTheBestThatCanDraw
   DeviceChoice.TakesTheOneThatIsNamed
-  Drape.OfSixteenBitsIsWhatItsProfileOrTheOptionSays
+  ShotDrape.OfSixteenBitsIsWhatItsProfileOrTheOptionSays
   FilesFarApart.AreEachDrawnAsAlone
   FilesFarApart.AreMeasured
   FoundViews.APlaneIsCutOppositeToTheEye
@@ -307,7 +307,7 @@ set_tests_properties(
   StreamedChoices.WhatIsHiddenComesLast
   SunOverAlps.WithinTenSecondsOfBruteForce
   Viewshed.IsTheLookoutsOverHills
-  Viewshed.OfARealTileIsGdals
+  ViewshedOfGdal.OfARealTileIsGdals
   ViewshedOfGrids.IsWhatMarchedLinesSee
   WindowedGraph.GoesOnAfterABreak
   WindowedGraph.HasTheBytesOfOneGo

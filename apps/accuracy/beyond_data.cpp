@@ -9,6 +9,7 @@
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 #include "apps/view/overview.h"
+#include "apps/view/truth.h"
 #include "core/base/parallel.h"
 #include "geo/sources/hgt_source.h"
 
@@ -69,16 +70,21 @@ Result<double> unseen_ceiling(const std::optional<double>& option_m) {
     return refused("--unseen-ceiling", text, between_words(limits.low, limits.high));
 }
 
-Result<UnseenGround> unseen_in(const View& view, const Region& region, double ceiling_m) {
+Result<UnseenGround> unseen_in(const View& view, const Region& region, double ceiling_m,
+                               const TrueScene* truth) {
     const Geodetic& eye = view.camera.eye;
     const RegionGrid& grid = widest_at(region, eye.lat_deg, eye.lon_deg);
     std::optional<HeightField> lifted;
-    if (!grid.geoid_left_out.N_m.empty()) {
-        lifted = grid.field;
-        lifted->undulation = grid.geoid_left_out;
-        lifted->N_of_posts_m = grid.N_of_posts_left_out_m;
+    std::optional<TrueSurface> made;
+    if (!truth || region.grids.size() > 1) {
+        if (!grid.geoid_left_out.N_m.empty()) {
+            lifted = grid.field;
+            lifted->undulation = grid.geoid_left_out;
+            lifted->N_of_posts_m = grid.N_of_posts_left_out_m;
+        }
+        made.emplace(lifted ? *lifted : grid.field, view.exaggeration, thread_count());
     }
-    const TrueSurface surface(lifted ? *lifted : grid.field, view.exaggeration, thread_count());
+    const TrueSurface& surface = made ? *made : truth->ground().surface(0);
     const Camera camera = true_camera(view, region);
     UnseenGround unseen =
         unseen_ground(unseen_picture(surface, known_ground(view, grid), true_sight(view, region), camera,

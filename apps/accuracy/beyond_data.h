@@ -5,19 +5,21 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "apps/view/truth.h"
 #include "apps/view/view.h"
 #include "core/unseen/unseen_ground.h"
 
 namespace oro {
+class TrueScene;
 
 // The --unseen-ceiling, or the usual one. Usage errors: out of range.
 Result<double> unseen_ceiling(const std::optional<double>& option_m);
 
 // From the truth's eye through the truth's air, over what the region holds: of several grids the one that
-// reaches farthest around the eye. Posts of a baked region stay in their file, and are read where they are
-// asked for. Errors: a baked region that cannot be read.
-Result<UnseenGround> unseen_in(const View& view, const Region& region, double ceiling_m);
+// reaches farthest around the eye. truth: the view's true scene, where it has been made: of one grid its
+// surface is taken. Else posts of a baked region stay in their file, and are read where they are asked for.
+// Errors: a baked region that cannot be read.
+Result<UnseenGround> unseen_in(const View& view, const Region& region, double ceiling_m,
+                               const TrueScene* truth = nullptr);
 
 // "the view reaches past the data in 640 of 640 columns (missing: N46E010): terrain there, if it is up to
 // 9,000 m high, could rise up to 312 px above what is drawn"; "" where it does in none, and where the picture

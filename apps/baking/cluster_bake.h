@@ -27,12 +27,12 @@ struct ClusterBakeReport {
 // that tells why.
 Result<void> check_clusters(const Region& region);
 
-// Bakes a grid that goes into a larger file, to how.path beside it, unless a bake that was broken off has left
-// it there whole. Errors: those of bake_region(); somebody else's file of that name.
+// Bakes a grid that goes into a larger file, to how.path beside it, unless a bake that was broken off has
+// left it there whole. Errors: those of bake_region(); somebody else's file of that name.
 Result<BakeReport> bake_part(const HeightField& field, const BakeOptions& how, const BakeProgress& progress);
 
 // Bakes the region as bake_region() does, then its graph, and puts both into how.path. What is done already
-// of a bake that was broken off is not done again. told: how far it is, 0..1, and what is being done.
+// of a bake that was broken off is not done again. on_progress: how far it is, 0..1, and what is being done.
 Result<ClusterBakeReport> bake_clusters(const HeightField& field, const BakeOptions& how,
                                         const std::function<void(double, const char*)>& on_progress);
 

@@ -61,13 +61,12 @@ std::string name_of(const CLI::Option& option) {
     return name + (option.get_option_text().empty() ? "" : " " + option.get_option_text());
 }
 
-// In the order in which they were added, without those that are hidden.
+// Their headings, in the order in which they were added.
 std::vector<std::string> headings_of(const std::vector<const CLI::Option*>& options) {
     std::vector<std::string> headings;
     for (const CLI::Option* option : options) {
         const std::string& heading = option->get_group();
-        if (!heading.empty() && std::ranges::find(headings, heading) == headings.end())
-            headings.push_back(heading);
+        if (std::ranges::find(headings, heading) == headings.end()) headings.push_back(heading);
     }
     return headings;
 }
@@ -146,9 +145,14 @@ void set_help(CLI::App& command, const CommandHelp& help, const std::vector<std:
     });
 }
 
+bool is_all_of_help(const std::vector<std::string>& words, std::size_t number) {
+    return number > 1 && words[number] == "all" &&
+           (words[number - 1] == "--help" || words[number - 1] == "-h");
+}
+
 bool asks_for_all_options(const std::vector<std::string>& words) {
-    for (std::size_t i = 1; i < words.size(); ++i)
-        if (words[i] == "all" && (words[i - 1] == "--help" || words[i - 1] == "-h")) return true;
+    for (std::size_t i = 0; i < words.size(); ++i)
+        if (is_all_of_help(words, i)) return true;
     return false;
 }
 

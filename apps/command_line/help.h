@@ -26,6 +26,8 @@ void hide(CLI::App& command, const std::vector<std::string>& options);
 // The help of the program itself: its commands and how to begin.
 void set_program_help(CLI::App& app);
 
+// Whether a word of a command line is the `all` of `--help all`.
+bool is_all_of_help(const std::vector<std::string>& words, std::size_t number);
 // Whether a command line asks for all options: `--help all`. App::help() lists them with AppFormatMode::All.
 bool asks_for_all_options(const std::vector<std::string>& words);
 

@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "apps/command_line/help.h"
+
 namespace oro {
 namespace {
 
@@ -222,9 +224,7 @@ void need_no_value(CLI::Option& option) {
 std::optional<Error> refusal_of_command(const CLI::App& app, const std::vector<std::string>& words) {
     const std::vector<std::string> names = command_names(app);
     for (std::size_t i = 1; i < words.size(); ++i) {
-        const bool is_of_help =
-            i > 1 && words[i] == "all" && (words[i - 1] == "--help" || words[i - 1] == "-h");
-        if (words[i].starts_with('-') || is_of_help) continue;
+        if (words[i].starts_with('-') || is_all_of_help(words, i)) continue;
         if (std::ranges::find(names, words[i]) != names.end()) return std::nullopt;
         return of_no_command(words[i], names);
     }

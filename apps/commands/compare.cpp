@@ -131,10 +131,10 @@ Result<void> run_compare(const CompareOptions& options) {
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
     ORO_TRY(const std::optional<PictureDifference> pixels,
             check_pixels(options, view, region, *ground, *gpu, scene, path, style, bar));
-    ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region));
+    ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region, cuts));
     bar.show(0.0, "comparing");
     ORO_TRY(const Verification verification, verify_view(view, *truth, *gpu, scene, path, style.frame));
-    ORO_TRY(const UnseenGround unseen, unseen_in(view, region, ceiling_m));
+    ORO_TRY(const UnseenGround unseen, unseen_in(view, region, ceiling_m, truth.get()));
     if (verification.errors.ground.drawn == 0) {
         ORO_TRY(const std::string nothing, nothing_in_view(view, region, options.view_file));
         say(options.quiet, "note: " + nothing);

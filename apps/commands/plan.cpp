@@ -173,7 +173,7 @@ Result<void> run_plan(const PlanOptions& options) {
     ORO_TRY(const GridPages pages, make_grid_pages(region, cuts, view.exaggeration, [&](double share) {
                 bar.show(share, "measuring levels");
             }));
-    ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region));
+    ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region, cuts));
     bar.clear();
     say_changes(view, options.quiet);
     say_notes(region, options.quiet);
@@ -186,7 +186,7 @@ Result<void> run_plan(const PlanOptions& options) {
     ORO_TRY(const Budget budget, plan_view(view, region, truth->ground(), of_grids, tolerance_px));
     ORO_TRY(const AccuracyChoice choice,
             choose_accuracy(view, region, truth->ground(), of_grids, tolerance_px));
-    ORO_TRY(const UnseenGround unseen, unseen_in(view, region, ceiling_m));
+    ORO_TRY(const UnseenGround unseen, unseen_in(view, region, ceiling_m, truth.get()));
     ORO_TRY(const std::optional<MeshForecasts> meshes, mesh_forecasts(view, region, *pages.front()));
     if (options.json) {
         ordered_json json = plan_json(budget, view, choice, unseen, meshes);

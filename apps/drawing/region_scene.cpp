@@ -28,11 +28,12 @@ Result<std::unique_ptr<RegionPages>> pages_of(const RegionGrid& grid, double exa
         field.undulation = grid.field.undulation;
         field.N_of_posts_m = grid.field.N_of_posts_m;
     }
-    return pages_in_memory(field, exaggeration, thread_count(), progress);
+    return pages_in_memory(field, exaggeration, thread_count(), progress, stop);
 }
 
 Result<std::unique_ptr<RegionPages>> pages_of_rest(const RegionGrid& grid, const GridClip& cut,
-                                                   double exaggeration, const RenderProgress& progress) {
+                                                   double exaggeration, const RenderProgress& progress,
+                                                   const std::stop_token& stop) {
     HeightField rest = grid.field;
     if (grid.file) {
         ORO_TRY(const HeightField posts, field_in_memory(*grid.file));
@@ -43,7 +44,7 @@ Result<std::unique_ptr<RegionPages>> pages_of_rest(const RegionGrid& grid, const
     }
     for (std::size_t post = 0; post < cut.masked_posts.size(); ++post)
         if (cut.masked_posts[post] != 0) rest.H_m[post] = void_height_m;
-    return pages_in_memory(rest, exaggeration, thread_count(), progress);
+    return pages_in_memory(rest, exaggeration, thread_count(), progress, stop);
 }
 
 std::uint64_t bytes_of(const std::optional<int>& mb) {
@@ -55,11 +56,12 @@ std::uint64_t bytes_of(const std::optional<int>& mb) {
 Result<std::unique_ptr<RegionPages>> grid_pages(const RegionGrid& grid, const GridClip& cut,
                                                 double exaggeration, const RenderProgress& progress,
                                                 const std::stop_token& stop) {
-    if (std::ranges::find(cut.masked_posts, 1) != cut.masked_posts.end())
-        return pages_of_rest(grid, cut, exaggeration, progress);
-    ORO_TRY(std::unique_ptr<RegionPages> pages, pages_of(grid, exaggeration, progress, stop));
+    const bool is_cut = std::ranges::find(cut.masked_posts, 1) != cut.masked_posts.end();
+    ORO_TRY(std::unique_ptr<RegionPages> pages, is_cut
+                                                    ? pages_of_rest(grid, cut, exaggeration, progress, stop)
+                                                    : pages_of(grid, exaggeration, progress, stop));
     if (!pages) return Error{ErrorKind::failed, "levels", "nobody waits for them any more"};
-    if (pages->facts().triangles == 0)
+    if (!is_cut && pages->facts().triangles == 0)
         return Error{ErrorKind::no_data, "region", "no triangle has a height at each corner"};
     return pages;
 }

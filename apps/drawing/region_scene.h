@@ -19,7 +19,7 @@ namespace oro {
 Result<std::unique_ptr<RegionPages>> grid_pages(const RegionGrid& grid, const GridClip& cut,
                                                 double exaggeration, const RenderProgress& progress = {},
                                                 const std::stop_token& stop = {});
-// Those of all grids of a region. progress: of the first.
+// Pages of all grids of a region, in their order. progress: of the first.
 using GridPages = std::vector<std::unique_ptr<RegionPages>>;
 Result<GridPages> make_grid_pages(const Region& region, const RegionCuts& cuts, double exaggeration,
                                   const RenderProgress& progress = {});

@@ -33,7 +33,8 @@ enum OptionTraits : unsigned {
     in_every_view = 4,  // a view's JSON has it always: else one without it is of before there was the option
 };
 
-// What is written of an option. Only literals: a table is made without asking for memory half-way.
+// What is written of an option. Only literals, which outlive the tables and are copied
+// anywhere.
 struct OptionText {
     const char* name;          // "--tau PIXELS": with the word for its value, but of flags and choices
     unsigned traits{};         // OptionTraits
@@ -124,7 +125,7 @@ const char* first_given(const std::vector<Row>& table, const Options& options, A
         if (asked(row) && row.is_given(options)) return row.name.c_str();
     return nullptr;
 }
-// The same is asked here of the options with these names, in their order.
+// The first of the options with these names, in their order, that was given; nothing where none was.
 template <class Row, class Options>
 const char* first_given_of(const std::vector<Row>& table, const Options& options,
                            std::initializer_list<const char*> names) {

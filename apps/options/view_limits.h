@@ -40,8 +40,8 @@ inline constexpr Limits time_utc_s{-62167219200, 253402300799};
 // Of options that place an eye, whose h is held to eye_h_m when it has its place.
 inline constexpr Limits altitude_m{-12000, 1e9};
 inline constexpr Limits above_m{-12000, 1e9};
-// Ends of a line of sight: from the deepest trench to far above the air.
 inline constexpr Limits feather_m{0.01, 1e6};
+// Ends of a line of sight: from the deepest trench to far above the air.
 inline constexpr Limits sight_h_m{-12000, 1e6};
 // Of unknown ground, above sea level.
 inline constexpr Limits unseen_ceiling_m{-12000, 100000};

@@ -115,7 +115,7 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
     ORO_CHECK(region.health());
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, gpu));
     // Drawn again another day, when auto may come to another answer, the view gives the same bytes.
-    ORO_TRY(View drawn, view_recorded_by(view, files.recorded_from));
+    ORO_TRY(View drawn, view_as_written_in(view, files.paths_start_at));
     drawn.pipeline = name_of(path);
     if (drawn.fingerprints) {
         drawn.fingerprints->style = style_print(style);

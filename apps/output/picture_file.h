@@ -16,7 +16,7 @@ namespace oro {
 struct PictureFiles {
     std::string picture;
     std::string error;
-    std::string recorded_from;  // the picture whose folder the view's paths start from: this one
+    std::string paths_start_at;  // the picture whose folder the view's paths start from: this one
 };
 PictureFiles picture_files(const std::string& picture);
 

@@ -180,7 +180,7 @@ Result<PanoramaFile> write_panorama(const std::string& path, bool overwrite, con
                                     const Region& region, const Style& style, const PanoramaSheet& laid,
                                     const CylinderPicture& scene) {
     if (is_svg(path)) return write_svg(path, overwrite, view, region, laid, scene);
-    ORO_TRY(View drawn, view_recorded_by(view, path));
+    ORO_TRY(View drawn, view_as_written_in(view, path));
     drawn.camera.height_px = laid.sheet.height_px;
     drawn.pipeline = name_of(scene.report.path);
     if (drawn.fingerprints) {

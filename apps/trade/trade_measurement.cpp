@@ -58,8 +58,8 @@ Result<void> add_pictures(const Verification& drawn, const TradeCase& one, const
 }  // namespace
 
 Result<void> Trade::prepare() {
-    ORO_TRY(truth_, TrueScene::of(view_, region_));
     ORO_TRY(const RegionCuts cuts, cut_regions(region_));
+    ORO_TRY(truth_, TrueScene::of(view_, region_, cuts));
     ORO_TRY(pages_, make_grid_pages(region_, cuts, view_.exaggeration));
     ORO_TRY(world_, earth_parameters(view_, region_, pages()));
     // Whatever air the view asks for: settings are drawn in standard air, but those that leave it out.

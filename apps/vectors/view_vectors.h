@@ -46,7 +46,7 @@ Result<void> check_vectors(const ViewOptions& options, VectorChoices& choices);
 void put_vectors(const VectorChoices& choices, nlohmann::ordered_json& json);
 VectorChoices vectors_from(const nlohmann::json& json);
 
-// Reads the files; their names and fingerprints go to `prints`. Errors: those of read_vectors.
+// Reads the files; their names and fingerprints go to `fingerprints`. Errors: those of read_vectors.
 Result<std::shared_ptr<const VectorsRead>> open_vectors(const VectorChoices& choices,
                                                         std::vector<Fingerprints::OfSource>& fingerprints);
 

@@ -37,7 +37,7 @@ inline constexpr Names<HeightStorage, 3> height_storage_names{
 inline constexpr Names<Sea, 3> sea_names{{{"level", Sea::level}, {"low", Sea::low}, {"voids", Sea::voids}}};
 inline constexpr Names<Rim, 2> rim_names{{{"skirt", Rim::skirt}, {"none", Rim::none}}};
 inline constexpr Names<bool, 2> switch_names{{{"on", true}, {"off", false}}};
-// Of view files.
+// As view files have --labels.
 inline constexpr Names<std::optional<bool>, 3> label_switch_names{
     {{"style", std::nullopt}, {"on", true}, {"off", false}}};
 inline constexpr Names<Show, 7> show_names{{{"visible", Show::visible},

@@ -19,11 +19,17 @@ std::string light_line(const View& view, const Region& region) {
     return "Light: " + light_words(view.model.air, true_camera(view, region).eye.h_m) + ".\n";
 }
 
-Result<std::unique_ptr<TrueScene>> TrueScene::of(const View& view, const Region& region) {
+Result<std::unique_ptr<TrueScene>> TrueScene::of(const View& view, const Region& region,
+                                                 const RegionCuts& cuts) {
     std::unique_ptr<TrueScene> scene(new TrueScene);
-    ORO_TRY(scene->ground_, RegionGround::of(region, view.exaggeration, GroundHeights::true_ones));
+    ORO_TRY(scene->ground_, RegionGround::of(region, cuts, view.exaggeration, GroundHeights::true_ones));
     scene->sight_ = true_sight(view, region);
     return scene;
+}
+
+Result<std::unique_ptr<TrueScene>> TrueScene::of(const View& view, const Region& region) {
+    ORO_TRY(const RegionCuts cuts, cut_regions(region));
+    return of(view, region, cuts);
 }
 
 }  // namespace oro

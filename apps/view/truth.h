@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "apps/view/view.h"
@@ -25,7 +24,10 @@ std::string light_line(const View& view, const Region& region);
 // view is. Holds on to the region.
 class TrueScene {
   public:
-    // Every post of a baked region is read into memory. Errors: damage in it; those of cut_regions().
+    // cuts: cut_regions(region). Every post of a baked region is read into memory. Errors: damage in it.
+    static Result<std::unique_ptr<TrueScene>> of(const View& view, const Region& region,
+                                                 const RegionCuts& cuts);
+    // The true scene of grids that it cuts itself. Errors: those of cut_regions(), too.
     static Result<std::unique_ptr<TrueScene>> of(const View& view, const Region& region);
     TrueScene(const TrueScene&) = delete;
     TrueScene& operator=(const TrueScene&) = delete;

@@ -58,9 +58,9 @@ Result<void> apply_sun(View& view, const ViewOptions& options) {
 
 // The images and what is said of them.
 Result<void> check_drape(const View& view, const ViewOptions& options) {
-    if (view.drape.empty() && (options.drape_opacity || options.drape_values))
-        return refused(options.drape_opacity ? "--drape-opacity" : "--drape-values", "",
-                       "says nothing without --drape FILE");
+    const char* const option =
+        first_given_of(view_option_table(), options, {"--drape-opacity", "--drape-values"});
+    if (view.drape.empty() && option) return refused(option, "", "says nothing without --drape FILE");
     return {};
 }
 
@@ -175,12 +175,9 @@ Result<View> view_without_eye(const ViewOptions& options, RegionRequest region) 
         return refused("--look-at", "", either_words("--look-at", "--heading and --pitch"));
     if (options.altitude_m) ORO_CHECK(within("--altitude", *options.altitude_m, view_limits::altitude_m));
     if (options.above_m) ORO_CHECK(within("--above", *options.above_m, view_limits::above_m));
-    if (!options.at && (options.above_m || options.altitude_m || options.on_summit || options.look_at))
-        return refused(options.above_m      ? "--above"
-                       : options.altitude_m ? "--altitude"
-                       : options.on_summit  ? "--on-summit"
-                                            : "--look-at",
-                       "", "says nothing without --at PLACE");
+    const char* const of_place =
+        first_given_of(view_option_table(), options, {"--above", "--altitude", "--on-summit", "--look-at"});
+    if (!options.at && of_place) return refused(of_place, "", "says nothing without --at PLACE");
     return view;
 }
 

@@ -89,40 +89,40 @@ Result<std::string> from_folder(const fs::path& folder, const std::string& named
 
 }  // namespace
 
-Result<View> view_recorded_by(const View& view, const std::string& picture) {
-    View recorded = view;
-    recorded.paths_from_own_file = true;
-    if (!recorded.tells_paths) {
-        recorded.region.paths.clear();
-        if (recorded.fingerprints) {
-            for (Fingerprints::OfSource& source : recorded.fingerprints->sources) source.name.clear();
-            for (Fingerprints::OfSource& image : recorded.fingerprints->images) image.name.clear();
-            for (Fingerprints::OfSource& vectors : recorded.fingerprints->vectors) vectors.name.clear();
+Result<View> view_as_written_in(const View& view, const std::string& picture) {
+    View written = view;
+    written.paths_from_own_file = true;
+    if (!written.tells_paths) {
+        written.region.paths.clear();
+        if (written.fingerprints) {
+            for (Fingerprints::OfSource& source : written.fingerprints->sources) source.name.clear();
+            for (Fingerprints::OfSource& image : written.fingerprints->images) image.name.clear();
+            for (Fingerprints::OfSource& vectors : written.fingerprints->vectors) vectors.name.clear();
         }
-        for (std::string& image : recorded.drape) image = fs::path(image).filename().string();
-        for (std::string* const file : recorded.vectors.paths()) *file = fs::path(*file).filename().string();
-        if (is_style_path(recorded.style)) recorded.style = fs::path(recorded.style).filename().string();
-        return recorded;
+        for (std::string& image : written.drape) image = fs::path(image).filename().string();
+        for (std::string* const file : written.vectors.paths()) *file = fs::path(*file).filename().string();
+        if (is_style_path(written.style)) written.style = fs::path(written.style).filename().string();
+        return written;
     }
     const fs::path parent = fs::path(picture).parent_path();
     ORO_TRY(const fs::path folder, without_links(parent.empty() ? fs::path(".") : parent));
     if (folder.empty()) {
-        recorded.paths_from_own_file = false;
-        return recorded;
+        written.paths_from_own_file = false;
+        return written;
     }
-    for (std::string& path : recorded.region.paths) {
+    for (std::string& path : written.region.paths) {
         ORO_TRY(path, from_folder(folder, path));
     }
-    for (std::string& image : recorded.drape) {
+    for (std::string& image : written.drape) {
         ORO_TRY(image, from_folder(folder, image));
     }
-    for (std::string* const file : recorded.vectors.paths()) {
+    for (std::string* const file : written.vectors.paths()) {
         ORO_TRY(*file, from_folder(folder, *file));
     }
-    if (is_style_path(recorded.style)) {
-        ORO_TRY(recorded.style, from_folder(folder, recorded.style));
+    if (is_style_path(written.style)) {
+        ORO_TRY(written.style, from_folder(folder, written.style));
     }
-    return recorded;
+    return written;
 }
 
 Result<void> lead_from_working_folder(View& view, const std::string& file) {

@@ -11,7 +11,7 @@ namespace oro {
 // The view as a picture of that name carries it. Paths that share a folder with the picture start from the
 // picture's folder; others, which have only the root in common with it, stay absolute. Without paths where
 // the view is not to tell any. Errors: the file system cannot tell where a path leads.
-Result<View> view_recorded_by(const View& view, const std::string& picture);
+Result<View> view_as_written_in(const View& view, const std::string& picture);
 
 // The other way: the view that was read from `file`, with paths that lead there from the working folder.
 // Errors: as above.

@@ -21,6 +21,12 @@ Result<std::vector<BakedGrid>> open_baked_file(const std::string& path) {
         if (chunk.grid >= grids.size() || chunk.type == ChunkType::window || chunk.type == ChunkType::blocks)
             return file.damaged(chunk.offset, "a chunk of grid " + std::to_string(chunk.grid) +
                                                   ", which is none of its " + std::to_string(grids.size()));
+    // Nobody reads clusters without the outline that says what they are.
+    for (const Chunk& chunk : chunks)
+        if ((chunk.type == ChunkType::groups || chunk.type == ChunkType::meshes) &&
+            !container->table().find(ChunkType::graph, chunk.grid))
+            return file.damaged(chunk.offset, "clusters of grid " + std::to_string(chunk.grid) +
+                                                  ", whose outline the file lacks");
     for (BakedGrid& grid : grids) {
         if (!container->table().find(ChunkType::graph, grid.rank)) continue;
         ORO_TRY(ClusterFile clusters, ClusterFile::open(container, grid.rank));

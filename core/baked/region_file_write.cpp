@@ -112,11 +112,9 @@ Result<void> read_stitched(const OpenFile& file, std::uint64_t number, StitchedD
     std::array<std::byte, stitched_bytes> bytes;
     const std::uint64_t offset = number * stitched_bytes;
     ORO_CHECK(file.read(offset, bytes));
-    const std::uint64_t computed = xxh64(std::span(bytes).first(stitched_bytes - 8), number);
-    const auto stored = from_little_endian<std::uint64_t>(&bytes[stitched_bytes - 8]);
-    if (computed != stored)
-        return file.damaged(offset, "the record of errors of page number " + std::to_string(number) + " " +
-                                        other_checksum(computed, stored));
+    if (const auto wrong = wrong_checksum(bytes, number))
+        return file.damaged(offset,
+                            "the record of errors of page number " + std::to_string(number) + " " + *wrong);
     NumberReader get(bytes);
     for (std::size_t node = 0; into && node < into->size(); ++node)
         for (float& error_m : (*into)[node]) get(error_m);

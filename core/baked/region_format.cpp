@@ -183,11 +183,8 @@ Result<StoredRecord> read_record(const OpenFile& file, const RegionOffsets& offs
     const std::uint64_t offset = offsets.records + number * record_bytes;
     std::array<std::byte, record_bytes> bytes;
     ORO_CHECK(file.read(offset, bytes));
-    const std::uint64_t computed = xxh64(std::span(bytes).first(record_bytes - 8));
-    const auto stored = from_little_endian<std::uint64_t>(&bytes[record_bytes - 8]);
-    if (computed != stored)
-        return file.damaged(offset, "the record of the page at " + at(order.index(number)) + " " +
-                                        other_checksum(computed, stored));
+    if (const auto wrong = wrong_checksum(bytes, 0))
+        return file.damaged(offset, "the record of the page at " + at(order.index(number)) + " " + *wrong);
     StoredRecord record;
     NumberReader get(bytes);
     exchange_stored(get, record);

@@ -3,9 +3,11 @@
 //   outline      184 bytes: OutlineNumbers
 //   description  UTF-8
 //   undulation   4 bytes a node
-//   net          where the posts lie in a CRS of their own (core/baked/net_bytes.h); else there is no such
-//   chunk pages        records, 444 bytes a page, in the order of PageOrder: found without reading anything
-//   else heights      payloads (core/baked/page_compression.h), in the same order, one right after the other
+//   net          where the posts lie in a CRS of their own (core/baked/net_bytes.h); a grid whose posts lie
+//   on
+//                latitudes and longitudes has no such chunk
+//   pages        records, 444 bytes a page, in the order of PageOrder: found without reading anything else
+//   heights      payloads (core/baked/page_compression.h), in the same order, one right after the other
 //
 // A record has its checksum at its end, and that of its payload. So pages are read one by one; checksums of
 // the whole chunks of pages and heights are asked for where all is read anyway. A page in which a region
@@ -55,8 +57,7 @@ struct Implausible {
     std::uint64_t offset;
     std::string what;
 };
-// Checks every number of an outline; nothing when all is well. on_net: the grid has
-// a net.
+// Checks every number of an outline; nothing when all is well. on_net: the grid has a net.
 [[nodiscard]] std::optional<Implausible> implausible(const OutlineNumbers& numbers,
                                                      std::uint64_t undulation_bytes, bool on_net);
 // The same for an outline that is about to be written, its undulation and its description with it.

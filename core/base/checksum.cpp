@@ -6,6 +6,8 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "core/base/little_endian.h"
+
 namespace oro {
 
 std::uint64_t xxh64(std::span<const std::byte> bytes, std::uint64_t seed) {
@@ -17,6 +19,14 @@ std::string other_checksum(std::uint64_t found, std::uint64_t expected) {
     std::snprintf(text, sizeof(text), "has checksum %016llx, expected %016llx",
                   static_cast<unsigned long long>(found), static_cast<unsigned long long>(expected));
     return text;
+}
+
+std::optional<std::string> wrong_checksum(std::span<const std::byte> bytes, std::uint64_t seed) {
+    const std::size_t without = bytes.size() - 8;
+    const auto stored = from_little_endian<std::uint64_t>(&bytes[without]);
+    const std::uint64_t computed = xxh64(bytes.first(without), seed);
+    if (computed == stored) return std::nullopt;
+    return other_checksum(computed, stored);
 }
 
 struct RunningChecksum::State {

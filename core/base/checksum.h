@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -16,6 +17,10 @@ namespace oro {
 
 // What an error says of bytes whose checksum is another: "has checksum 0123..., expected 4567...".
 [[nodiscard]] std::string other_checksum(std::uint64_t found, std::uint64_t expected);
+
+// Holds bytes whose last eight are the checksum of those before them, little endian, against it: nothing
+// where it is right, else what other_checksum() says. There are at least eight bytes.
+[[nodiscard]] std::optional<std::string> wrong_checksum(std::span<const std::byte> bytes, std::uint64_t seed);
 
 // The checksum, with seed 0, of bytes that come piece by piece.
 class RunningChecksum {

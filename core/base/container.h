@@ -52,7 +52,7 @@ enum class ChunkType : std::uint32_t {
 struct Chunk {
     ChunkType type{};
     // The number of the grid that it belongs to. Grids come in the order of the table, and are numbered as
-    // they win where several have ground: number 0 wins over all (Region::rank).
+    // they win where several have ground: number 0 wins over all (RegionGrid::rank).
     std::uint32_t grid{};
     std::uint64_t offset{};    // in the file
     std::uint64_t bytes{};     // its size

@@ -47,7 +47,7 @@ class Loader {
           capacity_(std::max<std::size_t>(1, capacity)) {}
     Loader(const Loader&) = delete;
     Loader& operator=(const Loader&) = delete;
-    // What is under way is waited for.
+    // What is under way is waited for; nothing else is begun.
     ~Loader() {
         for (std::jthread& thread : threads_) thread.request_stop();
         changed_.notify_all();
@@ -133,7 +133,7 @@ class Loader {
     void work(const std::stop_token& stop) {
         std::unique_lock lock(mutex_);
         const auto can_begin = [&] { return !requests_.empty() && under_way_ + ready_weight_ < capacity_; };
-        while (changed_.wait(lock, stop, can_begin)) load_next(lock);
+        while (changed_.wait(lock, stop, can_begin) && !stop.stop_requested()) load_next(lock);
     }
     // Loads what is requested first; there is something. The lock is open meanwhile.
     void load_next(std::unique_lock<std::mutex>& lock) {

@@ -99,14 +99,6 @@ StoredGroup record_from_bytes(std::span<const std::byte> bytes) {
     return stored;
 }
 
-std::optional<std::string> wrong_checksum(std::span<const std::byte> bytes, std::uint64_t seed) {
-    const std::size_t without = bytes.size() - 8;
-    const auto stored = from_little_endian<std::uint64_t>(&bytes[without]);
-    const std::uint64_t computed = xxh64(bytes.first(without), seed);
-    if (computed == stored) return std::nullopt;
-    return other_checksum(computed, stored);
-}
-
 namespace {
 
 // What building did, against the outline.

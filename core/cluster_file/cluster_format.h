@@ -47,9 +47,6 @@ inline constexpr std::uint32_t groups_at_a_time = 256;
     return {ErrorKind::failed, path, what};
 }
 
-// A checksum over all bytes but the last eight, which hold it. Nothing when it is right, else what is wrong.
-[[nodiscard]] std::optional<std::string> wrong_checksum(std::span<const std::byte> bytes, std::uint64_t seed);
-
 // What no graph has, in words that follow the name of the part; nothing when all is well. Counts are held
 // against each other, and against the sizes of the chunks of groups and of meshes, so that nothing is
 // allocated for what cannot be there.

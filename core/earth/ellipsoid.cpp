@@ -72,6 +72,10 @@ double meridian_radius_m(double lat_deg) {
     return wgs84_a_m * (1.0 - wgs84_e2) / (root * root * root);
 }
 
+double gaussian_radius_m(double lat_deg) {
+    return std::sqrt(prime_vertical_radius_m(lat_deg) * meridian_radius_m(lat_deg));
+}
+
 Ecef ecef_from_geodetic(const Geodetic& point) {
     const SineCosine lat = sine_cosine_deg(point.lat_deg);
     const SineCosine lon = sine_cosine_deg(point.lon_deg);

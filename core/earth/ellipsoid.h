@@ -60,6 +60,9 @@ double normalised_lon_deg(double lon_deg);
 double prime_vertical_radius_m(double lat_deg);
 // Radius of curvature along the meridian, in metres. Source: the same, eq. 4.13.
 double meridian_radius_m(double lat_deg);
+// The Gaussian radius of curvature in metres: the geometric mean of the two above, which are the principal
+// ones.
+double gaussian_radius_m(double lat_deg);
 
 // Position of a geodetic point. Error: below 4 nm up to heights of 10 km (against GeographicLib).
 Ecef ecef_from_geodetic(const Geodetic& point);

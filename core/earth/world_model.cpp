@@ -24,8 +24,7 @@ double Air::k_at(double eye_h_m) const {
 }
 
 Refraction::Refraction(const Geodetic& eye, const Air& air)
-    : curvature_per_m_(air.k_at(eye.h_m) /
-                       std::sqrt(prime_vertical_radius_m(eye.lat_deg) * meridian_radius_m(eye.lat_deg))),
+    : curvature_per_m_(air.k_at(eye.h_m) / gaussian_radius_m(eye.lat_deg)),
       up_(ecef_from_enu(eye.lat_deg, eye.lon_deg)[2]) {}
 
 double Refraction::lift_m(const glm::dvec3& offset_m) const {

@@ -13,7 +13,7 @@
 namespace oro {
 
 // What lies between the samples: bounds that come from samples are widened by this where the samples look
-// through gaps between hills as well, ...
+// through gaps between hills as well.
 inline constexpr double between_samples = 1.5;
 // The factor where what is drawn was not looked at itself, but what is truly seen.
 inline constexpr double unlike_the_truth = 2.5;

@@ -237,10 +237,7 @@ namespace {
 // larger.
 double seen_earth_radius_m(const WorldModel& model, const Geodetic& eye) {
     if (model.earth == Earth::flat) return 1e12;
-    const double radius_m =
-        model.earth == Earth::sphere
-            ? mean_radius_m
-            : std::sqrt(prime_vertical_radius_m(eye.lat_deg) * meridian_radius_m(eye.lat_deg));
+    const double radius_m = model.earth == Earth::sphere ? mean_radius_m : gaussian_radius_m(eye.lat_deg);
     return radius_m / (1.0 - Refraction(eye, model.air).curvature_per_m() * radius_m);
 }
 

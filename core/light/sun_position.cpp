@@ -63,8 +63,9 @@ SunOfDate sun_of_date(double time_tt_s) {
     thread_local std::array<SunOfDate, 2> ends;
     const double asked = std::floor(time_tt_s / hour_s);
     if (asked != hour) {
-        ends[0] = asked == hour + 1.0 ? ends[1] : computed_sun(asked * hour_s);
-        ends[1] = computed_sun((asked + 1.0) * hour_s);
+        const std::array<SunOfDate, 2> kept = ends;
+        ends[0] = asked == hour + 1.0 ? kept[1] : computed_sun(asked * hour_s);
+        ends[1] = asked == hour - 1.0 ? kept[0] : computed_sun((asked + 1.0) * hour_s);
         hour = asked;
     }
     const double share = time_tt_s / hour_s - asked;

@@ -116,10 +116,10 @@ bool NodeDeviations::all_void(const QuadPosts& quad) const {
 NodeDeviations::Quad NodeDeviations::quad_with_voids(const QuadPosts& quad) const {
     // It has posts all around, and is drawn whole; something in it is not there.
     if (quad.diagonal == Diagonal::sw_ne) return {Cover::unequal, unfit_m};
-    const auto& [north, west, south, east, nw_se] = quad;
+    const auto& [north, west, south, east, quad_diagonal] = quad;
     if (all_void(quad)) return {Cover::empty, 0.0};
     const auto there = [&](int row, int column) { return heights_.at(row, column) != void_height_steps; };
-    // Cells' triangles on either side of the diagonal; a cell on it that rises has half of each on either.
+    // Cells' triangles on either side of the diagonal; a cell on it that is sw_ne has half of each on either.
     std::array<std::int64_t, 2> drawn{};
     for (int row = north; row < south; ++row) {
         for (int column = west; column < east; ++column) {
@@ -152,7 +152,7 @@ NodeDeviations::Quad NodeDeviations::quad_deviation(int row, int column) const {
     const QuadPosts quad{level_.row.region_post(row), level_.column.region_post(column),
                          level_.row.region_post(row + 1), level_.column.region_post(column + 1),
                          heights_.diagonal(level_.level(), row, column)};
-    const auto& [north, west, south, east, diagonal] = quad;
+    const auto& [north, west, south, east, quad_diagonal] = quad;
     const std::int32_t *const upper = heights_.row(north), *const lower = heights_.row(south);
     if (std::min(std::min(upper[west], upper[east]), std::min(lower[west], lower[east])) == void_height_steps)
         return quad_with_voids(quad);

@@ -280,7 +280,7 @@ PerEdge NodeDeviations::finest_stitched_deviation(int node_row, int node_column)
         join(2, row(node_quads), row(last), sw_ne(last, i - 1), sw_ne(last, i));
         join(3, column(0), column(1), !sw_ne(i - 1, 0), !sw_ne(i, 0));
     }
-    // Where both edges are stitched this quad falls (shaders/choose/levels.glsl, drawn_sw_ne).
+    // Where both edges are stitched this quad is nw_se (shaders/choose/levels.glsl, drawn_sw_ne).
     constexpr std::uint32_t corner = gpu::edge_south | gpu::edge_east;
     if (sw_ne(last, last) && (edges(node_row, node_column) & corner) == corner)
         sixfold[1] = std::max(sixfold[1], 3 * std::abs(post(last, last) + post(last + 1, last + 1) -

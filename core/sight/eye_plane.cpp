@@ -32,9 +32,7 @@ EyePlane::EyePlane(const TrueSurface& surface, const Observer& observer, const V
       sw_ne_(posts_.size(), 0),
       enu_from_ecef_(glm::transpose(ecef_from_enu(observer.eye().lat_deg, observer.eye().lon_deg))),
       bend_per_m_(0.5 * observer.sight().refraction.curvature_per_m()),
-      bulge_per_m_(0.5 / std::sqrt(prime_vertical_radius_m(observer.eye().lat_deg) *
-                                   meridian_radius_m(observer.eye().lat_deg)) -
-                   bend_per_m_) {
+      bulge_per_m_(0.5 / gaussian_radius_m(observer.eye().lat_deg) - bend_per_m_) {
     const PostGrid& grid = surface.field().grid;
     eye_enu_ = enu_from_ecef_ * observer.sight().eye.m;
     net_ = grid.net;

@@ -106,9 +106,9 @@ class EyePlane {
     ViewshedWindow window_;
     std::int64_t stride_;
     std::vector<PlanePost> posts_;
-    std::vector<char> sw_ne_;  // of the cell south-east of each; those that the window has not wholly fall
+    std::vector<char> sw_ne_;  // of the cell south-east of each; those that the window has not wholly: nw_se
     glm::dmat3 enu_from_ecef_;
-    glm::dvec3 eye_enu_{};                // of the eye's ECEF place
+    glm::dvec3 eye_enu_{};                            // of the eye's ECEF place
     std::shared_ptr<const LatticeGeoreference> net_;  // where posts lie on one, instead of rows_ and columns_
     double bend_per_m_;
     double bulge_per_m_;

@@ -36,8 +36,7 @@ class Sweep {
           observer_(surface, request.eye, request.air),
           plane_(surface, observer_, window, request.threads) {
         const Geodetic& eye = request.eye;
-        const double radius_m =
-            std::sqrt(prime_vertical_radius_m(eye.lat_deg) * meridian_radius_m(eye.lat_deg));
+        const double radius_m = gaussian_radius_m(eye.lat_deg);
         centre_m_ = radius_m + eye.h_m;
         reach_tangent_ = std::tan(request.radius_m / radius_m);
     }
@@ -351,8 +350,7 @@ class Reach {
     explicit Reach(const ViewshedRequest& request)
         : enu_(ecef_from_enu(request.eye.lat_deg, request.eye.lon_deg)),
           eye_m_(ecef_from_geodetic(request.eye).m) {
-        const double lat_deg = request.eye.lat_deg;
-        const double radius_m = std::sqrt(prime_vertical_radius_m(lat_deg) * meridian_radius_m(lat_deg));
+        const double radius_m = gaussian_radius_m(request.eye.lat_deg);
         centre_m_ = radius_m + request.eye.h_m;
         tangent_ = std::tan(request.radius_m / radius_m);
     }
@@ -444,7 +442,8 @@ Viewshed viewshed(const TrueGround& ground, std::size_t grid, const ViewshedRequ
             target.h_m = *ground_m;
             if (!reach.holds(target)) continue;
             target.h_m += std::max(request.target_m, least_above_m);
-            viewshed.clearance_deficit_m[window.number(row, column)] = clearance_deficit_to_m(observer, target);
+            viewshed.clearance_deficit_m[window.number(row, column)] =
+                clearance_deficit_to_m(observer, target);
             ++asked;
         }
         const std::lock_guard lock(telling);

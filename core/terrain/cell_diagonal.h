@@ -16,8 +16,8 @@ namespace oro {
 enum class Diagonal : unsigned char { nw_se, sw_ne };
 
 // A cell's two triangles: that with the cell's western edge and that with its eastern one.
-//     falls: west = north-west, south-west, south-east     east = north-west, south-east, north-east
-//     rises: west = north-west, south-west, north-east     east = south-west, south-east, north-east
+//     nw_se: west = north-west, south-west, south-east     east = north-west, south-east, north-east
+//     sw_ne: west = north-west, south-west, north-east     east = south-west, south-east, north-east
 // Anticlockwise, seen from above; by offsets (row, column) from the cell's north-west post. The shaders
 // number them 0 and 1 (shaders/place/place.glsl).
 using CellCorners = std::array<std::array<int, 2>, 3>;
@@ -70,7 +70,7 @@ inline constexpr std::int64_t no_weighed_steps = INT64_MIN;
 }
 
 // The diagonal whose middle is nearer to that of the smooth surface through the 4 x 4 posts around a cell;
-// falls where both are as near, and where a post has no height. weighed: of the four rows, from the north;
+// is nw_se where both are as near, and where a post has no height. weighed: of the four rows, from the north;
 // the others are the cell's own posts. In whole numbers: exact.
 [[nodiscard]] constexpr Diagonal nearer_diagonal(const std::array<std::int64_t, 4>& weighed,
                                                  std::int32_t north_west, std::int32_t north_east,

@@ -29,7 +29,7 @@ class CellDiagonals {
     [[nodiscard]] Diagonal at(int level, int row, int column) const {
         return (eight(level, row, column) >> (column % 8) & 1) != 0 ? Diagonal::sw_ne : Diagonal::nw_se;
     }
-    // Of the eight cells that begin at a whole multiple of 8 columns: a bit for each that rises, the first
+    // Of the eight cells that begin at a whole multiple of 8 columns: a bit for each that is sw_ne, the first
     // the lowest.
     [[nodiscard]] std::uint8_t eight(int level, int row, int column) const {
         const Level& own = levels_[static_cast<std::size_t>(level)];

@@ -27,7 +27,7 @@ struct DrawnHeights {
     int columns{};
     std::vector<std::int32_t> steps;  // void_height_steps where there is none
     std::int32_t highest_steps{void_height_steps};
-    std::shared_ptr<const CellDiagonals> diagonals{};  // null in made ones whose cells all fall
+    std::shared_ptr<const CellDiagonals> diagonals{};  // null in made ones whose cells are all nw_se
 
     [[nodiscard]] const std::int32_t* row(int number) const {
         return steps.data() + static_cast<std::size_t>(number) * static_cast<std::size_t>(columns);

@@ -22,7 +22,7 @@ std::optional<double> h_in_cell_m(const PostHeight& post_h_m, const DiagonalAt& 
     if (diagonal_at(row, column) == Diagonal::sw_ne) {
         const std::optional<double> north_east = post_h_m(row, column + 1),
                                     south_west = post_h_m(row + 1, column);
-        // A cell without one of its posts never rises; but a file may no longer be readable.
+        // A cell without one of its posts is never sw_ne; but a file may no longer be readable.
         if (!north_west || !north_east || !south_west || !south_east) return std::nullopt;
         const bool west = west_of_diagonal(Diagonal::sw_ne, down, right) >= 0.0;
         const CellPlane plane =

@@ -189,37 +189,66 @@ bool touches(const std::string& cell, const PostGrid& grid) {
     return meets(source, {grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg()});
 }
 
-Result<void> clip_to_box(RegionGrid& region, const RegionFile& file, const BoundingBox& box,
+Result<void> clip_to_box(RegionGrid& grid, const RegionFile& file, const BoundingBox& box,
                          const Progress& progress) {
     ORO_TRY(const Cut part, cut_of(file, box));
     const PostGrid& cut = part.grid;
-    ORO_TRY(region.field.H_m, posts_of(file, part, progress));
-    region.field.grid = cut;
-    region.field.undulation = undulation_of(file.outline().undulation, cut);
-    if (region.posts_crs) {
-        auto& m = region.posts_crs->crs_from_post;
+    ORO_TRY(grid.field.H_m, posts_of(file, part, progress));
+    grid.field.grid = cut;
+    grid.field.undulation = undulation_of(file.outline().undulation, cut);
+    if (grid.posts_crs) {
+        auto& m = grid.posts_crs->crs_from_post;
         m[0] += m[1] * part.first_column + m[2] * part.first_row;
         m[3] += m[4] * part.first_column + m[5] * part.first_row;
     }
-    if (cut.net) region.field.N_of_posts_m = N_of_net_m(*cut.net, region.field.undulation, thread_count());
-    region.posts_hash = posts_hash(region.field);
-    const std::uint64_t region_voids = region.voids;
-    region.voids = static_cast<std::uint64_t>(std::ranges::count_if(region.field.H_m, is_void));
-    if (region.voids == region.field.H_m.size())
+    if (cut.net) grid.field.N_of_posts_m = N_of_net_m(*cut.net, grid.field.undulation, thread_count());
+    grid.posts_hash = posts_hash(grid.field);
+    const std::uint64_t region_voids = grid.voids;
+    grid.voids = static_cast<std::uint64_t>(std::ranges::count_if(grid.field.H_m, is_void));
+    if (grid.voids == grid.field.H_m.size())
         return Error{ErrorKind::no_data, file.path(), "no post in the box that was asked for has a height"};
-    std::erase_if(region.missing_cells, [&](const std::string& cell) { return !touches(cell, cut); });
+    std::erase_if(grid.missing_cells, [&](const std::string& cell) { return !touches(cell, cut); });
     // Which of the others are void in their source and which have none is told for the whole alone; where all
     // of it is one of them, so is the part.
-    const bool only_outside = region.outside > 0 && region_voids == region.outside + region.in_missing;
+    const bool only_outside = grid.outside > 0 && region_voids == grid.outside + grid.in_missing;
     const Uncovered uncovered =
-        count_uncovered(region.field, region.missing_cells, [](std::size_t) { return false; });
-    region.in_missing = uncovered.in_missing;
-    const bool none_outside = region.classifies_voids && region.outside == 0;
-    region.classifies_voids = only_outside || none_outside || region.voids == uncovered.in_missing;
-    region.outside = only_outside ? uncovered.outside : 0;
-    region.notes.push_back("cut out of " + file.path() +
-                           ": sources, seams and filled posts are told for all of it");
+        count_uncovered(grid.field, grid.missing_cells, [](std::size_t) { return false; });
+    grid.in_missing = uncovered.in_missing;
+    const bool none_outside = grid.classifies_voids && grid.outside == 0;
+    grid.classifies_voids = only_outside || none_outside || grid.voids == uncovered.in_missing;
+    grid.outside = only_outside ? uncovered.outside : 0;
+    grid.notes.push_back("cut out of " + file.path() +
+                         ": sources, seams and filled posts are told for all of it");
     return {};
+}
+
+// The grid that one region file holds, whole or cut to the request's box.
+Result<RegionGrid> grid_in(std::shared_ptr<const RegionFile> file, const RegionRequest& request,
+                           const Progress& progress) {
+    const std::string path = file->path();
+    ORO_TRY(RegionGrid grid, region_from_description(file->outline().description, path));
+    if (grid.voids != file->outline().voids)
+        return Error{ErrorKind::failed, path,
+                     "its description tells of " + std::to_string(grid.voids) +
+                         " void posts, its header of " + std::to_string(file->outline().voids)};
+    const bool on_net = file->outline().grid.net != nullptr;
+    if (on_net != grid.posts_crs.has_value())
+        return Error{ErrorKind::failed, path,
+                     on_net ? "its description does not tell the CRS of its posts"
+                            : "its description tells a CRS of posts that lie on latitudes and longitudes"};
+    if (on_net && request.resample)
+        return Error{ErrorKind::usage, path,
+                     "keeps the posts of its files where their CRS has them: bake the files with --resample"};
+    if (file->outline().triangles == 0)
+        return Error{ErrorKind::no_data, path, "no triangle in it has a height at each corner"};
+    if (request.box) {
+        ORO_CHECK(clip_to_box(grid, *file, *request.box, progress));
+    } else {
+        grid.field = field_of_file(file, posts_in_memory_bytes);
+        grid.file = file;
+    }
+    grid.geoid_print = undulation_print(grid.field.undulation);
+    return grid;
 }
 
 }  // namespace
@@ -233,39 +262,6 @@ std::optional<std::string> baked_path(const std::vector<std::string>& paths) {
     }
     return std::nullopt;
 }
-
-namespace {
-
-// The grid that one region file holds, whole or cut to the request's box.
-Result<RegionGrid> grid_in(std::shared_ptr<const RegionFile> file, const RegionRequest& request,
-                           const Progress& progress) {
-    const std::string path = file->path();
-    ORO_TRY(RegionGrid region, region_from_description(file->outline().description, path));
-    if (region.voids != file->outline().voids)
-        return Error{ErrorKind::failed, path,
-                     "its description tells of " + std::to_string(region.voids) +
-                         " void posts, its header of " + std::to_string(file->outline().voids)};
-    const bool on_net = file->outline().grid.net != nullptr;
-    if (on_net != region.posts_crs.has_value())
-        return Error{ErrorKind::failed, path,
-                     on_net ? "its description does not tell the CRS of its posts"
-                            : "its description tells a CRS of posts that lie on latitudes and longitudes"};
-    if (on_net && request.resample)
-        return Error{ErrorKind::usage, path,
-                     "keeps the posts of its files where their CRS has them: bake the files with --resample"};
-    if (file->outline().triangles == 0)
-        return Error{ErrorKind::no_data, path, "no triangle in it has a height at each corner"};
-    if (request.box) {
-        ORO_CHECK(clip_to_box(region, *file, *request.box, progress));
-    } else {
-        region.field = field_of_file(file, posts_in_memory_bytes);
-        region.file = file;
-    }
-    region.geoid_print = undulation_print(region.field.undulation);
-    return region;
-}
-
-}  // namespace
 
 Result<Region> open_baked_region(const std::string& path, const RegionRequest& request,
                                  const Progress& progress) {

@@ -16,11 +16,10 @@
 namespace oro {
 
 struct RegionSources {
-    std::vector<Source> sources;
-    std::vector<std::size_t>
-        named_by;  // of each, the number of its path (SourcePath::path)     // files that hold elevation
-    std::vector<std::string> notes;  // what was passed over, and what is doubtful, one line each
-    std::string first_skipped;       // the first file that holds no elevation, and why; "" where each does
+    std::vector<Source> sources;        // of the files that hold elevation
+    std::vector<std::size_t> named_by;  // of each, the number of its path (SourcePath::path)
+    std::vector<std::string> notes;     // what was passed over, and what is doubtful, one line each
+    std::string first_skipped;          // the first file that holds no elevation, and why; "" where each does
 };
 
 // How a note begins that tells of a file without elevation.

@@ -12,6 +12,13 @@
 namespace oro {
 namespace {
 
+// One group of them all.
+std::vector<std::vector<Source>> as_one(std::vector<Source> sources) {
+    std::vector<std::vector<Source>> groups;
+    groups.push_back(std::move(sources));
+    return groups;
+}
+
 bool same_axis(const SourceAxis& one, const SourceAxis& other) {
     constexpr double same_post = 0.01;
     const double far = std::max(one.count, other.count);
@@ -46,16 +53,16 @@ std::vector<std::vector<Source>> by_lattice(std::vector<Source> sources,
         else
             own->push_back(source);
     }
-    if (lattices.size() < 2) return {std::move(sources)};
+    if (lattices.size() < 2) return as_one(std::move(sources));
     double alone = 0.0;
     for (const std::vector<Source>& lattice : lattices) alone += posts_of(lattice, box);
     const bool cheap = posts_of(sources, box) < apart_factor * alone;
-    if (cheap && std::ranges::all_of(sources, &Source::on_degrees)) return {std::move(sources)};
+    if (cheap && std::ranges::all_of(sources, &Source::on_degrees)) return as_one(std::move(sources));
     return lattices;
 }
 
 std::vector<std::vector<Source>> grids_of_sources(std::vector<Source> sources, const RegionRequest& request) {
-    if (!request.allow_multiple_grids) return {std::move(sources)};
+    if (!request.allow_multiple_grids) return as_one(std::move(sources));
     std::vector<std::vector<Source>> grids;
     for (std::vector<Source>& near : disjoint_sources(std::move(sources), request.box)) {
         if (request.resample) {
@@ -69,7 +76,7 @@ std::vector<std::vector<Source>> grids_of_sources(std::vector<Source> sources, c
     if (grids.size() <= groups_max) return grids;
     std::vector<Source> all;
     for (std::vector<Source>& grid : grids) std::ranges::move(grid, std::back_inserter(all));
-    return {std::move(all)};
+    return as_one(std::move(all));
 }
 
 }  // namespace oro

@@ -30,10 +30,6 @@ class RegionGround {
 
     [[nodiscard]] const TrueGround& ground() const { return *ground_; }
     [[nodiscard]] const RegionGrid& grid(std::size_t number) const { return region_->grids[number]; }
-    // The grid that is the ground at a place, or else the first.
-    [[nodiscard]] const RegionGrid& grid_at(double lat_deg, double lon_deg) const {
-        return grid(ground_->grid_at(lat_deg, lon_deg, 0));
-    }
 
   private:
     explicit RegionGround(const Region& region) : region_(&region) {}

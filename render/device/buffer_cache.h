@@ -77,10 +77,10 @@ class BufferCache {
         ORO_CHECK(make_staging());
         Added added{items_.insert(key, bytes)};
         if (added.handle == Items::none) {
-            const Result<void> grown = add_buffer(bytes);
+            const Result<bool> grown = add_buffer(bytes);
             if (!grown.ok()) ORO_CHECK(upload());
-            ORO_CHECK(grown);
-            added.handle = items_.insert(key, bytes);
+            ORO_TRY(const bool has_grown, grown);
+            if (has_grown) added.handle = items_.insert(key, bytes);
         }
         if (added.handle == Items::none) added.handle = items_.evict(key, bytes, spared);
         if (added.handle == Items::none) return added;
@@ -125,12 +125,12 @@ class BufferCache {
     // One more buffer, with room for `least_bytes` in one piece, where the budget and the device have memory.
     // The budget is what the device may be asked for; where it has less, fewer items are enough. The first
     // buffer is made whatever the budget says.
-    Result<void> add_buffer(std::size_t least_bytes) {
+    Result<bool> add_buffer(std::size_t least_bytes) {
         constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                              VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
         const bool is_first = buffers_.empty();
-        if (!is_first && growth(least_bytes) == 0) return {};
+        if (!is_first && growth(least_bytes) == 0) return false;
         const auto left = static_cast<std::size_t>(budget_->left());
         const std::size_t held = static_cast<std::size_t>(bytes()) / layout_.item_bytes;
         const std::size_t wanted = is_nearly_full_
@@ -146,7 +146,7 @@ class BufferCache {
             if (buffer.ok()) {
                 buffers_.push_back(std::move(buffer).value());
                 items_.add_bin(size);
-                return {};
+                return true;
             }
             if (!no_memory) return buffer.error();
             is_nearly_full_ = true;
@@ -154,7 +154,7 @@ class BufferCache {
             if (is_first) return buffer.error();
             is_full_ = true;
             capacity_ = held;
-            return {};
+            return false;
         }
     }
     void record_copies(VkCommandBuffer commands) const {

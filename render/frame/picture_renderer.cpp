@@ -20,6 +20,12 @@ int margin_of(const gpu::FrameStyle& style) {
 }
 
 // What a tile draws: counted once, not for each sample.
+void add_culled(PictureReport& sum, const FramePlan& plan) {
+    for (const GridPlan& grid : plan.grids) {
+        sum.pages_beyond_frustum += grid.pages_beyond_frustum;
+        sum.pages_beyond_horizon += grid.pages_beyond_horizon;
+    }
+}
 void add_counts(PictureReport& sum, const FrameReport& part) {
     sum.meshlets_beyond_frustum += part.counts.meshlets_beyond_frustum;
     sum.meshlets_beyond_horizon += part.counts.meshlets_beyond_horizon;
@@ -44,11 +50,7 @@ Result<TileSamples> draw_samples(Scene& scene, const Camera& camera, const gpu::
         ORO_TRY(FramePlan plan, scene.settled_plan({camera, tile, options.tau_px, options.model}));
         const bool whole = plan.is_settled();
         report.settled = report.settled && plan.shows_all();
-        for (const GridPlan& grid : plan.grids) {
-            if (i > 0) break;
-            report.pages_beyond_frustum += grid.pages_beyond_frustum;
-            report.pages_beyond_horizon += grid.pages_beyond_horizon;
-        }
+        if (i == 0) add_culled(report, plan);
         ORO_TRY(const FrameReport drawn,
                 renderer.draw(std::move(plan), style, static_cast<std::uint32_t>(i),
                               static_cast<std::uint32_t>(options.samples), scene.drapes()));

@@ -62,7 +62,7 @@ Result<GridScene> GridScene::create(const Gpu& gpu, std::unique_ptr<RegionPages>
 }
 
 bool GridScene::is_hidden(const PageIndex& page) const {
-    return hidden_.contains({page.level, page.row, page.column});
+    return hidden_.contains(page);
 }
 
 bool GridScene::apply_feedback(const FrameFeedback& feedback) {
@@ -89,8 +89,7 @@ Result<GridPlan> GridScene::plan_of_pages(const FrameView& view) {
     can_evict_hidden_ = plan.missing.size() > plan.missing_hidden && !plan.hidden.empty();
     if (!std::exchange(full_, false) || !can_evict_hidden_) return plan;
     can_evict_hidden_ = false;
-    hidden_.clear();
-    for (const PageIndex& page : plan.hidden) hidden_.insert({page.level, page.row, page.column});
+    hidden_ = {plan.hidden.begin(), plan.hidden.end()};
     ORO_TRY(plan, planned([&](const PageIndex& page) { return is_hidden(page) ? 0 : store_.address(page); }));
     // They are there, and need not come.
     const std::size_t before = plan.missing.size();
@@ -111,10 +110,9 @@ Result<void> GridScene::add_casters(const FrameView& view, GridPlan& plan) {
         *pages_, [&](const PageIndex& page) { return store_.address(page); }, view, cast_, *top_m_, plan,
         receivers_));
     plan.missing_hidden = 0;
-    std::set<std::tuple<int, int, int>> wanted;
-    for (const PageIndex& page : plan.missing) wanted.insert({page.level, page.row, page.column});
+    const std::set<PageIndex> wanted(plan.missing.begin(), plan.missing.end());
     for (const PageIndex& page : hidden) {
-        if (wanted.contains({page.level, page.row, page.column})) continue;
+        if (wanted.contains(page)) continue;
         plan.missing.push_back(page);
         ++plan.missing_hidden;
     }
@@ -148,9 +146,8 @@ Result<void> GridScene::end_plan(const FrameView& view, GridPlan& plan) {
     if (cast_.any()) ORO_CHECK(add_casters(view, plan));
     full_for_hidden_ = false;
     missed_ = plan.missing;
-    hidden_.clear();
-    for (const PageIndex& page : std::span(plan.missing).last(plan.missing_hidden))
-        hidden_.insert({page.level, page.row, page.column});
+    const auto missing_hidden = std::span(plan.missing).last(plan.missing_hidden);
+    hidden_ = {missing_hidden.begin(), missing_hidden.end()};
     plan.request_feedback = !plan.missing.empty() || !store_.has_capacity() || plan.clusters.missing > 0 ||
                             (plan.clusters.on && !clusters_->has_capacity());
     if (store_.means_offset() > 0) {

@@ -7,7 +7,6 @@
 #include <optional>
 #include <set>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -91,15 +90,15 @@ class GridScene {
     Buffer undulation_;
     std::uint64_t number_{};  // GridPlan::heights
     VisibilityFeedback seen_;
-    std::vector<PageIndex> missed_;               // by the last plan
-    std::set<std::tuple<int, int, int>> hidden_;  // of those
-    bool full_{false};                            // of the last frame's pages
-    bool full_for_hidden_{false};                 // at least for those
-    bool can_evict_hidden_{false};                // hidden pages of the last plan could, for missing ones
+    std::vector<PageIndex> missed_;  // by the last plan
+    std::set<PageIndex> hidden_;     // of those
+    bool full_{false};               // of the last frame's pages
+    bool full_for_hidden_{false};    // at least for those
+    bool can_evict_hidden_{false};   // hidden pages of the last plan could, for missing ones
     ShadowRequest cast_;
     double asked_means_px_{gpu::means_spacing_px}, means_spacing_px_{gpu::means_spacing_px};
     std::vector<ShadowReceiver> receivers_;  // shown by other grids of the frame
-    std::optional<double> top_m_;          // of the region, once it was asked for
+    std::optional<double> top_m_;            // of the region, once it was asked for
     std::optional<ClusterScene> clusters_;
 };
 

@@ -89,7 +89,7 @@ class SeveralGrids : public test::GpuTest, public ::testing::WithParamInterface<
 
 // At full resolution the same triangles are drawn: the same depths, bit for bit.
 TEST_P(SeveralGrids, AreDrawnAsOneOfAllTheirPosts) {
-    constexpr unsigned seed = 61;
+    constexpr unsigned seed = 63;
     std::mt19937 random(seed);
     // Cells beside the cut have not all the posts that else decide about their diagonals, and fall: along
     // these ridges all cells do.
@@ -108,7 +108,6 @@ TEST_P(SeveralGrids, AreDrawnAsOneOfAllTheirPosts) {
         const Camera camera = camera_over(field, random);
         const Drawn one = draw(whole, camera, 0.0), two = draw(halves, camera, 0.0),
                     left = draw(half, camera, 0.0);
-        const std::size_t before = ground;
         for (std::size_t pixel = 0; pixel < one.depths.size(); ++pixel) {
             ground += one.depths[pixel] > 0.0F;
             others += left.depths[pixel] != one.depths[pixel];
@@ -118,8 +117,7 @@ TEST_P(SeveralGrids, AreDrawnAsOneOfAllTheirPosts) {
                 most = std::max(most, std::abs(one.rgba[4 * pixel + c] - two.rgba[4 * pixel + c]));
             colours += most > 3;
         }
-        // On this slope an eye may look over all of the ground.
-        EXPECT_TRUE(ground == before || one.counts.triangles_drawn > 0);
+        EXPECT_GT(one.counts.triangles_drawn, 0U);
     }
     std::printf(
         "seed %u: %zu pixels of ground, %zu of them of the other half; depths of %zu differ, colours "

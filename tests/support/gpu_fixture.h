@@ -4,46 +4,66 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <memory>
 
 #include "render/device/gpu.h"
 
 namespace oro::test {
 
-// The device of this process, which its tests share: making one and its pipelines takes longer than most of them.
-inline std::unique_ptr<Gpu>& shared_gpu() {
-    static std::unique_ptr<Gpu> gpu;
-    return gpu;
+// The device of this process, which its tests share: making one and its pipelines takes longer than most of
+// them.
+struct SharedGpu {
+    std::unique_ptr<Gpu> gpu;
+    std::size_t messages_reported{};
+
+    // Fails the test that runs for each message that no test has failed for.
+    void report_messages() {
+        if (!gpu) return;
+        const auto& messages = gpu->validation_messages();
+        for (; messages_reported < messages.size(); ++messages_reported)
+            ADD_FAILURE() << messages[messages_reported];
+    }
+    void destroy() {
+        report_messages();
+        gpu.reset();
+        messages_reported = 0;
+    }
+};
+inline SharedGpu& shared_gpu() {
+    static SharedGpu shared;
+    return shared;
 }
+
+// The device ends with the last test, before the libraries that it came from do.
+class SharedGpuEnd : public ::testing::Environment {
+  public:
+    void TearDown() override { shared_gpu().destroy(); }
+};
+inline const ::testing::Environment* const shared_gpu_end =
+    ::testing::AddGlobalTestEnvironment(new SharedGpuEnd);
 
 class GpuTest : public ::testing::Test {
   protected:
     void SetUp() override {
-        if (!shared_gpu()) {
+        SharedGpu& shared = shared_gpu();
+        if (!shared.gpu) {
             GpuOptions options = gpu_options_from_environment();
             options.validation = true;
             auto made = Gpu::create(options);
             ASSERT_TRUE(made.ok()) << made.error().line();
-            shared_gpu() = std::move(made).value();
+            shared.gpu = std::move(made).value();
         }
-        gpu_ = shared_gpu().get();
-        messages_before_ = gpu_->validation_messages().size();
+        gpu_ = shared.gpu.get();
     }
-    void TearDown() override {
-        if (!gpu_) return;
-        const auto& messages = gpu_->validation_messages();
-        for (std::size_t i = messages_before_; i < messages.size(); ++i) ADD_FAILURE() << messages[i];
-    }
+    void TearDown() override { shared_gpu().report_messages(); }
     // A device without pipelines, for tests that count what is made on it. The next tests share it.
     void renew_gpu() {
-        shared_gpu().reset();
+        shared_gpu().destroy();
         GpuTest::SetUp();
     }
 
     Gpu* gpu_{};  // of the process
-
-  private:
-    std::size_t messages_before_{};
 };
 
 }  // namespace oro::test

@@ -1,17 +1,18 @@
 // A region that is one grid, for tests.
 #pragma once
 
-#include <gtest/gtest.h>
-
+#include <string>
 #include <utility>
 
 #include "geo/opening/open_region.h"
 
 namespace oro::test {
 
+// Errors: those of open_region(); none or several grids.
 inline Result<RegionGrid> open_grid(const RegionRequest& request, const Progress& progress = {}) {
     ORO_TRY(Region region, open_region(request, progress));
-    EXPECT_EQ(region.grids.size(), 1U);
+    if (region.grids.size() != 1)
+        return Error{ErrorKind::failed, "region", "has " + std::to_string(region.grids.size()) + " grids"};
     return std::move(region.grids.front());
 }
 

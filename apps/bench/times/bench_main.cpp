@@ -158,7 +158,8 @@ Result<void> run_bench(const BenchOptions& options) {
     const double open_s = seconds_since(opening);
     ORO_TRY(const std::vector<BenchEye> eyes, eyes_of(options, region));
     ORO_TRY(Scene scene, scene_of(*gpu, options, region));
-    if (asks_for_means(options.style) && !scene.grids()[0].pages().knows_means())
+    const GridScene& grid = scene.grids()[0];
+    if (asks_for_means(options.style) && !grid.pages().knows_means())
         std::fputs("orograph-bench: note: the region has too many posts for means of the ground\n", stderr);
     ordered_json json = asked_json(options, gpu->report());
     json["open_ms"] = 1e3 * open_s;
@@ -179,17 +180,16 @@ Result<void> run_bench(const BenchOptions& options) {
         json["pipeline"] = name_of(path);
         for (auto& [key, value] : one.items()) json[key] = std::move(value);
     }
-    json["page_bytes"] = scene.grids()[0].store().bytes_a_page();
-    json["bytes_a_post"] = scene.grids()[0].store().bytes_a_post();
-    json["means_bytes_a_post"] = scene.grids()[0].store().means_bytes_a_post();
+    json["page_bytes"] = grid.store().bytes_a_page();
+    json["bytes_a_post"] = grid.store().bytes_a_post();
+    json["means_bytes_a_post"] = grid.store().means_bytes_a_post();
     if (options.json)
         std::printf("%s\n", json.dump().c_str());
     else
         std::printf(
             "%.2f bytes a post, bounds of nodes apart; %.0f bytes a page; "
             "means and places on a net take %.2f more a post\n",
-            scene.grids()[0].store().bytes_a_post(), scene.grids()[0].store().bytes_a_page(),
-            scene.grids()[0].store().means_bytes_a_post());
+            grid.store().bytes_a_post(), grid.store().bytes_a_page(), grid.store().means_bytes_a_post());
     return {};
 }
 

@@ -76,14 +76,15 @@ Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Came
     times.gpu_s = median_of(std::move(whole));
     times.plan_s = median_of(std::move(planned));
     times.frame_s = median_of(std::move(frame));
-    times.pages_on_gpu = scene.grids()[0].store().size();
-    times.bytes_on_gpu = scene.grids()[0].store().bytes();
-    if (scene.grids()[0].clusters()) {
-        times.clusters_on_gpu = scene.grids()[0].clusters()->store().size();
+    const GridScene& grid = scene.grids()[0];
+    times.pages_on_gpu = grid.store().size();
+    times.bytes_on_gpu = grid.store().bytes();
+    if (grid.clusters()) {
+        times.clusters_on_gpu = grid.clusters()->store().size();
         times.clusters_in_cut = plan.grids[0].clusters.in_cut;
         times.clusters_coarser = plan.grids[0].clusters.drawn.size() - plan.grids[0].clusters.in_cut;
-        times.bytes_on_gpu += scene.grids()[0].clusters()->store().bytes();
-        times.bytes_of_groups = scene.grids()[0].clusters()->groups().bytes();
+        times.bytes_on_gpu += grid.clusters()->store().bytes();
+        times.bytes_of_groups = grid.clusters()->groups().bytes();
     }
     return times;
 }

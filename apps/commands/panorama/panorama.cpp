@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <initializer_list>
 #include <string_view>
 #include <utility>
 
@@ -39,10 +38,8 @@ constexpr double most_pixels = 2.0e8;
 
 // Options of views that say nothing of a panorama, or something that it says in another way.
 Result<void> refuse_others(const ViewOptions& view) {
-    const auto one_of = [&](std::initializer_list<const char*> names) {
-        return first_given_of(view_option_table(), view, names);
-    };
-    if (const char* const option = one_of({"--heading", "--pitch", "--roll", "--look-at", "--fov"}))
+    if (const char* const option = first_given_of(view_option_table(), view,
+                                                  {"--heading", "--pitch", "--roll", "--look-at", "--fov"}))
         return refused(option, "",
                        "a panorama looks around at level height: give --sector FROM,TO and --elevation");
     if (view.size) return refused("--size", "", "give --width PX: the height follows from the elevations");

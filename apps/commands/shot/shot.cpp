@@ -86,10 +86,10 @@ struct ShotGround {
 };
 
 // Measures what was drawn, the same way, and makes the picture of its errors, which has no name yet.
-Result<WholeFile> verify_shot(const ShotOptions& options, const PictureFiles& files, const Gpu& gpu,
-                              Scene& scene, const Style& style, ShotResult& shot) {
+Result<WholeFile> verify_shot(const ShotOptions& options, const PictureFiles& files, const ShotGround& ground,
+                              const Gpu& gpu, Scene& scene, const Style& style, ShotResult& shot) {
     const auto start = Clock::now();
-    ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(shot.view, shot.region));
+    ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(shot.view, shot.region, ground.cuts));
     ORO_TRY(shot.verification, verify_view(shot.view, *truth, gpu, scene, shot.picture.path, style.frame));
     ORO_TRY(const std::vector<std::uint8_t> png,
             error_picture_png(*shot.verification, shot.view.tau_px, ErrorPanels::four));
@@ -117,9 +117,10 @@ Result<std::vector<WholeFile>> layers_of(const ShotOptions& options, const Pictu
 
 // The cheapest bundle that keeps the view within the tolerance; single options of the command line win over
 // it.
-Result<void> choose_bundle(const ShotOptions& options, const RegionPagesList& pages, ShotResult& shot) {
+Result<void> choose_bundle(const ShotOptions& options, const RegionCuts& cuts, const RegionPagesList& pages,
+                           ShotResult& shot) {
     ORO_TRY(const double tolerance_px, parse_tolerance(*options.view.tolerance));
-    ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(shot.view, shot.region));
+    ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(shot.view, shot.region, cuts));
     FixedAccuracy fixed;
     if (options.view.tau_px) fixed.tau_px = shot.view.tau_px;
     if (options.view.heights) fixed.heights = shot.view.heights;
@@ -256,7 +257,7 @@ Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& 
     const auto start = Clock::now();
     ORO_TRY(GridPages pages, make_grid_pages(shot.region, ground.cuts, shot.view.exaggeration,
                                              [&](double share) { bar.show(share, "measuring levels"); }));
-    if (options.view.tolerance) ORO_CHECK(choose_bundle(options, pointers_to(pages), shot));
+    if (options.view.tolerance) ORO_CHECK(choose_bundle(options, ground.cuts, pointers_to(pages), shot));
     if (!shot.view.map) {
         ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
     }
@@ -294,7 +295,7 @@ Result<std::vector<WholeFile>> files_beside(const ShotOptions& options, const Pi
     }
     if (options.verify) {
         bar.show(1.0, "measuring errors");
-        ORO_TRY(WholeFile errors, verify_shot(options, files, gpu, scene, style, shot));
+        ORO_TRY(WholeFile errors, verify_shot(options, files, ground, gpu, scene, style, shot));
         beside.push_back(std::move(errors));
     }
     return beside;

@@ -168,6 +168,10 @@ TEST_F(GridsBake, DamageIsFound) {
         write_bytes(bad, bytes);
         oro::test::expect_refusal(run_orograph({"info", bad, "--check"}), 1, {bad, "byte"});
     }
+    for (const std::string& bytes : {whole.substr(0, whole.size() / 2), whole + "x"}) {
+        write_bytes(bad, bytes);
+        oro::test::expect_refusal(run_orograph({"info", bad}), 1, {bad, "byte"});
+    }
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ using oro::test::Words;
 using oro::test::write_bytes;
 
 // Terrain, and the same file as an image over it: grey by its heights.
-class Drape : public testing::Test {
+class ShotDrape : public testing::Test {
   protected:
     const fs::path folder = oro::test::scratch_folder();
     const std::string land = (folder / "land.tif").string(), image = (folder / "image.tif").string();
@@ -43,7 +43,7 @@ class Drape : public testing::Test {
     static json fingerprints_in(const std::string& png) { return json::parse(view_in(png))["fingerprints"]; }
 };
 
-TEST_F(Drape, IsInTheViewWhichDrawsItAgain) {
+TEST_F(ShotDrape, IsInTheViewWhichDrawsItAgain) {
     ASSERT_EQ(
         shoot({land, "--drape", image, "--drape", land, "--drape-opacity", "0.5", "--out", path("a.png")})
             .exit_code,
@@ -56,7 +56,7 @@ TEST_F(Drape, IsInTheViewWhichDrawsItAgain) {
     EXPECT_EQ(bytes_of(path("a.png")), bytes_of(path("b.png")));
 }
 
-TEST_F(Drape, LeavesPicturesWithoutItAsTheyWere) {
+TEST_F(ShotDrape, LeavesPicturesWithoutItAsTheyWere) {
     ASSERT_EQ(shoot({land, "--out", path("bare.png")}).exit_code, 0);
     EXPECT_FALSE(json::parse(view_in(path("bare.png"))).contains("drape"));
     EXPECT_FALSE(fingerprints_in(path("bare.png")).contains("images"));
@@ -68,7 +68,7 @@ TEST_F(Drape, LeavesPicturesWithoutItAsTheyWere) {
     EXPECT_NE(fingerprints_in(path("bare.png"))["pixels"], fingerprints_in(path("draped.png"))["pixels"]);
 }
 
-TEST_F(Drape, IsTheSameOverABakedRegion) {
+TEST_F(ShotDrape, IsTheSameOverABakedRegion) {
     ASSERT_EQ(run_orograph({"bake", land, "--out", path("land.oro"), "-q"}).exit_code, 0);
     const Words eye{"--at", "36.5,-84.25", "--above", "1500", "--pitch", "-30", "--drape", image};
     Words tile{land, "--out", path("tile.png")}, baked{path("land.oro"), "--out", path("baked.png")};
@@ -79,7 +79,7 @@ TEST_F(Drape, IsTheSameOverABakedRegion) {
     EXPECT_EQ(fingerprints_in(path("tile.png"))["pixels"], fingerprints_in(path("baked.png"))["pixels"]);
 }
 
-TEST_F(Drape, ThatChangedIsTold) {
+TEST_F(ShotDrape, ThatChangedIsTold) {
     ASSERT_EQ(shoot({land, "--drape", image, "--out", path("a.png")}).exit_code, 0);
     write_bytes(image, bytes_of(image) + "x");
     const Outcome changed = shoot({"--view", path("a.png"), "--out", path("b.png")});
@@ -108,7 +108,7 @@ const char* const profile_of_pictures =
     "QwAAAJAAAAAOY3VydgAAAAAAAAABAjM=";
 
 // 32,896 of 65,535 is 128 of 255.
-TEST_F(Drape, OfSixteenBitsIsWhatItsProfileOrTheOptionSays) {
+TEST_F(ShotDrape, OfSixteenBitsIsWhatItsProfileOrTheOptionSays) {
     make_even_image(path("bytes.tif"), "Byte", "128");
     make_even_image(path("plain.tif"), "UInt16", "32896");
     make_even_image(path("picture.tif"), "UInt16", "32896",
@@ -135,7 +135,7 @@ TEST_F(Drape, OfSixteenBitsIsWhatItsProfileOrTheOptionSays) {
     EXPECT_EQ(bytes_of(as_codes), bytes_of(path("again.png")));
 }
 
-TEST_F(Drape, ThatCannotLieOverGroundIsOneLine) {
+TEST_F(ShotDrape, ThatCannotLieOverGroundIsOneLine) {
     write_bytes(path("text.tif"), "this is no image");
     expect_refusal(shoot({land, "--drape", path("text.tif"), "--out", path("a.png")}), failed,
                    {"text.tif", "is no raster"});
@@ -162,7 +162,7 @@ TEST_F(Drape, ThatCannotLieOverGroundIsOneLine) {
 }
 
 // 16,000 million pixels of which the file holds none, or few: as quick as a small one.
-TEST_F(Drape, OfAnEmptyGiantIsQuick) {
+TEST_F(ShotDrape, OfAnEmptyGiantIsQuick) {
     for (const char* type : {"Byte", "UInt16"}) {
         fs::remove(path("giant.tif"));
         ASSERT_EQ(run_program({"gdal_create",

@@ -158,6 +158,20 @@ TEST_F(BakedFile, ClustersOfAnotherRegionAreRefused) {
     EXPECT_NE(refusal(clusters_).find("holds no grid of posts"), std::string::npos) << refusal(clusters_);
 }
 
+// Groups and meshes that no outline speaks of would be read by nobody, whatever their checksums.
+TEST_F(BakedFile, ClustersWithoutTheirOutlineAreRefused) {
+    const std::string whole = test::bytes_of(path_);
+    ChunkTable table = (*Container::open(path_))->table();
+    std::string bodies;
+    std::erase_if(table.chunks, [](const Chunk& chunk) { return chunk.type == ChunkType::graph; });
+    for (const Chunk& chunk : table.chunks) bodies += whole.substr(chunk.offset, chunk.bytes);
+    table.file_bytes = table.place();
+    const std::vector<std::byte> begin = table.to_bytes();
+    const std::string line =
+        refusal_of(std::string(reinterpret_cast<const char*>(begin.data()), begin.size()) + bodies);
+    EXPECT_NE(line.find("clusters of grid 0, whose outline the file lacks"), std::string::npos) << line;
+}
+
 // A part is copied whole or not at all.
 TEST_F(BakedFile, DamagedPartsAreNotJoined) {
     std::string bytes = test::bytes_of(region_);

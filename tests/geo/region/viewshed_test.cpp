@@ -301,7 +301,7 @@ void compare(const std::string& file, const std::string& path, double reach_m,
     }
 }
 
-TEST(Viewshed, OfARealTileIsGdals) {
+TEST(ViewshedOfGdal, OfARealTileIsGdals) {
     const auto hgt = test::real_data("alps/N46E008.SRTMGL3.hgt.zip");
     if (!hgt) GTEST_SKIP() << "needs alps";
     compare("/vsizip/" + hgt->string() + "/N46E008.hgt", hgt->string(), 15.0e3,
@@ -317,7 +317,7 @@ double wavy_H_m(double lat_deg, double lon_deg) {
     return test::Waves{1500.0, 900.0, 40.0, 5}.H_m(lat_deg, lon_deg);
 }
 
-TEST(Viewshed, OfMadeTerrainIsGdals) {
+TEST(ViewshedOfGdal, OfMadeTerrainIsGdals) {
     constexpr double north_deg = 46.7, west_deg = 8.3;
     constexpr int rows = 420, columns = 540;
     test::Raster raster;

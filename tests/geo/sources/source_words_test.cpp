@@ -42,9 +42,6 @@ TEST(SourceWords, DatumsComeBack) {
     }
 }
 
-TEST(SourceWords, OldBakedRegionsAreUnderstood) {
-}
-
 TEST(SourceWords, UnitsPostsAndVoidMethodsComeBack) {
     for (const UnitFrom from : {UnitFrom::file, UnitFrom::request, UnitFrom::assumed}) {
         const HeightUnit again = unit_of_words(unit_words({"us-ft", from}));
