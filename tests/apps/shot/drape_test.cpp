@@ -30,7 +30,7 @@ class ShotDrape : public testing::Test {
     const fs::path folder = oro::test::scratch_folder();
     const std::string land = (folder / "land.tif").string(), image = (folder / "image.tif").string();
 
-    Drape() {
+    ShotDrape() {
         fs::copy_file(oro::test::bundled_data() / "jacksboro.tif", land);
         fs::copy_file(land, image);
     }
