@@ -28,7 +28,7 @@ enum class AirLaw {
 
 // The air, as it bends light: near level sight lines have k times the curvature 1 / R of the Earth, and
 // ground at a distance d lies (1 - k) d^2 / (2 R) below the eye's horizontal plane. k is the coefficient of
-// refraction. Everything that asks how light goes asks this (docs/ARCHITECTURE.md, Light).
+// refraction. Everything that asks how light goes asks this (docs/SHADOWS.md, Refraction).
 struct Air {
     double k{0.0};  // -1 .. 0.9; 0: light goes straight. AirLaw::standard: at sea level
     AirLaw law{AirLaw::constant};

@@ -22,7 +22,7 @@
 namespace oro {
 
 // How large an effect is in a view: how far ground is moved, in metres and on the picture. worst: no ground
-// that is seen is moved farther, and so (docs/ARCHITECTURE.md) nothing that is seen, no edge and no skyline.
+// that is seen is moved farther, and so (docs/TRUTH.md) nothing that is seen, no edge and no skyline.
 // typical: the median of what is in view. Of the data's own limits: heights, and what they are on the
 // picture.
 struct EffectSize {

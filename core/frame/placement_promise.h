@@ -1,5 +1,5 @@
 // How near to its exact place every post is drawn: within 1 mm up to 4 km from the eye, and within 1 mm and
-// 3.2e-7 of its distance beyond. Measured against GeographicLib (docs/ARCHITECTURE.md, Placement).
+// 3.2e-7 of its distance beyond. Measured against GeographicLib (docs/PLACEMENT.md).
 #pragma once
 
 namespace oro {

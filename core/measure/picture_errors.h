@@ -35,7 +35,7 @@ class TruePicture {
 };
 
 // How far a drawing is from the truth: what a drawing moves by no more than so many pixels, is not seen, has
-// no edge and no skyline farther off (docs/ARCHITECTURE.md, Truth).
+// no edge and no skyline farther off (docs/TRUTH.md, One bound for four measures).
 struct PictureErrors {
     GroundErrors ground;  // displacement of each ground point, and distance from the surface
     SeenErrors seen;      // what is truly seen there

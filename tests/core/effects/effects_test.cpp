@@ -132,7 +132,7 @@ TEST(Effects, SixteenBitsOfAKnownRange) {
     EXPECT_NEAR(high.size(EffectKind::steps_i16).typical_m, 0.0125, 1e-8);
 }
 
-// 3.2e-7 of 1,414.3 m and of a cell's diagonal, 131.2 m (docs/ARCHITECTURE.md, Placement); 4 * 2^-24 of
+// 3.2e-7 of 1,414.3 m and of a cell's diagonal, 131.2 m (docs/PLACEMENT.md); 4 * 2^-24 of
 // 1,414.3 m, along the sight line; and a 256th of a pixel along each axis, sqrt(2) / 256 / 1.207107 of it.
 TEST(Effects, RoundingWithTheDistance) {
     const Scene scene(sea_level(), half_way_down());
