@@ -257,9 +257,10 @@ float Sweep::clearance_deficit_m(const Entry& entry, const HorizonSector& sector
     if (in_doubt) {
         // Along an edge, maybe: then a hair's breadth beside it. The oracle has the last word.
         constexpr double aside = 1.0e-9;
-        const PlanePost beside{post.x - aside * post.y, post.y + aside * post.x, post.z, s_m, post.tangent};
+        const PlanePost aside_post{post.x - aside * post.y, post.y + aside * post.x, post.z, s_m,
+                                   post.tangent};
         horizon = {};
-        if (!(s_m > 1.0e-3 && walk(number, beside, 0.0, horizon))) return ask_oracle(entry, -1.0, asked);
+        if (!(s_m > 1.0e-3 && walk(number, aside_post, 0.0, horizon))) return ask_oracle(entry, -1.0, asked);
     }
     // The target, and how it moves as it is raised along the ellipsoid's normal there.
     const glm::dvec3 up = plane_.normal(row, column);

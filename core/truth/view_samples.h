@@ -18,11 +18,11 @@ struct ViewSample {
     double slope;  // of its triangle, metres a metre
     int row;       // of its cell
     int column;
-    bool west;              // of the cell's triangles
-    bool even;              // one of those spread evenly over the picture: medians are taken of these alone
-    double beside_px{0.0};  // 0: seen at a pixel's centre; else how far it lies from one that is, on the
-                            // picture: behind an edge, or in a gap that no centre looks through
-    std::size_t grid{0};    // of the ground's: whose cell it is
+    bool west;  // of the cell's triangles
+    bool even;  // one of those spread evenly over the picture: medians are taken of these alone
+    double from_seen_px{0.0};   // 0: seen at a pixel's centre; else how far it lies from one that is, on the
+                                // picture: behind an edge, or in a gap that no centre looks through
+    std::size_t grid{0};        // of the ground's: whose cell it is
     bool between_grids{false};  // on a step between two grids, which belongs to none
 };
 // What lies behind edges is given up to this far from them.

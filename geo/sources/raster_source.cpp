@@ -197,10 +197,10 @@ bool is_of_bytes(const Source& source, GDALDatasetH dataset) {
     if (datum == DatumFrom::crs) return false;
     // A datum that a product's name brings, or that was told, says nothing of what this file holds, and
     // neither does the unit that comes with it.
-    const bool beside_the_file = datum == DatumFrom::product || datum == DatumFrom::specified;
+    const bool datum_from_outside = datum == DatumFrom::product || datum == DatumFrom::specified;
     const bool unit_is_assumed =
         source.report.height_unit.from == UnitFrom::assumed ||
-        (beside_the_file && source.report.height_unit.from == UnitFrom::file &&
+        (datum_from_outside && source.report.height_unit.from == UnitFrom::file &&
          text_of(GDALGetRasterUnitType(band)).empty() && !geotiff_heights(source.file).vertical_unit);
     return unit_is_assumed;
 }

@@ -350,7 +350,7 @@ float plateau_at(const PostBlock& block, std::size_t post, std::size_t columns) 
 }
 
 // The largest step between a post and its four neighbours.
-double step_beside_m(const PostBlock& block, std::size_t post, std::size_t columns) {
+double step_to_neighbours_m(const PostBlock& block, std::size_t post, std::size_t columns) {
     double largest_m = 0.0;
     const float height_m = block.height_m[post];
     const auto look = [&](std::size_t other) {
@@ -373,7 +373,7 @@ void add_to_surveys(const PostBlock& block, double rim_m, Surveys& surveys) {
     for (std::size_t post = 0; post < block.height_m.size(); ++post) {
         const float height_m = block.height_m[post];
         if (is_void(height_m)) continue;
-        const bool is_calm = step_beside_m(block, post, columns) < rim_m;
+        const bool is_calm = step_to_neighbours_m(block, post, columns) < rim_m;
         surveys.low.add(height_m, is_calm);
         surveys.high.add(height_m, is_calm);
         if (const float level_m = plateau_at(block, post, columns); !is_void(level_m)) {
@@ -501,7 +501,8 @@ bool is_suspicious(const Source& source, const PostBlock& block) {
     const auto columns = static_cast<std::size_t>(block.window.columns);
     const double step_m = std::clamp(steep_m_per_m * source.report.spacing_m, 150.0, least_sea_cliff_m);
     for (std::size_t post = 0; post < block.height_m.size(); ++post)
-        if (!is_void(block.height_m[post]) && step_beside_m(block, post, columns) >= step_m) return true;
+        if (!is_void(block.height_m[post]) && step_to_neighbours_m(block, post, columns) >= step_m)
+            return true;
     return false;
 }
 

@@ -45,8 +45,8 @@ class DrawnPosts {
     [[nodiscard]] glm::dvec3 normal(GridPost post, const glm::dvec3& here) const {
         const bool stays = !is_left_out(post);
         const auto place_or_here = [&](int down, int right) {
-            const GridPost beside{post.row + down, post.column + right};
-            return is_there(beside) && !(stays && is_left_out(beside)) ? place(beside) : here;
+            const GridPost neighbour{post.row + down, post.column + right};
+            return is_there(neighbour) && !(stays && is_left_out(neighbour)) ? place(neighbour) : here;
         };
         const glm::dvec3 up = glm::normalize(here);
         const glm::dvec3 down_row = place_or_here(1, 0) - place_or_here(-1, 0),

@@ -28,7 +28,7 @@ double allowed_m(double distance_m) {
 }
 
 struct Tally {
-    std::uint64_t ground{}, same{}, at_edges{}, others{}, beside{}, shadows{}, shadows_differ{};
+    std::uint64_t ground{}, same{}, at_edges{}, others{}, missed{}, shadows{}, shadows_differ{};
     double largest_m{}, largest_share{}, largest_px{};
 };
 
@@ -95,7 +95,7 @@ class LayersOfPictures : public test::GpuTest {
             }
             ++(is_at_edge(oracle, camera, x, y, layers.distance_m[i]) ? tally.at_edges : tally.others);
         }
-        tally.beside += layers.beside_px;
+        tally.missed += layers.missed_px;
     }
 
     // Sight lines of their own towards the sun, each with an oracle made for it.
@@ -148,7 +148,7 @@ class LayersOfPictures : public test::GpuTest {
                 static_cast<unsigned long long>(tally.ground), static_cast<unsigned long long>(tally.same),
                 tally.largest_m, tally.largest_share, tally.largest_px,
                 static_cast<unsigned long long>(tally.at_edges),
-                static_cast<unsigned long long>(tally.others), static_cast<unsigned long long>(tally.beside),
+                static_cast<unsigned long long>(tally.others), static_cast<unsigned long long>(tally.missed),
                 static_cast<unsigned long long>(tally.shadows_differ),
                 static_cast<unsigned long long>(tally.shadows));
             EXPECT_EQ(tally.others, 0U);

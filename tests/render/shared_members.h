@@ -70,7 +70,7 @@ inline const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(FramePage, column_terms),
         ORO_MEMBER(FramePage, quarter),
         ORO_MEMBER(FramePage, parent),
-        ORO_MEMBER(FramePage, beside),
+        ORO_MEMBER(FramePage, neighbours),
         ORO_MEMBER(FramePage, children),
         ORO_MEMBER(FramePage, last_column),
         ORO_MEMBER(FramePage, west_column),

@@ -77,9 +77,9 @@ TEST(GroundLine, EndsWhereTheGroundEnds) {
     ASSERT_TRUE(across[1]);
     EXPECT_NEAR(across[1]->lon_deg, 7.0, 1e-9);
     EXPECT_NEAR(across[across.size() - 2]->lon_deg, 8.0, 1e-9);
-    const auto beside = followed(*alps->surface, {45.5, 7.0}, {45.6, 8.0});
-    ASSERT_EQ(beside.size(), 1U);
-    EXPECT_FALSE(beside.front());
+    const auto outside = followed(*alps->surface, {45.5, 7.0}, {45.6, 8.0});
+    ASSERT_EQ(outside.size(), 1U);
+    EXPECT_FALSE(outside.front());
 }
 
 VectorShape track_over_alps() {

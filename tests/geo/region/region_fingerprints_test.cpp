@@ -68,9 +68,9 @@ TEST(RegionFingerprints, AreOthersForOtherPosts) {
     EXPECT_NE(raised.source, reported.source);
     EXPECT_NE(raised.region, reported.region);
     EXPECT_EQ(raised.geoid, reported.geoid) << "the same place has the same N";
-    const Reported beside = print("N46E009.hgt", hill);
-    EXPECT_NE(beside.source, reported.source) << "the same heights elsewhere";
-    EXPECT_NE(beside.geoid, reported.geoid);
+    const Reported elsewhere = print("N46E009.hgt", hill);
+    EXPECT_NE(elsewhere.source, reported.source) << "the same heights elsewhere";
+    EXPECT_NE(elsewhere.geoid, reported.geoid);
     const Reported voids = print("N46E008.hgt", [](int r, int c) { return r == 5 ? -32768 : hill(r, c); });
     EXPECT_NE(voids.source, reported.source);
 }
