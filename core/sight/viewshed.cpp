@@ -231,8 +231,8 @@ float Sweep::ask_oracle(const Entry& entry, double rise_m, std::size_t& asked) c
     const int column = window_.first_column + entry.column;
     const Geodetic target = target_over_post(surface_, row, column, target_m_);
     if (observer_.sees(target)) return 0.0F;
-    constexpr double reported_m = 1.0e-4;
-    if (rise_m > reported_m) return static_cast<float>(rise_m);
+    constexpr double certain_rise_m = 1.0e-4;
+    if (rise_m > certain_rise_m) return static_cast<float>(rise_m);
     const std::optional<double> by_m = observer_.clearance_deficit_m(target);
     return by_m ? std::max(static_cast<float>(*by_m), std::numeric_limits<float>::min())
                 : std::numeric_limits<float>::infinity();

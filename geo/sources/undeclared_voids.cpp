@@ -472,7 +472,7 @@ Result<std::vector<NoHeights>> no_heights_of_file(const Source& source, const Po
 }
 
 // What a post without a height is counted as: its code, or blurred_value.
-double reported_value(const Source& source, float height_m, const NoHeights& range) {
+double counted_value(const Source& source, float height_m, const NoHeights& range) {
     const double stored = stored_of(source, height_m);
     if (reads_like_no_data(stored) && stored == std::floor(stored)) return stored;
     const double off_m = static_cast<double>(height_m) - static_cast<double>(range.code_m);
@@ -569,7 +569,7 @@ Result<void> take_out_undeclared(const Source& source, PostBlock& block, ReadPos
         if (is_void(height_m)) continue;
         const auto range = range_of(no_heights, height_m);
         if (!range) continue;
-        add_count(block.values.undeclared, reported_value(source, height_m, *range), 1, 2 * most_values);
+        add_count(block.values.undeclared, counted_value(source, height_m, *range), 1, 2 * most_values);
         height_m = void_height_m;
         ++block.voids;
     }

@@ -308,11 +308,11 @@ TEST_F(BakedRegionErrors, DescriptionsThatDoNotFit) {
     ASSERT_TRUE(bake_region(tiles->field, how).ok());
     EXPECT_NE(error_of(request_for({how.path})).line().find("its description cannot be read"),
               std::string::npos);
-    RegionGrid reported = *tiles;
-    ASSERT_GT(reported.voids, 0U);
-    reported.voids = 0;
+    RegionGrid described = *tiles;
+    ASSERT_GT(described.voids, 0U);
+    described.voids = 0;
     how.path = (folder_ / "another.oro").string();
-    how.description = region_description(reported);
+    how.description = region_description(described);
     ASSERT_TRUE(bake_region(tiles->field, how).ok());
     EXPECT_NE(error_of(request_for({how.path})).line().find("void posts"), std::string::npos);
 }

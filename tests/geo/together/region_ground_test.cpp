@@ -180,14 +180,14 @@ TEST(RegionGround, ProfilesFollowTheGridThatIsTheGround) {
             const Geodetic place = way(along_m);
             const auto h_m = ground.h_m(place.lat_deg, place.lon_deg);
             if (!h_m || !before->has_ground || !after->has_ground) continue;
-            const double reported_m = std::lerp(
+            const double profile_h_m = std::lerp(
                 before->h_m, after->h_m, (along_m - before->along_m) / (after->along_m - before->along_m));
             if (after->along_m - before->along_m < 3.0 * off_rim_m) {
                 ++near_rims;
                 continue;
             }
             ++compared;
-            worst_m = std::max(worst_m, std::abs(reported_m - *h_m));
+            worst_m = std::max(worst_m, std::abs(profile_h_m - *h_m));
         }
     }
     std::printf("seed %u: %d places of 60 profiles, at most %.4f m off; %d on a rim left out\n", seed,
