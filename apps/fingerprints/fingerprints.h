@@ -42,10 +42,10 @@ inline constexpr std::size_t most_sources_with_fingerprints = 256;
 inline constexpr std::size_t most_images = 64;
 
 // "0.1.0 4f1d22a09c3e": the version, and twelve digits of the SHA-256 of all code between files and pixels.
-std::string program_print();
+std::string program_fingerprint();
 
 // The fingerprints of a region that was just opened, without style and pixels.
 Fingerprints fingerprints_of(const Region& region);
-std::uint64_t style_print(const Style& style);
+std::uint64_t style_fingerprint(const Style& style);
 
 }  // namespace oro

@@ -42,7 +42,7 @@ Result<std::vector<VectorFile>> read_all(const std::vector<std::string>& files,
     std::vector<VectorFile> all;
     for (const std::string& name : files) {
         ORO_TRY(VectorFile file, read_vectors(name));
-        fingerprints.push_back({std::filesystem::path(name).filename().string(), file.print});
+        fingerprints.push_back({std::filesystem::path(name).filename().string(), file.fingerprint});
         all.push_back(std::move(file));
     }
     return all;

@@ -118,9 +118,9 @@ std::string unknown_of(const View& view) {
 std::string edited_pixels(const View& view) {
     const RecordedView& recorded = *view.recorded;
     if (!is_from_picture(view) || !recorded.fingerprints || !recorded.fingerprints->pixels) return "";
-    const auto print = print_of_pixels(recorded.file, recorded.width_px, recorded.height_px);
-    if (!print.ok()) return print.error().line();
-    if (!*print || **print == *recorded.fingerprints->pixels) return "";
+    const auto fingerprint = fingerprint_of_pixels(recorded.file, recorded.width_px, recorded.height_px);
+    if (!fingerprint.ok()) return fingerprint.error().line();
+    if (!*fingerprint || **fingerprint == *recorded.fingerprints->pixels) return "";
     return recorded.file + ": its pixels were changed after it was drawn";
 }
 

@@ -66,7 +66,8 @@ Result<void> open_images(View& view) {
         ORO_TRY(const bool there, is_there(file));
         if (!there && !file.starts_with("/vsi")) return Error{ErrorKind::failed, file, "no such image"};
         ORO_TRY(ImageSource image, open_image(file, view.drape_values));
-        view.fingerprints->images.push_back({std::filesystem::path(file).filename().string(), image.print});
+        view.fingerprints->images.push_back(
+            {std::filesystem::path(file).filename().string(), image.fingerprint});
         view.images.push_back(std::move(image));
     }
     return {};

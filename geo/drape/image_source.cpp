@@ -172,11 +172,11 @@ Result<ImageSource> open_image(const std::string& file, ImageValues values) {
         return Error{described.error().kind,
                      described.error().where.empty() ? file : file + ": " + described.error().where,
                      described.error().what};
-    ORO_TRY(image.print, image_print(image.files));
+    ORO_TRY(image.fingerprint, image_fingerprint(image.files));
     return image;
 }
 
-Result<std::uint64_t> image_print(const std::vector<std::string>& files) {
+Result<std::uint64_t> image_fingerprint(const std::vector<std::string>& files) {
     constexpr std::uint64_t piece = std::uint64_t{1} << 20U, whole = 256 * piece, places = 64;
     std::vector<std::byte> bytes(piece);
     RunningChecksum sum;

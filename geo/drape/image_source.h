@@ -36,7 +36,7 @@ struct ImageSource {
     double white{255.0};
     bool is_light{};
     std::vector<std::string> files;  // that it is made of, for those who must not write over them
-    std::uint64_t print{};           // fingerprint of these files (image_print)
+    std::uint64_t fingerprint{};     // fingerprint of these files (image_fingerprint)
     std::vector<std::string> notes;  // what a user must know, one line each
 };
 
@@ -48,6 +48,6 @@ Result<ImageSource> open_image(const std::string& file, ImageValues values = Ima
 
 // XXH64 of the bytes of some files, each with its length; of one longer than 256 MiB its length, its ends,
 // and a MiB at each of 64 places between them. Errors: a file that cannot be read.
-Result<std::uint64_t> image_print(const std::vector<std::string>& files);
+Result<std::uint64_t> image_fingerprint(const std::vector<std::string>& files);
 
 }  // namespace oro

@@ -53,7 +53,7 @@ struct RegionGrid {
     // Fingerprints (region_fingerprints.h) of all its posts, and of N over it, also where a view leaves that
     // out. The first is unknown of a whole region that was baked before there were any.
     std::optional<std::uint64_t> posts_hash;
-    std::uint64_t geoid_print{};
+    std::uint64_t geoid_fingerprint{};
     VoidMethod void_method{VoidMethod::holes};
     // False where it is not known which of the voids are beyond rims: in a part of a baked region, and of
     // one that was baked before they were told apart. `outside` is then too small, void_posts() too large.

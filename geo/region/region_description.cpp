@@ -23,9 +23,9 @@ constexpr std::int64_t description_format = 1;
 constexpr JsonBounds bounds{.most_values = 5'000'000, .most_bytes = std::numeric_limits<std::size_t>::max()};
 
 // A fingerprint has 64 bits, of which other readers of JSON keep 53.
-std::string print_text(std::uint64_t print) {
+std::string fingerprint_text(std::uint64_t fingerprint) {
     char digits[20];
-    std::snprintf(digits, sizeof digits, "%016" PRIx64, print);
+    std::snprintf(digits, sizeof digits, "%016" PRIx64, fingerprint);
     return digits;
 }
 
@@ -49,7 +49,7 @@ ordered_json source_text(const SourceReport& s) {
     if (s.stored) text["stored"] = stored_fields<ordered_json>(*s.stored);
     if (s.resampling) text["resampling"] = resampling_fields<ordered_json>(*s.resampling);
     put_source_findings(text, s);
-    if (s.posts_hash) text["posts_print"] = print_text(*s.posts_hash);
+    if (s.posts_hash) text["posts_print"] = fingerprint_text(*s.posts_hash);
     return text;
 }
 
@@ -86,16 +86,16 @@ class Field {
         return text;
     }
     // Regions baked before there were any have none.
-    [[nodiscard]] std::optional<std::uint64_t> print() const {
+    [[nodiscard]] std::optional<std::uint64_t> fingerprint() const {
         constexpr const char* name = "posts_print";
         if (!has(name)) return std::nullopt;
         const std::string digits = (*this)[name].text();
-        std::uint64_t print = 0;
+        std::uint64_t fingerprint = 0;
         const char* const end = digits.data() + digits.size();
-        const auto read = std::from_chars(digits.data(), end, print, 16);
+        const auto read = std::from_chars(digits.data(), end, fingerprint, 16);
         (*this)[name].require(digits.size() == 16 && read.ec == std::errc() && read.ptr == end,
                               "16 hexadecimal digits");
-        return print;
+        return fingerprint;
     }
     [[nodiscard]] std::vector<std::string> texts() const {
         std::vector<std::string> all;
@@ -243,7 +243,7 @@ SourceReport source_of(const Field& field) {
     s.implausible = field["implausible"].count();
     s.placement = placement_of_words(field["placement"].text());
     s.seams = seams_of(field["seams"]);
-    s.posts_hash = field.print();
+    s.posts_hash = field.fingerprint();
     return s;
 }
 
@@ -272,7 +272,7 @@ RegionGrid region_of(const Field& field) {
         throw Fault{"it tells of more posts without a source than without a height"};
     region.filled = field["filled"].count();
     region.void_method = known(field["void_method"], void_method_of_words);
-    region.posts_hash = field.print();
+    region.posts_hash = field.fingerprint();
     region.notes = field["notes"].texts();
     return region;
 }
@@ -296,7 +296,7 @@ std::string region_description(const RegionGrid& region) {
     all["in_missing"] = region.in_missing;
     all["filled"] = region.filled;
     all["void_method"] = void_method_words(region.void_method);
-    if (region.posts_hash) all["posts_print"] = print_text(*region.posts_hash);
+    if (region.posts_hash) all["posts_print"] = fingerprint_text(*region.posts_hash);
     all["notes"] = region.notes;
     return all.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }

@@ -285,7 +285,7 @@ Result<VectorFile> read_vectors(const std::string& name, double limit_s) {
     const Result<void> read = read_all(file, *look, watch, messages);
     if (!watch.fault().empty()) return Error{ErrorKind::failed, name, watch.fault()};
     if (!read.ok()) return with_name(read.error());
-    ORO_TRY(file.print, image_print({name}));
+    ORO_TRY(file.fingerprint, image_fingerprint({name}));
     return file;
 }
 

@@ -103,7 +103,8 @@ Result<void> finish_shot(const ShotOptions& options, const PictureFiles& files, 
     ORO_TRY(shot.same_bytes, is_same(picture, files.picture));
     const std::optional<Fingerprints>& recorded = shot.view.recorded->fingerprints;
     const bool same_pixels = shot.difference && shot.difference->any.count == 0;
-    if (shot.same_bytes || (same_pixels && (!recorded || recorded->program != program_print()))) return {};
+    if (shot.same_bytes || (same_pixels && (!recorded || recorded->program != program_fingerprint())))
+        return {};
     const std::string where =
         same_pixels || !shot.difference
             ? ""

@@ -32,7 +32,8 @@ PostFingerprints post_fingerprints(const RegionRequest& request) {
     if (!region) return {};
     EXPECT_EQ(region->posts_hash, posts_hash(region->field));
     EXPECT_EQ(region->sources.size(), 1U);
-    return {region->sources[0].posts_hash.value_or(0), region->posts_hash.value_or(0), region->geoid_print};
+    return {region->sources[0].posts_hash.value_or(0), region->posts_hash.value_or(0),
+            region->geoid_fingerprint};
 }
 
 TEST(RegionFingerprints, AreThoseOfThePostsInEachContainer) {
@@ -60,20 +61,20 @@ TEST(RegionFingerprints, AreThoseOfThePostsInEachContainer) {
 
 TEST(RegionFingerprints, AreOthersForOtherPosts) {
     const fs::path folder = test::scratch_folder();
-    const auto print = [&](const char* name, const test::HeightOfPost& height) {
+    const auto fingerprint = [&](const char* name, const test::HeightOfPost& height) {
         return post_fingerprints(request_for({test::write_hgt(folder / name, 1201, height)}));
     };
-    const PostFingerprints usual = print("N46E008.hgt", hill);
+    const PostFingerprints usual = fingerprint("N46E008.hgt", hill);
     const PostFingerprints raised =
-        print("N46E008.hgt", [](int r, int c) { return hill(r, c) + (r == 600 && c == 3); });
+        fingerprint("N46E008.hgt", [](int r, int c) { return hill(r, c) + (r == 600 && c == 3); });
     EXPECT_NE(raised.source, usual.source);
     EXPECT_NE(raised.region, usual.region);
     EXPECT_EQ(raised.geoid, usual.geoid) << "the same place has the same N";
-    const PostFingerprints elsewhere = print("N46E009.hgt", hill);
+    const PostFingerprints elsewhere = fingerprint("N46E009.hgt", hill);
     EXPECT_NE(elsewhere.source, usual.source) << "the same heights elsewhere";
     EXPECT_NE(elsewhere.geoid, usual.geoid);
     const PostFingerprints voids =
-        print("N46E008.hgt", [](int r, int c) { return r == 5 ? -32768 : hill(r, c); });
+        fingerprint("N46E008.hgt", [](int r, int c) { return r == 5 ? -32768 : hill(r, c); });
     EXPECT_NE(voids.source, usual.source);
 }
 
@@ -112,11 +113,11 @@ TEST(RegionFingerprints, CostLittle) {
     double best_ms = 1e9;
     for (int i = 0; i < 20; ++i) {
         const auto start = std::chrono::steady_clock::now();
-        SourcePrint print;
-        print.begin(field.grid, 0, 0, 1201, 1201);
+        SourceFingerprint fingerprint;
+        fingerprint.begin(field.grid, 0, 0, 1201, 1201);
         for (std::size_t row = 0; row < 1201; ++row)
-            print.add(std::span(field.H_m).subspan(row * 1201, 1201));
-        const std::uint64_t sum = print.print() + posts_hash(field);
+            fingerprint.add(std::span(field.H_m).subspan(row * 1201, 1201));
+        const std::uint64_t sum = fingerprint.value() + posts_hash(field);
         EXPECT_NE(sum, 0U);
         best_ms = std::min(
             best_ms,
