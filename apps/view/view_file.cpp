@@ -371,6 +371,7 @@ Result<View> read_view(const std::string& path) {
     if (!text.ok()) return Error{text.error().kind, path, text.error().what};
     ORO_TRY(View view, view_from_json(*text, path));
     ORO_CHECK(lead_from_working_folder(view, path));
+    view.read_from = path;
     return view;
 }
 

@@ -88,7 +88,7 @@ Geodetic eye_for_sun(const View& view) {
 
 // Of a view that asks for no sun, in a style whose sun goes by the place.
 void take_usual_sun(View& view) {
-    if (!view.sun && has_sun_by_place(view.style)) view.sun = usual_sun();
+    if (!view.sun && has_sun_by_place(view)) view.sun = usual_sun();
 }
 
 // A map has no eye that something else could look from.
@@ -108,7 +108,9 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
                        const RegionOptions& region_options, const Progress& progress, View& view,
                        Region& region, PictureKind kind) {
     if (!view_file.empty()) {
-        ORO_TRY(view, read_view(view_file));
+        if (view.read_from != view_file) {
+            ORO_TRY(view, read_view(view_file));
+        }
         ORO_CHECK(check_map(view, view_options, view_file));
         ORO_CHECK(check_kind(view, view_file, kind));
         view.recorded =

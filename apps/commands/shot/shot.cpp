@@ -301,10 +301,9 @@ Result<std::vector<WholeFile>> companion_files(const ShotOptions& options, const
     return companions;
 }
 
-Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
+Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, ShotResult& shot) {
     ORO_TRY(const double ceiling_m, unseen_ceiling(options.unseen_ceiling_m));
     ProgressBar bar(options.quiet);
-    ShotResult shot;
     ORO_TRY(const Style style, open_shot(options, files, bar, shot));
     bar.clear();
     ORO_CHECK(say_notes(options, shot));
@@ -335,14 +334,15 @@ Result<void> run_shot(const ShotOptions& asked) {
     ORO_CHECK(check_map_options(options));
     ORO_TRY(const PictureFiles files, shot_files(options));
     options.view.takes_maps = true;
+    ShotResult shot;
     if (!options.view_file.empty()) {
-        ORO_TRY(const View recorded, read_view(options.view_file));
-        options.ortho = recorded.map.has_value();
+        ORO_TRY(shot.view, read_view(options.view_file));
+        options.ortho = shot.view.map.has_value();
         if (options.ortho && (options.verify || options.layers))
             return refused(options.verify ? "--verify" : "--layers", "",
                            "is for pictures from an eye; " + options.view_file + " is a map");
     }
-    return take_shot(options, files);
+    return take_shot(options, files, shot);
 }
 
 }  // namespace oro
