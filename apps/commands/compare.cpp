@@ -42,8 +42,7 @@ nlohmann::ordered_json compare_json(const CompareOptions& options, const View& v
     if (view.mesh_level) json["mesh_level"] = *view.mesh_level;
     json["pipeline"] = name_of(path);
     json["device"] = json_object("name", gpu.report().name, "driver", gpu.report().driver);
-    json["data_checked"] =
-        view.recorded->fingerprints && view.recorded->fingerprints->posts && view.fingerprints->posts;
+    json["data_checked"] = view.recorded->fingerprints && view.recorded->fingerprints->posts;
     json["data_changed"] = view.fingerprints->data_changed;
     json["pixels"] = nullptr;
     if (pixels) json["pixels"] = pixels_json(*pixels);

@@ -137,13 +137,8 @@ std::string heights_lines(const SourceReport& source) {
            line("H", of_region + " at the region's posts");
 }
 
-bool is_resampled(const SourceReport& source) {
-    return source.placement && source.placement->fit != Fit::same_posts;
-}
-
 std::string resampling_lines(const SourceReport& source) {
-    if (!is_resampled(source)) return "";
-    if (!source.resampling) return line("resampling", "not measured: the region was baked before it was");
+    if (!source.resampling) return "";
     const Resampling& found = *source.resampling;
     std::string text = line("resampling", (found.worst ? "up to " : "") + resampling_words(found));
     if (found.highest) text += line("highest", "its post of " + post_words(*found.highest));
@@ -215,7 +210,7 @@ std::string region_voids(const RegionGrid& grid) {
     if (!grid.classifies_voids)
         return text +
                " without a height, void in their file or outside the rasters: which, a baked region's part "
-               "and old ones do not tell";
+               "does not tell";
     if (grid.void_posts() > 0 && grid.void_method == VoidMethod::holes)
         text += std::string(", left as holes (") + (grid.file ? "baking with " : "") +
                 "--fill-voids fills those near others)";

@@ -39,8 +39,7 @@ Fingerprints fingerprints_of(const Region& region) {
     std::size_t sources = first.sources.size();
     for (const RegionGrid& other : std::span(region.grids).subspan(1)) {
         fingerprints.grid = both(fingerprints.grid, grid_fingerprint(other.field.grid));
-        if (fingerprints.posts && other.posts_hash)
-            fingerprints.posts = both(*fingerprints.posts, *other.posts_hash);
+        fingerprints.posts = both(*fingerprints.posts, other.posts_hash);
         fingerprints.undulation = both(fingerprints.undulation, other.geoid_fingerprint);
         sources += other.sources.size();
     }

@@ -17,12 +17,12 @@ namespace oro {
 struct Fingerprints {
     struct OfSource {
         std::string name;                    // without its folder; "" where a view tells no paths
-        std::optional<std::uint64_t> posts;  // of its posts as they were laid; unknown of old baked regions
+        std::optional<std::uint64_t> posts;  // of its posts as they were laid; older pictures may tell none
     };
 
     std::string program;                 // its version, and a fingerprint of the code that makes pictures
     std::uint64_t grid{};                // where the region's posts lie
-    std::optional<std::uint64_t> posts;  // what they are: decides whether data are the same. Unknown as above
+    std::optional<std::uint64_t> posts;  // what they are: decides whether data are the same. As above
     std::vector<OfSource> sources;       // to name the ones that changed; none where there are too many
     std::optional<RegionResampling> resampling;  // what the region lost by it; nothing where nothing was
     std::string geoid;                           // its name

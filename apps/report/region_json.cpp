@@ -208,7 +208,7 @@ std::string attribution_of(const Region& region) {
     std::string all;
     for (const RegionGrid& grid : region.grids) {
         for (const SourceReport& source : grid.sources) {
-            // Once more: a region may have been baked when such text was kept as it was.
+            // A region file may hold any text.
             const std::string attribution = foreign_text(source.attribution);
             if (attribution.empty() || !seen.insert(attribution).second) continue;
             all += (all.empty() ? "" : "; ") + attribution;

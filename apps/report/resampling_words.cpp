@@ -57,16 +57,12 @@ std::string resampling_sentence(const RegionGrid& grid) {
     const auto all = region_resampling(grid);
     if (!all) return "";
     std::string text = "heights of " + counted(all->files, "file are", "files are") + " resampled: ";
-    if (all->unknown == all->files)
-        return text +
-               "by how much they are off is not known, because the region was baked before it was measured";
     const SourceReport* const worst = worst_resampled(grid);
     if (worst == nullptr) return text + "none of its own posts has ground to be compared with";
     text += "its own posts are up to " + resampling_words(*worst->resampling);
     if (all->files > 1)
         text += " of " + one_line(file_name(worst->path)) + "; " + size_text(all->rms_m) + " m RMS of all " +
                 counted(all->files, "file", "files");
-    if (all->unknown > 0) text += "; not known of " + counted(all->unknown, "file", "files");
     const auto& highest = worst->resampling->highest;
     return highest ? text + "; its highest post: " + post_words(*highest) : text;
 }

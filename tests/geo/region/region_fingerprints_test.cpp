@@ -32,8 +32,7 @@ PostFingerprints post_fingerprints(const RegionRequest& request) {
     if (!region) return {};
     EXPECT_EQ(region->posts_hash, posts_hash(region->field));
     EXPECT_EQ(region->sources.size(), 1U);
-    return {region->sources[0].posts_hash.value_or(0), region->posts_hash.value_or(0),
-            region->geoid_fingerprint};
+    return {region->sources[0].posts_hash.value_or(0), region->posts_hash, region->geoid_fingerprint};
 }
 
 TEST(RegionFingerprints, AreThoseOfThePostsInEachContainer) {
