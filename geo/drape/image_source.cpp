@@ -141,7 +141,7 @@ Result<void> describe(ImageSource& image, ImageValues values, const GdalMessages
                                      GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
                                      trusted_drivers(), nullptr, nullptr));
     if (!dataset)
-        return fault("is no raster that GDAL can open here (" + trusted_formats() +
+        return fault("is not an image in an accepted format (" + trusted_formats() +
                      "): " + messages.last("unknown format"));
     image.columns = GDALGetRasterXSize(dataset.get());
     image.rows = GDALGetRasterYSize(dataset.get());

@@ -118,7 +118,7 @@ Result<Opened> open_source(const SourcePath& path, const GdalMessages& messages)
     if (!opened.dataset) {
         if (should_open(path))
             return Error{ErrorKind::failed, "",
-                         "is no raster that GDAL can open: " + messages.last("unknown format")};
+                         "cannot be opened as a raster: " + messages.last("unknown format")};
         std::string why = mark_words(path.file);
         if (why.empty())
             why = "is not a raster in an accepted format (" + trusted_formats() +

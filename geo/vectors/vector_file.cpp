@@ -177,7 +177,7 @@ Result<void> read_database(VectorFile& file, FileWatch& watch, const GdalMessage
                                      GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
                                      database_vector_drivers(), whole.data(), nullptr));
     if (!dataset)
-        return fault("is no vector file that can be opened here (" + trusted_vector_formats() +
+        return fault("is not a vector file in an accepted format (" + trusted_vector_formats() +
                      "): " + messages.last("unknown format"));
     // OGR goes on with WGS84 where it does not know a CRS.
     if (!messages.last("").empty()) return fault("cannot be read: " + messages.last(""));
@@ -211,7 +211,7 @@ Result<std::string> bytes_of_kmz(const std::string& name) {
 // What a file of text holds: its root says which format it has.
 Result<void> read_text(VectorFile& file, std::string bytes, FileWatch& watch) {
     const auto unknown = [](const std::string& why) {
-        return fault("is no vector file that can be opened here (" + trusted_vector_formats() + "): " + why);
+        return fault("is not a vector file in an accepted format (" + trusted_vector_formats() + "): " + why);
     };
     const std::string stem = std::filesystem::path(file.file).stem().string();
     ORO_TRY(const std::string text, utf8_xml(std::move(bytes)));
