@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,5 +48,13 @@ std::string program_fingerprint();
 // The fingerprints of a region that was just opened, without style and pixels.
 Fingerprints fingerprints_of(const Region& region);
 std::uint64_t style_fingerprint(const Style& style);
+
+nlohmann::ordered_json fingerprints_json(const Fingerprints& fingerprints);
+// Throws JsonFault.
+Fingerprints fingerprints_from(const nlohmann::json& json);
+
+// The pixels' fingerprint as a view's text has it: known when the last of them is drawn, and put where it was
+// 0 until then.
+std::string pixels_field(std::uint64_t pixels);
 
 }  // namespace oro

@@ -1,4 +1,4 @@
-#include "apps/fingerprints/fingerprints_json.h"
+#include "apps/fingerprints/fingerprints.h"
 
 #include <charconv>
 #include <cinttypes>
@@ -6,7 +6,6 @@
 
 #include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
-#include "apps/report/path_json.h"
 #include "apps/report/region_json.h"
 
 namespace oro {

@@ -4,7 +4,7 @@
 
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
-#include "apps/fingerprints/fingerprints_json.h"
+#include "apps/fingerprints/fingerprints.h"
 #include "apps/maps/ortho_map.h"
 #include "apps/report/region_json.h"
 #include "apps/view/view_paths.h"

@@ -6,7 +6,7 @@
 
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
-#include "apps/fingerprints/fingerprints_json.h"
+#include "apps/fingerprints/fingerprints.h"
 #include "apps/names/names_in_view.h"
 #include "apps/output/picture_file.h"
 #include "apps/overlay/overlay_in_view.h"

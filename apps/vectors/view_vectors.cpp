@@ -7,9 +7,8 @@
 #include "apps/options/view_limits.h"
 #include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
-#include "apps/report/path_json.h"
 #include "apps/report/progress_bar.h"
-#include "apps/styles/colour_text.h"
+#include "apps/styles/colours.h"
 #include "apps/styles/style_fields.h"
 #include "apps/vectors/named_points.h"
 

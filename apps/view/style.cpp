@@ -14,7 +14,6 @@
 #include "apps/styles/colour_table.h"
 #include "apps/styles/contour_interval.h"
 #include "apps/styles/data_folder.h"
-#include "apps/styles/daylight_json.h"
 #include "apps/styles/style_json.h"
 #include "apps/view/model_names.h"
 #include "core/light/sun_position.h"

@@ -12,6 +12,7 @@
 #include "apps/options/options.h"
 #include "apps/vectors/view_vectors.h"
 #include "core/base/progress.h"
+#include "core/base/result.h"
 #include "core/earth/camera.h"
 #include "core/earth/world_model.h"
 #include "core/frame/height_quantization.h"
@@ -127,5 +128,9 @@ bool keeps_own_posts(const Region& region);
 Result<void> open_view(const std::string& view_file, const ViewOptions& view_options,
                        const RegionOptions& region_options, const Progress& progress, View& view,
                        Region& region, PictureKind kind = PictureKind::plane);
+
+// A usage error where a view of such a region asks for what only regions of latitudes and longitudes have:
+// another model of the Earth or of placing.
+Result<void> check_own_posts(const View& view, const Region& region);
 
 }  // namespace oro

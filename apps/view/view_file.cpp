@@ -3,13 +3,12 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
-#include "apps/fingerprints/fingerprints_json.h"
+#include "apps/fingerprints/fingerprints.h"
 #include "apps/options/view_limits.h"
 #include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/option_words.h"
-#include "apps/report/path_json.h"
 #include "apps/view/accuracy.h"
 #include "apps/view/model_names.h"
 #include "apps/view/style.h"

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "apps/eye/standpoint.h"
-#include "apps/view/own_posts_limits.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "apps/view/view_option_table.h"

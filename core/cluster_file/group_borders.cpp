@@ -1,4 +1,4 @@
-#include "core/cluster_file/group_borders.h"
+#include "core/cluster_file/sound_graph.h"
 
 #include <algorithm>
 #include <numeric>

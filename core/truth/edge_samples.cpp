@@ -1,4 +1,4 @@
-#include "core/truth/edge_samples.h"
+#include "core/truth/view_samples.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "core/base/parallel.h"
-#include "core/truth/edge_samples.h"
 
 namespace oro {
 namespace {

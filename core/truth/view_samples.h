@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "core/earth/camera.h"
@@ -37,5 +38,21 @@ inline constexpr double behind_edges_px = 5.0;
 // between pixels, and what comes out when ground moves.
 std::vector<ViewSample> view_samples(const TrueGround& ground, const Sight& sight, const Camera& camera,
                                      int threads);
+
+// Between two neighbouring pixels: the nearer ground, and how far beyond it the other one sees.
+struct PictureEdge {
+    ViewSample near;
+    double until_m;  // infinite: the sky
+};
+
+// Goes along the nearer pixel's sight line, in steps of a fiftieth of the distance, from its ground to the
+// other's: of the ground above or below it what is seen, or would be, within `behind_edges_px` of the pixel.
+// Of a great many edges some.
+std::vector<ViewSample> samples_behind(const TrueGround& ground, const Sight& sight, const Camera& camera,
+                                       std::span<const PictureEdge> edges, int threads);
+
+// Farther than any sight line of a picture of these data: over a plane ground has no horizon. Of more than a
+// hemisphere on a plane no more than some 8,500 km.
+double picture_reach_m(const TrueGround& ground, const Sight& sight, double eye_h_m);
 
 }  // namespace oro

@@ -18,8 +18,6 @@
 #include "geo/files/raster_library.h"
 #include "geo/sources/elevation_band.h"
 #include "geo/sources/height_unit.h"
-#include "geo/sources/map_crs.h"
-#include "geo/sources/place_doubts.h"
 #include "geo/sources/raster_content.h"
 #include "geo/sources/raster_crs.h"
 #include "geo/sources/raster_parts.h"

@@ -1,4 +1,4 @@
-#include "geo/together/gap_bridges.h"
+#include "geo/together/cut_regions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,6 @@
 #include <tuple>
 #include <utility>
 
-#include "geo/together/cut_regions.h"
 #include "geo/together/face_cut.h"
 
 namespace oro {

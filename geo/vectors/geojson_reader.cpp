@@ -1,4 +1,4 @@
-#include "geo/vectors/geojson_reader.h"
+#include "geo/vectors/vector_readers.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "geo/vectors/geojson_crs.h"
 #include "geo/vectors/json_text.h"
 #include "geo/vectors/layer_builder.h"
 #include "geo/vectors/text_path.h"

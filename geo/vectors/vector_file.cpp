@@ -16,10 +16,7 @@
 #include "geo/files/letter_case.h"
 #include "geo/files/raster_library.h"
 #include "geo/files/text_encoding.h"
-#include "geo/vectors/geojson_reader.h"
-#include "geo/vectors/gpx_reader.h"
-#include "geo/vectors/kml_reader.h"
-#include "geo/vectors/vector_library.h"
+#include "geo/vectors/vector_readers.h"
 #include "geo/vectors/vector_shapes.h"
 #include "geo/vectors/xml_text.h"
 

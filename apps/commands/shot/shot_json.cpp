@@ -9,7 +9,7 @@
 #include "apps/report/summit_words.h"
 #include "apps/view/model_names.h"
 #include "apps/view/truth.h"
-#include "render/device/device_words.h"
+#include "render/device/device_report.h"
 
 namespace oro {
 namespace {

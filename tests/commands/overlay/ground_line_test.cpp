@@ -1,5 +1,5 @@
 // Lines on the ground: on the surface all along, and on the picture where their places project.
-#include "apps/overlay/ground_line.h"
+#include "apps/overlay/seen_lines.h"
 #include "geo/opening/open_region.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,6 @@
 #include <random>
 
 #include "apps/overlay/line_masks.h"
-#include "apps/overlay/seen_lines.h"
 #include "core/base/parallel.h"
 #include "geo/region/region.h"
 #include "tests/support/test_data.h"
