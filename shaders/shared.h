@@ -160,7 +160,7 @@ struct FramePage {
     uint column_terms;
     uint quarter;    // of its parent page that it lies in: 2 south + east
     uint parent;     // number of that page in this frame; no_page when there is none
-    uint beside[4];  // pages of the parent's level that hold the parents of the nodes beyond the north, east,
+    uint neighbours[4];  // pages of the parent's level that hold the parents of the nodes beyond the north, east,
                      // south and west rim
     uint children[4];  // pages of the next finer level: north-west, north-east, south-west, south-east
     uint last_column;  // last node of a row, 15 or less where a region goes round the Earth

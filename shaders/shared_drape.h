@@ -10,7 +10,7 @@ ORO_CONST uint drape_texels = 256u;  // along a side of a tile
 ORO_CONST uint drape_stride = 258u;
 ORO_CONST uint drape_words = 66564u;       // drape_stride squared
 ORO_CONST int drape_finest = -16;          // no level is below it
-ORO_CONST uint drape_wanted_max = 16384u;  // places of the table of what a frame wants; a power of two
+ORO_CONST uint texture_tile_requests_max = 16384u;  // places of the table of what a frame wants; a power of two
 ORO_CONST uint drape_probes = 64u;         // of it that are tried
 struct DrapeTile {
     uint name;  // level - drape_finest + 1; 0: nothing stands here
@@ -18,7 +18,7 @@ struct DrapeTile {
     uint column;
     uvec2 texels;  // device address; 0: there is nothing of an image in it
 };
-struct DrapeWanted {
+struct TextureTileRequest {
     uint hash;  // 0: nothing stands here
     uint name;
     uint row;
@@ -26,10 +26,10 @@ struct DrapeWanted {
 };
 struct DrapeTable {
     uvec2 tiles;   // device address of DrapeTile[tile_mask + 1]
-    uvec2 wanted;  // device address of DrapeWanted[drape_wanted_max] and one more: its name is 1 where a tile
+    uvec2 requests;  // device address of TextureTileRequest[texture_tile_requests_max] and one more: its name is 1 where a tile
                    // is missing
     uint tile_mask;
-    uint wanted_seed;  // another for each try: two tiles of one hash have others then
+    uint request_seed;  // another for each try: two tiles of one hash have others then
     int finest;        // levels that there are
     int coarsest;
     float opacity;

@@ -11,13 +11,13 @@ namespace {
 std::string reason_of(const View& view, const PictureDifference& difference, bool same_style) {
     const std::optional<Fingerprints>& recorded = view.recorded->fingerprints;
     if (!same_style) return "the style '" + view.style + "' is another than it was drawn with";
-    if (recorded && recorded->pixels && difference.file_print == recorded->pixels)
+    if (recorded && recorded->pixels && difference.file_fingerprint == recorded->pixels)
         return recorded->program == view.fingerprints->program
                    ? "nobody changed them since they were drawn, so the device or its driver draws otherwise"
                    : "nobody changed them since they were drawn, so version " + recorded->program +
                          " of the program drew otherwise";
     if (recorded && recorded->pixels &&
-        (difference.file_print || difference.drawn_print == *recorded->pixels))
+        (difference.file_fingerprint || difference.drawn_fingerprint == *recorded->pixels))
         return "they were changed after it was drawn";
     return "they were changed after it was drawn, or it was drawn from other data, or by another program or "
            "device";
@@ -51,9 +51,9 @@ Result<PictureDifference> compare_pixels(const std::string& picture, const View&
 std::optional<std::string> fault_of_pixels(const View& view, const PictureDifference& difference,
                                            bool same_style) {
     const std::optional<Fingerprints>& recorded = view.recorded->fingerprints;
-    const bool repeats = recorded && recorded->pixels && difference.drawn_print == *recorded->pixels;
-    const bool edited =
-        recorded && recorded->pixels && difference.file_print && difference.file_print != recorded->pixels;
+    const bool repeats = recorded && recorded->pixels && difference.drawn_fingerprint == *recorded->pixels;
+    const bool edited = recorded && recorded->pixels && difference.file_fingerprint &&
+                        difference.file_fingerprint != recorded->pixels;
     // Where the very pixels are drawn again, any that differs was changed; a JPEG's loss is the same then,
     // but other programs lose more when they write it anew.
     if (!edited && is_drawn_one(difference)) return std::nullopt;

@@ -1,6 +1,7 @@
 #include "apps/baking/cluster_bake.h"
 
 #include <array>
+#include <optional>
 
 #include "apps/report/figures.h"
 #include "core/baked/region_file.h"
@@ -59,10 +60,9 @@ Result<void> build(const HeightField& field, const std::string& path, std::uint6
 
 Result<BakeReport> bake_part(const HeightField& field, const BakeOptions& how, const BakeProgress& progress) {
     ORO_CHECK(check_path_of_part(how.path));
-    if (!is_baked_grid(how.path, how.fingerprint, how.description))
-        return bake_region(field, how, progress);
-    ORO_TRY(const RegionFile file, RegionFile::open(how.path));
-    return BakeReport{file.order().count(), file.order().count(), file.outline().triangles};
+    const std::optional<RegionFile> there = baked_grid(how.path, how.fingerprint, how.description);
+    if (!there) return bake_region(field, how, progress);
+    return BakeReport{there->order().count(), there->order().count(), there->outline().triangles};
 }
 
 Result<ClusterBakeReport> bake_clusters(const HeightField& field, const BakeOptions& how,
@@ -80,14 +80,15 @@ Result<ClusterBakeReport> bake_clusters(const HeightField& field, const BakeOpti
             }));
     const auto building = Clock::now();
     on_progress(0.0, "building clusters");
-    if (!are_baked_clusters(clusters_path, how.fingerprint))
+    std::optional<ClusterFile> clusters = baked_clusters(clusters_path, how.fingerprint);
+    if (!clusters) {
         ORO_CHECK(build(field, clusters_path, how.fingerprint, on_progress));
-    report.build_s = seconds_since(building);
-    {
-        ORO_TRY(const ClusterFile file, ClusterFile::open(clusters_path));
-        report.levels = file.outline().levels.size();
-        report.triangles = static_cast<std::size_t>(file.outline().triangles);
+        ORO_TRY(clusters, ClusterFile::open(clusters_path));
     }
+    report.build_s = seconds_since(building);
+    report.levels = clusters->outline().levels.size();
+    report.triangles = static_cast<std::size_t>(clusters->outline().triangles);
+    clusters.reset();
     ORO_CHECK(join_parts(how.path, how.overwrite,
                          std::array<ContainerPart, 2>{{{grid.path, 0}, {clusters_path, 0}}}));
     return report;

@@ -15,7 +15,7 @@ bool acceptable(const LevelPyramid& pyramid, int level, int row, int column, dou
 }
 
 // Edges of a drawn node whose neighbour's place is drawn one level coarser.
-gpu::uint edges_beside_coarser(const LevelPyramid& pyramid, int level, int row, int column, double error_m) {
+gpu::uint edges_to_coarser(const LevelPyramid& pyramid, int level, int row, int column, double error_m) {
     const LevelGrid& grid = pyramid.levels[static_cast<std::size_t>(level)].grid;
     const auto coarser = [&](int other_row, int other_column) {
         return other_row >= 0 && other_row < grid.row.nodes() && other_column >= 0 &&
@@ -70,8 +70,8 @@ BlockMesh block_mesh(const LevelPyramid& pyramid, const DrawnHeights& heights, d
                     acceptable(pyramid, level + 1, row / 2, column / 2, error_m))
                     continue;
                 ++nodes;
-                add_node(grid, heights, row, column,
-                         edges_beside_coarser(pyramid, level, row, column, error_m), mesh.triangles);
+                add_node(grid, heights, row, column, edges_to_coarser(pyramid, level, row, column, error_m),
+                         mesh.triangles);
             }
         }
     }

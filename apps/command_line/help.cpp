@@ -85,31 +85,29 @@ std::string options_text(const std::vector<const CLI::Option*>& options, std::si
     return text;
 }
 
-// Those that are not hidden, `--help` last, without those that are for later.
-std::vector<const CLI::Option*> shown_options(const CLI::App& command,
-                                              const std::vector<std::string>& later) {
+// Those that are not hidden, `--help` last; all of them, or those that are listed first.
+std::vector<const CLI::Option*> shown_options(const CLI::App& command, bool all) {
     std::vector<const CLI::Option*> options = command.get_options({});
     std::ranges::stable_partition(
         options, [&](const CLI::Option* option) { return option != command.get_help_ptr(); });
     std::erase_if(options, [&](const CLI::Option* option) {
-        return option->get_group().empty() || std::ranges::find(later, option->get_name()) != later.end();
+        const bool is_listed = all || option->get_configurable() || option == command.get_help_ptr();
+        return option->get_group().empty() || !is_listed;
     });
     return options;
 }
 
-// Of all options, or of those but for `later`.
-std::string help_text(const CLI::App& command, const CommandHelp& help, const std::vector<std::string>& later,
-                      std::size_t columns) {
+std::string help_text(const CLI::App& command, const CommandHelp& help, bool all, std::size_t columns) {
     std::string text = wrapped(command.get_description() + ".", 0, 0, columns) + "\n";
     for (const std::string& usage : help.usages) {
         text += usage == help.usages.front() ? "Usage: " : "       ";
         text += wrapped("orograph " + usage, 7, 7, columns);
     }
-    const auto listed = shown_options(command, later);
+    const auto listed = shown_options(command, all);
     text += options_text(listed, columns) + "\n";
     if (!help.note.empty()) text += wrapped(help.note, 0, 0, columns) + "\n";
     text += wrapped(exit_codes, 0, 0, columns) + "More: " + help.page + "\n";
-    if (const std::size_t more = shown_options(command, {}).size() - listed.size(); more > 0)
+    if (const std::size_t more = shown_options(command, true).size() - listed.size(); more > 0)
         text += wrapped("`orograph " + command.get_name() + " --help all` lists " + std::to_string(more) +
                             (more == 1 ? " more option." : " more options."),
                         0, 0, columns);
@@ -137,22 +135,30 @@ std::string program_text(const CLI::App& app, std::size_t columns) {
 
 }  // namespace
 
-void set_help(CLI::App& command, const CommandHelp& help, const std::vector<std::string>& later) {
+void set_help(CLI::App& command, const CommandHelp& help) {
     command.set_help_flag("-h,--help", "Print this help.")->group(messages);
-    command.formatter_fn([help, later](const CLI::App* asked, const std::string&, CLI::AppFormatMode mode) {
-        const bool of_all = mode == CLI::AppFormatMode::All;
-        return help_text(*asked, help, of_all ? std::vector<std::string>() : later, columns_here());
+    command.formatter_fn([help](const CLI::App* asked, const std::string&, CLI::AppFormatMode mode) {
+        return help_text(*asked, help, mode == CLI::AppFormatMode::All, columns_here());
     });
 }
 
-bool is_all_of_help(const std::vector<std::string>& words, std::size_t number) {
-    return number > 1 && words[number] == "all" &&
-           (words[number - 1] == "--help" || words[number - 1] == "-h");
+// The parser's mark for what a config file may set says which are listed first: no command reads such a file.
+void list_later(CLI::App& command, const std::vector<std::string>& options) {
+    for (const std::string& name : options) command.get_option(name)->configurable(false);
+}
+
+void list_first(CLI::App& command, const std::vector<std::string>& options) {
+    for (const std::string& name : options) command.get_option(name)->configurable(true);
+}
+
+bool is_after_help(const std::vector<std::string>& words, std::size_t number) {
+    return number > 1 && (words[number - 1] == "--help" || words[number - 1] == "-h");
 }
 
 bool asks_for_all_options(const std::vector<std::string>& words) {
     for (std::size_t i = 0; i < words.size(); ++i)
-        if (is_all_of_help(words, i)) return true;
+        if (words[i] == "--help=all" || words[i] == "-hall" || (words[i] == "all" && is_after_help(words, i)))
+            return true;
     return false;
 }
 

@@ -19,16 +19,21 @@ struct CommandHelp {
 };
 
 // Gives a command its help, as wide as the terminal is, up to 100 columns. `--help` stands last of the
-// messages' options. later: options that are listed only where all are asked for.
-void set_help(CLI::App& command, const CommandHelp& help, const std::vector<std::string>& later = {});
+// messages' options.
+void set_help(CLI::App& command, const CommandHelp& help);
+// Lets help list options of a command only where all are asked for, or always, as it does unless told
+// otherwise.
+void list_later(CLI::App& command, const std::vector<std::string>& options);
+void list_first(CLI::App& command, const std::vector<std::string>& options);
 // Takes options out of a command's help that have no effect there, or are refused with a reason.
 void hide(CLI::App& command, const std::vector<std::string>& options);
 // The help of the program itself: its commands and how to begin.
 void set_program_help(CLI::App& app);
 
-// Whether a word of a command line is the `all` of `--help all`.
-bool is_all_of_help(const std::vector<std::string>& words, std::size_t number);
-// Whether a command line asks for all options: `--help all`. App::help() lists them with AppFormatMode::All.
+// Whether a word of a command line follows `--help` or `-h`.
+bool is_after_help(const std::vector<std::string>& words, std::size_t number);
+// Whether a command line asks for all options: `--help all`, `--help=all`, or either with -h. App::help()
+// lists them with AppFormatMode::All.
 bool asks_for_all_options(const std::vector<std::string>& words);
 
 }  // namespace oro

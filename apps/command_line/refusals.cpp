@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdio>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
 #include "apps/command_line/help.h"
@@ -223,10 +224,19 @@ void need_no_value(CLI::Option& option) {
 
 std::optional<Error> refusal_of_command(const CLI::App& app, const std::vector<std::string>& words) {
     const std::vector<std::string> names = command_names(app);
+    constexpr std::string_view with_value = "--help=";
+    bool has_command = false;
     for (std::size_t i = 1; i < words.size(); ++i) {
-        if (words[i].starts_with('-') || is_all_of_help(words, i)) continue;
-        if (std::ranges::find(names, words[i]) != names.end()) return std::nullopt;
-        return of_no_command(words[i], names);
+        const bool is_attached = words[i].starts_with(with_value);
+        const std::string word = is_attached ? words[i].substr(with_value.size()) : words[i];
+        if (is_attached || is_after_help(words, i)) {
+            if (word == "all" || word.empty() || word.starts_with('-')) continue;
+            if (is_attached || has_command)
+                return refused("", "", "--help takes nothing or all, not " + word);
+        }
+        if (has_command || word.starts_with('-')) continue;
+        has_command = std::ranges::find(names, word) != names.end();
+        if (!has_command) return of_no_command(word, names);
     }
     return std::nullopt;
 }

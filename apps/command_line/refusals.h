@@ -38,7 +38,7 @@ void need_whole_number(const CLI::App& command, CLI::Option& option, int low, in
 void need_no_value(CLI::Option& option);
 
 // Checks a command line that asks for help or for the version: its first word that is no option must be a
-// command, or the answer is a usage error. Nothing where it is one, or where there is no such word.
+// command, and what follows `--help` must be `all`. Errors (usage): the word that is neither; else nothing.
 std::optional<Error> refusal_of_command(const CLI::App& app, const std::vector<std::string>& words);
 
 // What the parser has refused, in words. `words` is the command line.

@@ -60,7 +60,7 @@ Result<void> check_out(const BakingOptions& options) {
     if (!lower_case(out).ends_with(".oro")) return refused("--out", out, "the file's name must end in .oro");
     // What a bake writes on its way is no less lost than what it replaces.
     std::vector<std::string> written = files_of_bake(out);
-    for (const std::string& beside : {path_of_clusters(out), path_of_grid(out, 0)}) written.push_back(beside);
+    for (const std::string& part : {path_of_clusters(out), path_of_grid(out, 0)}) written.push_back(part);
     if (std::ranges::any_of(written, [](const auto& file) { return access(file.c_str(), F_OK) == 0; })) {
         ORO_TRY(const std::vector<std::string> inputs, input_files(options.region.paths));
         ORO_CHECK(spare_inputs(written, {{inputs, "which is to be baked"}}));

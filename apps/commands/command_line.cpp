@@ -65,12 +65,11 @@ void add_shot(CLI::App& app, ShotOptions& options) {
     add_memory_options(command, options.memory);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "errors, and the table of --verify");
-    set_help(command,
-             {{"shot PATH... --out FILE [OPTIONS]", "shot --view PICTURE [--out FILE] [OPTIONS]"},
-              "",
-              "docs/commands/shot.md"},
-             options_for_later({"--time", "--layers", "--ortho", "--crs", "--resolution", "--legend",
-                                "--no-legend", "--unseen-ceiling", "--no-paths", "--data-changed"}));
+    set_help(command, {{"shot PATH... --out FILE [OPTIONS]", "shot --view PICTURE [--out FILE] [OPTIONS]"},
+                       "",
+                       "docs/commands/shot.md"});
+    list_later(command, {"--time", "--layers", "--ortho", "--crs", "--resolution", "--legend", "--no-legend",
+                         "--unseen-ceiling", "--no-paths", "--data-changed"});
 }
 
 void add_panorama(CLI::App& app, PanoramaOptions& options) {
@@ -111,12 +110,11 @@ void add_panorama(CLI::App& app, PanoramaOptions& options) {
     add_memory_options(command, options.memory);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "errors");
-    set_help(
-        command,
-        {{"panorama PATH... --at PLACE --out FILE [OPTIONS]", "panorama --view PICTURE --out FILE [OPTIONS]"},
-         "The Earth's curvature always counts.",
-         "docs/commands/panorama.md"},
-        options_for_later({"--ridges", "--time", "--no-paths", "--data-changed"}));
+    set_help(command, {{"panorama PATH... --at PLACE --out FILE [OPTIONS]",
+                        "panorama --view PICTURE --out FILE [OPTIONS]"},
+                       "The Earth's curvature always counts.",
+                       "docs/commands/panorama.md"});
+    list_later(command, {"--ridges", "--time", "--no-paths", "--data-changed"});
 }
 
 void add_compare(CLI::App& app, CompareOptions& options) {
@@ -137,6 +135,7 @@ void add_compare(CLI::App& app, CompareOptions& options) {
     command.get_option("PATH")->description("The picture's elevation data, where they have moved.");
     hide_region_options(command);
     add_memory_options(command, options.memory);
+    list_first(command, {"--gpu-memory", "--memory"});
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the table and errors");
     set_help(command, {{"compare PICTURE [PATH...] [OPTIONS]"}, "", "docs/commands/compare.md"});
@@ -162,8 +161,8 @@ void add_view(CLI::App& app, WindowOptions& options) {
               "Keys: W A S D move; Space and Ctrl go up and down; Shift is faster. Drag the mouse, or Q E R "
               "F, to look. Right click tells what is there, in the title and on standard output. G goes to a "
               "place that you type. P writes a picture into the working folder. Esc leaves.",
-              "docs/commands/view.md"},
-             options_for_later({"--no-paths"}));
+              "docs/commands/view.md"});
+    list_later(command, {"--no-paths"});
 }
 
 void add_plan(CLI::App& app, PlanOptions& options) {
@@ -183,11 +182,11 @@ void add_plan(CLI::App& app, PlanOptions& options) {
     hide(command, {"--samples", "--pipeline", "--mesh", "--mesh-level"});
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
-    set_help(command,
-             {{"plan PATH... [OPTIONS]", "plan --view PICTURE [OPTIONS]"},
-              "Nothing is drawn or written.",
-              "docs/commands/plan.md"},
-             options_for_later({"--unseen-ceiling"}, {"--tau", "--tolerance"}));
+    set_help(command, {{"plan PATH... [OPTIONS]", "plan --view PICTURE [OPTIONS]"},
+                       "Nothing is drawn or written.",
+                       "docs/commands/plan.md"});
+    list_later(command, {"--unseen-ceiling"});
+    list_first(command, {"--tau", "--tolerance"});
 }
 
 void add_trade(CLI::App& app, TradeOptions& options) {
@@ -218,8 +217,8 @@ void add_trade(CLI::App& app, TradeOptions& options) {
              {{"trade PATH... [OPTIONS]", "trade --view PICTURE [OPTIONS]"},
               "The settings to compare are --tau, --earth, --refraction, --air, --precision, --geoid, "
               "--heights and --accuracy. trade sets them itself.",
-              "docs/commands/trade.md"},
-             options_for_later({"--time"}));
+              "docs/commands/trade.md"});
+    list_later(command, {"--time"});
 }
 
 void add_sun(CLI::App& app, SunOptions& options) {
@@ -244,8 +243,8 @@ void add_sun(CLI::App& app, SunOptions& options) {
     add_air_options(command, options.view);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
-    set_help(command, {{"sun --at PLACE [PATH...] [OPTIONS]"}, "", "docs/commands/sun.md"},
-             options_for_later({}, {"--altitude", "--on-summit"}));
+    set_help(command, {{"sun --at PLACE [PATH...] [OPTIONS]"}, "", "docs/commands/sun.md"});
+    list_first(command, {"--altitude", "--on-summit"});
 }
 
 void add_sight(CLI::App& app, SightOptions& options) {
@@ -268,11 +267,9 @@ void add_sight(CLI::App& app, SightOptions& options) {
     add_air_options(command, options.view);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
-    set_help(command,
-             {{"sight PATH... --from PLACE --to PLACE [OPTIONS]"},
-              "The Earth's curvature always counts. Hidden is an answer, too: the exit code is 0.",
-              "docs/commands/sight.md"},
-             options_for_later({}, {"--altitude", "--on-summit"}));
+    set_help(command, {{"sight PATH... --from PLACE --to PLACE [OPTIONS]"},
+                       "The Earth's curvature always counts. Hidden is an answer, too: the exit code is 0.",
+                       "docs/commands/sight.md"});
 }
 
 void add_profile(CLI::App& app, ProfileOptions& options) {
@@ -297,8 +294,7 @@ void add_profile(CLI::App& app, ProfileOptions& options) {
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
     set_help(command,
-             {{"profile PATH... --along LINE [--out FILE] [OPTIONS]"}, "", "docs/commands/profile.md"},
-             options_for_later({}));
+             {{"profile PATH... --along LINE [--out FILE] [OPTIONS]"}, "", "docs/commands/profile.md"});
 }
 
 void add_viewshed(CLI::App& app, ViewshedOptions& options) {
@@ -324,11 +320,9 @@ void add_viewshed(CLI::App& app, ViewshedOptions& options) {
     add_air_options(command, options.view);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
-    set_help(command,
-             {{"viewshed PATH... --at PLACE --out FILE.tif [OPTIONS]"},
-              "The Earth's curvature always counts.",
-              "docs/commands/viewshed.md"},
-             options_for_later({}, {"--altitude", "--on-summit"}));
+    set_help(command, {{"viewshed PATH... --at PLACE --out FILE.tif [OPTIONS]"},
+                       "The Earth's curvature always counts.",
+                       "docs/commands/viewshed.md"});
 }
 
 void add_bake(CLI::App& app, BakingOptions& options) {
@@ -343,12 +337,10 @@ void add_bake(CLI::App& app, BakingOptions& options) {
     add_region_options(command, options.region);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "errors");
-    set_help(command,
-             {{"bake PATH... --out FILE.oro [OPTIONS]"},
-              "When a bake is stopped half-way, FILE.oro.partial and FILE.oro.partial-stitched "
-              "stay. Give the same command again: it goes on from there and removes them.",
-              "docs/commands/bake.md"},
-             options_for_later({}, {"--mesh"}));
+    set_help(command, {{"bake PATH... --out FILE.oro [OPTIONS]"},
+                       "When a bake is stopped half-way, FILE.oro.partial and FILE.oro.partial-stitched "
+                       "stay. Give the same command again: it goes on from there and removes them.",
+                       "docs/commands/bake.md"});
 }
 
 void add_info(CLI::App& app, InfoOptions& options) {
@@ -360,7 +352,7 @@ void add_info(CLI::App& app, InfoOptions& options) {
               "Read all of a .oro file, and name the first damaged byte. Other files are always read whole.");
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
-    set_help(command, {{"info PATH... [OPTIONS]"}, "", "docs/commands/info.md"}, options_for_later({}));
+    set_help(command, {{"info PATH... [OPTIONS]"}, "", "docs/commands/info.md"});
 }
 
 void add_doctor(CLI::App& app, DoctorOptions& options) {

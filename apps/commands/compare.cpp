@@ -42,8 +42,7 @@ nlohmann::ordered_json compare_json(const CompareOptions& options, const View& v
     if (view.mesh_level) json["mesh_level"] = *view.mesh_level;
     json["pipeline"] = name_of(path);
     json["device"] = json_object("name", gpu.report().name, "driver", gpu.report().driver);
-    json["data_checked"] =
-        view.recorded->fingerprints && view.recorded->fingerprints->posts && view.fingerprints->posts;
+    json["data_checked"] = view.recorded->fingerprints && view.recorded->fingerprints->posts;
     json["data_changed"] = view.fingerprints->data_changed;
     json["pixels"] = nullptr;
     if (pixels) json["pixels"] = pixels_json(*pixels);
@@ -87,10 +86,10 @@ Result<std::optional<PictureDifference>> check_pixels(const CompareOptions& opti
     const std::optional<Fingerprints>& recorded = view.recorded->fingerprints;
     const bool same_style = !recorded || !recorded->style ||
                             recorded->program != view.fingerprints->program ||
-                            *recorded->style == style_print(style);
+                            *recorded->style == style_fingerprint(style);
     if (const auto fault = fault_of_pixels(view, found, same_style)) {
-        const bool was_edited =
-            recorded && recorded->pixels && found.file_print && *recorded->pixels != *found.file_print;
+        const bool was_edited = recorded && recorded->pixels && found.file_fingerprint &&
+                                *recorded->pixels != *found.file_fingerprint;
         if (was_edited || !options.data_changed) return Error{ErrorKind::failed, options.view_file, *fault};
         say(options.quiet, "note: " + options.view_file + ": " + *fault);
     }

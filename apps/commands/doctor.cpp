@@ -7,7 +7,7 @@
 #include "apps/report/json_text.h"
 #include "apps/styles/data_folder.h"
 #include "geo/sources/library_report.h"
-#include "render/device/device_words.h"
+#include "render/device/device_report.h"
 
 namespace oro {
 namespace {

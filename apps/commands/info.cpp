@@ -68,7 +68,7 @@ Error without_region(const InfoOptions& options, const FileListing& listing, Err
 
 Result<FileListing> listing_of(const RegionRequest& request, ProgressBar& bar) {
     if (baked_path(request.paths)) return FileListing{};
-    return list_files(request, {cache_folder().string(), program_print()},
+    return list_files(request, {cache_folder().string(), program_fingerprint()},
                       [&](double share, const std::string& what) { bar.show(share, "reading " + what); });
 }
 

@@ -137,13 +137,8 @@ std::string heights_lines(const SourceReport& source) {
            line("H", of_region + " at the region's posts");
 }
 
-bool is_resampled(const SourceReport& source) {
-    return source.placement && source.placement->fit != Fit::same_posts;
-}
-
 std::string resampling_lines(const SourceReport& source) {
-    if (!is_resampled(source)) return "";
-    if (!source.resampling) return line("resampling", "not measured: the region was baked before it was");
+    if (!source.resampling) return "";
     const Resampling& found = *source.resampling;
     std::string text = line("resampling", (found.worst ? "up to " : "") + resampling_words(found));
     if (found.highest) text += line("highest", "its post of " + post_words(*found.highest));
@@ -209,32 +204,32 @@ std::string files_text(const std::vector<SourceReport>& sources, Posts posts) {
     return text;
 }
 
-std::string region_voids(const RegionGrid& region) {
-    std::string text = region.void_posts() == 0 ? "none" : grouped(region.void_posts());
-    if (region.filled > 0) text += " left, " + grouped(region.filled) + " filled from their neighbours";
-    if (!region.classifies_voids)
+std::string region_voids(const RegionGrid& grid) {
+    std::string text = grid.void_posts() == 0 ? "none" : grouped(grid.void_posts());
+    if (grid.filled > 0) text += " left, " + grouped(grid.filled) + " filled from their neighbours";
+    if (!grid.classifies_voids)
         return text +
                " without a height, void in their file or outside the rasters: which, a baked region's part "
-               "and old ones do not tell";
-    if (region.void_posts() > 0 && region.void_method == VoidMethod::holes)
-        text += std::string(", left as holes (") + (region.file ? "baking with " : "") +
+               "does not tell";
+    if (grid.void_posts() > 0 && grid.void_method == VoidMethod::holes)
+        text += std::string(", left as holes (") + (grid.file ? "baking with " : "") +
                 "--fill-voids fills those near others)";
     return text;
 }
 
-std::string outside_text(const RegionGrid& region) {
-    if (!region.classifies_voids) return "not told apart from void posts in this baked region";
-    if (region.outside == 0) return "none";
-    return counted(region.outside, "post", "posts") + " of the region's box, beyond the edges of the " +
-           (region.sources.size() == 1 ? "raster" : "rasters");
+std::string outside_text(const RegionGrid& grid) {
+    if (!grid.classifies_voids) return "not told apart from void posts in this baked region";
+    if (grid.outside == 0) return "none";
+    return counted(grid.outside, "post", "posts") + " of the region's box, beyond the edges of the " +
+           (grid.sources.size() == 1 ? "raster" : "rasters");
 }
 
-std::string missing_text(const RegionGrid& region) {
-    if (region.missing_cells.empty()) return "none";
-    std::string text = counted(region.missing_cells.size(), "tile", "tiles") +
-                       " (cells of a degree without a file), " + counted(region.in_missing, "post", "posts") +
+std::string missing_text(const RegionGrid& grid) {
+    if (grid.missing_cells.empty()) return "none";
+    std::string text = counted(grid.missing_cells.size(), "tile", "tiles") +
+                       " (cells of a degree without a file), " + counted(grid.in_missing, "post", "posts") +
                        ":";
-    for (const std::string& cell : region.missing_cells) text += " " + cell;
+    for (const std::string& cell : grid.missing_cells) text += " " + cell;
     return text;
 }
 
@@ -298,28 +293,28 @@ std::string baked_text(const RegionFile& file, const ClusterFile* clusters) {
 
 }  // namespace
 
-std::string info_text(const RegionGrid& region) {
-    const PostGrid& grid = region.field.grid;
-    const HeightRange range = height_range(region.field);
-    std::string text = region.file ? baked_text(*region.file, region.clusters.get()) : "";
-    text += "region: " + counted(region.sources.size(), "file", "files") + "\n";
-    text += line("box", box_text(grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg()));
-    text +=
-        line("posts", grid.net ? text_of("%d x %d, the file's own, every %.6g x %.6g m at most",
-                                         grid.columns(), grid.rows(), grid.net->column_m(), grid.net->row_m())
-                               : text_of("%d x %d, every %.6g x %.6g degrees", grid.columns(), grid.rows(),
-                                         grid.lon.spacing_deg(), grid.lat.spacing_deg()));
+std::string info_text(const RegionGrid& grid) {
+    const PostGrid& posts = grid.field.grid;
+    const HeightRange range = height_range(grid.field);
+    std::string text = grid.file ? baked_text(*grid.file, grid.clusters.get()) : "";
+    text += "region: " + counted(grid.sources.size(), "file", "files") + "\n";
+    text += line("box", box_text(posts.west_deg(), posts.south_deg(), posts.east_deg(), posts.north_deg()));
+    text += line("posts",
+                 posts.net ? text_of("%d x %d, the file's own, every %.6g x %.6g m at most", posts.columns(),
+                                     posts.rows(), posts.net->column_m(), posts.net->row_m())
+                           : text_of("%d x %d, every %.6g x %.6g degrees", posts.columns(), posts.rows(),
+                                     posts.lon.spacing_deg(), posts.lat.spacing_deg()));
     text +=
         line("H", heights_text(static_cast<double>(range.lowest_m), static_cast<double>(range.highest_m)) +
-                      " above the geoid " + region.geoid);
-    if (const std::string resampled = resampling_sentence(region); !resampled.empty())
+                      " above the geoid " + grid.geoid);
+    if (const std::string resampled = resampling_sentence(grid); !resampled.empty())
         text += line("resampling", resampled);
-    text += line("void posts", region_voids(region));
-    text += line("outside", outside_text(region));
-    text += line("missing", missing_text(region));
-    text += line("overlaps", overlaps(region.seams));
-    for (const std::string& note : own_notes(region)) text += line("note", note);
-    return text + files_text(region.sources, Posts::read);
+    text += line("void posts", region_voids(grid));
+    text += line("outside", outside_text(grid));
+    text += line("missing", missing_text(grid));
+    text += line("overlaps", overlaps(grid.seams));
+    for (const std::string& note : own_notes(grid)) text += line("note", note);
+    return text + files_text(grid.sources, Posts::read);
 }
 
 std::string unread_files_text(const FileListing& listing) {

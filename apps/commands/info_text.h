@@ -11,7 +11,7 @@ namespace oro {
 
 // The region in some lines; then all that one file says of itself, or one line for each of many, after what
 // they have in common.
-std::string info_text(const RegionGrid& region);
+std::string info_text(const RegionGrid& grid);
 
 // The text about files that make no region together, whose posts were not read.
 std::string unread_text(const std::vector<SourceReport>& sources);

@@ -35,13 +35,7 @@ void add_row(CLI::App& command, const OptionRow<Options>& row, Options& options)
     // What follows the value of an option is elevation data.
     if (added.nonpositional()) added.allow_extra_args(false);
     if (*row.text.not_with != '\0') added.excludes(command.get_option(row.text.not_with));
-}
-
-// The options that help leaves to `--help all`.
-template <class Row>
-void add_later(const std::vector<Row>& table, std::vector<std::string>& names) {
-    for (const Row& row : table)
-        if (!row.text.is(shown_first)) names.push_back(row.name);
+    if (!row.text.is(shown_first)) list_later(command, {row.name});
 }
 
 }  // namespace
@@ -87,15 +81,6 @@ void hide_region_options(CLI::App& command) {
 void hide_looks(CLI::App& command) {
     for (const ViewOption& row : view_option_table())
         if (is_look(row)) hide(command, {row.name});
-}
-
-std::vector<std::string> options_for_later(std::vector<std::string> of_command,
-                                           const std::vector<std::string>& first_here) {
-    add_later(region_option_table(), of_command);
-    add_later(view_option_table(), of_command);
-    add_later(memory_option_table(), of_command);
-    for (const std::string& name : first_here) std::erase(of_command, name);
-    return of_command;
 }
 
 void add_time(CLI::App& command, const std::string& heading, ViewOptions& options) {

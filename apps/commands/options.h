@@ -27,10 +27,6 @@ void describe_standard_air(CLI::App& command);
 // Takes all options of the data but their paths, or all that change looks, out of a command's help.
 void hide_region_options(CLI::App& command);
 void hide_looks(CLI::App& command);
-// The names of the options that help lists only where all are asked for: these of the command's own, and
-// those of the tables but for some that matter first here.
-std::vector<std::string> options_for_later(std::vector<std::string> of_command,
-                                           const std::vector<std::string>& first_here = {});
 // How high ground may be where there are no data, above sea level. It decides nothing that is drawn, and so
 // is no part of a view.
 void add_unseen_ceiling(CLI::App& command, const std::string& heading, std::optional<double>& ceiling_m);

@@ -155,8 +155,8 @@ std::string advice(const Budget& budget, const View& view, const AccuracyChoice&
     const std::string tolerance = pixels(budget.tolerance_px);
     const std::string option = "`--accuracy " + std::string(choice.bundle.name) + "`";
     const std::string predicted =
-        about_beside(budget.tolerance_px, choice.predicted_px) + " px (" + choice.bundle.options + ")";
-    std::string text = "Good to " + about_beside(budget.tolerance_px, budget.total.worst_px) + " px";
+        about_near(budget.tolerance_px, choice.predicted_px) + " px (" + choice.bundle.options + ")";
+    std::string text = "Good to " + about_near(budget.tolerance_px, budget.total.worst_px) + " px";
     const std::string ends = unseen_lines(unseen);
     if (!ends.empty()) text += " where the data reach";
     text += (within ? ": within the tolerance of " : ": more than the tolerance of ") + tolerance + ".";

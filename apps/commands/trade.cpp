@@ -49,7 +49,7 @@ std::string machine_name() {
 std::string view_name(const Camera& camera, double ground_h_m) {
     const double above_m = camera.eye.h_m - ground_h_m;
     char text[160];
-    std::snprintf(text, sizeof text, "%.*f %s over %.3f,%.3f towards %.0f, pitch %.0f, %.0f degrees high",
+    std::snprintf(text, sizeof text, "%.*f %s over %.3f,%.3f, heading %.0f, pitch %.0f, %.0f degrees high",
                   above_m < 10.0 || (above_m >= 1000.0 && above_m < 10000.0) ? 1 : 0,
                   above_m < 1000.0 ? above_m : above_m / 1000.0, above_m < 1000.0 ? "m" : "km",
                   camera.eye.lat_deg, camera.eye.lon_deg, camera.attitude.heading_deg,

@@ -11,27 +11,27 @@ namespace oro {
 
 namespace {
 
-Result<HeightField> posts_of(const RegionGrid& region, std::size_t most_read_at_once) {
+Result<HeightField> posts_of(const RegionGrid& grid, std::size_t most_read_at_once) {
     constexpr std::size_t kept_bytes = std::size_t{64} << 20U;
-    if (region.field.grid.post_count() > most_read_at_once) return field_of_file(region.file, kept_bytes);
-    return field_in_memory(*region.file);
+    if (grid.field.grid.post_count() > most_read_at_once) return field_of_file(grid.file, kept_bytes);
+    return field_in_memory(*grid.file);
 }
 
 }  // namespace
 
-Result<std::unique_ptr<RegionClusters>> clusters_of_region(const RegionGrid& region,
+Result<std::unique_ptr<RegionClusters>> clusters_of_region(const RegionGrid& grid,
                                                            const HorizonOccluder& occluder,
                                                            std::size_t most_read_at_once) {
-    ORO_TRY(const HeightField field, posts_of(region, most_read_at_once));
+    ORO_TRY(const HeightField field, posts_of(grid, most_read_at_once));
     Result<std::unique_ptr<RegionClusters>> clusters =
-        clusters_of_file(region.clusters, region.file->fingerprint(), field, occluder);
+        clusters_of_file(grid.clusters, grid.file->fingerprint(), field, occluder);
     // A page that cannot be read is void meanwhile.
     ORO_CHECK(field.health());
     return clusters;
 }
 
-Result<void> check_clusters_of_region(const RegionGrid& region, std::size_t most_read_at_once) {
-    ORO_TRY(HeightField field, posts_of(region, most_read_at_once));
+Result<void> check_clusters_of_region(const RegionGrid& grid, std::size_t most_read_at_once) {
+    ORO_TRY(HeightField field, posts_of(grid, most_read_at_once));
     const DrawnHeights heights = drawn_heights(field, 1.0, thread_count());
     ORO_CHECK(field.health());
     field.H_m = {};
@@ -40,7 +40,7 @@ Result<void> check_clusters_of_region(const RegionGrid& region, std::size_t most
     const std::vector<std::uint32_t> nodes = surface.leaf_nodes();
     const LeavesOneByOne leaves{static_cast<std::uint32_t>(nodes.size()),
                                 [&](std::uint32_t leaf) { return surface.leaf(nodes[leaf]); }};
-    return region.clusters->check(surface, bounds, leaves, thread_count());
+    return grid.clusters->check(surface, bounds, leaves, thread_count());
 }
 
 }  // namespace oro

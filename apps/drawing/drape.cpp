@@ -28,18 +28,18 @@ struct OverGrid {
 // Over which grids there are some. A file that lies beside all of them is named, unless `quiet`.
 Result<std::vector<OverGrid>> over_grids(const View& view, const Scene& scene, bool quiet) {
     std::vector<OverGrid> over;
-    std::optional<std::vector<std::string>> beside_all;
+    std::optional<std::vector<std::string>> outside_all;
     for (std::size_t grid = 0; grid < scene.grids().size(); ++grid) {
-        std::vector<std::string> beside;
+        std::vector<std::string> outside;
         ORO_TRY(std::unique_ptr<GroundImage> images,
-                images_over(scene.grids()[grid].pages().facts().grid, view.images, beside));
-        if (!beside_all) beside_all = beside;
-        std::erase_if(*beside_all, [&](const std::string& file) {
-            return std::ranges::find(beside, file) == beside.end();
+                images_over(scene.grids()[grid].pages().facts().grid, view.images, outside));
+        if (!outside_all) outside_all = outside;
+        std::erase_if(*outside_all, [&](const std::string& file) {
+            return std::ranges::find(outside, file) == outside.end();
         });
-        if (beside.size() < view.images.size()) over.push_back({grid, std::move(images)});
+        if (outside.size() < view.images.size()) over.push_back({grid, std::move(images)});
     }
-    for (const std::string& file : *beside_all)
+    for (const std::string& file : *outside_all)
         say(quiet, "note: " + file + ": lies beside the elevation data");
     return over;
 }

@@ -13,7 +13,7 @@ namespace oro {
 
 extern const char* const picture_code;  // made when the program is built (apps/view/picture_code.cmake)
 
-std::string program_print() {
+std::string program_fingerprint() {
     return std::string(OROGRAPH_VERSION " ") + picture_code;
 }
 
@@ -30,18 +30,17 @@ std::uint64_t both(std::uint64_t one, std::uint64_t other) {
 Fingerprints fingerprints_of(const Region& region) {
     const RegionGrid& first = region.grids.front();
     Fingerprints fingerprints;
-    fingerprints.program = program_print();
-    fingerprints.grid = grid_print(first.field.grid);
+    fingerprints.program = program_fingerprint();
+    fingerprints.grid = grid_fingerprint(first.field.grid);
     fingerprints.posts = first.posts_hash;
     fingerprints.resampling = region_resampling(first);
     fingerprints.geoid = first.geoid;
-    fingerprints.undulation = first.geoid_print;
+    fingerprints.undulation = first.geoid_fingerprint;
     std::size_t sources = first.sources.size();
     for (const RegionGrid& other : std::span(region.grids).subspan(1)) {
-        fingerprints.grid = both(fingerprints.grid, grid_print(other.field.grid));
-        if (fingerprints.posts && other.posts_hash)
-            fingerprints.posts = both(*fingerprints.posts, *other.posts_hash);
-        fingerprints.undulation = both(fingerprints.undulation, other.geoid_print);
+        fingerprints.grid = both(fingerprints.grid, grid_fingerprint(other.field.grid));
+        fingerprints.posts = both(*fingerprints.posts, other.posts_hash);
+        fingerprints.undulation = both(fingerprints.undulation, other.geoid_fingerprint);
         sources += other.sources.size();
     }
     if (sources > most_sources_with_fingerprints) return fingerprints;
@@ -52,7 +51,7 @@ Fingerprints fingerprints_of(const Region& region) {
     return fingerprints;
 }
 
-std::uint64_t style_print(const Style& style) {
+std::uint64_t style_fingerprint(const Style& style) {
     static_assert(std::is_trivially_copyable_v<gpu::FrameStyle> && alignof(gpu::FrameStyle) == 4,
                   "no byte of it is padding");
     const std::uint64_t frame = xxh64(std::as_bytes(std::span(&style.frame, 1)));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,12 +18,12 @@ namespace oro {
 struct Fingerprints {
     struct OfSource {
         std::string name;                    // without its folder; "" where a view tells no paths
-        std::optional<std::uint64_t> posts;  // of its posts as they were laid; unknown of old baked regions
+        std::optional<std::uint64_t> posts;  // of its posts as they were laid; older pictures may tell none
     };
 
     std::string program;                 // its version, and a fingerprint of the code that makes pictures
     std::uint64_t grid{};                // where the region's posts lie
-    std::optional<std::uint64_t> posts;  // what they are: decides whether data are the same. Unknown as above
+    std::optional<std::uint64_t> posts;  // what they are: decides whether data are the same. As above
     std::vector<OfSource> sources;       // to name the ones that changed; none where there are too many
     std::optional<RegionResampling> resampling;  // what the region lost by it; nothing where nothing was
     std::string geoid;                           // its name
@@ -42,10 +43,18 @@ inline constexpr std::size_t most_sources_with_fingerprints = 256;
 inline constexpr std::size_t most_images = 64;
 
 // "0.1.0 4f1d22a09c3e": the version, and twelve digits of the SHA-256 of all code between files and pixels.
-std::string program_print();
+std::string program_fingerprint();
 
 // The fingerprints of a region that was just opened, without style and pixels.
 Fingerprints fingerprints_of(const Region& region);
-std::uint64_t style_print(const Style& style);
+std::uint64_t style_fingerprint(const Style& style);
+
+nlohmann::ordered_json fingerprints_json(const Fingerprints& fingerprints);
+// Throws JsonFault.
+Fingerprints fingerprints_from(const nlohmann::json& json);
+
+// The pixels' fingerprint as a view's text has it: known when the last of them is drawn, and put where it was
+// 0 until then.
+std::string pixels_field(std::uint64_t pixels);
 
 }  // namespace oro

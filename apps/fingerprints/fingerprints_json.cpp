@@ -1,4 +1,4 @@
-#include "apps/fingerprints/fingerprints_json.h"
+#include "apps/fingerprints/fingerprints.h"
 
 #include <charconv>
 #include <cinttypes>
@@ -6,7 +6,6 @@
 
 #include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
-#include "apps/report/path_json.h"
 #include "apps/report/region_json.h"
 
 namespace oro {
@@ -15,29 +14,29 @@ namespace {
 using nlohmann::ordered_json;
 
 // As text: other readers of JSON keep 53 bits of a number.
-std::string digits_of(std::uint64_t print) {
+std::string digits_of(std::uint64_t fingerprint) {
     char digits[20];
-    std::snprintf(digits, sizeof digits, "%016" PRIx64, print);
+    std::snprintf(digits, sizeof digits, "%016" PRIx64, fingerprint);
     return digits;
 }
 
-void put(ordered_json& json, const char* name, const std::optional<std::uint64_t>& print) {
-    if (print) json[name] = digits_of(*print);
+void put(ordered_json& json, const char* name, const std::optional<std::uint64_t>& fingerprint) {
+    if (fingerprint) json[name] = digits_of(*fingerprint);
 }
 
-std::uint64_t print_from(const nlohmann::json& json, const char* name) {
+std::uint64_t fingerprint_from(const nlohmann::json& json, const char* name) {
     const std::string digits = json_string(json, name);
-    std::uint64_t print = 0;
+    std::uint64_t fingerprint = 0;
     const char* const end = digits.data() + digits.size();
-    const auto read = std::from_chars(digits.data(), end, print, 16);
+    const auto read = std::from_chars(digits.data(), end, fingerprint, 16);
     if (digits.size() != 16 || read.ec != std::errc() || read.ptr != end)
         throw JsonFault{"'" + std::string(name) + "' is not 16 hexadecimal digits"};
-    return print;
+    return fingerprint;
 }
 
-std::optional<std::uint64_t> print_if_any(const nlohmann::json& json, const char* name) {
+std::optional<std::uint64_t> fingerprint_if_any(const nlohmann::json& json, const char* name) {
     if (!json.contains(name)) return std::nullopt;
-    return print_from(json, name);
+    return fingerprint_from(json, name);
 }
 
 ordered_json sources_json(const std::vector<Fingerprints::OfSource>& sources) {
@@ -60,7 +59,7 @@ std::vector<Fingerprints::OfSource> sources_from(const nlohmann::json& json, con
     for (const nlohmann::json& source : sources) {
         if (!source.is_object()) throw JsonFault{"'" + field + "' of 'fingerprints' must hold objects"};
         all.push_back(
-            {source.contains("name") ? path_from(source, "name") : "", print_if_any(source, "posts")});
+            {source.contains("name") ? path_from(source, "name") : "", fingerprint_if_any(source, "posts")});
     }
     return all;
 }
@@ -107,17 +106,17 @@ ordered_json fingerprints_json(const Fingerprints& fingerprints) {
 Fingerprints fingerprints_from(const nlohmann::json& json) {
     Fingerprints fingerprints;
     fingerprints.program = json_string(json, "program");
-    fingerprints.grid = print_from(json, "grid");
-    fingerprints.posts = print_if_any(json, "posts");
+    fingerprints.grid = fingerprint_from(json, "grid");
+    fingerprints.posts = fingerprint_if_any(json, "posts");
     fingerprints.sources = sources_from(json, "sources");
     if (json.contains("images")) fingerprints.images = sources_from(json, "images");
     if (json.contains("vectors")) fingerprints.vectors = sources_from(json, "vectors");
     const nlohmann::json& geoid = json_field(json, "geoid");
     fingerprints.geoid = json_string(geoid, "name");
-    fingerprints.undulation = print_from(geoid, "undulation");
+    fingerprints.undulation = fingerprint_from(geoid, "undulation");
     fingerprints.resampling = resampling_from(json);
-    fingerprints.style = print_if_any(json, "style");
-    fingerprints.pixels = print_if_any(json, "pixels");
+    fingerprints.style = fingerprint_if_any(json, "style");
+    fingerprints.pixels = fingerprint_if_any(json, "pixels");
     if (json.contains("data_changed")) fingerprints.data_changed = json_flag(json, "data_changed");
     return fingerprints;
 }

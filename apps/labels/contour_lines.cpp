@@ -1,4 +1,4 @@
-#include "apps/labels/contour_lines.h"
+#include "apps/labels/line_labels.h"
 
 #include <algorithm>
 #include <array>

@@ -101,9 +101,9 @@ class Places {
     [[nodiscard]] std::optional<LineLabel> label_at(const glm::dvec2& middle_px, glm::dvec2 along,
                                                     double length_px) const {
         glm::dvec2 up(along.y, -along.x);
-        const double beside_px = 0.3 * size_px_;
-        const auto above = seen_.H_at(middle_px + beside_px * up),
-                   below = seen_.H_at(middle_px - beside_px * up);
+        const double offset_px = 0.3 * size_px_;
+        const auto above = seen_.H_at(middle_px + offset_px * up),
+                   below = seen_.H_at(middle_px - offset_px * up);
         if (!above || !below || *above == *below) return std::nullopt;
         if (*above < *below) {
             up = -up;

@@ -130,7 +130,7 @@ Result<PictureLayers> picture_layers(const Gpu& gpu, Scene& scene, const View& v
     // What could not be read counted as void.
     ORO_CHECK(ground.ground().health());
     layers.ground_px = ground_px;
-    layers.beside_px = places.passed_beside();
+    layers.missed_px = places.missed();
     return layers;
 }
 

@@ -26,7 +26,7 @@ struct PictureLayers {
     std::vector<float>
         shadow;  // share of the sun's light that comes past the terrain: 0 in shadow, 1 without
     std::uint64_t ground_px{};
-    std::uint64_t beside_px{};  // whose rays pass beside what was drawn there (ShownPlaces)
+    std::uint64_t missed_px{};  // whose rays pass beside what was drawn there (ShownPlaces)
 };
 
 // Errors (usage): a picture of too many pixels for them; to be asked before it is drawn.

@@ -30,16 +30,16 @@ class LegendPage {
     Result<std::vector<std::uint8_t>> draw(const std::vector<std::string>& lines) {
         ORO_TRY(const std::vector<std::string> text, wrapped(face_, lines, em_, width_px_ - 2.0 * margin_));
         const double figure_px = 4.6 * em_, line_px = 1.5 * em_;
-        const bool beside = width_px_ >= 52.0 * em_;
+        const bool in_one_row = width_px_ >= 52.0 * em_;
         const glm::dvec2 key_at =
-            beside ? glm::dvec2(margin_ + 28.0 * em_, margin_) : glm::dvec2(margin_, margin_ + figure_px);
+            in_one_row ? glm::dvec2(margin_ + 28.0 * em_, margin_) : glm::dvec2(margin_, margin_ + figure_px);
         double key_px = key_.shape == KeyShape::none ? 0.0 : figure_px;
         PlacedNames names;
         if (key_.shape == KeyShape::names) {
             ORO_TRY(names, place_names(face_, key_, key_at, width_px_ - margin_, em_));
             key_px = std::max(key_px, names.bottom_px - key_at.y + 0.3 * em_);
         }
-        const double figures_px = beside ? std::max(figure_px, key_px) : figure_px + key_px;
+        const double figures_px = in_one_row ? std::max(figure_px, key_px) : figure_px + key_px;
         const double height =
             2.0 * margin_ + figures_px + 0.9 * em_ + line_px * static_cast<double>(text.size()) - 0.5 * em_;
         Strip strip(width_px_, static_cast<int>(std::ceil(height)), paper);

@@ -8,7 +8,6 @@
 #include "apps/report/json_text.h"
 #include "core/light/refraction.h"
 #include "core/light/sun_position.h"
-#include "core/light/usual_sun.h"
 #include "core/light/utc_time.h"
 
 namespace oro {

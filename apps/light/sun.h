@@ -20,7 +20,7 @@ struct SunDirection {
     double elevation_deg;  // as it is seen, [-90, 90]
     // That time put it there; nothing: the direction itself was asked for.
     std::optional<SunTime> time{};
-    // Nobody asked for a time or a direction: the time is one that every place has (core/light/usual_sun.h).
+    // Nobody asked for a time or a direction: the time is one that every place has (core/light/sun_position.h).
     bool is_usual{};
 };
 // The usual sun of a place that is not known yet: aim_sun() gives it a time and a direction.

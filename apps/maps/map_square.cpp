@@ -1,4 +1,4 @@
-#include "apps/maps/map_square.h"
+#include "apps/maps/ortho_map.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,6 @@
 #include <glm/vec3.hpp>
 
 #include "apps/labels/labelled_picture.h"
-#include "apps/maps/map_square.h"
 #include "core/base/parallel.h"
 
 namespace oro {

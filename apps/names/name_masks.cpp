@@ -1,4 +1,4 @@
-#include "apps/names/name_masks.h"
+#include "apps/names/names_in_view.h"
 
 #include <algorithm>
 #include <cmath>

@@ -25,12 +25,13 @@ inline constexpr const char* looks = "Looks";
 inline constexpr const char* detail = "Detail and models";
 }  // namespace option_headings
 
-// What an option is beside a value.
+// What an option is besides a value.
 enum OptionTraits : unsigned {
     no_trait = 0,
     shown_first = 1,    // help lists it without being asked for all options
     changes_looks = 2,  // it changes the colours or the light of a picture
     in_every_view = 4,  // a view's JSON has it always: else one without it is of before there was the option
+    of_eye = 8,         // it says where the eye is or what it sees: a view from a file has that itself
 };
 
 // What is written of an option. Only literals, which outlive the tables and are copied

@@ -4,7 +4,7 @@
 
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
-#include "apps/fingerprints/fingerprints_json.h"
+#include "apps/fingerprints/fingerprints.h"
 #include "apps/maps/ortho_map.h"
 #include "apps/report/region_json.h"
 #include "apps/view/view_paths.h"
@@ -52,7 +52,7 @@ namespace {
 // for fingerprints and comparisons, as it is when it is read again.
 class MapRows {
   public:
-    MapRows(const std::string& picture, PictureWriter& writer, PixelPrint& pixels, const RowSink& also)
+    MapRows(const std::string& picture, PictureWriter& writer, PixelFingerprint& pixels, const RowSink& also)
         : channels_(static_cast<std::size_t>(map_channels(picture))),
           writer_(writer),
           pixels_(pixels),
@@ -87,7 +87,7 @@ class MapRows {
   private:
     std::size_t channels_;
     PictureWriter& writer_;
-    PixelPrint& pixels_;
+    PixelFingerprint& pixels_;
     const RowSink& also_;
     std::vector<std::uint8_t> rgb_, on_white_;
 };
@@ -118,7 +118,7 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
     ORO_TRY(View drawn, view_as_written_in(view, files.paths_start_at));
     drawn.pipeline = name_of(path);
     if (drawn.fingerprints) {
-        drawn.fingerprints->style = style_print(style);
+        drawn.fingerprints->style = style_fingerprint(style);
         drawn.fingerprints->pixels = 0;  // until they are drawn
     }
     ORO_CHECK(check_view_opens(drawn, files.picture));
@@ -126,7 +126,7 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
     ORO_TRY(const std::unique_ptr<PictureWriter> writer,
             view.map ? create_map(files.picture, tags, *view.map, overwrite)
                      : create_picture(files.picture, tags, overwrite));
-    PixelPrint pixels(view.camera.width_px, view.camera.height_px + view.legend_px);
+    PixelFingerprint pixels(view.camera.width_px, view.camera.height_px + view.legend_px);
     const auto take = [&](std::span<const std::uint8_t> rgb) -> Result<void> {
         pixels.add(rgb);
         if (also) ORO_CHECK(also(rgb));
@@ -150,8 +150,8 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
     ORO_CHECK(check_drawn(gpu, scene, report));
     ORO_TRY(WholeFile file, writer->finished_file());
     if (drawn.fingerprints) {
-        drawn.fingerprints->pixels = pixels.print();
-        ORO_CHECK(replace_in_view(file, files.picture, pixels_field(0), pixels_field(pixels.print())));
+        drawn.fingerprints->pixels = pixels.value();
+        ORO_CHECK(replace_in_view(file, files.picture, pixels_field(0), pixels_field(pixels.value())));
     }
     return DrawnPicture{
         report,          std::move(labelled.labels), std::move(labelled.names), std::move(labelled.overlay),

@@ -1,4 +1,4 @@
-#include "apps/overlay/ground_line.h"
+#include "apps/overlay/seen_lines.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 
 #include "apps/options/view_limits.h"
 #include "apps/overlay/line_masks.h"
-#include "apps/styles/colour_text.h"
+#include "apps/styles/colours.h"
 #include "apps/vectors/named_points.h"
 #include "core/base/elapsed.h"
 

@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "apps/overlay/ground_line.h"
 #include "core/base/parallel.h"
 
 namespace oro {

@@ -1,4 +1,4 @@
-#include "apps/panorama/name_slots.h"
+#include "apps/panorama/panorama_names.h"
 
 #include <algorithm>
 #include <cmath>

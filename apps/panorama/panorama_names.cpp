@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "apps/names/name_labels.h"
-#include "apps/panorama/name_slots.h"
 
 namespace oro {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
-#include "apps/fingerprints/fingerprints_json.h"
+#include "apps/fingerprints/fingerprints.h"
 #include "apps/names/names_in_view.h"
 #include "apps/output/picture_file.h"
 #include "apps/overlay/overlay_in_view.h"
@@ -184,21 +184,21 @@ Result<PanoramaFile> write_panorama(const std::string& path, bool overwrite, con
     drawn.camera.height_px = laid.sheet.height_px;
     drawn.pipeline = name_of(scene.report.path);
     if (drawn.fingerprints) {
-        drawn.fingerprints->style = style_print(style);
+        drawn.fingerprints->style = style_fingerprint(style);
         drawn.fingerprints->pixels = 0;  // until they are drawn
     }
     ORO_CHECK(check_view_opens(drawn, path));
     ORO_TRY(const std::unique_ptr<PictureWriter> writer,
             create_picture(path, panorama_tags(drawn, region, laid), overwrite));
-    PixelPrint pixels(laid.sheet.width_px, laid.sheet.height_px);
+    PixelFingerprint pixels(laid.sheet.width_px, laid.sheet.height_px);
     ORO_CHECK(give_rows(laid.sheet, scene, [&](std::span<const std::uint8_t> rgb) {
         pixels.add(rgb);
         return writer->write_row(rgb);
     }));
     ORO_TRY(WholeFile file, writer->finished_file());
     if (drawn.fingerprints) {
-        drawn.fingerprints->pixels = pixels.print();
-        ORO_CHECK(replace_in_view(file, path, pixels_field(0), pixels_field(pixels.print())));
+        drawn.fingerprints->pixels = pixels.value();
+        ORO_CHECK(replace_in_view(file, path, pixels_field(0), pixels_field(pixels.value())));
     }
     return PanoramaFile{std::move(file), drawn.fingerprints};
 }

@@ -61,7 +61,7 @@ std::string about(double value) {
     return without_last_zeros(fixed(std::round(value / step) * step, step >= 1.0 ? 0 : 4));
 }
 
-std::string about_beside(double limit, double value) {
+std::string about_near(double limit, double value) {
     const auto is_on_its_side = [&](double shown) { return (shown > limit) == (value > limit); };
     if (!(value >= finest) || !std::isfinite(value)) return about(value);
     double step = std::pow(10.0, std::floor(std::log10(value)) - 1.0);

@@ -15,9 +15,9 @@ std::string figure(const std::optional<double>& value);
 // Two digits, as one says a size in a sentence: "0", "0.12", "2", "66", "3400"; below 0.001 "less than
 // 0.001".
 std::string about(double value);
-// A size as about() has it, with as many digits more as keep it on its side of `limit`: 1.03 stays "1.03" where
-// the limit is 1.
-std::string about_beside(double limit, double value);
+// A size as about() has it, with as many digits more as keep it on its side of `limit`: 1.03 stays "1.03"
+// where the limit is 1.
+std::string about_near(double limit, double value);
 // A distance or height in metres, as one says it in a sentence: "0.35", "2", "36.4", "2490", "297,974".
 std::string metres(double value_m);
 // As figure, but nothing finer than a thousandth: "<0.001".

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -39,5 +40,10 @@ Result<std::string> read_text_file(const std::string& path);
 // Reads a file that the program keeps for itself, which is not remembered as read
 // (core/base/files_read.h).
 Result<std::string> read_own_text_file(const std::string& path);
+
+// The name, or, of one that is no text or none that XML may hold, {"hex": "ff2e686774"}.
+nlohmann::ordered_json path_json(const std::string& path);
+// The path that a field holds as path_json() puts it. Throws JsonFault.
+std::string path_from(const nlohmann::json& json, const char* name);
 
 }  // namespace oro

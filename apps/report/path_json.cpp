@@ -1,8 +1,7 @@
-#include "apps/report/path_json.h"
+#include "apps/report/json_fields.h"
 
 #include <charconv>
 
-#include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
 
 namespace oro {

@@ -64,38 +64,38 @@ ordered_json sources_json(const std::vector<SourceReport>& sources) {
     return all;
 }
 
-ordered_json region_json(const RegionGrid& region) {
-    const PostGrid& grid = region.field.grid;
-    const HeightRange range = height_range(region.field);
+ordered_json region_json(const RegionGrid& grid) {
+    const PostGrid& posts = grid.field.grid;
+    const HeightRange range = height_range(grid.field);
     ordered_json json = ordered_json::object();
-    json["bbox"] = json_list(grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg());
-    json["posts"] = json_object("rows", grid.rows(), "columns", grid.columns());
-    json["own_posts"] = grid.net != nullptr;
-    if (grid.net)
-        json["largest_spacing_m"] = json_object("rows", grid.net->row_m(), "columns", grid.net->column_m());
+    json["bbox"] = json_list(posts.west_deg(), posts.south_deg(), posts.east_deg(), posts.north_deg());
+    json["posts"] = json_object("rows", posts.rows(), "columns", posts.columns());
+    json["own_posts"] = posts.net != nullptr;
+    if (posts.net)
+        json["largest_spacing_m"] = json_object("rows", posts.net->row_m(), "columns", posts.net->column_m());
     else
-        json["spacing_deg"] = json_object("lat", grid.lat.spacing_deg(), "lon", grid.lon.spacing_deg());
+        json["spacing_deg"] = json_object("lat", posts.lat.spacing_deg(), "lon", posts.lon.spacing_deg());
     json["H_m"] = json_object("lowest", range.lowest_m, "highest", range.highest_m);
-    json["resampling"] = resampling_json(region_resampling(region));
-    json["geoid"] = region.geoid;
+    json["resampling"] = resampling_json(region_resampling(grid));
+    json["geoid"] = grid.geoid;
     // Null where it is not known which of the posts are void, and which outside all rasters.
-    json["without_height"] = region.voids;
+    json["without_height"] = grid.voids;
     json["voids"] = nullptr;
     json["outside_sources"] = nullptr;
-    if (region.classifies_voids) {
-        json["voids"] = region.void_posts();
-        json["outside_sources"] = region.outside;
+    if (grid.classifies_voids) {
+        json["voids"] = grid.void_posts();
+        json["outside_sources"] = grid.outside;
     }
-    json["in_missing_cells"] = region.in_missing;
-    json["filled"] = region.filled;
-    if (const auto& feathered = region.feathered)
+    json["in_missing_cells"] = grid.in_missing;
+    json["filled"] = grid.filled;
+    if (const auto& feathered = grid.feathered)
         json["feathered"] = json_object("width_m", feathered->width_m, "posts", feathered->posts, "most_m",
                                         feathered->most_m, "rms_m", feathered->rms_m);
-    json["void_method"] = void_method_words(region.void_method);
-    json["seams"] = seam_fields<ordered_json>(region.seams);
+    json["void_method"] = void_method_words(grid.void_method);
+    json["seams"] = seam_fields<ordered_json>(grid.seams);
     json["seam_rule"] = "the finer spacing wins; among equals the first in the byte order of file names";
-    json["missing_cells"] = region.missing_cells;
-    json["notes"] = own_notes(region);
+    json["missing_cells"] = grid.missing_cells;
+    json["notes"] = own_notes(grid);
     return json;
 }
 
@@ -129,9 +129,9 @@ std::uint64_t bytes_of_file(const RegionFile& file) {
     return fault ? file.bytes() : bytes;
 }
 
-ordered_json file_json(const RegionGrid& region) {
-    if (!region.file) return nullptr;
-    const RegionFile& file = *region.file;
+ordered_json file_json(const RegionGrid& grid) {
+    if (!grid.file) return nullptr;
+    const RegionFile& file = *grid.file;
     ordered_json json = ordered_json::object();
     json["path"] = file.path();
     json["format"] = "baked region";
@@ -142,36 +142,36 @@ ordered_json file_json(const RegionGrid& region) {
     // Of all that the file holds, and of this grid in it.
     json["bytes"] = bytes_of_file(file);
     json["grid_bytes"] = file.bytes();
-    if (region.clusters) json["clusters"] = graph_json(*region.clusters, file.outline().triangles);
+    if (grid.clusters) json["clusters"] = graph_json(*grid.clusters, file.outline().triangles);
     json["bytes_per_post"] =
-        static_cast<double>(file.bytes()) / static_cast<double>(region.field.grid.post_count());
+        static_cast<double>(file.bytes()) / static_cast<double>(grid.field.grid.post_count());
     return json;
 }
 
-std::string note_of_voids(const RegionGrid& region) {
+std::string note_of_voids(const RegionGrid& grid) {
     std::string note;
     const auto add = [&](std::uint64_t posts, const char* one, const char* many, const std::string& what) {
         if (posts > 0) note += (note.empty() ? "" : "; ") + counted(posts, one, many) + what;
     };
-    if (!region.classifies_voids)
-        add(region.void_posts(), "post without a height is a hole", "posts without a height are holes",
+    if (!grid.classifies_voids)
+        add(grid.void_posts(), "post without a height is a hole", "posts without a height are holes",
             ": void in their file, or outside all rasters, which this baked region does not tell apart");
     else
-        add(region.void_posts(), "void post is a hole", "void posts are holes",
-            std::string(" (") + (region.file ? "baking with " : "") +
+        add(grid.void_posts(), "void post is a hole", "void posts are holes",
+            std::string(" (") + (grid.file ? "baking with " : "") +
                 "--fill-voids fills what is near others)");
-    add(region.outside, "post outside all rasters is a hole", "posts outside all rasters are holes", "");
-    if (region.in_missing > 0)
+    add(grid.outside, "post outside all rasters is a hole", "posts outside all rasters are holes", "");
+    if (grid.in_missing > 0)
         note += (note.empty() ? "" : "; ") +
-                counted(region.missing_cells.size(), "tile is missing: ", "tiles are missing: ") +
-                counted(region.in_missing, "post has no height there", "posts have no height there");
+                counted(grid.missing_cells.size(), "tile is missing: ", "tiles are missing: ") +
+                counted(grid.in_missing, "post has no height there", "posts have no height there");
     return note;
 }
 
-std::string note_of_assumed_heights(const RegionGrid& region) {
+std::string note_of_assumed_heights(const RegionGrid& grid) {
     std::string first;
     std::size_t count = 0;
-    for (const SourceReport& source : region.sources) {
+    for (const SourceReport& source : grid.sources) {
         const DatumFrom from = source.vertical_datum.from;
         if (from != DatumFrom::assumed_unstated && from != DatumFrom::assumed_unreadable) continue;
         if (count++ == 0) first = source.path;
@@ -183,9 +183,9 @@ std::string note_of_assumed_heights(const RegionGrid& region) {
            "are, when files are read)";
 }
 
-std::vector<std::string> own_notes(const RegionGrid& region) {
-    std::vector<std::string> notes = region.notes;
-    if (std::string assumed = note_of_assumed_heights(region); !assumed.empty())
+std::vector<std::string> own_notes(const RegionGrid& grid) {
+    std::vector<std::string> notes = grid.notes;
+    if (std::string assumed = note_of_assumed_heights(grid); !assumed.empty())
         notes.push_back(std::move(assumed));
     return notes;
 }
@@ -208,7 +208,7 @@ std::string attribution_of(const Region& region) {
     std::string all;
     for (const RegionGrid& grid : region.grids) {
         for (const SourceReport& source : grid.sources) {
-            // Once more: a region may have been baked when such text was kept as it was.
+            // A region file may hold any text.
             const std::string attribution = foreign_text(source.attribution);
             if (attribution.empty() || !seen.insert(attribution).second) continue;
             all += (all.empty() ? "" : "; ") + attribution;

@@ -53,26 +53,22 @@ std::string resampling_words(const Resampling& found) {
            size_text(found.rms_m) + " m RMS, of " + posts_text(found.compared, found.posts);
 }
 
-std::string resampling_sentence(const RegionGrid& region) {
-    const auto all = region_resampling(region);
+std::string resampling_sentence(const RegionGrid& grid) {
+    const auto all = region_resampling(grid);
     if (!all) return "";
     std::string text = "heights of " + counted(all->files, "file are", "files are") + " resampled: ";
-    if (all->unknown == all->files)
-        return text +
-               "by how much they are off is not known, because the region was baked before it was measured";
-    const SourceReport* const worst = worst_resampled(region);
+    const SourceReport* const worst = worst_resampled(grid);
     if (worst == nullptr) return text + "none of its own posts has ground to be compared with";
     text += "its own posts are up to " + resampling_words(*worst->resampling);
     if (all->files > 1)
         text += " of " + one_line(file_name(worst->path)) + "; " + size_text(all->rms_m) + " m RMS of all " +
                 counted(all->files, "file", "files");
-    if (all->unknown > 0) text += "; not known of " + counted(all->unknown, "file", "files");
     const auto& highest = worst->resampling->highest;
     return highest ? text + "; its highest post: " + post_words(*highest) : text;
 }
 
-std::string resampling_line(const RegionGrid& region) {
-    const std::string sentence = resampling_sentence(region);
+std::string resampling_line(const RegionGrid& grid) {
+    const std::string sentence = resampling_sentence(grid);
     return sentence.empty() ? "" : "Resampled: " + sentence + ". What is measured here begins after that.\n";
 }
 

@@ -13,8 +13,8 @@ std::string resampling_words(const Resampling& found);
 // "4107.9 m at 46.537110 8.126330, shown as 4087.1 m"
 std::string post_words(const PostShown& post);
 // The whole region in a sentence, without its end; "" where no source was resampled or interpolated.
-std::string resampling_sentence(const RegionGrid& region);
+std::string resampling_sentence(const RegionGrid& grid);
 // "Resampled: ..." with its line end, for what is measured against the region; "" likewise.
-std::string resampling_line(const RegionGrid& region);
+std::string resampling_line(const RegionGrid& grid);
 
 }  // namespace oro

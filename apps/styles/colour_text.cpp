@@ -1,4 +1,4 @@
-#include "apps/styles/colour_text.h"
+#include "apps/styles/colours.h"
 
 #include <charconv>
 #include <cstdio>

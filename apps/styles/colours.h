@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include "shaders/shared.h"
 
@@ -28,5 +30,9 @@ inline gpu::vec3 linear_light(const ColourCodes& colour) {
     };
     return {linear(colour.red), linear(colour.green), linear(colour.blue)};
 }
+
+// "#e2252b"; nothing of what is none.
+std::optional<ColourCodes> colour_from(const std::string& text);
+std::string colour_text(const ColourCodes& colour);
 
 }  // namespace oro

@@ -1,4 +1,4 @@
-#include "apps/styles/daylight_json.h"
+#include "apps/styles/style_json.h"
 
 #include <string>
 

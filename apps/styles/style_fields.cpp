@@ -5,7 +5,7 @@
 #include <string>
 
 #include "apps/report/json_fields.h"
-#include "apps/styles/colour_text.h"
+#include "apps/styles/colours.h"
 
 namespace oro {
 

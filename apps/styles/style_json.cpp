@@ -9,7 +9,6 @@
 #include "apps/options/view_limits.h"
 #include "apps/report/json_fields.h"
 #include "apps/styles/colours.h"
-#include "apps/styles/daylight_json.h"
 #include "apps/styles/style_fields.h"
 
 namespace oro {

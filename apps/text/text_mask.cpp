@@ -1,4 +1,4 @@
-#include "apps/text/text_mask.h"
+#include "apps/text/text_face.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -7,9 +7,8 @@
 #include "apps/options/view_limits.h"
 #include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
-#include "apps/report/path_json.h"
 #include "apps/report/progress_bar.h"
-#include "apps/styles/colour_text.h"
+#include "apps/styles/colours.h"
 #include "apps/styles/style_fields.h"
 #include "apps/vectors/named_points.h"
 
@@ -42,7 +41,7 @@ Result<std::vector<VectorFile>> read_all(const std::vector<std::string>& files,
     std::vector<VectorFile> all;
     for (const std::string& name : files) {
         ORO_TRY(VectorFile file, read_vectors(name));
-        fingerprints.push_back({std::filesystem::path(name).filename().string(), file.print});
+        fingerprints.push_back({std::filesystem::path(name).filename().string(), file.fingerprint});
         all.push_back(std::move(file));
     }
     return all;

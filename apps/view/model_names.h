@@ -2,7 +2,7 @@
 #pragma once
 
 #include <array>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,7 +10,6 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/options/view_settings.h"
-#include "apps/report/json_fields.h"
 #include "apps/report/option_words.h"
 #include "core/earth/world_model.h"
 
@@ -65,16 +64,6 @@ Result<Choice> choice_named(const std::string& option, const Names<Choice, count
         if (*known != '\0' && name == known) return choice;
     }
     return refused(option, name, choose_words(words_of(names)));
-}
-
-// What the name stands for that a field of a view's JSON has. Throws JsonFault.
-template <class Choice, std::size_t count>
-Choice choice_in(const nlohmann::json& json, const char* field, const Names<Choice, count>& names) {
-    const std::string chosen = json_string(json, field);
-    const Result<Choice> found = choice_named(field, names, chosen);
-    if (!found.ok())
-        throw JsonFault{"'" + std::string(field) + "' is '" + chosen + "': " + found.error().what};
-    return *found;
 }
 
 // The name of a choice; "" where it has none.

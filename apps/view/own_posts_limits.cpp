@@ -1,4 +1,4 @@
-#include "apps/view/own_posts_limits.h"
+#include "apps/view/view.h"
 
 #include <algorithm>
 #include <string>

@@ -14,7 +14,6 @@
 #include "apps/styles/colour_table.h"
 #include "apps/styles/contour_interval.h"
 #include "apps/styles/data_folder.h"
-#include "apps/styles/daylight_json.h"
 #include "apps/styles/style_json.h"
 #include "apps/view/model_names.h"
 #include "core/light/sun_position.h"
@@ -124,12 +123,13 @@ std::string file_of_style(const std::string& name) {
 
 }  // namespace
 
-bool has_sun_by_place(const std::string& style) {
-    const std::string path = file_of_style(style);
+bool has_sun_by_place(View& view) {
+    const std::string path = file_of_style(view.style);
     if (is_table(path)) return false;
-    const auto text = read_text_file(path);
+    auto text = read_text_file(path);
     if (!text.ok()) return false;
-    const Result<Style> read = style_of_text(*text, path);
+    view.style_text = StyleText{path, std::move(*text)};
+    const Result<Style> read = style_of_text(view.style_text->text, path);
     return read.ok() && read->sun_by_place;
 }
 
@@ -137,7 +137,9 @@ Result<Style> load_style(const View& view, const HeightField& field) {
     const std::string& name = view.style;
     const bool is_path = is_style_path(name);
     const std::string path = file_of_style(name);
-    const auto text = read_text_file(path);
+    const Result<std::string> text = view.style_text && view.style_text->path == path
+                                         ? Result<std::string>(view.style_text->text)
+                                         : read_text_file(path);
     if (!text.ok()) {
         const bool no_such = access(path.c_str(), F_OK) != 0 && (errno == ENOENT || errno == ENAMETOOLONG);
         if (!is_path && no_such) {

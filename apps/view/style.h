@@ -18,9 +18,9 @@ bool is_style_path(const std::string& style);
 // drawn where nobody asked. All other names and paths stay.
 std::string present_name(const std::string& style);
 
-// Whether views in a style that ask for no sun have the usual one of their place. False, too, where there is
-// no such style: load_style() says so.
-bool has_sun_by_place(const std::string& style);
+// Whether a view in its style that asks for no sun has the usual one of its place. False, too, where there is
+// no such style: load_style() says so. What the style's file holds is kept for that.
+bool has_sun_by_place(View& view);
 
 // Lets that sun light a frame; colours stay.
 void light_by(const SunDirection& sun, gpu::FrameStyle& style);

@@ -12,6 +12,7 @@
 #include "apps/options/options.h"
 #include "apps/vectors/view_vectors.h"
 #include "core/base/progress.h"
+#include "core/base/result.h"
 #include "core/earth/camera.h"
 #include "core/earth/world_model.h"
 #include "core/frame/height_quantization.h"
@@ -27,7 +28,7 @@ struct RecordedView {
     std::string file;
     int width_px{};
     int height_px{};
-    bool own_look{true};                 // no option of this command changes its colours or its light
+    bool own_look{true};                       // no option of this command changes its colours or its light
     std::optional<Fingerprints> fingerprints;  // none of before there were any
 };
 
@@ -42,6 +43,12 @@ struct PanoramaFrame {
 };
 // What a picture is drawn on.
 enum class PictureKind { plane, panorama };
+
+// What the file of a style holds.
+struct StyleText {
+    std::string path;
+    std::string text;
+};
 
 struct View : ViewSettings<OfView> {
     RegionRequest region;
@@ -63,8 +70,10 @@ struct View : ViewSettings<OfView> {
     bool has_geoid{true};  // false: N is 0 everywhere, heights are above the ellipsoid
     std::string accuracy;  // the bundle that these come from; empty when they were chosen one by one
     std::int64_t time_utc_s{};
-    bool tells_paths{true};           // false: its picture names neither sources nor the folder of a style
-    bool paths_from_own_file{false};  // relative paths start from the file that the view is in
+    bool tells_paths{true};  // false: its picture names neither sources nor the folder of a style
+    std::string read_from;   // the file, of a view that read_view() gave
+    std::optional<StyleText> style_text;  // of its style, where that was read already
+    bool paths_from_own_file{false};      // relative paths start from the file that the view is in
     // What it was drawn from, as its file tells; from open_view on, what it is drawn from here.
     std::optional<Fingerprints> fingerprints;
     std::optional<RecordedView> recorded;  // of a view from a file, from open_view on
@@ -102,6 +111,7 @@ std::string view_to_json(const View& view, bool pretty);
 // Errors name what is missing or wrong, and `where` it was read from.
 Result<View> view_from_json(const std::string& text, const std::string& where);
 // From a .json file, or from a picture that carries its view; its paths then lead from the working folder.
+// open_view() does not read the file once more where it gets such a view.
 Result<View> read_view(const std::string& path);
 // That the view, written, is read back as it is. Errors: what the reader would say of it. To be asked before
 // a picture is drawn that nobody could open again.
@@ -118,5 +128,9 @@ bool keeps_own_posts(const Region& region);
 Result<void> open_view(const std::string& view_file, const ViewOptions& view_options,
                        const RegionOptions& region_options, const Progress& progress, View& view,
                        Region& region, PictureKind kind = PictureKind::plane);
+
+// A usage error where a view of such a region asks for what only regions of latitudes and longitudes have:
+// another model of the Earth or of placing.
+Result<void> check_own_posts(const View& view, const Region& region);
 
 }  // namespace oro

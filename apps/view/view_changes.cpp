@@ -62,7 +62,7 @@ std::vector<Error> sources_that_changed(const Fingerprints& recorded, const Fing
 
 void add_data(const Fingerprints& recorded, const Fingerprints& here, const std::string& file,
               std::vector<Change>& changes) {
-    if (!recorded.posts || !here.posts || *recorded.posts == *here.posts) return;
+    if (!recorded.posts || recorded.posts == here.posts) return;
     std::vector<Error> lines = sources_that_changed(recorded, here, file);
     if (lines.empty())
         lines.push_back({ErrorKind::failed, file,
@@ -105,22 +105,17 @@ void add_files(const std::vector<OfSource>& recorded, const std::vector<OfSource
 // What nobody can tell any more, or nobody could ever.
 std::string unknown_of(const View& view) {
     const std::string cannot = ": whether its data are those that it was drawn from cannot be checked";
-    if (!view.recorded->fingerprints) return view.recorded->file + ": carries no fingerprints" + cannot;
-    if (!view.recorded->fingerprints->posts)
-        return view.recorded->file + ": was drawn from a region baked before there were fingerprints" +
-               cannot;
-    if (!view.fingerprints->posts)
-        return view.recorded->file + ": the data are a region baked before there were fingerprints" + cannot;
-    return "";
+    const std::optional<Fingerprints>& recorded = view.recorded->fingerprints;
+    return recorded && recorded->posts ? "" : view.recorded->file + ": carries no fingerprints" + cannot;
 }
 
 // The pixels of a picture that keeps them; a note, whatever stands in the way of reading them.
 std::string edited_pixels(const View& view) {
     const RecordedView& recorded = *view.recorded;
     if (!is_from_picture(view) || !recorded.fingerprints || !recorded.fingerprints->pixels) return "";
-    const auto print = print_of_pixels(recorded.file, recorded.width_px, recorded.height_px);
-    if (!print.ok()) return print.error().line();
-    if (!*print || **print == *recorded.fingerprints->pixels) return "";
+    const auto fingerprint = fingerprint_of_pixels(recorded.file, recorded.width_px, recorded.height_px);
+    if (!fingerprint.ok()) return fingerprint.error().line();
+    if (!*fingerprint || **fingerprint == *recorded.fingerprints->pixels) return "";
     return recorded.file + ": its pixels were changed after it was drawn";
 }
 

@@ -3,13 +3,12 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
-#include "apps/fingerprints/fingerprints_json.h"
+#include "apps/fingerprints/fingerprints.h"
 #include "apps/options/view_limits.h"
 #include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/option_words.h"
-#include "apps/report/path_json.h"
 #include "apps/view/accuracy.h"
 #include "apps/view/model_names.h"
 #include "apps/view/style.h"
@@ -371,6 +370,7 @@ Result<View> read_view(const std::string& path) {
     if (!text.ok()) return Error{text.error().kind, path, text.error().what};
     ORO_TRY(View view, view_from_json(*text, path));
     ORO_CHECK(lead_from_working_folder(view, path));
+    view.read_from = path;
     return view;
 }
 

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "apps/eye/standpoint.h"
-#include "apps/view/own_posts_limits.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "apps/view/view_option_table.h"
@@ -66,7 +65,8 @@ Result<void> open_images(View& view) {
         ORO_TRY(const bool there, is_there(file));
         if (!there && !file.starts_with("/vsi")) return Error{ErrorKind::failed, file, "no such image"};
         ORO_TRY(ImageSource image, open_image(file, view.drape_values));
-        view.fingerprints->images.push_back({std::filesystem::path(file).filename().string(), image.print});
+        view.fingerprints->images.push_back(
+            {std::filesystem::path(file).filename().string(), image.fingerprint});
         view.images.push_back(std::move(image));
     }
     return {};
@@ -87,7 +87,7 @@ Geodetic eye_for_sun(const View& view) {
 
 // Of a view that asks for no sun, in a style whose sun goes by the place.
 void take_usual_sun(View& view) {
-    if (!view.sun && has_sun_by_place(view.style)) view.sun = usual_sun();
+    if (!view.sun && has_sun_by_place(view)) view.sun = usual_sun();
 }
 
 // A map has no eye that something else could look from.
@@ -107,7 +107,9 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
                        const RegionOptions& region_options, const Progress& progress, View& view,
                        Region& region, PictureKind kind) {
     if (!view_file.empty()) {
-        ORO_TRY(view, read_view(view_file));
+        if (view.read_from != view_file) {
+            ORO_TRY(view, read_view(view_file));
+        }
         ORO_CHECK(check_map(view, view_options, view_file));
         ORO_CHECK(check_kind(view, view_file, kind));
         view.recorded =

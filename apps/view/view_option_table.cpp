@@ -142,39 +142,40 @@ class Rows {
 };
 
 void add_places(Rows eye) {
-    eye.add({"--at PLACE", shown_first, "all the data"}, &ViewOptions::at,
+    eye.add({"--at PLACE", shown_first | of_eye, "all the data"}, &ViewOptions::at,
             "The place to look at, in the middle of the picture: latitude,longitude as in 46.57,7.99; or "
             "degrees, minutes and seconds, UTM, MGRS, a geohash, geo:46.57,7.99; all of a cell (N46E008). "
             "With --above, --altitude, --on-summit or --look-at: where the eye is.");
-    eye.add({"--above METRES", shown_first, "2 with --look-at or --on-summit"}, &ViewOptions::above_m,
+    eye.add({"--above METRES", shown_first | of_eye, "2 with --look-at or --on-summit"},
+            &ViewOptions::above_m,
             "Stand at --at: height of the eye over the ground there. Needs --at. Not with --altitude.");
-    eye.add({"--altitude METRES", no_trait, "", "", {}, "--above"}, &ViewOptions::altitude_m,
+    eye.add({"--altitude METRES", of_eye, "", "", {}, "--above"}, &ViewOptions::altitude_m,
             "Height of the eye above sea level instead. Needs --at. Not with --above.");
-    eye.add({"--on-summit", no_trait}, &ViewOptions::on_summit, "").sentence =
+    eye.add({"--on-summit", of_eye}, &ViewOptions::on_summit, "").sentence =
         on_summit_sentence("the eye stands", "--at");
 }
 
 void add_directions(Rows eye) {
     eye.setting(
-        {"--heading DEGREES", shown_first | in_every_view, "0", "heading_deg", {-360, 360}},
+        {"--heading DEGREES", shown_first | of_eye | in_every_view, "0", "heading_deg", {-360, 360}},
         &ViewOptions::heading_deg, [](auto& view) -> auto& { return view.camera.attitude.heading_deg; },
         "Where the eye looks, clockwise from true north, {}: 90 is east.");
     eye.setting(
         {"--pitch DEGREES",
-         shown_first | in_every_view,
+         shown_first | of_eye | in_every_view,
          "0; down to a place that it looks at, or to the data",
          "pitch_deg",
          {-90, 90}},
         &ViewOptions::pitch_deg, [](auto& view) -> auto& { return view.camera.attitude.pitch_deg; },
         "How far up or down it looks: 0 is level, -90 straight down, 90 straight up.");
     eye.setting(
-        {"--roll DEGREES", in_every_view, "0", "roll_deg", {-180, 180}}, &ViewOptions::roll_deg,
+        {"--roll DEGREES", of_eye | in_every_view, "0", "roll_deg", {-180, 180}}, &ViewOptions::roll_deg,
         [](auto& view) -> auto& { return view.camera.attitude.roll_deg; },
         "Tilt of the eye, {}: above 0 its right side goes down.");
-    eye.add({"--look-at PLACE", shown_first}, &ViewOptions::look_at,
+    eye.add({"--look-at PLACE", shown_first | of_eye}, &ViewOptions::look_at,
             "Stand at --at and look at this place on the ground. Needs --at. Not with --heading or --pitch.");
     eye.setting(
-        {"--fov DEGREES", shown_first | in_every_view, "45; of a cell or all the data 30", "fov_deg",
+        {"--fov DEGREES", shown_first | of_eye | in_every_view, "45; of a cell or all the data 30", "fov_deg",
          limits::fov_deg},
         &ViewOptions::vertical_fov_deg, [](auto& view) -> auto& { return view.camera.vertical_fov_deg; },
         "Angle of view from the bottom of the picture to its top, {}.");
@@ -374,10 +375,6 @@ ViewRows made_view_table() {
 const std::vector<ViewOption>& view_option_table() {
     static const ViewRows rows = made_view_table();
     return rows;
-}
-
-bool is_of_eye(const ViewOption& option) {
-    return option.heading == std::string_view(option_headings::eye) && option.name != "--size";
 }
 
 std::string on_summit_sentence(const std::string& who_stands, const std::string& place_option) {

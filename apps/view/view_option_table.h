@@ -5,10 +5,13 @@
 
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "apps/options/option_table.h"
 #include "apps/options/options.h"
+#include "apps/report/json_fields.h"
+#include "apps/view/model_names.h"
 #include "apps/view/view.h"
 
 namespace oro {
@@ -26,11 +29,23 @@ struct ViewOption : OptionRow<ViewOptions> {
 // The rows of all options of a view, in the order of help. They are made when they are first asked for.
 const std::vector<ViewOption>& view_option_table();
 
-// True for options of the eye, which a view from a file has itself: all under that heading but --size.
-bool is_of_eye(const ViewOption& option);
+// True for options of the eye, which a view from a file has itself.
+inline bool is_of_eye(const ViewOption& option) {
+    return option.text.is(of_eye);
+}
 // True for options that change the colours or the light of a picture.
 inline bool is_look(const ViewOption& option) {
     return option.text.is(changes_looks);
+}
+
+// What the name stands for that a field of a view's JSON has. Throws JsonFault.
+template <class Choice, std::size_t count>
+Choice choice_in(const nlohmann::json& json, const char* field, const Names<Choice, count>& names) {
+    const std::string chosen = json_string(json, field);
+    const Result<Choice> found = choice_named(field, names, chosen);
+    if (!found.ok())
+        throw JsonFault{"'" + std::string(field) + "' is '" + chosen + "': " + found.error().what};
+    return *found;
 }
 
 // What help prints of --on-summit. who_stands: "the eye stands"; place_option: "--at".

@@ -1,4 +1,4 @@
-#include "core/base/file_size_limit.h"
+#include "core/base/system_room.h"
 
 #include <fcntl.h>
 #include <sys/resource.h>

@@ -1,7 +1,10 @@
-// What the system would still give this process, asked by taking it for a moment.
+// What the system would still give this process, asked by taking it for a moment; the shell's limit of file
+// sizes (ulimit -f); and memory that lies in a file.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 
 namespace oro {
 
@@ -10,5 +13,12 @@ namespace oro {
 
 // True when so much address space can be had in one piece. Nothing of it is touched.
 [[nodiscard]] bool address_space_to_be_had(std::size_t bytes);
+
+// So many bytes a file may have that this program writes; nothing where there is no limit.
+[[nodiscard]] std::optional<std::uint64_t> file_size_limit_bytes();
+
+// Whether a byte of mapped memory is there: the system reads it, and gives an error number where the program
+// itself would end by SIGBUS. True, too, where the system cannot be asked.
+[[nodiscard]] bool is_memory_there(const std::byte* byte);
 
 }  // namespace oro

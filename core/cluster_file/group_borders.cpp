@@ -1,4 +1,4 @@
-#include "core/cluster_file/group_borders.h"
+#include "core/cluster_file/sound_graph.h"
 
 #include <algorithm>
 #include <numeric>
@@ -20,10 +20,10 @@ std::uint64_t mixed(std::uint64_t number) {
 // line edges one after another add up to their first begin and their last end.
 struct End {
     std::int64_t down, right;  // the line's direction, without a common divisor, of two opposite ones the one
-    std::int64_t beside;       // where it lies
+    std::int64_t across;       // where it lies
     VertexNumber vertex;
     int sign;
-    [[nodiscard]] auto place() const { return std::tie(down, right, beside, vertex); }
+    [[nodiscard]] auto place() const { return std::tie(down, right, across, vertex); }
 };
 
 void add_ends(const OriginalSurface& surface, std::span<const BorderEdge> edges, int sign,
@@ -38,9 +38,9 @@ void add_ends(const OriginalSurface& surface, std::span<const BorderEdge> edges,
             down = -down;
             right = -right;
         }
-        const std::int64_t beside = down * from.column - right * from.row;
-        ends.push_back({down, right, beside, edge.from, sign});
-        ends.push_back({down, right, beside, edge.to, -sign});
+        const std::int64_t across = down * from.column - right * from.row;
+        ends.push_back({down, right, across, edge.from, sign});
+        ends.push_back({down, right, across, edge.to, -sign});
     }
 }
 

@@ -7,7 +7,6 @@
 
 #include "core/base/parallel.h"
 #include "core/cluster_file/cluster_format.h"
-#include "core/cluster_file/group_borders.h"
 #include "core/cluster_file/group_growth.h"
 
 namespace oro {

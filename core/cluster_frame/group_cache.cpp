@@ -6,9 +6,9 @@ namespace oro {
 
 std::uint64_t held_bytes(const GroupPart& part) {
     // Beside its lists: itself, its place in the order, and what the allocator takes for each.
-    constexpr std::uint64_t beside = sizeof(GroupPart) + 160;
-    return beside + part.members.capacity() * sizeof(std::uint32_t) + part.made.capacity() * sizeof(Cluster) +
-           part.triangles.capacity() * sizeof(VertexTriangle);
+    constexpr std::uint64_t overhead = sizeof(GroupPart) + 160;
+    return overhead + part.members.capacity() * sizeof(std::uint32_t) +
+           part.made.capacity() * sizeof(Cluster) + part.triangles.capacity() * sizeof(VertexTriangle);
 }
 
 void GroupCache::make_places(std::size_t groups, std::size_t clusters, std::uint32_t leaves) {

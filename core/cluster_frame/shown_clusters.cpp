@@ -16,8 +16,8 @@ std::vector<std::uint32_t> hidden_groups(std::span<const gpu::DrawnCluster> draw
                                          const ShownClusters& shown) {
     std::map<std::uint32_t, bool> shows;
     for (const gpu::DrawnCluster& cluster : drawn)
-        if (const auto reported = shown.find(cluster.number); reported != shown.end())
-            shows[cluster.group] |= reported->second;
+        if (const auto known = shown.find(cluster.number); known != shown.end())
+            shows[cluster.group] |= known->second;
     std::vector<std::uint32_t> hidden;
     for (const auto& [group, any] : shows)
         if (!any) hidden.push_back(group);

@@ -192,10 +192,10 @@ class StreamedCut {
         std::vector<Sight> sights;
         group_sights_.resize(asked_.size(), Sight::unknown);
         for (const Met& met : met_) {
-            const auto reported = shown.find(met.cluster);
+            const auto known = shown.find(met.cluster);
             Sight sight = Sight::unknown;
-            if (reported != shown.end())
-                sight = reported->second ? Sight::shows : Sight::hidden;
+            if (known != shown.end())
+                sight = known->second ? Sight::shows : Sight::hidden;
             else if (is_seen(met))
                 sight = met.user != no_group && group_sights_[met.user] == Sight::hidden ? Sight::hidden
                                                                                          : Sight::shows;

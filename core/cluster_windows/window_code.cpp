@@ -1,4 +1,4 @@
-#include "core/cluster_windows/window_code.h"
+#include "core/cluster_windows/window_file.h"
 
 #include <zstd.h>
 #include <zstd_errors.h>

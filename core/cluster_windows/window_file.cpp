@@ -6,7 +6,6 @@
 #include "core/base/checksum.h"
 #include "core/base/file_target.h"
 #include "core/base/little_endian.h"
-#include "core/cluster_windows/window_code.h"
 
 namespace oro {
 namespace {

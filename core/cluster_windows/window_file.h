@@ -34,7 +34,7 @@ struct WindowGroup {
     double radius_m{};
     PlaneBox extent;  // of all that it covers
     // Of what it made: the tiles of the groups that use them, but at the last level, then the clusters
-    // (core/cluster_windows/window_code.h) with the window's own posts.
+    // (word_code below) with the window's own posts.
     std::uint64_t offset{};  // among all groups' bytes
     std::uint32_t bytes{};
     std::uint64_t checksum{};
@@ -85,5 +85,12 @@ std::vector<std::byte> window_block(const GroupPart& part, std::span<const Group
 // it is whole, on the disk; one of that name is replaced.
 Result<void> write_window(const std::string& path, WindowIndex index,
                           std::span<const std::vector<std::byte>> blocks);
+
+// Clusters and triangles in their order, in some 3 bytes a triangle. posts: that vertices are numbered in.
+[[nodiscard]] std::vector<std::byte> pack_made(const GroupPart& part, const PostCounts& posts);
+
+// Unpacks what pack_made() has packed, for a part whose group.made is known. Any bytes may be given: false
+// where they are no such clusters.
+[[nodiscard]] bool unpack_made(std::span<const std::byte> bytes, const PostCounts& posts, GroupPart& part);
 
 }  // namespace oro

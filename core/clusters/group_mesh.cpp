@@ -123,20 +123,21 @@ void GroupMesh::collapse(int vertex, const Ring& ring, int target) {
     for (const int edge : ring.edges) origin_[at(edge)] = to;
     if (after != none) {
         const int gone = ring.edges[at(after)];
-        const int beside = ring.vertices[at((target + 1) % ring.count())];
-        const int kept = ring.edges[at((after + 1) % count)];  // from the vertex to `beside`
+        const int neighbour = ring.vertices[at((target + 1) % ring.count())];
+        const int kept = ring.edges[at((after + 1) % count)];  // from the vertex to `neighbour`
         if (first_edge_[at(to)] == next(gone)) first_edge_[at(to)] = kept;
-        if (first_edge_[at(beside)] == before(gone)) first_edge_[at(beside)] = next(kept);
+        if (first_edge_[at(neighbour)] == before(gone)) first_edge_[at(neighbour)] = next(kept);
         link(kept, twin_[at(next(gone))]);
         remove_triangle(gone);
     }
     if (ahead != none) {
         const int gone = ring.edges[at(ahead)];
-        const int beside = ring.vertices[at(ahead)];
-        const int kept = before(ring.edges[at((ahead + count - 1) % count)]);  // from `beside` to the vertex
+        const int neighbour = ring.vertices[at(ahead)];
+        const int kept =
+            before(ring.edges[at((ahead + count - 1) % count)]);  // from `neighbour` to the vertex
         if (first_edge_[at(to)] == before(gone))
             first_edge_[at(to)] = ring.on_rim ? ring.edges[0] : ring.edges[at((target + 1) % count)];
-        if (first_edge_[at(beside)] == next(gone)) first_edge_[at(beside)] = kept;
+        if (first_edge_[at(neighbour)] == next(gone)) first_edge_[at(neighbour)] = kept;
         link(kept, twin_[at(next(gone))]);
         remove_triangle(gone);
     }

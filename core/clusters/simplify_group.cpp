@@ -71,8 +71,8 @@ double GroupSimplifier::trial_difference(int target, double limit) {
     double largest = 0.0;
     for (int i = 0; i < count; ++i) {
         const int apart = std::abs(i - target);
-        const bool beside = apart <= 1 || (apart == count - 1 && !ring_.on_rim);
-        if (beside) continue;
+        const bool adjacent = apart <= 1 || (apart == count - 1 && !ring_.on_rim);
+        if (adjacent) continue;
         largest = std::max(largest, chord_difference(target, i, limit));
         if (largest > limit) return largest;
     }

@@ -35,13 +35,13 @@ EffectPrediction::EffectPrediction(const TrueGround& ground, const RegionPagesLi
 double EffectPrediction::nearest_m() const {
     double nearest_m = std::numeric_limits<double>::infinity();
     for (const Sample& sample : samples_)
-        if (sample.beside_px == 0.0) nearest_m = std::min(nearest_m, sample.distance_m);
+        if (sample.from_seen_px == 0.0) nearest_m = std::min(nearest_m, sample.distance_m);
     return nearest_m;
 }
 
 std::size_t EffectPrediction::sight_lines() const {
     return static_cast<std::size_t>(std::count_if(
-        samples_.begin(), samples_.end(), [](const Sample& sample) { return sample.beside_px == 0.0; }));
+        samples_.begin(), samples_.end(), [](const Sample& sample) { return sample.from_seen_px == 0.0; }));
 }
 
 double EffectPrediction::median_distance_m() const {
@@ -59,7 +59,7 @@ double EffectPrediction::apart_px(const glm::dvec3& drawn_m, const glm::dvec3& s
 EffectSize EffectPrediction::moved(const Drawn& drawn, double margin) const {
     Sizes sizes;
     for (const Sample& sample : samples_) {
-        if (sample.beside_px > in_gaps_px) continue;
+        if (sample.from_seen_px > in_gaps_px) continue;
         const glm::dvec3 at = drawn(sample);
         if ((view_from_ecef_ * at).z >= -near_plane_m) continue;  // not in the picture
         sizes.add(glm::length(sight_.refraction.true_m(at) - sight_.refraction.true_m(sample.apparent_m)),
@@ -110,7 +110,7 @@ const std::vector<EffectPrediction::Shown>& EffectPrediction::shown_by(EffectKin
         const double px = (view_from_ecef_ * seen_m).z >= 0.0 ? any_way_px(sample, metres)
                                                               : apart_px(sample.apparent_m, seen_m);
         const double outside = rim_px > 0 ? outside_px(sample.apparent_m) : 0.0;
-        all.push_back({metres, px, sample.beside_px, outside, sample.even && outside == 0.0});
+        all.push_back({metres, px, sample.from_seen_px, outside, sample.even && outside == 0.0});
     }
     return all;
 }
@@ -123,7 +123,7 @@ EffectSize EffectPrediction::moved_by(EffectKind kind, const WorldModel& model, 
     // Ground beside the picture may come into it as what lies behind edges comes out.
     const int rim_px = tau_px > 0.0 ? static_cast<int>(behind_edges_px) : 0;
     for (const Shown& one : shown_by(kind, model, rim_px))
-        if (one.beside_px <= in_gaps_px + tau_px && one.outside_px <= tau_px)
+        if (one.from_seen_px <= in_gaps_px + tau_px && one.outside_px <= tau_px)
             shown.add(one.metres, one.px, one.even);
     const EffectSize of_shown = shown.size(between_samples);
     size.worst_m = std::max(size.worst_m, of_shown.worst_m);
@@ -157,7 +157,7 @@ double EffectPrediction::any_way_px(const Sample& sample, double metres) const {
 EffectSize EffectPrediction::lifted(const Bound& height_m) const {
     Sizes sizes;
     for (const Sample& sample : samples_) {
-        if (sample.beside_px > in_gaps_px) continue;
+        if (sample.from_seen_px > in_gaps_px) continue;
         const double height = height_m(sample);
         sizes.add(height, vertical_px(sample, height), sample.even);
     }
@@ -167,7 +167,7 @@ EffectSize EffectPrediction::lifted(const Bound& height_m) const {
 EffectSize EffectPrediction::anywhere(const Bound& bound_m, const Bound& typical_m) const {
     Sizes bounds, typical;
     for (const Sample& sample : samples_) {
-        if (sample.beside_px > in_gaps_px) continue;
+        if (sample.from_seen_px > in_gaps_px) continue;
         const double most_m = bound_m(sample), usual_m = typical_m(sample);
         bounds.add(most_m, any_way_px(sample, most_m), sample.even);
         typical.add(usual_m, any_way_px(sample, usual_m), sample.even);
@@ -211,7 +211,7 @@ Result<std::optional<EffectSize>> EffectPrediction::size(EffectKind kind, double
 EffectSize EffectPrediction::in_flat_cells() const {
     Sizes sizes;
     for (const Sample& sample : samples_) {
-        if (sample.beside_px > in_gaps_px) continue;
+        if (sample.from_seen_px > in_gaps_px) continue;
         const FlatTriangle off = flat_triangle(sample, 1.0);
         sizes.add(std::hypot(off.up_m, off.sideways_m),
                   vertical_px(sample, off.up_m) + any_way_px(sample, off.sideways_m), sample.even);

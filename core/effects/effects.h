@@ -91,8 +91,8 @@ class EffectPrediction {
     struct Shown {
         double metres;
         double px;
-        double beside_px;   // as ViewSample
-        double outside_px;  // of the picture
+        double from_seen_px;  // as ViewSample
+        double outside_px;    // of the picture
         bool even;
     };
     [[nodiscard]] double outside_px(const glm::dvec3& apparent_m) const;

@@ -19,7 +19,7 @@ namespace oro {
 EffectSize EffectPrediction::interpolation(int apart) const {
     Sizes sizes;
     for (const Sample& sample : samples_) {
-        if (sample.beside_px > 0.0) continue;  // what is seen
+        if (sample.from_seen_px > 0.0) continue;  // what is seen
         double bend_m = 0.0;
         for (const auto& [down, right] : {std::pair(apart, 0), std::pair(0, apart)}) {
             const PostGrid& posts = grid(sample);
@@ -58,7 +58,7 @@ Result<EffectSize> EffectPrediction::detail(double tau_px) const {
     Sizes heights, sideways;
     for (const Sample& sample : samples_) {
         ORO_TRY(const SampledDetail::Bound bound, details[sample.grid]->at(sample.row, sample.column));
-        if (sample.beside_px > in_gaps_px + between_nodes * bound.error_px) continue;
+        if (sample.from_seen_px > in_gaps_px + between_nodes * bound.error_px) continue;
         heights.add(bound.error_m, bound.error_px, sample.even);
         const double flat_m =
             bound.level == 0 ? 0.0 : flat_triangle(sample, std::ldexp(1.0, bound.level)).sideways_m;

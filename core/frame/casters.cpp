@@ -46,10 +46,10 @@ Result<void> CasterChoice::want_around(const GridPlan& plan) {
         for (int row = std::max(0, page.row - 1); row <= std::min(layout.rows - 1, page.row + 1); ++row)
             for (int column = std::max(0, page.column - 1);
                  column <= std::min(layout.columns - 1, page.column + 1); ++column) {
-                const PageIndex beside{row, column, page.level};
+                const PageIndex neighbour{row, column, page.level};
                 if (!asked_.insert({page.level, row, column}).second) continue;
-                ORO_TRY(const PageRecord record, pages_.record(beside));
-                if (record.reach_m >= 0.0) wanted_.emplace_back(beside, residency_(beside));
+                ORO_TRY(const PageRecord record, pages_.record(neighbour));
+                if (record.reach_m >= 0.0) wanted_.emplace_back(neighbour, residency_(neighbour));
             }
     }
     return {};

@@ -71,8 +71,8 @@ class PageChoice {
     Result<void> want(const PageIndex& index);
     Result<void> descend(WantedPage& page);
     void open_level(int number);
-    [[nodiscard]] std::array<PageIndex, 4> beside_parents(const PageIndex& index,
-                                                          std::array<bool, 4>& there) const;
+    [[nodiscard]] std::array<PageIndex, 4> neighbours_of_parent(const PageIndex& index,
+                                                                std::array<bool, 4>& there) const;
     [[nodiscard]] std::uint32_t number_of(const PageIndex& index) const;
     [[nodiscard]] gpu::FramePage frame_page(const WantedPage& page) const;
     void set_from_eye(const PageSummary& page, gpu::FramePage& frame) const;
@@ -157,8 +157,8 @@ Result<void> PageChoice::descend(WantedPage& page) {
 }
 
 // Pages of the level above that hold what lies beyond a page's rims: north, east, south, west.
-std::array<PageIndex, 4> PageChoice::beside_parents(const PageIndex& index,
-                                                    std::array<bool, 4>& there) const {
+std::array<PageIndex, 4> PageChoice::neighbours_of_parent(const PageIndex& index,
+                                                          std::array<bool, 4>& there) const {
     const PageLayout layout = pages_.layout(index.level);
     constexpr std::array<PageCoord, 4> steps{PageCoord{-1, 0}, PageCoord{0, 1}, PageCoord{1, 0},
                                              PageCoord{0, -1}};
@@ -185,11 +185,11 @@ void PageChoice::open_level(int number) {
         const PageIndex& index = page.record.summary.index;
         WantedPage& parent = above.at({index.row / 2, index.column / 2});
         std::array<bool, 4> there{};
-        const std::array<PageIndex, 4> beside = beside_parents(index, there);
+        const std::array<PageIndex, 4> neighbours = neighbours_of_parent(index, there);
         page.open = page.open && parent.open;
         for (std::size_t i = 0; i < 4 && page.open; ++i) {
             if (!there[i]) continue;
-            const auto found = above.find({beside[i].row, beside[i].column});
+            const auto found = above.find({neighbours[i].row, neighbours[i].column});
             page.open = found == above.end() || found->second.open;
         }
         const auto quarter = static_cast<unsigned>(2 * (index.row % 2) + index.column % 2);
@@ -221,9 +221,9 @@ void PageChoice::apply_occlusion_feedback(const IsHidden& is_hidden) {
             WantedLevel& above = level(number + 1);
             above.at({index.row / 2, index.column / 2}).shows = true;
             std::array<bool, 4> there{};
-            const std::array<PageIndex, 4> beside = beside_parents(index, there);
+            const std::array<PageIndex, 4> neighbours = neighbours_of_parent(index, there);
             for (std::size_t i = 0; i < 4; ++i) {
-                const auto found = above.find({beside[i].row, beside[i].column});
+                const auto found = above.find({neighbours[i].row, neighbours[i].column});
                 if (there[i] && found != above.end()) found->second.shows = true;
             }
         }
@@ -283,8 +283,9 @@ void PageChoice::set_neighbours(const PageIndex& index, gpu::FramePage& frame) c
     frame.quarter = static_cast<gpu::uint>(2 * (index.row % 2) + index.column % 2);
     frame.parent = number_of({index.row / 2, index.column / 2, index.level + 1});
     std::array<bool, 4> there{};
-    const std::array<PageIndex, 4> beside = beside_parents(index, there);
-    for (std::size_t i = 0; i < 4; ++i) frame.beside[i] = there[i] ? number_of(beside[i]) : gpu::no_page;
+    const std::array<PageIndex, 4> neighbours = neighbours_of_parent(index, there);
+    for (std::size_t i = 0; i < 4; ++i)
+        frame.neighbours[i] = there[i] ? number_of(neighbours[i]) : gpu::no_page;
     for (int i = 0; i < 4; ++i) {
         const PageIndex child{2 * index.row + i / 2, 2 * index.column + i % 2, index.level - 1};
         frame.children[i] = index.level == 0 ? gpu::no_page : number_of(child);

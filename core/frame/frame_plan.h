@@ -11,12 +11,26 @@
 #include "core/earth/camera.h"
 #include "core/earth/world_model.h"
 #include "core/frame/casters.h"
-#include "core/frame/cluster_plan.h"
 #include "core/frame/height_quantization.h"
 #include "core/frame/region_pages.h"
 #include "shaders/shared.h"
 
 namespace oro {
+
+struct ClusterPlan {
+    bool on{};  // clusters are drawn, and no nodes of pages: these are for shading alone
+    std::vector<gpu::DrawnCluster> drawn;  // the processor's cut, then what is coarser and there
+    std::size_t in_cut{};                  // of these: those of the cut
+    std::vector<gpu::ClusterBox> boxes;    // of each
+    std::vector<gpu::AskedGroup> asked;    // DrawnCluster::made_by
+    // Groups and clusters that the cut lacks; where there are any, coarser clusters stand in for them, and
+    // the picture still has no cracks.
+    std::size_t missing{};
+    std::size_t without_room{};  // of those: clusters that the GPU may not hold beside the others
+    std::size_t groups_opened{};
+    std::size_t beyond_frustum{};
+    std::size_t beyond_horizon{};
+};
 
 // Where a frame is seen from and how finely: the same for all that it draws.
 struct FrameView {
@@ -45,8 +59,8 @@ struct GridPlan {
         pages_wanted{};  // those of `pages` and `missing`, and those that wait for a missing neighbour
     std::size_t pages_beyond_frustum{};
     std::size_t pages_beyond_horizon{};
-    ClusterPlan clusters;  // off until draw_clusters()
-    CasterPlan casters;    // none until plan_casters()
+    ClusterPlan clusters;     // off until draw_clusters()
+    CasterPlan casters;       // none until plan_casters()
     bool request_feedback{};  // the frame tells which of its nodes or clusters show
                               // (core/frame/visibility_feedback.h)
     // Of whose heights the pages' blocks are: one number, one set of heights. 0: nobody says so.

@@ -74,23 +74,23 @@ Result<SampledDetail::Bound> SampledDetail::at(int row, int column) {
     const PostGrid& grid = pages_.facts().grid;
     const int quad_row = (row >> worst.level) % side, quad_column = (column >> worst.level) % side;
     const int step = 1 << worst.level;
-    const auto beside = [&](int down, int right) -> Result<void> {
-        const int beside_row = row + down * step, round = grid.columns() - 1;
-        int beside_column = column + right * step;
-        if (pages_.wraps_longitude()) beside_column = (beside_column + round) % round;
-        if (beside_row < 0 || beside_column < 0 || beside_row >= grid.rows() - 1 ||
-            beside_column >= grid.columns() - 1)
+    const auto neighbour = [&](int down, int right) -> Result<void> {
+        const int next_row = row + down * step, round = grid.columns() - 1;
+        int next_column = column + right * step;
+        if (pages_.wraps_longitude()) next_column = (next_column + round) % round;
+        if (next_row < 0 || next_column < 0 || next_row >= grid.rows() - 1 ||
+            next_column >= grid.columns() - 1)
             return {};
-        ORO_TRY(const Bound there, node_at(beside_row, beside_column));
+        ORO_TRY(const Bound there, node_at(next_row, next_column));
         if (there.level <= worst.level) return {};
         worst.error_m = std::max(worst.error_m, there.error_m);
         worst.error_px = std::max(worst.error_px, there.error_px);
         return {};
     };
-    if (quad_row == 0) ORO_CHECK(beside(-1, 0));
-    if (quad_row == side - 1) ORO_CHECK(beside(1, 0));
-    if (quad_column == 0) ORO_CHECK(beside(0, -1));
-    if (quad_column == side - 1) ORO_CHECK(beside(0, 1));
+    if (quad_row == 0) ORO_CHECK(neighbour(-1, 0));
+    if (quad_row == side - 1) ORO_CHECK(neighbour(1, 0));
+    if (quad_column == 0) ORO_CHECK(neighbour(0, -1));
+    if (quad_column == side - 1) ORO_CHECK(neighbour(0, 1));
     return worst;
 }
 

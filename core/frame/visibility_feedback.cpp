@@ -50,10 +50,11 @@ void VisibilityFeedback::mark_grown(Nodes& nodes, const PageIndex& page, const B
     const PageLayout layout = pages_->layout(page.level);
     for (int down = -1; down <= 1; ++down)
         for (int right = -1; right <= 1; ++right) {
-            PageIndex beside{page.row + down, page.column + right, page.level};
-            if (pages_->wraps_longitude()) beside.column = (beside.column + layout.columns) % layout.columns;
-            if (beside.row < 0 || beside.row >= layout.rows || beside.column < 0 ||
-                beside.column >= layout.columns)
+            PageIndex neighbour{page.row + down, page.column + right, page.level};
+            if (pages_->wraps_longitude())
+                neighbour.column = (neighbour.column + layout.columns) % layout.columns;
+            if (neighbour.row < 0 || neighbour.row >= layout.rows || neighbour.column < 0 ||
+                neighbour.column >= layout.columns)
                 continue;
             Bits part{};
             for (int row = 0; row < side; ++row) {
@@ -65,7 +66,7 @@ void VisibilityFeedback::mark_grown(Nodes& nodes, const PageIndex& page, const B
                                                         : own >> 1U;
                 part[static_cast<std::size_t>(row)] = static_cast<std::uint16_t>(moved);
             }
-            mark(nodes, beside, part);
+            mark(nodes, neighbour, part);
         }
 }
 

@@ -1,4 +1,4 @@
-#include "core/light/usual_sun.h"
+#include "core/light/sun_position.h"
 
 #include <cmath>
 

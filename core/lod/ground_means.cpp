@@ -16,7 +16,7 @@ namespace {
 // their spread is of such slopes: those of the posts beside weigh half by Horn's formula, more for what is
 // between posts. By trial. Source: B. K. P. Horn, Hill shading and the reflectance map, Proceedings of the
 // IEEE 69(1), 1981.
-constexpr float beside_weight = 0.8F;
+constexpr float neighbour_weight = 0.8F;
 
 }  // namespace
 
@@ -105,19 +105,19 @@ float GroundMeans::rise(int row, int column, int rows, int columns) const {
     return no_before == no_after ? 0.5F * whole : whole;
 }
 
-GroundMeans::Sums GroundMeans::post(int row, int column, float beside) const {
+GroundMeans::Sums GroundMeans::post(int row, int column, float neighbour_share) const {
     const std::int32_t here = steps(row, column);
     if (here == void_height_steps) return {};
     float down = rise(row, column, 1, 0), right = rise(row, column, 0, 1), down_whole = 1.0F,
           right_whole = 1.0F;
-    for (int side = -1; beside > 0.0F && side <= 1; side += 2) {
+    for (int side = -1; neighbour_share > 0.0F && side <= 1; side += 2) {
         if (steps(row, column + side) != void_height_steps) {
-            down += beside * rise(row, column + side, 1, 0);
-            down_whole += beside;
+            down += neighbour_share * rise(row, column + side, 1, 0);
+            down_whole += neighbour_share;
         }
         if (steps(row + side, column) != void_height_steps) {
-            right += beside * rise(row + side, column, 0, 1);
-            right_whole += beside;
+            right += neighbour_share * rise(row + side, column, 0, 1);
+            right_whole += neighbour_share;
         }
     }
     if (grid_.net) {
@@ -147,7 +147,7 @@ void GroundMeans::add_level(std::vector<Sums>& below, int threads) {
     level.squares.resize(count);
     const auto finer_at = [&](int row, int column) {
         if (row >= finer.rows || column >= finer.columns) return Sums{};
-        if (finer.squares.empty()) return post(row, column, beside_weight);
+        if (finer.squares.empty()) return post(row, column, neighbour_weight);
         return below[static_cast<std::size_t>(row) * static_cast<std::size_t>(finer.columns) +
                      static_cast<std::size_t>(column)];
     };

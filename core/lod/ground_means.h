@@ -35,8 +35,8 @@ class GroundMeans {
     static gpu::MeansSquare packed(const Sums& sums);
     static std::uint32_t packed_spread(const Sums& sums);
     [[nodiscard]] float rise(int row, int column, int rows, int columns) const;
-    // beside: weight of the slopes of the posts beside it.
-    [[nodiscard]] Sums post(int row, int column, float beside) const;
+    // neighbour_share: weight of the slopes of the posts beside it.
+    [[nodiscard]] Sums post(int row, int column, float neighbour_share) const;
     [[nodiscard]] std::int32_t steps(int row, int column) const;
     void add_level(std::vector<Sums>& below, int threads);
 

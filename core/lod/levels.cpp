@@ -41,7 +41,7 @@ class Choice {
   private:
     [[nodiscard]] bool acceptable(int level_number, int row, int column) const;
     [[nodiscard]] bool acceptable_throughout(const PyramidPage& page) const;
-    [[nodiscard]] std::uint32_t edges_beside_coarser(int level_number, int row, int column) const;
+    [[nodiscard]] std::uint32_t edges_to_coarser(int level_number, int row, int column) const;
     bool hidden(const PyramidPage& page);
     void visit(const PageIndex& index, std::vector<PageIndex>& below);
 
@@ -78,7 +78,7 @@ bool Choice::acceptable_throughout(const PyramidPage& page) const {
 }
 
 // What is drawn beyond an edge is coarser when it may be: when the neighbour's parent is acceptable.
-std::uint32_t Choice::edges_beside_coarser(int level_number, int row, int column) const {
+std::uint32_t Choice::edges_to_coarser(int level_number, int row, int column) const {
     const LevelGrid& grid = pages_.grid(level_number);
     const int columns = grid.column.nodes();
     const auto coarser = [&](int other_row, int other_column) {
@@ -123,7 +123,7 @@ void Choice::visit(const PageIndex& index, std::vector<PageIndex>& below) {
         if (acceptable(index.level, row, column)) {
             if (!acceptable(index.level + 1, row / 2, column / 2))
                 selection_.nodes.push_back(
-                    {index.level, row, column, edges_beside_coarser(index.level, row, column)});
+                    {index.level, row, column, edges_to_coarser(index.level, row, column)});
         } else if (node.radius >= 0.0F || node.error_m > 0.0F) {
             const int quarter = i / side / (side / 2) * 2 + i % side / (side / 2);
             descend[static_cast<std::size_t>(quarter)] = true;

@@ -98,12 +98,12 @@ double NodeDeviations::crossing_deviation(const Post& from, const Post& to) cons
     const double h0 = heights_.at(from.row, from.column);
     const double h1 = heights_.at(to.row, to.column);
     Extremes extremes;
-    bool beside_void = false;
+    bool meets_void = false;
     // The place at share t of the edge lies on the full-resolution edge from a post to its neighbour (dr,
     // dc).
     const auto compare = [&](double t, int row, int column, double share, int dr, int dc) {
         const std::int32_t begin = heights_.at(row, column), end = heights_.at(row + dr, column + dc);
-        beside_void = beside_void || begin == void_height_steps || end == void_height_steps;
+        meets_void = meets_void || begin == void_height_steps || end == void_height_steps;
         extremes.add((1.0 - share) * begin + share * end - (h0 + t * (h1 - h0)));
     };
     // Step by step of one way, of which there are so many: all that do not come to a post.
@@ -140,7 +140,7 @@ double NodeDeviations::crossing_deviation(const Post& from, const Post& to) cons
                 compare(t, north, east, row - north, 1, -1);
         });
     // That surface is not there on either side of an edge that ends in a void post.
-    return beside_void ? unfit_m : extremes.magnitude();
+    return meets_void ? unfit_m : extremes.magnitude();
 }
 
 // Largest difference over a triangle, in steps; infinite when a post in it is void.

@@ -54,10 +54,10 @@ namespace {
 
 // Heights that a grid has at a place or beside it, where the place is rounded off its rim: all of them.
 void add_heights(const TrueSurface& surface, const Geodetic& place, std::vector<double>& heights_m) {
-    constexpr double beside_posts = 0.02;
+    constexpr double offset_posts = 0.02;
     const PostNumber post = surface.field().grid.post_at(place.lat_deg, place.lon_deg);
-    for (const double down : {0.0, beside_posts, -beside_posts}) {
-        for (const double right : {0.0, beside_posts, -beside_posts})
+    for (const double down : {0.0, offset_posts, -offset_posts}) {
+        for (const double right : {0.0, offset_posts, -offset_posts})
             if (const auto h_m = surface.h_at_m(post.row + down, post.column + right))
                 heights_m.push_back(*h_m);
     }

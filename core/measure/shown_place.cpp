@@ -179,7 +179,7 @@ std::optional<ShownPlace> ShownPlaces::at(const ShownTriangle& shown, glm::dvec2
         // What float32 leaves, and twice that: else the ray passes beside the step.
         constexpr double near_m = 0.01, near_share = 1.0e-6;
         if (truly && std::abs(truly->distance_m - about_m) < near_m + near_share * about_m) return truly;
-        ++passed_beside_;
+        ++missed_;
         return truly ? truly : between_grids(direction, about_m);
     }
     const Plane plane = plane_of(shown);
@@ -188,7 +188,7 @@ std::optional<ShownPlace> ShownPlaces::at(const ShownTriangle& shown, glm::dvec2
     constexpr double rounded = -1.0e-9, too_far = -0.05;
     const double least = on_plane ? plane.least_share(on_plane->row, on_plane->column) : -1.0;
     if (least >= rounded) return on_plane;
-    ++passed_beside_;
+    ++missed_;
     if (const auto truly = met_truly(direction)) return truly;
     if (least >= too_far) return on_plane;
     return on_rim(drawn);

@@ -44,7 +44,7 @@ class ShownPlaces {
     [[nodiscard]] std::optional<ShownPlace> at(const ShownTriangle& shown, glm::dvec2 point_px) const;
 
     // How many rays passed beside their triangles so far.
-    [[nodiscard]] std::uint64_t passed_beside() const { return passed_beside_; }
+    [[nodiscard]] std::uint64_t missed() const { return missed_; }
 
   private:
     struct Plane;
@@ -64,7 +64,7 @@ class ShownPlaces {
     glm::dmat3 ecef_from_view_;
     glm::dvec2 tangent_;
     std::optional<Oracle> oracle_;
-    mutable std::atomic<std::uint64_t> passed_beside_{0};
+    mutable std::atomic<std::uint64_t> missed_{0};
 };
 
 }  // namespace oro

@@ -171,7 +171,7 @@ Result<void> LatticeGeoreference::measure() {
                 return Error{ErrorKind::failed, "grid of posts",
                              "its rows and columns are mirrored or have a fold"};
             const Jet below = jet_at(std::min(row + row_look, down_.last()), column);
-            const Jet beside = jet_at(row, std::min(column + column_look, across_.last()));
+            const Jet east = jet_at(row, std::min(column + column_look, across_.last()));
             const auto within = [](double from, double look, double last) {
                 return from + look <= last + 1.0e-6 * look ? look : 0.0;
             };
@@ -184,7 +184,7 @@ Result<void> LatticeGeoreference::measure() {
                 turn = std::max(turn, (found - 1.0) * angle);
             };
             bent(below.by_row - jet.by_row, row_way, down, down);
-            bent(beside.by_column - jet.by_column, column_way, right, right);
+            bent(east.by_column - jet.by_column, column_way, right, right);
             bent(below.by_column - jet.by_column, row_way, down, right);
             frames.push_back(local_frame_at(row, column));
         }

@@ -43,13 +43,13 @@ void LatticeGeoreference::correct(const Patch& of, const PostNumber& at, int row
 // rim on, too, in the patch that begins there: a post belongs to that one.
 PostNumber LatticeGeoreference::across_rims(const PostNumber& post, const glm::dvec3& wanted) const {
     constexpr double near = 1.0e-3, same = 1.0e-9;
-    const auto is_beside_rim = [](double number, double whole, const Cut& axis) {
+    const auto is_near_rim = [](double number, double whole, const Cut& axis) {
         return std::abs(number - whole) < near && whole >= 0.0 && whole <= axis.last() &&
                std::fmod(whole + axis.first, axis.patch_posts) == 0.0;
     };
     const PostNumber whole{std::round(post.row), std::round(post.column)};
-    const bool row_rim = is_beside_rim(post.row, whole.row, down_),
-               column_rim = is_beside_rim(post.column, whole.column, across_);
+    const bool row_rim = is_near_rim(post.row, whole.row, down_),
+               column_rim = is_near_rim(post.column, whole.column, across_);
     const std::array<std::array<bool, 2>, 3> ways{{{true, true}, {true, false}, {false, true}}};
     for (const auto& [by_row, by_column] : ways) {
         if ((by_row && !row_rim) || (by_column && !column_rim)) continue;
@@ -221,7 +221,7 @@ bool LatticeGeoreference::patches_are_whole() const {
 // With the patches below and beside; at each post where one of them is corrected.
 bool LatticeGeoreference::rims_meet(int row, int column) const {
     constexpr double apart = 1.0e-10;  // 0.6 mm; those of a fit without corrections are within 1e-11
-    const bool below = row + 1 < down_.patches, beside = column + 1 < across_.patches;
+    const bool below = row + 1 < down_.patches, right = column + 1 < across_.patches;
     const auto meet = [&](double along, bool down) {
         const glm::dvec3 here = down ? in_patch(row, column, 1.0, along) : in_patch(row, column, along, 1.0);
         const glm::dvec3 there =
@@ -242,7 +242,7 @@ bool LatticeGeoreference::rims_meet(int row, int column) const {
             if (!meet(2.0 * post / axis.patch_posts - 1.0, down)) return false;
         return true;
     };
-    return (!below || rim_meets(true)) && (!beside || rim_meets(false));
+    return (!below || rim_meets(true)) && (!right || rim_meets(false));
 }
 
 }  // namespace oro

@@ -23,13 +23,13 @@ constexpr int posts = static_cast<int>(gpu::page_posts);
 constexpr int quads_a_page = seam_quads * seam_quads;
 // A quad's posts from its first, and what stands in the posts after it.
 constexpr std::array<std::array<int, 2>, 4> corner_posts{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
-constexpr std::array<std::array<int, 2>, 5> beside_posts{{{0, 2}, {1, 2}, {2, 0}, {2, 1}, {2, 2}}};
+constexpr std::array<std::array<int, 2>, 5> vector_posts{{{0, 2}, {1, 2}, {2, 0}, {2, 1}, {2, 2}}};
 
 // As a page holds it: north-west, south-west, south-east, north-east, this one missing of a piece.
 struct SeamQuad {
     std::array<SeamCorner, 4> corners;
     int count{};
-    std::array<glm::dvec3, 5> beside{};  // seam.glsl
+    std::array<glm::dvec3, 5> vectors{};  // seam.glsl
 };
 
 SeamQuad quad_of(const SeamPiece& piece) {
@@ -37,7 +37,7 @@ SeamQuad quad_of(const SeamPiece& piece) {
     quad.count = 3;
     for (std::size_t i = 0; i < 3; ++i) {
         quad.corners[i] = piece.corners[i];
-        quad.beside[i] = piece.corners[i].normal;
+        quad.vectors[i] = piece.corners[i].normal;
     }
     return quad;
 }
@@ -267,9 +267,9 @@ Result<void> SeamPages::load_places(const PageIndex& page, const gpu::PageBlock&
                                  "their seam reaches more than 1,048 km from the middle of one page"};
                 put(corner_posts[i], axis, steps);
             }
-            for (std::size_t i = 0; i < quad.beside.size(); ++i)
-                put(beside_posts[i], axis,
-                    std::llround(quad.beside[i][static_cast<int>(axis)] *
+            for (std::size_t i = 0; i < quad.vectors.size(); ++i)
+                put(vector_posts[i], axis,
+                    std::llround(quad.vectors[i][static_cast<int>(axis)] *
                                  static_cast<double>(gpu::seam_unit)));
         }
     }

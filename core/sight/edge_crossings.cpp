@@ -147,7 +147,7 @@ std::vector<double> edge_crossings(const TrueGround& ground, const Way& way, dou
     };
     std::vector<double> stops;
     for (const double along_m : all) {
-        const double before_m = along_m - beside_rim_m, after_m = along_m + beside_rim_m;
+        const double before_m = along_m - off_rim_m, after_m = along_m + off_rim_m;
         const bool at_rim = ground.grids() > 1 && before_m > from_m && after_m < to_m &&
                             grid_at(before_m) != grid_at(after_m);
         if (at_rim) {

@@ -23,13 +23,13 @@ void add_profile(const TrueGround& ground, const Way& way, double from_m, double
         points.push_back(profile_point(ground, way(along_m), along_m));
         ProfilePoint& point = points.back();
         // On the rim of the data, or of a void, a rounded place may lie beyond it.
-        constexpr double beside_m = 0.02;
-        for (const double at_m : {along_m - beside_m, along_m + beside_m}) {
+        constexpr double offset_m = 0.02;
+        for (const double at_m : {along_m - offset_m, along_m + offset_m}) {
             if (point.has_ground || at_m < from_m || at_m > to_m) continue;
-            const ProfilePoint beside = profile_point(ground, way(at_m), at_m);
-            point.has_ground = beside.has_ground;
-            point.H_m = beside.H_m;
-            point.h_m = beside.h_m;
+            const ProfilePoint near_by = profile_point(ground, way(at_m), at_m);
+            point.has_ground = near_by.has_ground;
+            point.H_m = near_by.H_m;
+            point.h_m = near_by.h_m;
         }
     };
     if (points.empty()) add(from_m);

@@ -231,8 +231,8 @@ float Sweep::ask_oracle(const Entry& entry, double rise_m, std::size_t& asked) c
     const int column = window_.first_column + entry.column;
     const Geodetic target = target_over_post(surface_, row, column, target_m_);
     if (observer_.sees(target)) return 0.0F;
-    constexpr double reported_m = 1.0e-4;
-    if (rise_m > reported_m) return static_cast<float>(rise_m);
+    constexpr double certain_rise_m = 1.0e-4;
+    if (rise_m > certain_rise_m) return static_cast<float>(rise_m);
     const std::optional<double> by_m = observer_.clearance_deficit_m(target);
     return by_m ? std::max(static_cast<float>(*by_m), std::numeric_limits<float>::min())
                 : std::numeric_limits<float>::infinity();
@@ -257,9 +257,10 @@ float Sweep::clearance_deficit_m(const Entry& entry, const HorizonSector& sector
     if (in_doubt) {
         // Along an edge, maybe: then a hair's breadth beside it. The oracle has the last word.
         constexpr double aside = 1.0e-9;
-        const PlanePost beside{post.x - aside * post.y, post.y + aside * post.x, post.z, s_m, post.tangent};
+        const PlanePost aside_post{post.x - aside * post.y, post.y + aside * post.x, post.z, s_m,
+                                   post.tangent};
         horizon = {};
-        if (!(s_m > 1.0e-3 && walk(number, beside, 0.0, horizon))) return ask_oracle(entry, -1.0, asked);
+        if (!(s_m > 1.0e-3 && walk(number, aside_post, 0.0, horizon))) return ask_oracle(entry, -1.0, asked);
     }
     // The target, and how it moves as it is raised along the ellipsoid's normal there.
     const glm::dvec3 up = plane_.normal(row, column);

@@ -102,12 +102,12 @@ template <class Steps>
 }
 
 // decisive_steps() of the region's post, which may be one beyond its rim: where a region goes round the Earth
-// the posts go on round it. Posts that are one point have one H. left_out: by post, 1 where it decides
+// the posts go on round it. Posts that are one point have one H. masked: by post, 1 where it decides
 // nothing.
 [[nodiscard]] std::int32_t decisive_steps_at(const HeightField& field, int row, int column,
-                                             const std::vector<char>* left_out = nullptr);
+                                             const std::vector<char>* masked = nullptr);
 // The diagonal of a cell of the full resolution.
 [[nodiscard]] Diagonal cell_diagonal(const HeightField& field, int row, int column,
-                                     const std::vector<char>* left_out = nullptr);
+                                     const std::vector<char>* masked = nullptr);
 
 }  // namespace oro

@@ -47,21 +47,21 @@ void fill_row(const HeightField& field, const LevelGrid& level, int level_row,
 }  // namespace
 
 std::int32_t decisive_steps_at(const HeightField& field, int row, int column,
-                               const std::vector<char>* left_out) {
+                               const std::vector<char>* masked) {
     const PostGrid& grid = field.grid;
     const int turn = grid.wraps_longitude() ? grid.columns() - 1 : 0;
     if (column < 0) column += turn;
     if (column >= grid.columns()) column -= turn;
     if (row < 0 || row >= grid.rows() || column < 0 || column >= grid.columns()) return no_decisive_steps;
-    if (left_out != nullptr &&
-        (*left_out)[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns()) +
-                    static_cast<std::size_t>(column)] != 0)
+    if (masked != nullptr &&
+        (*masked)[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns()) +
+                  static_cast<std::size_t>(column)] != 0)
         return no_decisive_steps;
     return steps_of(field, row, column);
 }
 
-Diagonal cell_diagonal(const HeightField& field, int row, int column, const std::vector<char>* left_out) {
-    return diagonal_of([&](int r, int c) { return decisive_steps_at(field, r, c, left_out); }, row, column);
+Diagonal cell_diagonal(const HeightField& field, int row, int column, const std::vector<char>* masked) {
+    return diagonal_of([&](int r, int c) { return decisive_steps_at(field, r, c, masked); }, row, column);
 }
 
 // What DiagonalRows does with a row's numbers, all alike. See weighed_steps() and nearer_diagonal().

@@ -216,10 +216,10 @@ void set_net_spacing(const LatticeGeoreference& net, const PageSummary& page, gp
     block.column_spacing_m = static_cast<float>(local_frame.column_m * higher);
     const double step = std::ldexp(1.0, page.index.level);
     const auto change = [&](double down, double right) {
-        const LatticeGeoreference::LatticeFrame beside =
+        const LatticeGeoreference::LatticeFrame next_frame =
             net.local_frame_at(middle.row + down, middle.column + right);
         return static_cast<float>(
-            std::remainder(beside.turn_rad - local_frame.turn_rad, 2.0 * std::numbers::pi));
+            std::remainder(next_frame.turn_rad - local_frame.turn_rad, 2.0 * std::numbers::pi));
     };
     // Numbers of the page's own posts, from its first.
     const double first_row = static_cast<double>(page.index.row) * quads * step,

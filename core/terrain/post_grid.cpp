@@ -37,11 +37,11 @@ Between between(double index, int count) {
 
 // H on the triangles of one cell; u and v in [0, 1] from its north-west post to the south and east.
 std::optional<double> H_in_cell_m(const HeightField& field, int row, int column, double u, double v,
-                                  const std::vector<char>* left_out) {
+                                  const std::vector<char>* masked) {
     const float north_west = field.H_at_post_m(row, column);
     const float south_east = field.H_at_post_m(row + 1, column + 1);
     if (is_void(north_west) || is_void(south_east)) return std::nullopt;
-    if (cell_diagonal(field, row, column, left_out) == Diagonal::sw_ne) {
+    if (cell_diagonal(field, row, column, masked) == Diagonal::sw_ne) {
         const bool west = west_of_diagonal(Diagonal::sw_ne, u, v) >= 0.0;
         const CellPlane plane = cell_plane(Diagonal::sw_ne, west, static_cast<double>(north_west),
                                            static_cast<double>(field.H_at_post_m(row, column + 1)),
@@ -164,7 +164,7 @@ double HeightField::h_at_post_m(int row, int column) const {
 }
 
 std::optional<double> HeightField::surface_H_m(double lat_deg, double lon_deg,
-                                               const std::vector<char>* left_out) const {
+                                               const std::vector<char>* masked) const {
     const PostNumber at = grid.post_at(lat_deg, lon_deg);
     double y = at.row, x = at.column;
     const double last_row = grid.rows() - 1;
@@ -183,7 +183,7 @@ std::optional<double> HeightField::surface_H_m(double lat_deg, double lon_deg,
         for (int left = 0; left <= (v == 0.0 ? 1 : 0); ++left) {
             if (row - up < 0 || row - up > grid.rows() - 2) continue;
             if (column - left < 0 || column - left > grid.columns() - 2) continue;
-            const auto surface = H_in_cell_m(*this, row - up, column - left, u + up, v + left, left_out);
+            const auto surface = H_in_cell_m(*this, row - up, column - left, u + up, v + left, masked);
             if (surface) return surface;
         }
     }

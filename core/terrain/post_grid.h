@@ -146,9 +146,9 @@ struct HeightField {
     // H of the surface at a place, or void_height_m outside the region and on triangles with a void post.
     [[nodiscard]] float H_at_m(double lat_deg, double lon_deg) const;
     // H of the surface in double, before it is rounded to 0.5 mm.
-    // left_out: by post, 1 where it is cut out, and so decides no diagonal (core/terrain/cell_diagonal.h).
+    // masked: by post, 1 where it is cut out, and so decides no diagonal (core/terrain/cell_diagonal.h).
     [[nodiscard]] std::optional<double> surface_H_m(double lat_deg, double lon_deg,
-                                                    const std::vector<char>* left_out = nullptr) const;
+                                                    const std::vector<char>* masked = nullptr) const;
 };
 
 // N at the place of a net's post with that normal, in whichever way it is asked for: rounded to float.

@@ -1,4 +1,4 @@
-#include "core/truth/edge_samples.h"
+#include "core/truth/view_samples.h"
 
 #include <algorithm>
 #include <cmath>
@@ -73,7 +73,7 @@ class BehindEdges {
         const auto slope = surface.slope_at(row, column);
         const int whole_row = std::clamp(static_cast<int>(row), 0, grid.rows() - 2);
         const int whole_column = std::clamp(static_cast<int>(column), 0, grid.columns() - 2);
-        constexpr double seen_no_more = 1.0e-9;  // beside_px of 0 is for what is seen
+        constexpr double seen_no_more = 1.0e-9;  // from_seen_px of 0 is for what is seen
         return ViewSample{point,
                           apparent_m,
                           glm::length(apparent_m),

@@ -62,8 +62,8 @@ struct TrueSurface::Chunk {
 };
 
 TrueSurface::TrueSurface(const HeightField& field, double exaggeration, int threads,
-                         const std::vector<char>* left_out)
-    : field_(field), exaggeration_(exaggeration), left_out_(left_out) {
+                         const std::vector<char>* masked)
+    : field_(field), exaggeration_(exaggeration), masked_(masked) {
     const PostGrid& grid = field.grid;
     if (grid.net && !field.N_of_posts_m.empty()) {
         const auto [lowest, highest] =
@@ -280,7 +280,7 @@ void TrueSurface::decide_diagonals(int chunk_row, int chunk_column, Chunk& chunk
     for (int row = first_row - 1; row <= std::min(first_row + chunk_cells, grid.rows() - 1) + 1; ++row) {
         const std::span<std::int32_t> steps = rows.next();
         for (std::size_t i = 0; i < steps.size(); ++i)
-            steps[i] = decisive_steps_at(field_, row, first_column - 1 + static_cast<int>(i), left_out_);
+            steps[i] = decisive_steps_at(field_, row, first_column - 1 + static_cast<int>(i), masked_);
         rows.take();
         const int cell_row = row - 2 - first_row;
         if (cell_row < 0 || cell_row >= chunk_cells) continue;
@@ -298,7 +298,7 @@ Diagonal TrueSurface::diagonal_at(int row, int column) const {
     // As the chunk knows it, where one looked at it before.
     const Chunk* const known =
         slot_of(row / chunk_cells, column / chunk_cells).load(std::memory_order_acquire);
-    return known == nullptr ? cell_diagonal(field_, row, column, left_out_) : known->diagonal_at(row, column);
+    return known == nullptr ? cell_diagonal(field_, row, column, masked_) : known->diagonal_at(row, column);
 }
 
 Diagonal TrueSurface::diagonal_of_many(int row, int column) const {

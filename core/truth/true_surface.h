@@ -23,10 +23,10 @@ class TrueSurface {
   public:
     // `field` outlives the surface. Reads every post once where they are in memory, shared between `threads`;
     // posts of a file are read when they are asked for. Keeps 0.8 byte for each post that was looked at, on a
-    // net 1.5 bytes more. left_out: by post, 1 where another grid covers what this one has, so that it
+    // net 1.5 bytes more. masked: by post, 1 where another grid covers what this one has, so that it
     // decides no diagonal (geo/together/grid_clip.h); outlives the surface.
     TrueSurface(const HeightField& field, double exaggeration, int threads,
-                const std::vector<char>* left_out = nullptr);
+                const std::vector<char>* masked = nullptr);
     ~TrueSurface();
     TrueSurface(const TrueSurface&) = delete;
     TrueSurface& operator=(const TrueSurface&) = delete;
@@ -98,7 +98,7 @@ class TrueSurface {
 
     const HeightField& field_;
     double exaggeration_;
-    const std::vector<char>* left_out_;
+    const std::vector<char>* masked_;
     int levels_{0};
     Layer N_range_m_{0.0, 0.0};
     Corners corners_;

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "core/base/parallel.h"
-#include "core/truth/edge_samples.h"
 
 namespace oro {
 namespace {
@@ -119,7 +118,7 @@ class ViewSampler {
         const PictureEdge edge = edge_of({inside, rim, inside, rim});
         if (rim) {
             all.samples.push_back(*rim);
-            all.samples.back().beside_px = 0.5;
+            all.samples.back().from_seen_px = 0.5;
         }
         all.edges.push_back(edge);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "core/earth/camera.h"
@@ -18,11 +19,11 @@ struct ViewSample {
     double slope;  // of its triangle, metres a metre
     int row;       // of its cell
     int column;
-    bool west;              // of the cell's triangles
-    bool even;              // one of those spread evenly over the picture: medians are taken of these alone
-    double beside_px{0.0};  // 0: seen at a pixel's centre; else how far it lies from one that is, on the
-                            // picture: behind an edge, or in a gap that no centre looks through
-    std::size_t grid{0};    // of the ground's: whose cell it is
+    bool west;  // of the cell's triangles
+    bool even;  // one of those spread evenly over the picture: medians are taken of these alone
+    double from_seen_px{0.0};   // 0: seen at a pixel's centre; else how far it lies from one that is, on the
+                                // picture: behind an edge, or in a gap that no centre looks through
+    std::size_t grid{0};        // of the ground's: whose cell it is
     bool between_grids{false};  // on a step between two grids, which belongs to none
 };
 // What lies behind edges is given up to this far from them.
@@ -37,5 +38,21 @@ inline constexpr double behind_edges_px = 5.0;
 // between pixels, and what comes out when ground moves.
 std::vector<ViewSample> view_samples(const TrueGround& ground, const Sight& sight, const Camera& camera,
                                      int threads);
+
+// Between two neighbouring pixels: the nearer ground, and how far beyond it the other one sees.
+struct PictureEdge {
+    ViewSample near;
+    double until_m;  // infinite: the sky
+};
+
+// Goes along the nearer pixel's sight line, in steps of a fiftieth of the distance, from its ground to the
+// other's: of the ground above or below it what is seen, or would be, within `behind_edges_px` of the pixel.
+// Of a great many edges some.
+std::vector<ViewSample> samples_behind(const TrueGround& ground, const Sight& sight, const Camera& camera,
+                                       std::span<const PictureEdge> edges, int threads);
+
+// Farther than any sight line of a picture of these data: over a plane ground has no horizon. Of more than a
+// hemisphere on a plane no more than some 8,500 km.
+double picture_reach_m(const TrueGround& ground, const Sight& sight, double eye_h_m);
 
 }  // namespace oro

@@ -74,7 +74,7 @@ std::vector<std::uint8_t> KnownGround::blocks_with_voids(const HeightField& fiel
 }
 
 // At the region's edge, or with a missing cell in it or beside it.
-bool KnownGround::beside_nothing(int block_row, int block_column) const {
+bool KnownGround::meets_nothing(int block_row, int block_column) const {
     const bool at_west_or_east = block_column == 0 || block_column == block_columns_ - 1;
     if (block_row == 0 || block_row == block_rows_ - 1 || (at_west_or_east && !grid_.wraps_longitude()))
         return true;
@@ -111,7 +111,7 @@ void KnownGround::find_rims(const HeightField& field) {
     };
     for (int row = 0; row < block_rows_; ++row) {
         for (int column = 0; column < block_columns_; ++column) {
-            if (with_voids[number(row, column)] != 0 && beside_nothing(row, column)) take(row, column);
+            if (with_voids[number(row, column)] != 0 && meets_nothing(row, column)) take(row, column);
         }
     }
     while (!open.empty()) {

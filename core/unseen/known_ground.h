@@ -67,7 +67,7 @@ class KnownGround {
   private:
     void find_rims(const HeightField& field);
     [[nodiscard]] std::vector<std::uint8_t> blocks_with_voids(const HeightField& field) const;
-    [[nodiscard]] bool beside_nothing(int block_row, int block_column) const;
+    [[nodiscard]] bool meets_nothing(int block_row, int block_column) const;
 
     PostGrid grid_;
     std::optional<DegreeBox> part_;

@@ -140,9 +140,9 @@ std::string proj_file_there(PJ_CONTEXT* context, const std::vector<std::string>&
     const char* const own = proj_context_get_user_writable_directory(context, 0);
     std::string folders = own ? own : "";
     // As PROJ does: where one of these is set, its own folders do not count.
-    const char* specified = std::getenv("PROJ_DATA");
-    if (specified == nullptr) specified = std::getenv("PROJ_LIB");
-    const char* const others = specified != nullptr ? specified : proj_info().searchpath;
+    const char* folders_set = std::getenv("PROJ_DATA");
+    if (folders_set == nullptr) folders_set = std::getenv("PROJ_LIB");
+    const char* const others = folders_set != nullptr ? folders_set : proj_info().searchpath;
     folders += ":" + std::string(others ? others : "");
     for (std::size_t start = 0; start <= folders.size();) {
         const std::size_t end = std::min(folders.find(':', start), folders.size());

@@ -151,8 +151,8 @@ Result<void> check_undulation(const UndulationField& field, ShiftGrid& grid) {
                                                      " from it, and GDAL reads " +
                                                      (second ? std::to_string(*second) + " m" : "none"));
             const auto differs = [&](std::size_t neighbour) {
-                const double beside_m = field.N_m[neighbour];
-                return std::abs(N_m - beside_m) > largest_step_m || (N_m == 0.0 && beside_m == 0.0);
+                const double neighbour_m = field.N_m[neighbour];
+                return std::abs(N_m - neighbour_m) > largest_step_m || (N_m == 0.0 && neighbour_m == 0.0);
             };
             if (std::abs(N_m) > largest_N_m || (c > 0 && differs(node - 1)) ||
                 (r > 0 && differs(node - columns)))

@@ -10,7 +10,6 @@
 
 #include "core/base/checksum.h"
 #include "core/base/open_file.h"
-#include "geo/drape/image_values.h"
 #include "geo/drape/window_read.h"
 #include "geo/files/guarded_files.h"
 #include "geo/files/raster_library.h"
@@ -141,7 +140,7 @@ Result<void> describe(ImageSource& image, ImageValues values, const GdalMessages
                                      GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
                                      trusted_drivers(), nullptr, nullptr));
     if (!dataset)
-        return fault("is no raster that GDAL can open here (" + trusted_formats() +
+        return fault("is not an image in an accepted format (" + trusted_formats() +
                      "): " + messages.last("unknown format"));
     image.columns = GDALGetRasterXSize(dataset.get());
     image.rows = GDALGetRasterYSize(dataset.get());
@@ -172,11 +171,11 @@ Result<ImageSource> open_image(const std::string& file, ImageValues values) {
         return Error{described.error().kind,
                      described.error().where.empty() ? file : file + ": " + described.error().where,
                      described.error().what};
-    ORO_TRY(image.print, image_print(image.files));
+    ORO_TRY(image.fingerprint, image_fingerprint(image.files));
     return image;
 }
 
-Result<std::uint64_t> image_print(const std::vector<std::string>& files) {
+Result<std::uint64_t> image_fingerprint(const std::vector<std::string>& files) {
     constexpr std::uint64_t piece = std::uint64_t{1} << 20U, whole = 256 * piece, places = 64;
     std::vector<std::byte> bytes(piece);
     RunningChecksum sum;

@@ -232,7 +232,7 @@ int least_level(const PostGrid& grid) {
 }  // namespace
 
 Result<std::unique_ptr<GroundImage>> images_over(const PostGrid& grid, std::vector<ImageSource> images,
-                                                 std::vector<std::string>& beside) {
+                                                 std::vector<std::string>& outside) {
     const int coarsest = level_count(grid) - 1;
     int finest = coarsest;
     std::vector<SharedImage> shared;
@@ -248,7 +248,7 @@ Result<std::unique_ptr<GroundImage>> images_over(const PostGrid& grid, std::vect
                 turn ? PixelPlace{turns * turn->column, turns * turn->row} : PixelPlace{};
             is_over = is_over || window_of(image.source(), whole, moved, sampling);
         }
-        if (!is_over) beside.push_back(image.source().file);
+        if (!is_over) outside.push_back(image.source().file);
         finest = std::min(finest, finest_level_of(image.source(), open.placing, grid));
         image.give_back(std::move(open));
         shared.push_back(std::move(image));

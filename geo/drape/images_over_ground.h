@@ -11,9 +11,9 @@
 
 namespace oro {
 
-// Later images lie over earlier ones. `beside` names those that lie nowhere over the region. Errors: a CRS
+// Later images lie over earlier ones. `outside` names those that lie nowhere over the region. Errors: a CRS
 // that PROJ knows no way to.
 Result<std::unique_ptr<GroundImage>> images_over(const PostGrid& grid, std::vector<ImageSource> images,
-                                                 std::vector<std::string>& beside);
+                                                 std::vector<std::string>& outside);
 
 }  // namespace oro

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "geo/places/lat_lon.h"
+#include "geo/places/geodesic.h"
 #include "geo/sources/source.h"
 
 namespace oro {

@@ -10,7 +10,7 @@ namespace oro {
 
 struct RegionResampling {
     std::uint64_t files{};              // that were resampled or interpolated
-    std::uint64_t unknown{};            // of these, such as nobody measured: of regions baked before it was
+    std::uint64_t unknown{};            // of these, such as nobody measured: 0 of what this program opens
     std::uint64_t posts{}, compared{};  // as in Resampling, summed
     double worst_m{};                   // the largest, without its sign
     double rms_m{};

@@ -247,7 +247,7 @@ Result<RegionGrid> grid_in(std::shared_ptr<const RegionFile> file, const RegionR
         grid.field = field_of_file(file, posts_in_memory_bytes);
         grid.file = file;
     }
-    grid.geoid_print = undulation_print(grid.field.undulation);
+    grid.geoid_fingerprint = undulation_fingerprint(grid.field.undulation);
     return grid;
 }
 

@@ -172,7 +172,7 @@ Result<RegionGrid> grid_of(std::vector<Source> sources, const RegionExtent& exte
                      "no height in " + bounding_box_text(posts) + ": " + all_without_height(made) +
                          why_no_height(sources)};
     made.posts_hash = posts_hash(made.field);
-    made.geoid_print = undulation_print(made.field.undulation);
+    made.geoid_fingerprint = undulation_fingerprint(made.field.undulation);
     for (Source& source : sources) made.sources.push_back(std::move(source.report));
     return made;
 }

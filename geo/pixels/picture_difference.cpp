@@ -14,28 +14,29 @@ std::size_t row_bytes(const PictureRows& rows) {
 
 }  // namespace
 
-PixelPrint::PixelPrint(int width_px, int height_px) {
+PixelFingerprint::PixelFingerprint(int width_px, int height_px) {
     const std::array<std::int32_t, 2> size{width_px, height_px};
     sum_.add(std::as_bytes(std::span(size)));
 }
 
-Result<std::optional<std::uint64_t>> print_of_pixels(const std::string& path, int width_px, int height_px) {
+Result<std::optional<std::uint64_t>> fingerprint_of_pixels(const std::string& path, int width_px,
+                                                           int height_px) {
     ORO_TRY(const std::unique_ptr<PictureRows> rows, open_picture_rows(path, width_px, height_px));
     if (rows->is_lossy()) return std::optional<std::uint64_t>();
-    PixelPrint print(width_px, height_px);
+    PixelFingerprint fingerprint(width_px, height_px);
     std::vector<std::uint8_t> row(row_bytes(*rows));
     for (int y = 0; y < height_px; ++y) {
         ORO_CHECK(rows->read_row(row));
-        print.add(row);
+        fingerprint.add(row);
     }
-    return std::optional<std::uint64_t>(print.print());
+    return std::optional<std::uint64_t>(fingerprint.value());
 }
 
 PictureComparison::PictureComparison(std::unique_ptr<PictureRows> file, PixelSlack slack)
     : file_(std::move(file)),
       slack_(file_->is_lossy() ? slack.lossy : slack.lossless),
-      drawn_print_(file_->width_px(), file_->height_px()),
-      file_print_(file_->width_px(), file_->height_px()),
+      drawn_fingerprint_(file_->width_px(), file_->height_px()),
+      file_fingerprint_(file_->width_px(), file_->height_px()),
       row_(row_bytes(*file_)),
       any_in_squares_(static_cast<std::size_t>(file_->width_px() / square_px + 1)),
       beyond_in_squares_(any_in_squares_.size()) {
@@ -51,7 +52,7 @@ Result<PictureComparison> PictureComparison::open(const std::string& path, int w
 }
 
 Result<void> PictureComparison::add_drawn_row(std::span<const std::uint8_t> rgb) {
-    drawn_print_.add(rgb);
+    drawn_fingerprint_.add(rgb);
     return found_.lossy ? file_->lose_row(rgb) : compare_next(rgb);
 }
 
@@ -73,7 +74,7 @@ void PictureComparison::end_squares() {
 
 Result<void> PictureComparison::compare_next(std::span<const std::uint8_t> drawn) {
     ORO_CHECK(file_->read_row(row_));
-    if (!found_.lossy) file_print_.add(row_);
+    if (!found_.lossy) file_fingerprint_.add(row_);
     for (int x = 0; x < file_->width_px(); ++x) {
         int most = 0;
         for (std::size_t i = 3 * static_cast<std::size_t>(x); i < 3 * static_cast<std::size_t>(x) + 3; ++i)
@@ -97,8 +98,8 @@ Result<PictureDifference> PictureComparison::finish() {
         }
     }
     end_squares();
-    found_.drawn_print = drawn_print_.print();
-    if (!found_.lossy) found_.file_print = file_print_.print();
+    found_.drawn_fingerprint = drawn_fingerprint_.value();
+    if (!found_.lossy) found_.file_fingerprint = file_fingerprint_.value();
     return found_;
 }
 

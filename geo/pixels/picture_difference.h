@@ -17,18 +17,19 @@ namespace oro {
 
 // Fingerprint of a picture's size and pixels (rgb rows from the top): the same in each format that keeps
 // them.
-class PixelPrint {
+class PixelFingerprint {
   public:
-    PixelPrint(int width_px, int height_px);
+    PixelFingerprint(int width_px, int height_px);
     void add(std::span<const std::uint8_t> rgb) { sum_.add(std::as_bytes(rgb)); }
-    [[nodiscard]] std::uint64_t print() const { return sum_.sum(); }
+    [[nodiscard]] std::uint64_t value() const { return sum_.sum(); }
 
   private:
     RunningChecksum sum_;
 };
 // The fingerprint of a file's pixels as they come out of it; nothing of a lossy file's, which are not those
 // that were put in. Errors: those of open_picture_rows.
-Result<std::optional<std::uint64_t>> print_of_pixels(const std::string& path, int width_px, int height_px);
+Result<std::optional<std::uint64_t>> fingerprint_of_pixels(const std::string& path, int width_px,
+                                                           int height_px);
 
 // Pixels of which one of three colours differs by more than so much, of 255.
 struct PixelsOff {
@@ -41,12 +42,12 @@ struct PixelsOff {
 
 struct PictureDifference {
     std::uint64_t pixels{};
-    bool lossy{};                             // the file is
-    std::uint64_t drawn_print{};              // PixelPrint of what was drawn
-    std::optional<std::uint64_t> file_print;  // and of the file, where that means something
-    PixelsOff any;                            // off by 1 or more
-    PixelsOff beyond;                         // off by more than the slack
-    int largest{};                            // of 255
+    bool lossy{};                                   // the file is
+    std::uint64_t drawn_fingerprint{};              // PixelFingerprint of what was drawn
+    std::optional<std::uint64_t> file_fingerprint;  // and of the file, where that means something
+    PixelsOff any;                                  // off by 1 or more
+    PixelsOff beyond;                               // off by more than the slack
+    int largest{};                                  // of 255
 };
 
 // How far a pixel may be off by `slack` before it is `beyond`.
@@ -74,7 +75,7 @@ class PictureComparison {
 
     std::unique_ptr<PictureRows> file_;
     int slack_;
-    PixelPrint drawn_print_, file_print_;
+    PixelFingerprint drawn_fingerprint_, file_fingerprint_;
     std::vector<std::uint8_t> row_;
     std::vector<int> any_in_squares_, beyond_in_squares_;  // of the squares that the row is in
     int y_{0};

@@ -1,9 +1,13 @@
 // Distances and directions over the ellipsoid.
 #pragma once
 
-#include "geo/places/lat_lon.h"
-
 namespace oro {
+
+// A geodetic latitude and longitude in WGS84 degrees. The range is what the function that gives it says.
+struct LatLon {
+    double lat_deg;
+    double lon_deg;
+};
 
 struct GeodesicPath {
     double distance_m;   // along WGS84

@@ -24,13 +24,13 @@ struct Reading {
 
 struct Laid {
     std::uint64_t voids_filled{};  // void posts of finer sources that it filled
-    std::uint64_t beyond_grid{};  // posts outside the grids of its vertical datum
+    std::uint64_t beyond_grid{};   // posts outside the grids of its vertical datum
     Fit fit{Fit::elsewhere};
 };
 
 // What is kept of a source while it is laid, at one whole turn after the other.
 struct Findings {
-    SourcePrint print;
+    SourceFingerprint fingerprint;
     StoredValues stored;
     std::optional<ResamplingError> resampling;  // nothing where posts are copied
 };
@@ -63,10 +63,10 @@ Result<void> lay_row(SourceOnGrid& placed, int row_number, Row& row, GeoidOfRegi
         to.surface.lay(row_number, first_column, row.heights, row.inside, own_posts, report.seams);
     laid.voids_filled += own_posts ? 0 : filled;
     if (found.resampling) found.resampling->laid(row_number, row.heights, row.beyond);
-    found.print.add(row.heights);
+    found.fingerprint.add(row.heights);
     if (placed.fit() == Fit::elsewhere) {
         to.surface.lay_later(row_number, first_column, row.beyond);
-        found.print.add(row.beyond);
+        found.fingerprint.add(row.beyond);
     }
     for (const float height : row.heights) {
         if (is_void(height)) continue;
@@ -99,7 +99,7 @@ Result<Laid> lay_source(Source& source, int turn, GeoidOfRegion::Shift& shift, c
                                                        1, static_cast<std::size_t>(rect.rows)));
     Row row(to.grid, rect);
     const int end = rect.first_row + rect.rows;
-    found.print.begin(to.grid, rect.first_row, rect.first_column, rect.rows, rect.columns);
+    found.fingerprint.begin(to.grid, rect.first_row, rect.first_column, rect.rows, rect.columns);
     ToH to_H;
     if (!shift.does_nothing())
         to_H = [&](double lat_deg, std::span<const double> lon_deg, std::span<float> H_m) {
@@ -190,7 +190,7 @@ Result<std::vector<MeasuredSource>> mosaic_sources(std::vector<Source>& sources,
             // One pass is the whole circle unless posts are copied column by column.
             if (source.full_circle && laid.fit != Fit::same_posts) break;
         }
-        report.posts_hash = found.print.print();
+        report.posts_hash = found.fingerprint.value();
         // A column that repeats the first one, round the Earth, is not read.
         report.stored =
             found.stored.range(report.rows, source.on_degrees ? source.lon_axis.count : report.columns);

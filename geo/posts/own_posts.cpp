@@ -321,9 +321,9 @@ Result<void> lay_rows(Source& source, const OwnPart& part, const OwnMosaicTarget
     const int first_column = part.column + window.column;
     std::vector<float> heights(columns);
     const std::vector<unsigned char> inside(columns, 1);
-    SourcePrint print;
+    SourceFingerprint fingerprint;
     StoredValues stored;
-    print.begin(grid, part.row + window.row, first_column, window.rows, window.columns);
+    fingerprint.begin(grid, part.row + window.row, first_column, window.rows, window.columns);
     for (int first = window.row; first < window.row + window.rows; first += strip) {
         const int rows = std::min(strip, window.row + window.rows - first);
         ORO_TRY(const PostBlock block, read_posts(source, {first, window.column, rows, window.columns}));
@@ -337,7 +337,7 @@ Result<void> lay_rows(Source& source, const OwnPart& part, const OwnMosaicTarget
                 heights[c] = block.at(from, window.column + static_cast<int>(c));
             ORO_CHECK(shift_row(shift, target, row, first_column, heights));
             surface.lay(row, first_column, heights, inside, true, report.seams);
-            print.add(heights);
+            fingerprint.add(heights);
             for (const float height : heights) {
                 if (is_void(height)) continue;
                 report.lowest_m = std::min(report.lowest_m, static_cast<double>(height));
@@ -345,7 +345,7 @@ Result<void> lay_rows(Source& source, const OwnPart& part, const OwnMosaicTarget
             }
         }
     }
-    report.posts_hash = print.print();
+    report.posts_hash = fingerprint.value();
     report.stored = stored.range(report.rows, report.columns);
     return {};
 }

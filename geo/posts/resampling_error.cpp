@@ -292,12 +292,12 @@ Result<void> ResamplingError::compare(const PostBlock& block, const ToH& to_H) {
     return {};
 }
 
-std::optional<PostShown> ResamplingError::reported(const std::optional<OwnPost>& post) const {
+std::optional<PostShown> ResamplingError::compared_post(const std::optional<OwnPost>& post) const {
     if (!post) return std::nullopt;
-    PostShown reported{post->place.lat_deg, post->place.lon_deg, static_cast<double>(post->H_m), {}};
+    PostShown both{post->place.lat_deg, post->place.lon_deg, static_cast<double>(post->H_m), {}};
     const Shown shown = shown_at(post->place, true);
-    if (shown.ground == Ground::own || shown.ground == Ground::others) reported.shown_H_m = shown.H_m;
-    return reported;
+    if (shown.ground == Ground::own || shown.ground == Ground::others) both.shown_H_m = shown.H_m;
+    return both;
 }
 
 // Heights beyond rims count as this source's where they were taken.
@@ -332,8 +332,8 @@ Resampling ResamplingError::finish() {
         all.hidden += ground == Ground::others ? 1 : 0;
         found.unshown += ground == Ground::open ? 1 : 0;
     }
-    found.highest = reported(highest_);
-    found.lowest = reported(lowest_);
+    found.highest = compared_post(highest_);
+    found.lowest = compared_post(lowest_);
     // Among every step-th post they are only by chance.
     for (const auto& post : {highest_, lowest_})
         if (step_ > 1 && post) look_again(*post);

@@ -91,7 +91,7 @@ class ResamplingError {
                                              const ToH& to_H) const;
     Result<void> find_extreme(const PostBlock& block, const std::vector<PartRange>& ranges, float upwards,
                               const ToH& to_H, std::optional<OwnPost>& found) const;
-    [[nodiscard]] std::optional<PostShown> reported(const std::optional<OwnPost>& post) const;
+    [[nodiscard]] std::optional<PostShown> compared_post(const std::optional<OwnPost>& post) const;
 
     const PostGrid* grid_;
     const std::vector<float>* H_m_;

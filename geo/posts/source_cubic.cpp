@@ -1,4 +1,4 @@
-#include "geo/posts/source_cubic.h"
+#include "geo/posts/source_sampling.h"
 
 #include <algorithm>
 #include <array>

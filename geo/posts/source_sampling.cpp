@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "geo/files/raster_library.h"
-#include "geo/posts/source_cubic.h"
 
 namespace oro {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "geo/files/raster_library.h"
 #include "geo/rasters/map_frame.h"
-#include "geo/sources/map_crs.h"
+#include "geo/sources/raster_crs.h"
 
 namespace oro {
 namespace {

@@ -51,12 +51,12 @@ struct RegionGrid {
     std::uint64_t in_missing{};  // in missing_cells
     std::uint64_t filled{};      // void posts filled
     // Fingerprints (region_fingerprints.h) of all its posts, and of N over it, also where a view leaves that
-    // out. The first is unknown of a whole region that was baked before there were any.
-    std::optional<std::uint64_t> posts_hash;
-    std::uint64_t geoid_print{};
+    // out.
+    std::uint64_t posts_hash{};
+    std::uint64_t geoid_fingerprint{};
     VoidMethod void_method{VoidMethod::holes};
-    // False where it is not known which of the voids are beyond rims: in a part of a baked region, and of
-    // one that was baked before they were told apart. `outside` is then too small, void_posts() too large.
+    // False where it is not known which of the voids are beyond rims: in a part of a baked region. `outside`
+    // is then too small, void_posts() too large.
     bool classifies_voids{true};
     // Void in the source that covers them: what --fill-voids is for.
     [[nodiscard]] std::uint64_t void_posts() const { return voids - outside - in_missing; }

@@ -23,9 +23,9 @@ constexpr std::int64_t description_format = 1;
 constexpr JsonBounds bounds{.most_values = 5'000'000, .most_bytes = std::numeric_limits<std::size_t>::max()};
 
 // A fingerprint has 64 bits, of which other readers of JSON keep 53.
-std::string print_text(std::uint64_t print) {
+std::string fingerprint_text(std::uint64_t fingerprint) {
     char digits[20];
-    std::snprintf(digits, sizeof digits, "%016" PRIx64, print);
+    std::snprintf(digits, sizeof digits, "%016" PRIx64, fingerprint);
     return digits;
 }
 
@@ -49,7 +49,7 @@ ordered_json source_text(const SourceReport& s) {
     if (s.stored) text["stored"] = stored_fields<ordered_json>(*s.stored);
     if (s.resampling) text["resampling"] = resampling_fields<ordered_json>(*s.resampling);
     put_source_findings(text, s);
-    if (s.posts_hash) text["posts_print"] = print_text(*s.posts_hash);
+    if (s.posts_hash) text["posts_print"] = fingerprint_text(*s.posts_hash);
     return text;
 }
 
@@ -85,17 +85,13 @@ class Field {
         if (text.find('\0') != std::string::npos) throw Fault{name_ + " holds a zero byte"};
         return text;
     }
-    // Regions baked before there were any have none.
-    [[nodiscard]] std::optional<std::uint64_t> print() const {
-        constexpr const char* name = "posts_print";
-        if (!has(name)) return std::nullopt;
-        const std::string digits = (*this)[name].text();
-        std::uint64_t print = 0;
+    [[nodiscard]] std::uint64_t fingerprint() const {
+        const std::string digits = text();
+        std::uint64_t fingerprint = 0;
         const char* const end = digits.data() + digits.size();
-        const auto read = std::from_chars(digits.data(), end, print, 16);
-        (*this)[name].require(digits.size() == 16 && read.ec == std::errc() && read.ptr == end,
-                              "16 hexadecimal digits");
-        return print;
+        const auto read = std::from_chars(digits.data(), end, fingerprint, 16);
+        require(digits.size() == 16 && read.ec == std::errc() && read.ptr == end, "16 hexadecimal digits");
+        return fingerprint;
     }
     [[nodiscard]] std::vector<std::string> texts() const {
         std::vector<std::string> all;
@@ -167,7 +163,7 @@ Fact known(const Field& field, std::optional<Fact> (*of_words)(const std::string
     return *fact;
 }
 
-// WGS84, and regions baked earlier, have none.
+// WGS84 has none.
 HorizontalDatum horizontal_of(const Field& source) {
     HorizontalDatum datum;
     if (!source.has("horizontal_datum")) return datum;
@@ -186,7 +182,6 @@ HorizontalDatum horizontal_of(const Field& source) {
     return datum;
 }
 
-// Regions baked earlier have neither this nor the next.
 std::optional<StoredRange> stored_of(const Field& source) {
     if (!source.has("stored")) return std::nullopt;
     const Field field = source["stored"];
@@ -243,7 +238,7 @@ SourceReport source_of(const Field& field) {
     s.implausible = field["implausible"].count();
     s.placement = placement_of_words(field["placement"].text());
     s.seams = seams_of(field["seams"]);
-    s.posts_hash = field.print();
+    if (field.has("posts_print")) s.posts_hash = field["posts_print"].fingerprint();
     return s;
 }
 
@@ -264,15 +259,15 @@ RegionGrid region_of(const Field& field) {
     if (field.has("posts_crs")) region.posts_crs = posts_crs_of(field["posts_crs"]);
     region.missing_cells = field["missing_cells"].texts();
     region.voids = field["voids"].count();
-    // Regions baked earlier do not tell these apart from voids.
+    // What was baked from a part of a baked region may not tell these apart from voids.
     region.classifies_voids = region.voids == 0 || field.has("outside");
     if (field.has("outside")) region.outside = field["outside"].count();
-    if (field.has("in_missing")) region.in_missing = field["in_missing"].count();
+    region.in_missing = field["in_missing"].count();
     if (region.outside > region.voids || region.in_missing > region.voids - region.outside)
         throw Fault{"it tells of more posts without a source than without a height"};
     region.filled = field["filled"].count();
     region.void_method = known(field["void_method"], void_method_of_words);
-    region.posts_hash = field.print();
+    region.posts_hash = field["posts_print"].fingerprint();
     region.notes = field["notes"].texts();
     return region;
 }
@@ -296,7 +291,7 @@ std::string region_description(const RegionGrid& region) {
     all["in_missing"] = region.in_missing;
     all["filled"] = region.filled;
     all["void_method"] = void_method_words(region.void_method);
-    if (region.posts_hash) all["posts_print"] = print_text(*region.posts_hash);
+    all["posts_print"] = fingerprint_text(region.posts_hash);
     all["notes"] = region.notes;
     return all.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }

@@ -38,13 +38,13 @@ void add_grid(RunningChecksum& sum, const PostGrid& grid) {
 
 }  // namespace
 
-void SourcePrint::begin(const PostGrid& grid, int first_row, int first_column, int rows, int columns) {
+void SourceFingerprint::begin(const PostGrid& grid, int first_row, int first_column, int rows, int columns) {
     if (grid.net) return add_net(sum_, *grid.net);
     add_axis(sum_, grid.lat, first_row, rows);
     add_axis(sum_, grid.lon, first_column, columns);
 }
 
-std::uint64_t grid_print(const PostGrid& grid) {
+std::uint64_t grid_fingerprint(const PostGrid& grid) {
     RunningChecksum sum;
     add_grid(sum, grid);
     return sum.sum();
@@ -58,7 +58,7 @@ std::uint64_t posts_hash(const HeightField& field) {
     return sum.sum();
 }
 
-std::uint64_t undulation_print(const UndulationField& undulation) {
+std::uint64_t undulation_fingerprint(const UndulationField& undulation) {
     RunningChecksum sum;
     if (undulation.N_m.empty()) return sum.sum();
     add_axis(sum, undulation.lat, 0, undulation.lat.count);

@@ -12,12 +12,12 @@ namespace oro {
 
 // Of the posts that one source brings: its heights (H, metres, after all that is done to them) as they are
 // laid into the grid, row by row, and where they lie. Those count, too, that another source wins over.
-class SourcePrint {
+class SourceFingerprint {
   public:
     // A rectangle of the grid's posts follows, row by row.
     void begin(const PostGrid& grid, int first_row, int first_column, int rows, int columns);
     void add(std::span<const float> H_m) { sum_.add(std::as_bytes(H_m)); }
-    [[nodiscard]] std::uint64_t print() const { return sum_.sum(); }
+    [[nodiscard]] std::uint64_t value() const { return sum_.sum(); }
 
   private:
     RunningChecksum sum_;
@@ -25,10 +25,10 @@ class SourcePrint {
 
 // Of a grid alone: where its posts lie, to 1e-7 degree (11 mm), which rounding in a file's georeference does
 // not reach.
-[[nodiscard]] std::uint64_t grid_print(const PostGrid& grid);
+[[nodiscard]] std::uint64_t grid_fingerprint(const PostGrid& grid);
 // Of all posts of a region, as they are in the end. The posts must be in memory.
 [[nodiscard]] std::uint64_t posts_hash(const HeightField& field);
 // Of N over a region.
-[[nodiscard]] std::uint64_t undulation_print(const UndulationField& undulation);
+[[nodiscard]] std::uint64_t undulation_fingerprint(const UndulationField& undulation);
 
 }  // namespace oro

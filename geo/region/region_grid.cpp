@@ -85,10 +85,10 @@ double rounded_per_deg(double per_deg) {
 // Angle of the post nearest to zero of an axis with posts at `start`.
 double phase_of(double start_deg, double per_deg) {
     const double index = start_deg * per_deg;
-    const double beside = index - std::round(index);
-    if (std::abs(beside) < on_post) return 0.0;
-    if (std::abs(std::abs(beside) - 0.5) < on_post) return 0.5 / per_deg;
-    return beside / per_deg;
+    const double off_index = index - std::round(index);
+    if (std::abs(off_index) < on_post) return 0.0;
+    if (std::abs(std::abs(off_index) - 0.5) < on_post) return 0.5 / per_deg;
+    return off_index / per_deg;
 }
 
 struct Spacing {

@@ -223,7 +223,7 @@ bool differ(double a_m, double b_m) {
 }
 
 // Where a CRS counts in another unit than metres, and nothing says what heights count in.
-std::string assumed_beside_crs(OGRSpatialReferenceH horizontal) {
+std::string metres_assumed(OGRSpatialReferenceH horizontal) {
     if (!OSRIsProjected(horizontal)) return "";
     char* name = nullptr;
     const double metres = OSRGetLinearUnits(horizontal, &name);
@@ -344,7 +344,7 @@ Result<void> read_height_unit(Source& source, GDALDatasetH dataset, const Height
                              other->who + " in " + other->name + "; " + all.front().name +
                              " is taken (--height-unit tells it otherwise)");
         if (unit.from == UnitFrom::assumed)
-            if (std::string doubt = assumed_beside_crs(says.horizontal); !doubt.empty())
+            if (std::string doubt = metres_assumed(says.horizontal); !doubt.empty())
                 doubts.push_back(std::move(doubt));
     }
     if (says.datum.metres_per_unit < 0.0) metres = -metres;  // depths

@@ -1,8 +1,6 @@
-#include "geo/sources/map_crs.h"
+#include "geo/sources/raster_crs.h"
 
 #include <ogr_spatialref.h>
-
-#include "geo/sources/raster_crs.h"
 
 namespace oro {
 

@@ -246,7 +246,7 @@ class Walk {
             if (is_no_file_name(name))
                 return fault(vrt + " names " + name + ", which is no file on this machine: it is not opened");
             const bool relative = std::string(CPLGetXMLValue(node, "relativeToVRT", "0")) != "0";
-            named.push_back(relative ? file_beside(vrt, name) : name);
+            named.push_back(relative ? file_relative_to(vrt, name) : name);
         }
         return {};
     }
@@ -320,7 +320,7 @@ Result<RasterParts> parts_of_raster(const std::string& file) {
     return walk.take();
 }
 
-std::string file_beside(const std::string& vrt, const std::string& name) {
+std::string file_relative_to(const std::string& vrt, const std::string& name) {
     const std::size_t slash = vrt.rfind('/');
     return slash == std::string::npos ? name : vrt.substr(0, slash + 1) + name;
 }

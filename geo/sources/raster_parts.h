@@ -39,6 +39,6 @@ Result<RasterParts> parts_of_raster(const std::string& file);
 std::string local_file_of(const std::string& file);
 
 // What a VRT names as `name` relative to itself, in GDAL's file system.
-std::string file_beside(const std::string& vrt, const std::string& name);
+std::string file_relative_to(const std::string& vrt, const std::string& name);
 
 }  // namespace oro

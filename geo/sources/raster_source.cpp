@@ -18,8 +18,6 @@
 #include "geo/files/raster_library.h"
 #include "geo/sources/elevation_band.h"
 #include "geo/sources/height_unit.h"
-#include "geo/sources/map_crs.h"
-#include "geo/sources/place_doubts.h"
 #include "geo/sources/raster_content.h"
 #include "geo/sources/raster_crs.h"
 #include "geo/sources/raster_parts.h"
@@ -118,7 +116,7 @@ Result<Opened> open_source(const SourcePath& path, const GdalMessages& messages)
     if (!opened.dataset) {
         if (should_open(path))
             return Error{ErrorKind::failed, "",
-                         "is no raster that GDAL can open: " + messages.last("unknown format")};
+                         "cannot be opened as a raster: " + messages.last("unknown format")};
         std::string why = mark_words(path.file);
         if (why.empty())
             why = "is not a raster in an accepted format (" + trusted_formats() +
@@ -197,10 +195,10 @@ bool is_of_bytes(const Source& source, GDALDatasetH dataset) {
     if (datum == DatumFrom::crs) return false;
     // A datum that a product's name brings, or that was told, says nothing of what this file holds, and
     // neither does the unit that comes with it.
-    const bool beside_the_file = datum == DatumFrom::product || datum == DatumFrom::specified;
+    const bool datum_from_outside = datum == DatumFrom::product || datum == DatumFrom::specified;
     const bool unit_is_assumed =
         source.report.height_unit.from == UnitFrom::assumed ||
-        (beside_the_file && source.report.height_unit.from == UnitFrom::file &&
+        (datum_from_outside && source.report.height_unit.from == UnitFrom::file &&
          text_of(GDALGetRasterUnitType(band)).empty() && !geotiff_heights(source.file).vertical_unit);
     return unit_is_assumed;
 }

@@ -5,7 +5,6 @@
 
 #include "geo/files/raster_library.h"
 #include "geo/sources/known_products.h"
-#include "geo/sources/map_crs.h"
 #include "geo/sources/raster_crs.h"
 
 namespace oro {

@@ -134,7 +134,7 @@ struct SourceReport {
     double lon_spacing_deg{};
     double spacing_m{};  // north-south, metres
     // As its CRS counts it, the mean of both ways, in degrees of the equator: equal for all files of one
-    // lattice. 0 where posts lie on degrees, and in a region that was baked before 2026-11-27.
+    // lattice. 0 where posts lie on degrees.
     double nominal_spacing_deg{};
     // Where the one named first wins (RegionRequest::listed_first): its number among all, from 1. Else 0.
     int listed{};
@@ -142,10 +142,8 @@ struct SourceReport {
     BoundingBox box;                 // of the posts
     double lowest_m{};               // of posts of the region that have its heights, H in metres
     double highest_m{};
-    std::optional<StoredRange> stored;  // nothing where it is not known: nothing was read, no value is
-                                        // stored, or the region was baked before this was kept
-    // Nothing where posts are copied, and where it is not known: regions baked before this was measured.
-    std::optional<Resampling> resampling;
+    std::optional<StoredRange> stored;     // nothing where nothing was read, or no value is stored
+    std::optional<Resampling> resampling;  // nothing where posts are copied
     std::uint64_t voids{};
     // Read, and void everywhere: then there is neither a lowest nor a highest.
     [[nodiscard]] bool is_all_void() const {
@@ -154,8 +152,7 @@ struct SourceReport {
     std::uint64_t implausible{};  // heights no terrain has (below -12,000 m or above 9,000 m), taken as void
     std::optional<Placement> placement;  // nothing for a source that was not laid
     SeamReport seams;  // with the sources that win over it: its posts that one of them has, too
-    std::optional<std::uint64_t> posts_hash;  // of its posts as they were laid (region_fingerprints.h);
-                                              // unknown in regions baked before there were any
+    std::optional<std::uint64_t> posts_hash;  // of its posts as they were laid (region_fingerprints.h)
     std::vector<std::string> files;  // of this machine that it is made of: the archive it is in, all that a
                                      // VRT names; unknown ({}) in a baked region
 };

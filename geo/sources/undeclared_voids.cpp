@@ -350,7 +350,7 @@ float plateau_at(const PostBlock& block, std::size_t post, std::size_t columns) 
 }
 
 // The largest step between a post and its four neighbours.
-double step_beside_m(const PostBlock& block, std::size_t post, std::size_t columns) {
+double step_to_neighbours_m(const PostBlock& block, std::size_t post, std::size_t columns) {
     double largest_m = 0.0;
     const float height_m = block.height_m[post];
     const auto look = [&](std::size_t other) {
@@ -373,7 +373,7 @@ void add_to_surveys(const PostBlock& block, double rim_m, Surveys& surveys) {
     for (std::size_t post = 0; post < block.height_m.size(); ++post) {
         const float height_m = block.height_m[post];
         if (is_void(height_m)) continue;
-        const bool is_calm = step_beside_m(block, post, columns) < rim_m;
+        const bool is_calm = step_to_neighbours_m(block, post, columns) < rim_m;
         surveys.low.add(height_m, is_calm);
         surveys.high.add(height_m, is_calm);
         if (const float level_m = plateau_at(block, post, columns); !is_void(level_m)) {
@@ -472,7 +472,7 @@ Result<std::vector<NoHeights>> no_heights_of_file(const Source& source, const Po
 }
 
 // What a post without a height is counted as: its code, or blurred_value.
-double reported_value(const Source& source, float height_m, const NoHeights& range) {
+double counted_value(const Source& source, float height_m, const NoHeights& range) {
     const double stored = stored_of(source, height_m);
     if (reads_like_no_data(stored) && stored == std::floor(stored)) return stored;
     const double off_m = static_cast<double>(height_m) - static_cast<double>(range.code_m);
@@ -501,7 +501,8 @@ bool is_suspicious(const Source& source, const PostBlock& block) {
     const auto columns = static_cast<std::size_t>(block.window.columns);
     const double step_m = std::clamp(steep_m_per_m * source.report.spacing_m, 150.0, least_sea_cliff_m);
     for (std::size_t post = 0; post < block.height_m.size(); ++post)
-        if (!is_void(block.height_m[post]) && step_beside_m(block, post, columns) >= step_m) return true;
+        if (!is_void(block.height_m[post]) && step_to_neighbours_m(block, post, columns) >= step_m)
+            return true;
     return false;
 }
 
@@ -568,7 +569,7 @@ Result<void> take_out_undeclared(const Source& source, PostBlock& block, ReadPos
         if (is_void(height_m)) continue;
         const auto range = range_of(no_heights, height_m);
         if (!range) continue;
-        add_count(block.values.undeclared, reported_value(source, height_m, *range), 1, 2 * most_values);
+        add_count(block.values.undeclared, counted_value(source, height_m, *range), 1, 2 * most_values);
         height_m = void_height_m;
         ++block.voids;
     }

@@ -28,7 +28,7 @@ double number_of(const CPLXMLNode* node, const char* path, double otherwise) {
 std::string file_of(const CPLXMLNode* node, const std::string& path, GDALDatasetH dataset) {
     const std::string name = CPLGetXMLValue(node, path.c_str(), "");
     const bool relative = std::string(CPLGetXMLValue(node, (path + ".relativeToVRT").c_str(), "0")) != "0";
-    return relative ? file_beside(GDALGetDescription(dataset), name) : name;
+    return relative ? file_relative_to(GDALGetDescription(dataset), name) : name;
 }
 
 std::string_view driver_of(GDALDatasetH dataset) {
@@ -44,7 +44,7 @@ PostWindow meeting(const PostWindow& a, const PostWindow& b) {
 }
 
 // What is left of some rectangles beside another one.
-std::vector<PostWindow> beside_of(const std::vector<PostWindow>& all, const PostWindow& cut) {
+std::vector<PostWindow> outside_of(const std::vector<PostWindow>& all, const PostWindow& cut) {
     std::vector<PostWindow> left;
     const auto keep = [&](int row, int column, int rows, int columns) {
         if (rows > 0 && columns > 0) left.push_back({row, column, rows, columns});
@@ -301,7 +301,7 @@ std::vector<PostWindow> unwritten_of_vrt(GDALDatasetH dataset, int band, const P
     for (const VrtPart& part : parts) {
         const PostWindow painted = meeting(pixels_of(part), window);
         if (painted.rows == 0) continue;
-        empty = beside_of(empty, painted);
+        empty = outside_of(empty, painted);
         if (!part.is_plain || depth >= deepest_vrt) continue;
         const std::vector<PostWindow> in_part = unwritten_in_part(part, painted, depth);
         empty.insert(empty.end(), in_part.begin(), in_part.end());

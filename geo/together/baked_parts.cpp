@@ -3,9 +3,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <cerrno>
+#include <utility>
 
-#include "core/baked/region_file.h"
-#include "core/cluster_file/cluster_file.h"
 #include "geo/files/whole_file.h"
 
 namespace oro {
@@ -31,19 +30,22 @@ Result<void> check_path_of_part(const std::string& part_path) {
     return RegionFileWriter::check(part_path, true);
 }
 
-bool is_baked_grid(const std::string& grid_path, std::uint64_t fingerprint, const std::string& description) {
-    const Result<RegionFile> file = RegionFile::open(grid_path);
-    return file.ok() && file->fingerprint() == fingerprint && file->outline().description == description &&
-           file->verify().ok();
+std::optional<RegionFile> baked_grid(const std::string& grid_path, std::uint64_t fingerprint,
+                                     const std::string& description) {
+    Result<RegionFile> file = RegionFile::open(grid_path);
+    if (!file.ok() || file->fingerprint() != fingerprint || file->outline().description != description ||
+        !file->verify().ok())
+        return std::nullopt;
+    return std::move(*file);
 }
 
-bool are_baked_clusters(const std::string& clusters_path, std::uint64_t fingerprint) {
-    const Result<ClusterFile> file = ClusterFile::open(clusters_path);
-    if (!file.ok() || file->outline().fingerprint != fingerprint) return false;
+std::optional<ClusterFile> baked_clusters(const std::string& clusters_path, std::uint64_t fingerprint) {
+    Result<ClusterFile> file = ClusterFile::open(clusters_path);
+    if (!file.ok() || file->outline().fingerprint != fingerprint) return std::nullopt;
     GroupPart part;
     for (std::uint32_t group = 0; group < file->outline().groups; ++group)
-        if (!file->part(group, part).ok()) return false;
-    return true;
+        if (!file->part(group, part).ok()) return std::nullopt;
+    return std::move(*file);
 }
 
 Result<void> join_parts(const std::string& path, bool overwrite, std::span<const ContainerPart> parts) {

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
+#include "core/baked/region_file.h"
 #include "core/base/container.h"
 #include "core/base/result.h"
+#include "core/cluster_file/cluster_file.h"
 
 namespace oro {
 
@@ -19,10 +22,12 @@ std::string path_of_clusters(const std::string& path);
 // a bake that was broken off left behind. Errors: it is somebody else's.
 Result<void> check_path_of_part(const std::string& part_path);
 
-// Whether a grid's file is whole and what is to be baked: then it need not be baked again. Reads all of it.
-bool is_baked_grid(const std::string& grid_path, std::uint64_t fingerprint, const std::string& description);
-// Whether a cluster file is there and whole, over the posts of that fingerprint. Reads all of it.
-bool are_baked_clusters(const std::string& clusters_path, std::uint64_t fingerprint);
+// A grid's file that is whole and what is to be baked, which need not be baked again; else nothing. Reads all
+// of it.
+std::optional<RegionFile> baked_grid(const std::string& grid_path, std::uint64_t fingerprint,
+                                     const std::string& description);
+// A cluster file that is there and whole, over the posts of that fingerprint; else nothing. Reads all of it.
+std::optional<ClusterFile> baked_clusters(const std::string& clusters_path, std::uint64_t fingerprint);
 
 // Puts parts together as `path`, which appears whole or not at all, and removes them: also where another file
 // took the name meanwhile and stays. Errors: those of reading and writing.

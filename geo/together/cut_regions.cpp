@@ -43,10 +43,10 @@ class DrawnPosts {
         return post_ecef(field_, post.row, post.column, exaggeration_).m;
     }
     [[nodiscard]] glm::dvec3 normal(GridPost post, const glm::dvec3& here) const {
-        const bool stays = !is_left_out(post);
+        const bool stays = !is_masked(post);
         const auto place_or_here = [&](int down, int right) {
-            const GridPost beside{post.row + down, post.column + right};
-            return is_there(beside) && !(stays && is_left_out(beside)) ? place(beside) : here;
+            const GridPost neighbour{post.row + down, post.column + right};
+            return is_there(neighbour) && !(stays && is_masked(neighbour)) ? place(neighbour) : here;
         };
         const glm::dvec3 up = glm::normalize(here);
         const glm::dvec3 down_row = place_or_here(1, 0) - place_or_here(-1, 0),
@@ -59,7 +59,7 @@ class DrawnPosts {
         return post.row >= 0 && post.column >= 0 && post.row < field_.grid.rows() &&
                post.column < field_.grid.columns() && !is_void(field_.H_at_post_m(post.row, post.column));
     }
-    [[nodiscard]] bool is_left_out(GridPost post) const {
+    [[nodiscard]] bool is_masked(GridPost post) const {
         return !cut_.masked_posts.empty() && cut_.masked_posts[number(post)] != 0;
     }
     const HeightField& field_;

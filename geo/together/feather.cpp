@@ -60,14 +60,14 @@ std::vector<float> rim_distances_m(const HeightField& field, double width_m) {
 // A grid, and which of its posts finer ones cover: cells beside those are split as they are drawn.
 struct GridBelow {
     RegionGrid* grid;
-    std::vector<char> left_out;
+    std::vector<char> masked;
 };
 
 // H of the ground below a grid: that of the smallest rank among the greater ones.
 std::optional<double> H_below_m(std::span<const GridBelow> below, const PostPlace& place) {
     for (const GridBelow& other : below)
-        if (const auto H_m = other.grid->field.surface_H_m(
-                place.lat_deg, place.lon_deg, other.left_out.empty() ? nullptr : &other.left_out))
+        if (const auto H_m = other.grid->field.surface_H_m(place.lat_deg, place.lon_deg,
+                                                           other.masked.empty() ? nullptr : &other.masked))
             return H_m;
     return std::nullopt;
 }
@@ -119,7 +119,7 @@ Result<void> feather(Region& region, double width_m) {
     std::ranges::stable_sort(grids, {}, [](const GridBelow& one) { return one.grid->rank; });
     for (GridBelow& one : grids) {
         ORO_TRY(GridClip cut, cut_of(region, *one.grid));
-        one.left_out = std::move(cut.masked_posts);
+        one.masked = std::move(cut.masked_posts);
     }
     for (std::size_t i = grids.size() - 1; i-- > 0;)
         feather_grid(*grids[i].grid, std::span(grids).subspan(i + 1), width_m);

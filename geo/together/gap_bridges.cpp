@@ -1,4 +1,4 @@
-#include "geo/together/gap_bridges.h"
+#include "geo/together/cut_regions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,6 @@
 #include <tuple>
 #include <utility>
 
-#include "geo/together/cut_regions.h"
 #include "geo/together/face_cut.h"
 
 namespace oro {
@@ -51,8 +50,8 @@ bool may_meet(const PostGrid& one, const PostGrid& other, double gap_rad) {
 }
 
 // Posts on the rim of one grid that may lie beside another.
-std::vector<RimPost> rim_beside(const std::vector<RimEdge>& rim, const PostGrid& grid, std::size_t number,
-                                const PostGrid& other, double widest_rad) {
+std::vector<RimPost> rim_near(const std::vector<RimEdge>& rim, const PostGrid& grid, std::size_t number,
+                              const PostGrid& other, double widest_rad) {
     std::vector<RimPost> posts;
     std::set<std::pair<int, int>> taken;
     const double margin = 2.0 + widest_rad / std::min(other.row_step_rad(), other.column_step_rad());
@@ -131,11 +130,11 @@ Result<std::vector<GapBridge>> gap_bridges(const Region& region) {
             const double widest_rad =
                 std::hypot(widest_gap_posts, 1.0) * std::max(spacing_rad(one), spacing_rad(other));
             if (!may_meet(one, other, widest_rad)) continue;
-            std::vector<RimPost> posts = rim_beside(rim_of(i), one, i, other, widest_rad);
+            std::vector<RimPost> posts = rim_near(rim_of(i), one, i, other, widest_rad);
             if (posts.empty()) continue;
-            const std::vector<RimPost> beside = rim_beside(rim_of(j), other, j, one, widest_rad);
-            if (beside.empty()) continue;
-            posts.insert(posts.end(), beside.begin(), beside.end());
+            const std::vector<RimPost> others = rim_near(rim_of(j), other, j, one, widest_rad);
+            if (others.empty()) continue;
+            posts.insert(posts.end(), others.begin(), others.end());
             ORO_CHECK(join(grids, posts, widest_rad, bridges));
         }
     }

@@ -17,7 +17,7 @@ namespace {
 // in posts.
 constexpr double on_rim_posts = 1.0e-6;
 // How far from a face's rim its other side is asked for.
-constexpr double beside_posts = 1.0e-4;
+constexpr double offset_posts = 1.0e-4;
 
 // A piece of a rim over the grid that is cut: x is its column, y its row.
 struct RimLine {
@@ -213,7 +213,7 @@ void Cutting::keep_walls(GridPost cell, bool south_west, const PlaneFace& face) 
         for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
             const glm::dvec2 ends[2] = {ring[i], ring[i + 1]};
             const glm::dvec2 along = ends[1] - ends[0];
-            const glm::dvec2 left = beside_posts / glm::length(along) * glm::dvec2(along.y, -along.x);
+            const glm::dvec2 left = offset_posts / glm::length(along) * glm::dvec2(along.y, -along.x);
             const glm::dvec2 beyond = 0.5 * (ends[0] + ends[1]) + left + corner;
             for (const std::uint32_t number : lines_of(cell.row, cell.column)) {
                 const RimLine& rim = rims_[number];

@@ -87,12 +87,12 @@ Result<std::unique_ptr<const RegionGround>> RegionGround::of(const Region& regio
         }
         // Cells beside what is cut out are split as they are drawn, without it.
         const std::size_t number = grids.size();
-        const std::vector<char>* left_out = nullptr;
+        const std::vector<char>* masked = nullptr;
         if (number < cuts.grids.size() &&
             std::ranges::find(cuts.grids[number].masked_posts, 1) != cuts.grids[number].masked_posts.end())
-            left_out = &made->left_out_.emplace_back(cuts.grids[number].masked_posts);
+            masked = &made->masked_.emplace_back(cuts.grids[number].masked_posts);
         grids.push_back(
-            {&made->surfaces_.emplace_back(*field, exaggeration, thread_count(), left_out), one.rank});
+            {&made->surfaces_.emplace_back(*field, exaggeration, thread_count(), masked), one.rank});
     }
     auto pieces = std::make_shared<std::vector<SurfaceTriangle>>();
     for (std::size_t i = 0; i < cuts.grids.size(); ++i) {

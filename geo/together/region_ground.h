@@ -34,8 +34,8 @@ class RegionGround {
   private:
     explicit RegionGround(const Region& region) : region_(&region) {}
     const Region* region_;
-    std::deque<HeightField> fields_;          // where they are not the grids' own
-    std::deque<std::vector<char>> left_out_;  // of grids that are cut
+    std::deque<HeightField> fields_;        // where they are not the grids' own
+    std::deque<std::vector<char>> masked_;  // of grids that are cut
     std::deque<TrueSurface> surfaces_;
     std::optional<TrueGround> ground_;
 };

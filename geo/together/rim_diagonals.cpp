@@ -16,14 +16,14 @@ struct MaskedPosts {
 
 class CutPosts {
   public:
-    CutPosts(const PostGrid& grid, const std::vector<char>& left_out) : grid_(grid), left_out_(left_out) {}
+    CutPosts(const PostGrid& grid, const std::vector<char>& masked) : grid_(grid), masked_(masked) {}
     [[nodiscard]] bool at(int row, int column) const {
         if (row < 0 || row >= grid_.rows() || column < 0 || column >= grid_.columns()) return false;
-        return left_out_[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.columns()) +
-                         static_cast<std::size_t>(column)] != 0;
+        return masked_[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.columns()) +
+                       static_cast<std::size_t>(column)] != 0;
     }
     [[nodiscard]] bool any_in(int row) const {
-        const auto begin = left_out_.begin() + std::int64_t{row} * grid_.columns();
+        const auto begin = masked_.begin() + std::int64_t{row} * grid_.columns();
         return std::find(begin, begin + grid_.columns(), char{1}) != begin + grid_.columns();
     }
     [[nodiscard]] MaskedPosts around(int row, int column) const {
@@ -40,7 +40,7 @@ class CutPosts {
 
   private:
     const PostGrid& grid_;
-    const std::vector<char>& left_out_;
+    const std::vector<char>& masked_;
 };
 
 // How far the middle of a cell is from one diagonal to the other; nothing where a post has no height.
@@ -58,16 +58,16 @@ std::optional<double> diagonals_apart_m(const HeightField& field, int row, int c
 std::optional<RimDiagonals> rim_diagonals(const HeightField& field, const GridClip& cut) {
     const PostGrid& grid = field.grid;
     if (cut.masked_posts.empty()) return std::nullopt;
-    const CutPosts left_out(grid, cut.masked_posts);
+    const CutPosts masked(grid, cut.masked_posts);
     std::vector<char> rows(static_cast<std::size_t>(grid.rows()) + 3);
     for (int row = 0; row < grid.rows(); ++row)
-        rows[static_cast<std::size_t>(row) + 1] = left_out.any_in(row) ? 1 : 0;
+        rows[static_cast<std::size_t>(row) + 1] = masked.any_in(row) ? 1 : 0;
     RimDiagonals found;
     for (int row = 0; row + 1 < grid.rows(); ++row) {
         const auto first = rows.begin() + row;
         if (std::find(first, first + 4, char{1}) == first + 4) continue;
         for (int column = 0; column + 1 < grid.columns(); ++column) {
-            const MaskedPosts count = left_out.around(row, column);
+            const MaskedPosts count = masked.around(row, column);
             if (count.around == 0 || count.own == 4) continue;
             if (cell_diagonal(field, row, column) == Diagonal::nw_se) continue;
             const auto apart_m = diagonals_apart_m(field, row, column);

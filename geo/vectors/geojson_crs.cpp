@@ -1,4 +1,4 @@
-#include "geo/vectors/geojson_crs.h"
+#include "geo/vectors/vector_readers.h"
 
 #include <ogr_spatialref.h>
 

@@ -1,4 +1,4 @@
-#include "geo/vectors/geojson_reader.h"
+#include "geo/vectors/vector_readers.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "geo/vectors/geojson_crs.h"
 #include "geo/vectors/json_text.h"
 #include "geo/vectors/layer_builder.h"
 #include "geo/vectors/text_path.h"
@@ -21,7 +20,7 @@ using Members = std::vector<std::pair<std::string, JsonValue>>;
 constexpr std::size_t geojson_looks_apart = 256;
 constexpr const char* misfit = "geometries whose coordinates do not fit their type";
 constexpr const char* unknown_kind = "geometries of a kind that is not known here";
-constexpr const char* beside = "coordinates where there should be none";
+constexpr const char* misplaced = "coordinates where there should be none";
 
 const JsonValue* member(const Members& members, std::string_view name) {
     const auto found = std::ranges::find(members, name, &Members::value_type::first);
@@ -175,15 +174,15 @@ class GeoJsonReader {
             if (name == "features")
                 each_of(value, [&](const JsonValue& one) { return goes_on = item(one); });
             else
-                leave_out_beside(name, value);
+                leave_out_misplaced(name, value);
         }
         return goes_on;
     }
 
     // Coordinates that stand where none belong.
-    void leave_out_beside(const std::string& name, const JsonValue& value) {
+    void leave_out_misplaced(const std::string& name, const JsonValue& value) {
         const std::size_t places = places_of_member(name, value);
-        if (places > 0) left_out_.add(beside, {places, places, value.at(), ""});
+        if (places > 0) left_out_.add(misplaced, {places, places, value.at(), ""});
     }
 
     [[nodiscard]] ShapeTarget target() {
@@ -202,7 +201,7 @@ class GeoJsonReader {
                 for (const auto& [field, said] : value.members())
                     layer_.say(field, said.is(Kind::number) ? without_power(said.words()) : said.words());
             } else {
-                leave_out_beside(name, value);
+                leave_out_misplaced(name, value);
             }
         }
         if (!has_geometry) left_out_.add("features without a geometry", {1, 0, feature.at(), ""});
@@ -238,7 +237,7 @@ class GeoJsonReader {
                 has_any = true;
                 coordinates(type, one, to);
             } else {
-                leave_out_beside(name, one);
+                leave_out_misplaced(name, one);
             }
         }
         if (!has_any) left_out_.add("geometries without coordinates", {1, 0, value.at(), ""});

@@ -1,4 +1,4 @@
-#include "geo/vectors/kml_reader.h"
+#include "geo/vectors/vector_readers.h"
 
 #include <algorithm>
 #include <array>

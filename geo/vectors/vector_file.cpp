@@ -16,10 +16,7 @@
 #include "geo/files/letter_case.h"
 #include "geo/files/raster_library.h"
 #include "geo/files/text_encoding.h"
-#include "geo/vectors/geojson_reader.h"
-#include "geo/vectors/gpx_reader.h"
-#include "geo/vectors/kml_reader.h"
-#include "geo/vectors/vector_library.h"
+#include "geo/vectors/vector_readers.h"
 #include "geo/vectors/vector_shapes.h"
 #include "geo/vectors/xml_text.h"
 
@@ -177,7 +174,7 @@ Result<void> read_database(VectorFile& file, FileWatch& watch, const GdalMessage
                                      GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
                                      database_vector_drivers(), whole.data(), nullptr));
     if (!dataset)
-        return fault("is no vector file that can be opened here (" + trusted_vector_formats() +
+        return fault("is not a vector file in an accepted format (" + trusted_vector_formats() +
                      "): " + messages.last("unknown format"));
     // OGR goes on with WGS84 where it does not know a CRS.
     if (!messages.last("").empty()) return fault("cannot be read: " + messages.last(""));
@@ -211,7 +208,7 @@ Result<std::string> bytes_of_kmz(const std::string& name) {
 // What a file of text holds: its root says which format it has.
 Result<void> read_text(VectorFile& file, std::string bytes, FileWatch& watch) {
     const auto unknown = [](const std::string& why) {
-        return fault("is no vector file that can be opened here (" + trusted_vector_formats() + "): " + why);
+        return fault("is not a vector file in an accepted format (" + trusted_vector_formats() + "): " + why);
     };
     const std::string stem = std::filesystem::path(file.file).stem().string();
     ORO_TRY(const std::string text, utf8_xml(std::move(bytes)));
@@ -285,7 +282,7 @@ Result<VectorFile> read_vectors(const std::string& name, double limit_s) {
     const Result<void> read = read_all(file, *look, watch, messages);
     if (!watch.fault().empty()) return Error{ErrorKind::failed, name, watch.fault()};
     if (!read.ok()) return with_name(read.error());
-    ORO_TRY(file.print, image_print({name}));
+    ORO_TRY(file.fingerprint, image_fingerprint({name}));
     return file;
 }
 

@@ -57,7 +57,7 @@ struct VectorLayer {
 struct VectorFile {
     std::string file;
     std::vector<VectorLayer> layers;  // those that have shapes
-    std::uint64_t print{};            // fingerprint of the file's bytes
+    std::uint64_t fingerprint{};      // fingerprint of the file's bytes
     std::vector<std::string> notes;   // what a user must know, one line each: what was left out, and why
     std::size_t
         places_left_out{};    // of all places that the file writes, those in no shape; notes tell of them

@@ -1,4 +1,4 @@
-#include "geo/vectors/vector_library.h"
+#include "geo/vectors/vector_readers.h"
 
 #include <ogrsf_frmts.h>
 #include <sqlite3.h>

@@ -1,4 +1,4 @@
-#include "render/device/device_words.h"
+#include "render/device/device_report.h"
 
 namespace oro {
 

@@ -1,10 +1,10 @@
-#include "render/device/file_backed_memory.h"
+#include "render/device/software_driver.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 
-#include "core/base/file_size_limit.h"
+#include "core/base/system_room.h"
 #include "render/device/vulkan.h"
 
 namespace oro {

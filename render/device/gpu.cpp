@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include "render/device/device_report.h"
-#include "render/device/device_words.h"
 #include "render/device/software_driver.h"
 
 namespace oro {

@@ -35,7 +35,7 @@ enum class DeviceLack {
     swapchain        // where a window is asked for
 };
 
-// One device as the driver describes it; device_words.h makes words of it.
+// One device as the driver describes it; device_report.h makes words of it.
 struct DeviceReport {
     std::string name;
     VkPhysicalDeviceType kind{};

@@ -1,6 +1,6 @@
 #include "render/device/resources.h"
 
-#include "render/device/file_backed_memory.h"
+#include "render/device/software_driver.h"
 
 namespace oro {
 namespace {

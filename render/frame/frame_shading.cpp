@@ -142,7 +142,7 @@ void FrameRenderer::record_tile_feedback(VkCommandBuffer commands, const FramePl
 Result<void> FrameRenderer::ask_again(const GridFrame& grid, const GridPlan& plan, std::uint32_t seed) {
     return commands_.run(*gpu_, [&](VkCommandBuffer commands) {
         constexpr VkDeviceSize at =
-            offsetof(gpu::FrameConstants, drape) + offsetof(gpu::DrapeTable, wanted_seed);
+            offsetof(gpu::FrameConstants, drape) + offsetof(gpu::DrapeTable, request_seed);
         vkCmdUpdateBuffer(commands, grid.data().handle.get(), at, sizeof(seed), &seed);
         memory_barrier(commands, VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
                        VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,

@@ -1,4 +1,4 @@
-#include "render/pipelines/mesh_pipelines.h"
+#include "render/pipelines/pipeline_parts.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <span>
 
-#include "render/pipelines/pipeline_parts.h"
 #include "shaders/shared.h"
 #include "spirv/cluster_mesh.h"
 #include "spirv/terrain_count_frag.h"

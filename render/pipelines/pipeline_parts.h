@@ -41,4 +41,18 @@ class AllConstants {
     VkSpecializationInfo info_{};
 };
 
+// Adds the programs of the mesh path: terrain, terrain_ties and the sizes of their workgroups in Pipelines.
+// Errors: the device.
+Result<void> add_mesh_pipelines(const Gpu& gpu, const PipelineWants& wants, Pipelines& pipelines);
+
+// Draws clusters; ties: as Pipelines.terrain_ties. Errors: the device.
+Result<OwnedPipeline> create_cluster_terrain(const Gpu& gpu, const Pipelines& pipelines, bool ties);
+
+// Adds the programs of the compute rasteriser: raster_clear and those that follow it in Pipelines. Errors:
+// the device.
+Result<void> add_raster_pipelines(const Gpu& gpu, const PipelineWants& wants, Pipelines& pipelines);
+
+// Adds its programs of clusters, once these are there. Errors: the device.
+Result<void> add_cluster_raster(const Gpu& gpu, Pipelines& pipelines);
+
 }  // namespace oro

@@ -8,9 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "render/pipelines/mesh_pipelines.h"
 #include "render/pipelines/pipeline_parts.h"
-#include "render/pipelines/raster_pipelines.h"
 #include "shaders/shared.h"
 #include "spirv/choose_clusters_comp.h"
 #include "spirv/cull_comp.h"

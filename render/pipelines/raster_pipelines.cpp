@@ -1,4 +1,4 @@
-#include "render/pipelines/raster_pipelines.h"
+#include "render/pipelines/pipeline_parts.h"
 
 #include <algorithm>
 #include <array>

@@ -14,8 +14,8 @@
 #include "spirv/edges_clusters_comp.h"
 #include "spirv/edges_comp.h"
 #include "spirv/join_shares_comp.h"
-#include "spirv/list_shares_beside_comp.h"
 #include "spirv/list_shares_comp.h"
+#include "spirv/list_shares_grids_comp.h"
 #include "spirv/openness_comp.h"
 #include "spirv/places_comp.h"
 #include "spirv/places_net_comp.h"
@@ -28,10 +28,10 @@
 #include "spirv/shade_map_comp.h"
 #include "spirv/shade_map_net_comp.h"
 #include "spirv/shade_net_comp.h"
-#include "spirv/shares_beside_comp.h"
-#include "spirv/shares_beside_net_comp.h"
 #include "spirv/shares_clusters_comp.h"
 #include "spirv/shares_comp.h"
+#include "spirv/shares_grids_comp.h"
+#include "spirv/shares_grids_net_comp.h"
 #include "spirv/shares_net_comp.h"
 #include "spirv/texture_tile_feedback_clusters_comp.h"
 #include "spirv/texture_tile_feedback_comp.h"
@@ -188,11 +188,10 @@ Result<void> add_joined_pipelines(const Gpu& gpu, const ShareOptions& how, bool 
                 create_compute_pipeline(gpu, pipelines, join_shares_comp_spirv, "join sun shares"));
     }
     if (!casts) return {};
-    return make_share_pipelines(
-        gpu, how,
-        {on_net ? Words(shares_beside_net_comp_spirv) : Words(shares_beside_comp_spirv),
-         list_shares_beside_comp_spirv},
-        pipelines, pipelines.joined_shares[number]);
+    return make_share_pipelines(gpu, how,
+                                {on_net ? Words(shares_grids_net_comp_spirv) : Words(shares_grids_comp_spirv),
+                                 list_shares_grids_comp_spirv},
+                                pipelines, pipelines.joined_shares[number]);
 }
 
 Result<void> add_drape_pipelines(const Gpu& gpu, RasterPath path, bool on_clusters, Pipelines& pipelines) {

@@ -14,7 +14,7 @@ constexpr std::size_t tile_bytes = gpu::drape_words * sizeof(std::uint32_t);
 constexpr std::size_t tiles_per_buffer = 32;  // 8.5 MB
 constexpr std::size_t tiles_in_staging = 32;
 // Places of the table: twice as many as a frame can want.
-constexpr std::size_t table_places = std::size_t{4} * gpu::drape_wanted_max;
+constexpr std::size_t table_places = std::size_t{4} * gpu::texture_tile_requests_max;
 constexpr std::size_t most_held = table_places / 2;
 
 std::uint32_t name_of(int level) {
@@ -44,7 +44,8 @@ DrapeStore::DrapeStore(const Gpu& gpu, std::unique_ptr<const GroundImage> image,
       look_(look),
       cache_(gpu, tile_cache_layout(),
              std::make_shared<MemoryBudget>(
-                 std::clamp<std::uint64_t>(bytes / tile_bytes, 1, gpu::drape_wanted_max) * tile_bytes)) {
+                 std::clamp<std::uint64_t>(bytes / tile_bytes, 1, gpu::texture_tile_requests_max) *
+                 tile_bytes)) {
     const auto read =
         [from = image_.get()](const Loader<ImageTile, Loaded>::Request& request) -> Result<Loaded> {
         Loaded loaded{request.key, std::vector<std::uint32_t>(gpu::drape_words)};
@@ -149,7 +150,7 @@ Result<bool> DrapeStore::send(std::span<const Loaded> tiles) {
 
 // Tiles without an image take no memory, and a place in the table.
 void DrapeStore::forget_empty() {
-    if (size() + gpu::drape_wanted_max <= most_held) return;
+    if (size() + gpu::texture_tile_requests_max <= most_held) return;
     std::erase_if(empty_, [&](const auto& one) { return one.second < cache_.items().frame(); });
 }
 

@@ -30,7 +30,7 @@ class DrapeStore {
     DrapeStore& operator=(DrapeStore&&) = delete;  // a loader ends before the image that it reads
     ~DrapeStore() = default;
 
-    // Where shaders find the tiles; `wanted` and the seed are left as they are.
+    // Where shaders find the tiles; `requests` and the seed are left as they are.
     void describe(gpu::DrapeTable& table) const;
     // From here on tiles are used by the next frame. All frames before are completed on the GPU.
     void begin_frame() { cache_.items().begin_frame(); }

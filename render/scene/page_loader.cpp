@@ -1,4 +1,4 @@
-#include "render/scene/page_loader.h"
+#include "render/scene/page_store.h"
 
 #include "core/packed/packed_heights.h"
 

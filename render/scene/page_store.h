@@ -1,12 +1,15 @@
 // Pages in GPU memory: as many as a budget allows, in a few large buffers, reached by device address.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "core/cache/loader.h"
 #include "core/frame/height_quantization.h"
+#include "core/frame/region_pages.h"
 #include "core/terrain/page.h"
 #include "render/device/buffer_cache.h"
 
@@ -105,5 +108,13 @@ class PageStore {
     std::uint64_t sent_pages_{};
     std::uint64_t sent_height_bytes_{};
 };
+
+using PageLoader = Loader<PageIndex, LoadedPage>;
+
+// `capacity`: pages that may be under way or ready at a time, at least 1; 80 KB each. `pages` outlives the
+// loader. parts: pages come with these, too; means are 222 KB more, places 200 KB. packs: they come with
+// packed heights. Errors of take(): a page that could not be read.
+std::unique_ptr<PageLoader> page_loader(const RegionPages& pages, int threads, std::size_t capacity,
+                                        const PageParts& parts = {}, bool packs = false);
 
 }  // namespace oro

@@ -15,7 +15,6 @@
 #include "core/frame/visibility_feedback.h"
 #include "render/clusters/cluster_scene.h"
 #include "render/scene/drape_store.h"
-#include "render/scene/page_loader.h"
 #include "render/scene/page_store.h"
 
 namespace oro {

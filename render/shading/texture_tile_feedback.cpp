@@ -7,8 +7,8 @@
 namespace oro {
 namespace {
 
-constexpr VkDeviceSize wanted_bytes =
-    (VkDeviceSize{gpu::drape_wanted_max} + 1) * sizeof(gpu::DrapeWanted);  // the last: whether any is missing
+constexpr VkDeviceSize requests_bytes = (VkDeviceSize{gpu::texture_tile_requests_max} + 1) *
+                                        sizeof(gpu::TextureTileRequest);  // the last: whether any is missing
 
 }  // namespace
 
@@ -17,24 +17,25 @@ Result<void> TextureTileFeedback::prepare(const Gpu& gpu, RasterPath path, Pipel
     store_ = store;
     constants.drape = {};
     if (!store) return {};
-    if (!wanted_.handle) {
-        ORO_TRY(wanted_, create_buffer(gpu, wanted_bytes,
-                                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                                           VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                                       MemoryKind::device, "wanted image tiles"));
-        ORO_TRY(read_back_, create_buffer(gpu, wanted_bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+    if (!requests_.handle) {
+        ORO_TRY(
+            requests_,
+            create_buffer(gpu, requests_bytes,
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                              VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                          MemoryKind::device, "wanted image tiles"));
+        ORO_TRY(read_back_, create_buffer(gpu, requests_bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                           MemoryKind::readback, "wanted image tiles read back"));
     }
     ORO_CHECK(add_drape_pipelines(gpu, path, constants.clusters.on != 0, pipelines));
     store->describe(constants.drape);
-    constants.drape.wanted = address_words(wanted_.address);
+    constants.drape.requests = address_words(requests_.address);
     return {};
 }
 
 void TextureTileFeedback::record(VkCommandBuffer commands, const Pipelines& pipelines,
                                  const gpu::FrameConstants& constants) const {
-    vkCmdFillBuffer(commands, wanted_.handle.get(), 0, VK_WHOLE_SIZE, 0);
+    vkCmdFillBuffer(commands, requests_.handle.get(), 0, VK_WHOLE_SIZE, 0);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT,
                    VK_ACCESS_2_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
@@ -46,23 +47,23 @@ void TextureTileFeedback::record(VkCommandBuffer commands, const Pipelines& pipe
         VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
         VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_COPY_BIT,
         VK_ACCESS_2_TRANSFER_READ_BIT);
-    const VkBufferCopy copy{0, 0, wanted_bytes};
-    vkCmdCopyBuffer(commands, wanted_.handle.get(), read_back_.handle.get(), 1, &copy);
+    const VkBufferCopy copy{0, 0, requests_bytes};
+    vkCmdCopyBuffer(commands, requests_.handle.get(), read_back_.handle.get(), 1, &copy);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                    VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
 }
 
 bool TextureTileFeedback::is_missing_any() const {
-    gpu::DrapeWanted last{};
-    std::memcpy(&last, read_back_.mapped + gpu::drape_wanted_max * sizeof(last), sizeof(last));
+    gpu::TextureTileRequest last{};
+    std::memcpy(&last, read_back_.mapped + gpu::texture_tile_requests_max * sizeof(last), sizeof(last));
     return last.name != 0;
 }
 
 std::vector<ImageTile> TextureTileFeedback::wanted() const {
-    std::vector<gpu::DrapeWanted> places(gpu::drape_wanted_max);
+    std::vector<gpu::TextureTileRequest> places(gpu::texture_tile_requests_max);
     std::memcpy(places.data(), read_back_.mapped, places.size() * sizeof(places[0]));
     std::vector<ImageTile> tiles;
-    for (const gpu::DrapeWanted& place : places) {
+    for (const gpu::TextureTileRequest& place : places) {
         if (place.hash != 0)
             tiles.push_back({static_cast<int>(place.name) - 1 + gpu::drape_finest,
                              static_cast<int>(place.row), static_cast<int>(place.column)});

@@ -29,7 +29,7 @@ class TextureTileFeedback {
 
   private:
     DrapeStore* store_{nullptr};
-    Buffer wanted_, read_back_;
+    Buffer requests_, read_back_;
 };
 
 }  // namespace oro

@@ -34,8 +34,8 @@ void aerial_reach(AirRay ray, bool falls, out float from_m, out float length_m) 
 AerialLine aerial_line(AirRay ray) {
     vec2 dip = floor_dip(ray.radius_m, ray.h_m);
     float level = sqrt(max(1.0 - ray.rise * ray.rise, 0.0));
-    float below = -(dip.y * level + dip.x * ray.rise), beside = dip.x * level - dip.y * ray.rise;
-    float half_angle = below / max(1.0 + beside, 1.0e-6);
+    float below = -(dip.y * level + dip.x * ray.rise), across = dip.x * level - dip.y * ray.rise;
+    float half_angle = below / max(1.0 + across, 1.0e-6);
     bool falls = below > 0.0;
     float share;
     if (falls) {
@@ -67,9 +67,9 @@ AirRay aerial_ray(uint row, uint column) {
         level = (radius_m + passes_m) / r_m;
     } else {
         float half_angle = row < aerial_rises ? share * half_down(dip) : -share * half_up(dip);
-        float squared = half_angle * half_angle, below = 2.0 * half_angle / (1.0 + squared), beside = (1.0 - squared) / (1.0 + squared);
-        rise = -(dip.y * beside + dip.x * below);
-        level = dip.x * beside - dip.y * below;
+        float squared = half_angle * half_angle, below = 2.0 * half_angle / (1.0 + squared), across = (1.0 - squared) / (1.0 + squared);
+        rise = -(dip.y * across + dip.x * below);
+        level = dip.x * across - dip.y * below;
     }
     float sun_rise = FRAME.style.sun_enu.z, sun_level = sqrt(max(1.0 - sun_rise * sun_rise, 0.0));
     float turn = 2.0 * float(column) / float(aerial_turns - 1u) - 1.0;

@@ -17,9 +17,9 @@ float mean_share(uint id, ivec2 pixel) {
         ivec2 at = pixel + ivec2(i % 3, i / 3) - 1;
         if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(FRAME.width_px, FRAME.height_px)))) continue;
         float share = share_in(at);
-        uint beside = id_in(at);
-        if (share < 0.0 || !is_of_grid(beside)) continue;
-        uint there = frame_pages().at[page_number(triangle_of_id(beside))].level;
+        uint neighbour = id_in(at);
+        if (share < 0.0 || !is_of_grid(neighbour)) continue;
+        uint there = frame_pages().at[page_number(triangle_of_id(neighbour))].level;
         if (max(there, level) - min(there, level) > 1u) continue;
         float light = floor(share / share_step), weight = float((1 + (i % 3 & 1)) * (1 + (i / 3 & 1))) * (light + 1.0);
         sum += weight * (share - light * share_step);

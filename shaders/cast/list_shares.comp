@@ -1,6 +1,6 @@
 #version 460
 // Which pixels have a line to the sun of their own in the second turn of shares.comp: all but those around which the first turn's pixels see
-// all of the sun, or none of it. Those get what they see. With BESIDE also the ground of other grids of the frame.
+// all of the sun, or none of it. Those get what they see. With OTHER_GRIDS also the ground of other grids of the frame.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
@@ -40,7 +40,7 @@ uint next_listed(uint count) {
 const int squares_across = 11;  // of a workgroup of eight by eight, and those beside them
 shared uint kinds[squares_across * squares_across];
 ivec2 first_square() { return ivec2(gl_WorkGroupID.xy) * 8 - 1; }
-uint kind_beside(ivec2 square) {
+uint neighbour_kind(ivec2 square) {
     if (!by_group) return kind_at(square);
     ivec2 within = square - first_square();
     return kinds[within.y * squares_across + within.x];
@@ -49,20 +49,20 @@ uint kind_beside(ivec2 square) {
 // Which of a square's pixels (bits 0 to 3, row by row) do as those of the first turn that are within three pixels of them, three or four in a
 // row and in a column, and all see the same. (Those within two pixels alone miss 1 % of made ground's shadows.)
 uint as_around(ivec2 square) {
-    uint kind = kind_beside(square), three = 0u, four = 0u;  // of each row: the first three, and all four
+    uint kind = neighbour_kind(square), three = 0u, four = 0u;  // of each row: the first three, and all four
     if (kind == no_kind) return 0u;
     for (int row = 0; row < 4; ++row) {
         bool same = true;
-        for (int column = 0; column < 3; ++column) same = same && kind_beside(square + ivec2(column, row) - 1) == kind;
+        for (int column = 0; column < 3; ++column) same = same && neighbour_kind(square + ivec2(column, row) - 1) == kind;
         three |= same ? 1u << row : 0u;
-        four |= same && kind_beside(square + ivec2(2, row - 1)) == kind ? 1u << row : 0u;
+        four |= same && neighbour_kind(square + ivec2(2, row - 1)) == kind ? 1u << row : 0u;
     }
     return ((four & 7u) == 7u ? 2u : 0u) | (three == 15u ? 4u : 0u) | (four == 15u ? 8u : 0u);
 }
 
 bool has_ground(ivec2 pixel) {
     uint id = id_at(pixel);
-#ifdef BESIDE
+#ifdef OTHER_GRIDS
     return id != 0u;
 #else
     return is_of_grid(id);

@@ -88,7 +88,7 @@ struct SunLine {
     float level;  // cosine of the sun's elevation
     bool rises;   // above the disc's lower edge, too, and so all the way
 };
-#ifdef BESIDE
+#ifdef OTHER_GRIDS
 // Of a grid on a net, a line from another grid's ground: fitted where it passes over this one, for beyond its rims the net goes on
 // straight, and is only about right.
 float line_begins_m = 0.0;
@@ -229,7 +229,7 @@ void look_at_cell(SunLine line, CastPiece piece, CasterCell cell, float t_m, boo
 // A step along a piece that changes the post, and is more than what far places are rounded to.
 float cast_step_m(CastPiece piece) {
     float posts_per_m = max(max(abs(piece.per_m.x), abs(piece.per_m.y)), 1.0e-9), step_m = 1.0e-3 / posts_per_m;
-#ifdef BESIDE
+#ifdef OTHER_GRIDS
     step_m = max(step_m, 2.5e-7 * max(piece.to_m, max(abs(piece.at.x), abs(piece.at.y)) / posts_per_m));
 #endif
     return step_m;

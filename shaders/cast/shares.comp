@@ -1,7 +1,7 @@
 #version 460
 // How much of the sun the ground in each pixel sees. First in every second pixel of every second row, then in all: where those found
 // before all around a pixel see all of the sun, or none of it, it does as they do, and elsewhere it has a line of its own. What that misses
-// is narrower than two pixels, and alone. With BESIDE also the ground of other grids of the frame, over this grid's terrain.
+// is narrower than two pixels, and alone. With OTHER_GRIDS also the ground of other grids of the frame, over this grid's terrain.
 #extension GL_GOOGLE_include_directive : require
 const bool as_map = false;
 const bool in_air = false;
@@ -23,8 +23,8 @@ const bool opens = false;
 #include "shaders/cast/start.glsl"
 #include "shaders/cast/smooth.glsl"
 #include "shaders/cast/shown.glsl"
-#ifdef BESIDE
-#include "shaders/cast/beside.glsl"
+#ifdef OTHER_GRIDS
+#include "shaders/cast/other_grids.glsl"
 #else
 #include "shaders/cast/over_terrain.glsl"
 #endif
@@ -51,11 +51,11 @@ CastPoint own_point(uint id, ivec2 pixel) {
 
 float share_at(ivec2 pixel) {
     uint id = id_at(pixel);
-#ifdef BESIDE
+#ifdef OTHER_GRIDS
     if (id == 0u) return no_sun_share;
     CastStart start;
     bool is_own = is_of_grid(id);
-    if (!is_own) start = start_beside(CastPlaces(CasterList(FRAME.casters).at.places).at[pixel.y * int(FRAME.width_px) + pixel.x]);
+    if (!is_own) start = start_on_other_grid(CastPlaces(CasterList(FRAME.casters).at.places).at[pixel.y * int(FRAME.width_px) + pixel.x]);
     else if (!starts_on_ground(own_point(id, pixel), start)) return 1.0;
     return sun_from(start, is_own);
 #else

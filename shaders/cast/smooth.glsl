@@ -32,10 +32,10 @@ struct SmoothCell {
     mat4 posts_m;
 };
 // A void corner is as high as those beside it, or the base.
-int filled(int corner, int beside, int other, int base) {
+int filled(int corner, int neighbour, int other, int base) {
     if (corner != void_height) return corner;
-    if (beside == void_height) return other == void_height ? base : other;
-    return other == void_height ? beside : (beside + other) / 2;
+    if (neighbour == void_height) return other == void_height ? base : other;
+    return other == void_height ? neighbour : (neighbour + other) / 2;
 }
 // Of the level that lines meet there; false where there is none. A void post around it is as high as the corner next to it.
 bool smooth_cell(CastStart start, ivec2 at, int base, inout uint level, out SmoothCell found) {

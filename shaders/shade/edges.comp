@@ -103,8 +103,8 @@ void main() {
     if (shares == vec4(0.0) || !within(pixel) || (FRAME.other_grids != 0u && is_left_to_others(id_at(pixel)))) return;
     vec4 own = imageLoad(shaded, pixel), colour = own;
     // A slanting edge is seen beside and above: it counts once.
-    float beside = shares.x + shares.y, above_below = shares.z + shares.w, all = max(max(beside, above_below), 1.0);
-    int first = beside >= above_below ? 0 : 2;
+    float left_right = shares.x + shares.y, above_below = shares.z + shares.w, all = max(max(left_right, above_below), 1.0);
+    int first = left_right >= above_below ? 0 : 2;
     for (int i = first; i < first + 2; ++i) {
         if (shares[i] > 0.0) colour += shares[i] / all * (imageLoad(shaded, pixel + steps[i]) - own);
     }

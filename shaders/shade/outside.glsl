@@ -68,10 +68,10 @@ float hatch_share(vec3 direction, vec3 view, vec2 post) {
     vec3 ray = direction / -direction.z;
     float horizon, here_m = along_diagonal_m(post), per_px_m = 0.0;
     for (int i = 0; i < 2; ++i) {
-        vec3 beside = normalize(ray + (i == 0 ? vec3(pixel.x, 0.0, 0.0) : vec3(0.0, pixel.y, 0.0)));
-        float distance_m = bare_sea_m(beside, horizon);
+        vec3 next_ray = normalize(ray + (i == 0 ? vec3(pixel.x, 0.0, 0.0) : vec3(0.0, pixel.y, 0.0)));
+        float distance_m = bare_sea_m(next_ray, horizon);
         if (distance_m < 0.0) return stripes;
-        float step_m = along_diagonal_m(region_post_at(distance_m * beside)) - here_m;
+        float step_m = along_diagonal_m(region_post_at(distance_m * next_ray)) - here_m;
         per_px_m += step_m * step_m;
     }
     per_px_m = max(sqrt(per_px_m), 1.0e-6);

@@ -1,5 +1,5 @@
 #version 460
-// Tells which tiles of images a frame's pixels are coloured from: each is put once into the table FrameConstants.drape.wanted.
+// Tells which tiles of images a frame's pixels are coloured from: each is put once into the table FrameConstants.drape.requests.
 #extension GL_GOOGLE_include_directive : require
 const bool as_map = false;
 const bool in_air = false;
@@ -16,31 +16,31 @@ const bool parts_alone = false;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool from_compute = false;  // ids come from the compute rasteriser's buffer
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer TextureTileFeedback { DrapeWanted at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer TextureTileFeedback { TextureTileRequest at[]; };
 layout(binding = 0, r32ui) uniform readonly uimage2D ids;
 
 // Two tiles of one hash: the one that comes second is left out. Where it is missing, the next try has another seed.
-void want(DrapeSpot spot) {
-    TextureTileFeedback wanted = TextureTileFeedback(FRAME.drape.wanted);
+void request(DrapeSpot spot) {
+    TextureTileFeedback requests = TextureTileFeedback(FRAME.drape.requests);
     uvec2 texels;
-    if (!drape_find(spot, texels)) wanted.at[drape_wanted_max].name = 1u;
-    uint hash = max(drape_hash(spot.name, spot.tile.x, spot.tile.y, FRAME.drape.wanted_seed), 1u);
-    uint place = hash & (drape_wanted_max - 1u);
+    if (!drape_find(spot, texels)) requests.at[texture_tile_requests_max].name = 1u;
+    uint hash = max(drape_hash(spot.name, spot.tile.x, spot.tile.y, FRAME.drape.request_seed), 1u);
+    uint place = hash & (texture_tile_requests_max - 1u);
     for (uint i = 0u; i < drape_probes; ++i) {
-        uint there = wanted.at[place].hash;
-        if (there == 0u) there = atomicCompSwap(wanted.at[place].hash, 0u, hash);
+        uint there = requests.at[place].hash;
+        if (there == 0u) there = atomicCompSwap(requests.at[place].hash, 0u, hash);
         if (there == 0u) {
-            wanted.at[place].name = spot.name;
-            wanted.at[place].row = spot.tile.x;
-            wanted.at[place].column = spot.tile.y;
+            requests.at[place].name = spot.name;
+            requests.at[place].row = spot.tile.x;
+            requests.at[place].column = spot.tile.y;
             return;
         }
         if (there == hash) return;
-        place = (place + 1u) & (drape_wanted_max - 1u);
+        place = (place + 1u) & (texture_tile_requests_max - 1u);
     }
 }
 
-void want_pixel(SurfacePoint point) {
+void request_for_pixel(SurfacePoint point) {
     DrapeFootprint footprint = drape_footprint(drape_per_px(point));
     DrapeSpot before[2];
     before[0].name = before[1].name = 0u;
@@ -51,7 +51,7 @@ void want_pixel(SurfacePoint point) {
         for (int i = 0; i < (footprint.share > 0.0 ? 2 : 1); ++i) {
             DrapeSpot spot = drape_spot(whole, part, footprint.level + i);
             if (spot.name == before[i].name && spot.tile == before[i].tile) continue;
-            want(spot);
+            request(spot);
             before[i] = spot;
         }
     }
@@ -64,5 +64,5 @@ void main() {
     vec3 ray = vec3((clip - FRAME.projection_shift) / FRAME.projection_scale, -1.0);
     uint id = from_compute ? id_of(VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)])
                            : imageLoad(ids, pixel).x;
-    if (is_of_grid(id)) want_pixel(surface_at(triangle_of_id(id), ray));
+    if (is_of_grid(id)) request_for_pixel(surface_at(triangle_of_id(id), ray));
 }

@@ -162,7 +162,9 @@ TEST(Help, ListsFirstWhatMostPeopleNeed) {
         const std::string wanted =
             "`orograph " + command + " --help all` lists " + std::to_string(more) + " more options.";
         EXPECT_EQ(last, more > 0 ? wanted : "More: docs/commands/" + command + ".md");
-        EXPECT_EQ(printed({command, "-h", "all"}), help_of({command}));
+        for (const Words& asked : {Words{"-h", "all"}, Words{"-hall"}, Words{"--help=all"}})
+            EXPECT_EQ(printed(oro::test::joined({command}, asked)), help_of({command}))
+                << command << asked[0];
     }
     const std::string shot = printed({"shot", "--help"});
     EXPECT_LE(lines_of(shot).size(), 80U);

@@ -38,7 +38,9 @@ TEST(RefusedOptions, NoCommandIsOneForHelpEither) {
                   {{"nonsense", "-h"}, "there is no command \"nonsense\"" + these},
                   {{"--help", "nonsense"}, "there is no command \"nonsense\"" + these},
                   {{"nonsense", "--version"}, "there is no command \"nonsense\"" + these},
-                  {{"shoot", "--help"}, "there is no command \"shoot\": did you mean shot?"}});
+                  {{"shoot", "--help"}, "there is no command \"shoot\": did you mean shot?"},
+                  {{"shot", "--help", "nonsense"}, "--help takes nothing or all, not nonsense"},
+                  {{"shot", "--help=nonsense"}, "--help takes nothing or all, not nonsense"}});
     EXPECT_EQ(run_orograph({"--help"}).exit_code, 0);
     EXPECT_EQ(run_orograph({"--version"}).exit_code, 0);
     EXPECT_EQ(run_orograph({"shot", "nonsense", "--help"}).exit_code, 0);

@@ -169,7 +169,7 @@ TEST_F(ResamplingReported, AFolderIsListedWhateverIsInIt) {
     const Outcome outcome = run_orograph({"info", folder});
     EXPECT_EQ(outcome.exit_code, 1);
     ASSERT_EQ(outcome.err_lines().size(), 1U) << outcome.err;
-    expect_words(outcome.err, {"broken.tif: is no raster that GDAL can open"});
+    expect_words(outcome.err, {"broken.tif: cannot be opened as a raster"});
     expect_words(outcome.out, {"N46E008.hgt\n", "not read", "cannot be opened: 1 file\n",
                                "broken.tif  is no raster", "passed over, without elevation: 1 file\n",
                                "hills.asc  states no coordinate reference system"});

@@ -189,11 +189,6 @@ TEST(InfoText, TheFilesOwnRangeAndTheRegionsAreToldApart) {
 TEST(InfoText, ResamplingIsToldInMetresWithItsPlace) {
     SourceReport source = tile("a/swiss.tif");
     source.placement = Placement{};
-    expect_words(
-        info_text(region_of({source})),
-        {"  resampling  heights of 1 file are resampled: by how much they are off is not known, because "
-         "the region was baked before it was measured\n",
-         "  resampling  not measured: the region was baked before it was\n"});
     Resampling found;
     found.posts = 31000000;
     found.compared = 250000;
@@ -218,7 +213,7 @@ TEST(InfoText, ResamplingIsToldInMetresWithItsPlace) {
     expect_none(info_text(region_of({tile("c.hgt")})), {"resampl"});
 }
 
-// A part of a baked region, and an old one, do not tell; nothing is offered then.
+// A part of a baked region does not tell; nothing is offered then.
 TEST(InfoText, VoidsThatAreNotToldApartAreNotOfferedToBeFilled) {
     RegionGrid region = region_of({tile("a.hgt")});
     region.voids = 12;

@@ -155,12 +155,12 @@ TEST(TradeReport, FiguresHaveTheDigitsThatMatter) {
 }
 
 TEST(TradeReport, FiguresBesideALimitStayOnTheirSide) {
-    EXPECT_EQ(about_beside(1.0, 1.03), "1.03");
-    EXPECT_EQ(about_beside(1.0, 1.0004), "1.0004");
-    EXPECT_EQ(about_beside(1.26, 1.256), "1.26");
-    EXPECT_EQ(about_beside(1.254, 1.2533), "1.25");
-    EXPECT_EQ(about_beside(1.0, 2.14), "2.1");
-    EXPECT_EQ(about_beside(1.0, 0.0), "0");
+    EXPECT_EQ(about_near(1.0, 1.03), "1.03");
+    EXPECT_EQ(about_near(1.0, 1.0004), "1.0004");
+    EXPECT_EQ(about_near(1.26, 1.256), "1.26");
+    EXPECT_EQ(about_near(1.254, 1.2533), "1.25");
+    EXPECT_EQ(about_near(1.0, 2.14), "2.1");
+    EXPECT_EQ(about_near(1.0, 0.0), "0");
     EXPECT_EQ(coarse_figure(0.0004), "<0.001");
     EXPECT_EQ(coarse_figure(0.0), "0");
     EXPECT_EQ(metres(297974.2), "297,974");

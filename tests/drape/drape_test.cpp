@@ -125,9 +125,9 @@ class Drape : public test::GpuTest {
             EXPECT_TRUE(image.ok()) << image.error().line();
             images.push_back(std::move(image).value());
         }
-        std::vector<std::string> beside;
-        auto over = images_over(field_.grid, std::move(images), beside);
-        EXPECT_TRUE(over.ok() && beside.empty());
+        std::vector<std::string> outside;
+        auto over = images_over(field_.grid, std::move(images), outside);
+        EXPECT_TRUE(over.ok() && outside.empty());
         auto store = DrapeStore::create(*gpu_, std::move(over).value(), {opacity, 1.0F}, bytes);
         EXPECT_TRUE(store.ok()) << store.error().line();
         drawn.scene().set_drape(std::make_unique<DrapeStore>(std::move(store).value()), 0);
@@ -246,8 +246,8 @@ TEST_F(Drape, TilesHoldTheImageWhereItLies) {
             [&](int, int row, int column) { return wave((by_column ? column : row) + 0.5); });
         auto source = open_image(file);
         ASSERT_TRUE(source.ok());
-        std::vector<std::string> beside;
-        auto over = images_over(field_.grid, {*source}, beside);
+        std::vector<std::string> outside;
+        auto over = images_over(field_.grid, {*source}, outside);
         ASSERT_TRUE(over.ok());
         double worst = 0.0;
         for (int level = (*over)->finest_level(); level <= 1; ++level) {

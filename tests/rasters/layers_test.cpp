@@ -28,7 +28,7 @@ double allowed_m(double distance_m) {
 }
 
 struct Tally {
-    std::uint64_t ground{}, same{}, at_edges{}, others{}, beside{}, shadows{}, shadows_differ{};
+    std::uint64_t ground{}, same{}, at_edges{}, others{}, missed{}, shadows{}, shadows_differ{};
     double largest_m{}, largest_share{}, largest_px{};
 };
 
@@ -45,14 +45,13 @@ class LayersOfPictures : public test::GpuTest {
 
     // Whether a sight line within a hundredth of a pixel meets ground where the layers have it: the pixel's
     // middle is then at an edge, where two grounds meet to less than drawing can tell apart.
-    static bool is_at_edge(const Oracle& oracle, const Camera& camera, double x, double y, float reported_m) {
+    static bool is_at_edge(const Oracle& oracle, const Camera& camera, double x, double y, float layer_m) {
         for (int i = 0; i < 32; ++i) {
             const double away_px = i < 16 ? allowed_px : 0.5 * allowed_px, turn = i * std::numbers::pi / 8.0;
             const auto hit = oracle.first_hit(
                 camera.ecef_direction_at({x + away_px * std::cos(turn), y + away_px * std::sin(turn)}),
                 sight_reach_m(camera.eye.h_m));
-            if (std::isnan(reported_m) ? !hit
-                                       : hit && std::abs(hit->distance_m - reported_m) < 0.005 * reported_m)
+            if (std::isnan(layer_m) ? !hit : hit && std::abs(hit->distance_m - layer_m) < 0.005 * layer_m)
                 return true;
         }
         return false;
@@ -65,12 +64,12 @@ class LayersOfPictures : public test::GpuTest {
         const auto hits = oracle.cast_picture(camera, thread_count());
         const double px_per_rad = height_px / (2.0 * camera.half_fov_tangent().y);
         for (std::size_t i = 0; i < hits.size(); ++i) {
-            const bool reported = !std::isnan(layers.latitude_deg[i]);
-            tally.ground += reported;
-            if (!reported && !hits[i]) continue;
+            const bool has_layers = !std::isnan(layers.latitude_deg[i]);
+            tally.ground += has_layers;
+            if (!has_layers && !hits[i]) continue;
             const double x = static_cast<double>(i % width_px) + 0.5,
                          y = static_cast<double>(i / width_px) + 0.5;
-            if (reported && hits[i]) {
+            if (has_layers && hits[i]) {
                 // Float32 holds heights to a quarter of a millimetre; what is compared is the place.
                 Geodetic place = hits[i]->point;
                 const double h_m = place.h_m;
@@ -95,7 +94,7 @@ class LayersOfPictures : public test::GpuTest {
             }
             ++(is_at_edge(oracle, camera, x, y, layers.distance_m[i]) ? tally.at_edges : tally.others);
         }
-        tally.beside += layers.beside_px;
+        tally.missed += layers.missed_px;
     }
 
     // Sight lines of their own towards the sun, each with an oracle made for it.
@@ -148,7 +147,7 @@ class LayersOfPictures : public test::GpuTest {
                 static_cast<unsigned long long>(tally.ground), static_cast<unsigned long long>(tally.same),
                 tally.largest_m, tally.largest_share, tally.largest_px,
                 static_cast<unsigned long long>(tally.at_edges),
-                static_cast<unsigned long long>(tally.others), static_cast<unsigned long long>(tally.beside),
+                static_cast<unsigned long long>(tally.others), static_cast<unsigned long long>(tally.missed),
                 static_cast<unsigned long long>(tally.shadows_differ),
                 static_cast<unsigned long long>(tally.shadows));
             EXPECT_EQ(tally.others, 0U);

@@ -89,16 +89,16 @@ TEST_F(CylinderPictureTest, HasNoSeams) {
     EXPECT_LT(found.mean, 0.3);
     EXPECT_LT(found.at_borders, 1.3 * found.mean + 0.1);
     // The left border follows on the right one: no more off than any two neighbours.
-    double over = 0.0, beside = 0.0;
+    double over = 0.0, near = 0.0;
     for (int y = 0; y < around.height_px(); ++y) {
         const std::uint8_t* const row =
             &usual.rgb[3 * static_cast<std::size_t>(y) * static_cast<std::size_t>(around.width_px)];
         for (int i = 0; i < 3; ++i) {
             over += std::abs(row[i] - row[3 * 1199 + i]);
-            beside += 0.5 * (std::abs(row[i] - row[3 + i]) + std::abs(row[3 * 1199 + i] - row[3 * 1198 + i]));
+            near += 0.5 * (std::abs(row[i] - row[3 + i]) + std::abs(row[3 * 1199 + i] - row[3 * 1198 + i]));
         }
     }
-    EXPECT_LT(over, 1.5 * beside + 100.0);
+    EXPECT_LT(over, 1.5 * near + 100.0);
 }
 
 }  // namespace

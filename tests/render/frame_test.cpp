@@ -284,8 +284,8 @@ TEST_P(TwoPaths, DrawTheSameTriangles) {
                 for (int dx = -1; dx <= 1; ++dx) {
                     const int x = std::clamp(at % side_px + dx, 0, side_px - 1),
                               y = std::clamp(at / side_px + dy, 0, side_px - 1);
-                    const auto beside = static_cast<std::size_t>(y * side_px + x);
-                    near = near || ids[beside] != ids[k] || other_ids[beside] != other_ids[k];
+                    const auto neighbour = static_cast<std::size_t>(y * side_px + x);
+                    near = near || ids[neighbour] != ids[k] || other_ids[neighbour] != other_ids[k];
                 }
             }
             not_at_an_edge += near ? 0U : 1U;

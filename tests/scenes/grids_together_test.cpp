@@ -135,7 +135,7 @@ TEST_P(GridsTogether, LeaveNoGap) {
 
 // Two grids side by side, their rims one post apart, or less where they are turned; and a third whose posts
 // are the middles of its cells.
-Region beside_each_other() {
+Region adjacent_grids() {
     Region region{std::vector<RegionGrid>(1)};
     region.grids[0].field = test::rough_field(47.0, 8.0, 200, 200);
     region.grids[0].rank = 0;
@@ -164,7 +164,7 @@ Region beside_each_other() {
 TEST_P(GridsTogether, JoinOverGaps) {
     constexpr unsigned seed = 84;
     std::mt19937 random(seed);
-    open(beside_each_other());
+    open(adjacent_grids());
     ASSERT_GT(cuts_.bridges.size(), 300U);
     const std::vector<RegionGrid>& grids = region_.grids;
     double longest_m = 0.0;

@@ -160,21 +160,21 @@ TEST_F(ShadowsOfPictures, OfSmoothGroundAreTheSameBesideAnotherGrid) {
     };
     const HeightField wide = test::made_field(48.0, 6.0, 25.0, 60, 80, hills),
                       other = test::made_field(46.5, 9.6, 100.0, 40, 40, hills);
-    const auto drawn = [&](bool beside) {
+    const auto drawn = [&](bool with_other) {
         Scene scene = test::scene_of_pages(*gpu_, pages_in_memory(wide, 1.0, 2));
-        if (beside) scene.add(test::scene_of_pages(*gpu_, pages_in_memory(other, 1.0, 2)));
+        if (with_other) scene.add(test::scene_of_pages(*gpu_, pages_in_memory(other, 1.0, 2)));
         const gpu::FrameStyle style = shaded_alone(enu_towards(110.0, 8.0), 1.0F, 1.0F);
         const Camera camera{{46.6, 6.8, 40000.0}, {70.0, -35.0, 0.0}, 50.0, 320, 180};
         return DepthPainter(*gpu_, RasterPath::compute).draw(scene, camera, style, {});
     };
-    const auto alone = drawn(false), beside = drawn(true);
-    ASSERT_TRUE(alone.ok() && beside.ok());
+    const auto alone = drawn(false), with_other = drawn(true);
+    ASSERT_TRUE(alone.ok() && with_other.ok());
     int asked = 0, dark = 0, differ = 0;
-    for (std::size_t i = 0; i < beside->points.size(); ++i) {
-        if (beside->points[i].background() || beside->points[i].grid != 0) continue;
+    for (std::size_t i = 0; i < with_other->points.size(); ++i) {
+        if (with_other->points[i].background() || with_other->points[i].grid != 0) continue;
         ++asked;
-        dark += beside->rgba[4 * i] < 20;
-        differ += std::abs(alone->rgba[4 * i] - beside->rgba[4 * i]) > 8;
+        dark += with_other->rgba[4 * i] < 20;
+        differ += std::abs(alone->rgba[4 * i] - with_other->rgba[4 * i]) > 8;
     }
     std::printf("%d pixels, %d dark, %d differ\n", asked, dark, differ);
     EXPECT_GT(dark, asked / 50) << "or the test sees no shadow";

@@ -79,8 +79,8 @@ class SmoothEdges : public test::GpuTest {
 
     // Pixels at either side of an edge: where depth, which is linear over a plane, jumps by 2 % or more and
     // by more than twice what it changes by on either side.
-    static std::vector<bool> beside_edges(const std::vector<float>& depths) {
-        std::vector<bool> beside(depths.size());
+    static std::vector<bool> next_to_edges(const std::vector<float>& depths) {
+        std::vector<bool> next_to(depths.size());
         const auto look = [&](int x, int y, int dx, int dy) {
             const auto at = [&](int step) {
                 const int cx = std::clamp(x + step * dx, 0, width_px - 1),
@@ -98,7 +98,7 @@ class SmoothEdges : public test::GpuTest {
                                   ? here != there
                                   : jump >= 0.02 * std::min(here, there) &&
                                         jump > 2.0 * std::max(slope(at(-1), at(0)), slope(at(1), at(2)));
-            if (edge) beside[at(0)] = beside[at(1)] = true;
+            if (edge) next_to[at(0)] = next_to[at(1)] = true;
         };
         for (int y = 0; y < height_px; ++y) {
             for (int x = 0; x < width_px; ++x) {
@@ -106,7 +106,7 @@ class SmoothEdges : public test::GpuTest {
                 look(x, y, 0, 1);
             }
         }
-        return beside;
+        return next_to;
     }
 
     // Mean difference of those pixels, 8-bit codes.
@@ -129,7 +129,7 @@ class SmoothEdges : public test::GpuTest {
     // Against 64 samples: no more than `bound`, and far nearer than the picture without smooth edges.
     void hold(const char* what, const Camera& camera, double bound) {
         const Drawn truth = draw(camera, samples, false), steps = draw(camera, 1, false);
-        const std::vector<bool> edges = beside_edges(steps.depths);
+        const std::vector<bool> edges = next_to_edges(steps.depths);
         const auto count = std::count(edges.begin(), edges.end(), true);
         ASSERT_GT(count, 200) << what;
         const double without = difference(steps, truth, edges),
@@ -151,18 +151,18 @@ class SmoothEdges : public test::GpuTest {
     }
 
     // Every such pixel is one of `ties`, or beside one.
-    static void hold_beside(const std::vector<bool>& differ, const std::vector<bool>& ties) {
+    static void hold_next_to(const std::vector<bool>& differ, const std::vector<bool>& ties) {
         for (int y = 0; y < height_px; ++y) {
             for (int x = 0; x < width_px; ++x) {
                 if (!differ[static_cast<std::size_t>(y) * width_px + static_cast<std::size_t>(x)]) continue;
-                bool beside = false;
+                bool next_to = false;
                 for (int row = std::max(0, y - 1); row <= std::min(height_px - 1, y + 1); ++row) {
                     for (int column = std::max(0, x - 1); column <= std::min(width_px - 1, x + 1); ++column)
-                        beside =
-                            beside ||
+                        next_to =
+                            next_to ||
                             ties[static_cast<std::size_t>(row) * width_px + static_cast<std::size_t>(column)];
                 }
-                EXPECT_TRUE(beside) << "pixel " << x << "," << y;
+                EXPECT_TRUE(next_to) << "pixel " << x << "," << y;
             }
         }
     }
@@ -238,7 +238,7 @@ TEST_F(SmoothEdges, AreTheSameByBothWaysOfDrawing) {
     std::printf("%td pixels differ, %td show another triangle\n",
                 std::count(differ.begin(), differ.end(), true), std::count(ties.begin(), ties.end(), true));
     EXPECT_LE(std::count(ties.begin(), ties.end(), true), 12);
-    hold_beside(differ, ties);
+    hold_next_to(differ, ties);
     EXPECT_NE(compute.rgba, draw(camera, 1, false).rgba) << "no edge is smooth";
 }
 

@@ -116,16 +116,17 @@ glm::ivec3 bytes_at(const DepthPicture& picture, std::size_t pixel) {
 // Where a drawn point is among the posts that gdaldem was given.
 using RasterPlace = std::function<glm::dvec2(const DrawnPoint&)>;
 
-// `told`: from the fall expected at a pixel and its bytes, how far off it is; nothing where it is not asked.
+// `error_of`: from the fall expected at a pixel and its bytes, how far off it is; nothing where it is not
+// asked.
 Held hold(const DepthPicture& picture, const GdalSlopes& truth, const RasterPlace& place,
-          const std::function<std::optional<double>(const glm::dvec2&, const glm::ivec3&)>& reported) {
+          const std::function<std::optional<double>(const glm::dvec2&, const glm::ivec3&)>& error_of) {
     Held held;
     for (std::size_t pixel = 0; pixel < picture.points.size(); ++pixel) {
         if (picture.points[pixel].background()) continue;
         const glm::dvec2 at = place(picture.points[pixel]);
         const auto fall = truth.fall(at.x, at.y);
         if (!fall) continue;
-        const auto off = reported(*fall, bytes_at(picture, pixel));
+        const auto off = error_of(*fall, bytes_at(picture, pixel));
         const glm::dvec2 from_post = at - glm::round(at);
         if (off) held.add(*off, glm::length(from_post) < 0.03);
     }

@@ -108,7 +108,7 @@ class MarchedLine {
     // marks a number all but runs along a straight line, so where that passes is asked, and a little to
     // either side; halving needs 40 places.
     [[nodiscard]] double crossing(std::size_t axis, Mark low, Mark high) const {
-        constexpr double exact = 1.0e-12, beside = 4.0e-13;
+        constexpr double exact = 1.0e-12, offset = 4.0e-13;
         const double first = std::floor(low.number);
         const double whole = high.number > low.number ? first + 1.0 : first;
         for (int i = 0; i < 60 && high.share - low.share > exact; ++i) {
@@ -116,8 +116,8 @@ class MarchedLine {
                 low.share + (high.share - low.share) * (whole - low.number) / (high.number - low.number);
             double next = 0.5 * (low.share + high.share);
             if (i % 4 == 0) next = straight;
-            if (i % 4 == 1) next = straight - beside;
-            if (i % 4 == 2) next = straight + beside;
+            if (i % 4 == 1) next = straight - offset;
+            if (i % 4 == 2) next = straight + offset;
             if (!(next > low.share && next < high.share)) next = 0.5 * (low.share + high.share);
             const Mark middle{next, numbers(next)[axis]};
             (std::floor(middle.number) == first ? low : high) = middle;

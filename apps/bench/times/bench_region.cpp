@@ -1,7 +1,6 @@
 #include "apps/bench/times/bench_region.h"
 
 #include "apps/bench/times/bench_random.h"
-#include "apps/bench/times/bench_terrain.h"
 #include "core/baked/file_pages.h"
 #include "core/base/parallel.h"
 #include "core/cluster_frame/region_clusters.h"

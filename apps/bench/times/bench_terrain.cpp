@@ -1,4 +1,4 @@
-#include "apps/bench/times/bench_terrain.h"
+#include "apps/bench/times/bench_region.h"
 
 #include <cmath>
 

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "apps/bench/times/bench_terrain.h"
+#include "apps/bench/times/bench_region.h"
 #include "core/base/elapsed.h"
 #include "core/base/median.h"
 #include "core/base/parallel.h"

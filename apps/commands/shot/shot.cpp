@@ -108,7 +108,7 @@ Result<std::vector<WholeFile>> layers_of(const ShotOptions& options, const Pictu
     ORO_TRY(const PictureLayers layers,
             picture_layers(gpu, scene, shot.view, *ground.grids, style, path,
                            [&](double share) { bar.show(share, "measuring layers"); }));
-    shot.layers = LayersReport{layers.ground_px, layers.beside_px};
+    shot.layers = LayersReport{layers.ground_px, layers.missed_px};
     ORO_TRY(std::vector<WholeFile> written,
             layer_files(files.picture, options.overwrite, shot.view, shot.region, layers));
     shot.times.layers_s = seconds_since(start);
@@ -178,13 +178,13 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
     ORO_TRY(shot.middle, place_in_middle(shot.view, ground));
     ORO_TRY(const std::vector<std::uint8_t> strip, strip_of(shot.view, shot.region, style, shot.middle));
     const bool checks = is_check(options, files);
-    BesidePicture beside(checks ? files.picture : "", shot.view);
+    RepeatedPicture repeated(checks ? files.picture : "", shot.view);
     ORO_TRY(DrawnPicture picture,
             draw_picture(
                 checks ? unnamed(files) : files, options.overwrite || checks, shot.view, shot.region, ground,
                 shot.middle, gpu, scene, style, strip, [&](double share) { bar.show(share, "drawing"); },
-                [&](std::span<const std::uint8_t> row) { return beside.take(row), Result<void>(); }));
-    shot.beside = beside.found();
+                [&](std::span<const std::uint8_t> row) { return repeated.take(row), Result<void>(); }));
+    shot.difference = repeated.found();
     shot.picture = picture.report;
     shot.labels = picture.labels;
     shot.names = picture.names;
@@ -280,31 +280,30 @@ Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& 
 }
 
 // The files beside the picture, as they are asked for: without names yet.
-Result<std::vector<WholeFile>> files_beside(const ShotOptions& options, const PictureFiles& files,
-                                            const ShotGround& ground, const Gpu& gpu, Scene& scene,
-                                            const Style& style, ProgressBar& bar, ShotResult& shot) {
-    std::vector<WholeFile> beside;
+Result<std::vector<WholeFile>> companion_files(const ShotOptions& options, const PictureFiles& files,
+                                               const ShotGround& ground, const Gpu& gpu, Scene& scene,
+                                               const Style& style, ProgressBar& bar, ShotResult& shot) {
+    std::vector<WholeFile> companions;
     if (shot.view.map && !is_check(options, files)) {
         ORO_TRY(WholeFile world, WholeFile::create(world_file_path(files.picture), options.overwrite));
         const std::string text = world_file(*shot.view.map);
         ORO_CHECK(world.write(text.data(), text.size()));
-        beside.push_back(std::move(world));
+        companions.push_back(std::move(world));
     }
     if (options.layers) {
-        ORO_TRY(beside, layers_of(options, files, ground, gpu, scene, style, bar, shot));
+        ORO_TRY(companions, layers_of(options, files, ground, gpu, scene, style, bar, shot));
     }
     if (options.verify) {
         bar.show(1.0, "measuring errors");
         ORO_TRY(WholeFile errors, verify_shot(options, files, ground, gpu, scene, style, shot));
-        beside.push_back(std::move(errors));
+        companions.push_back(std::move(errors));
     }
-    return beside;
+    return companions;
 }
 
-Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
+Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, ShotResult& shot) {
     ORO_TRY(const double ceiling_m, unseen_ceiling(options.unseen_ceiling_m));
     ProgressBar bar(options.quiet);
-    ShotResult shot;
     ORO_TRY(const Style style, open_shot(options, files, bar, shot));
     bar.clear();
     ORO_CHECK(say_notes(options, shot));
@@ -316,11 +315,11 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
     ORO_TRY(Scene scene, scene_of(options, ceiling_m, *gpu, style, ground, bar, shot));
     ORO_TRY(DrawnPicture picture, draw_shot(options, files, *ground.grids, *gpu, scene, style, bar, shot));
     const bool checks = is_check(options, files);
-    ORO_TRY(std::vector<WholeFile> beside,
-            files_beside(options, files, ground, *gpu, scene, style, bar, shot));
+    ORO_TRY(std::vector<WholeFile> companions,
+            companion_files(options, files, ground, *gpu, scene, style, bar, shot));
     bar.clear();
     const Result<void> finished =
-        finish_shot(options, files, shot, std::move(picture.file), std::move(beside));
+        finish_shot(options, files, shot, std::move(picture.file), std::move(companions));
     if (finished.ok() || checks) tell(options, files, checks, shot, *gpu, style);
     if (finished.ok() && checks)
         say(options.quiet, files.picture + " is there already, and its view draws the same " +
@@ -335,14 +334,15 @@ Result<void> run_shot(const ShotOptions& asked) {
     ORO_CHECK(check_map_options(options));
     ORO_TRY(const PictureFiles files, shot_files(options));
     options.view.takes_maps = true;
+    ShotResult shot;
     if (!options.view_file.empty()) {
-        ORO_TRY(const View recorded, read_view(options.view_file));
-        options.ortho = recorded.map.has_value();
+        ORO_TRY(shot.view, read_view(options.view_file));
+        options.ortho = shot.view.map.has_value();
         if (options.ortho && (options.verify || options.layers))
             return refused(options.verify ? "--verify" : "--layers", "",
                            "is for pictures from an eye; " + options.view_file + " is a map");
     }
-    return take_shot(options, files);
+    return take_shot(options, files, shot);
 }
 
 }  // namespace oro

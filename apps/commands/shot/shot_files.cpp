@@ -92,9 +92,9 @@ PictureFiles unnamed(const PictureFiles& files) {
 }
 
 Result<void> finish_shot(const ShotOptions& options, const PictureFiles& files, ShotResult& shot,
-                         WholeFile picture, std::vector<WholeFile> beside) {
+                         WholeFile picture, std::vector<WholeFile> companions) {
     std::vector<WholeFile*> together;
-    for (WholeFile& file : beside) together.push_back(&file);
+    for (WholeFile& file : companions) together.push_back(&file);
     if (!is_check(options, files)) {
         together.push_back(&picture);
         return commit_together(together);
@@ -102,11 +102,13 @@ Result<void> finish_shot(const ShotOptions& options, const PictureFiles& files, 
     ORO_CHECK(commit_together(together));
     ORO_TRY(shot.same_bytes, is_same(picture, files.picture));
     const std::optional<Fingerprints>& recorded = shot.view.recorded->fingerprints;
-    const bool same_pixels = shot.beside && shot.beside->any.count == 0;
-    if (shot.same_bytes || (same_pixels && (!recorded || recorded->program != program_print()))) return {};
-    const std::string where = same_pixels || !shot.beside
-                                  ? ""
-                                  : ": " + pixels_words(shot.beside->any, shot.beside->pixels) + " differ";
+    const bool same_pixels = shot.difference && shot.difference->any.count == 0;
+    if (shot.same_bytes || (same_pixels && (!recorded || recorded->program != program_fingerprint())))
+        return {};
+    const std::string where =
+        same_pixels || !shot.difference
+            ? ""
+            : ": " + pixels_words(shot.difference->any, shot.difference->pixels) + " differ";
     return Error{ErrorKind::failed, files.picture,
                  "is not what its view draws now" + where +
                      "; left as it is (--overwrite replaces it, --out writes another)"};

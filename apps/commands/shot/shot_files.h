@@ -30,15 +30,16 @@ PictureFiles unnamed(const PictureFiles& files);
 // Gives what was drawn its names, or compares it with the picture that is there. Tags that tell less than
 // today's, or of another version of the program, do not make it another picture.
 Result<void> finish_shot(const ShotOptions& options, const PictureFiles& files, ShotResult& shot,
-                         WholeFile picture, std::vector<WholeFile> beside);
+                         WholeFile picture, std::vector<WholeFile> companions);
 
 // Reads a picture's pixels along while it is drawn again. What cannot be read is not compared: the bytes tell
 // that it is another.
-class BesidePicture {
+class RepeatedPicture {
   public:
-    BesidePicture(const std::string& file, const View& view) {
+    RepeatedPicture(const std::string& file, const View& view) {
         if (file.empty()) return;
-        auto opened = PictureComparison::open(file, view.camera.width_px, view.camera.height_px + view.legend_px, device_slack);
+        auto opened = PictureComparison::open(file, view.camera.width_px,
+                                              view.camera.height_px + view.legend_px, device_slack);
         if (opened.ok()) comparison_.emplace(std::move(*opened));
     }
     void take(std::span<const std::uint8_t> row) {

@@ -9,7 +9,7 @@
 #include "apps/report/summit_words.h"
 #include "apps/view/model_names.h"
 #include "apps/view/truth.h"
-#include "render/device/device_words.h"
+#include "render/device/device_report.h"
 
 namespace oro {
 namespace {
@@ -138,7 +138,7 @@ void put_layers(const LayersReport& layers, const ShotTimes& times, const Pictur
                 ordered_json& json) {
     ordered_json& layer_files = json["layers"] = ordered_json::object();
     for (const char* layer : layer_names) layer_files[layer] = layer_path(files.picture, layer);
-    json["layer_pixels"] = json_object("ground", layers.ground_px, "beside", layers.beside_px);
+    json["layer_pixels"] = json_object("ground", layers.ground_px, "beside", layers.missed_px);
     json["times_s"]["layers"] = times.layers_s;
 }
 

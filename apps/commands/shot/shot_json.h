@@ -31,7 +31,7 @@ struct ShotTimes {
 // Of --layers.
 struct LayersReport {
     std::uint64_t ground_px{};
-    std::uint64_t beside_px{};  // whose rays pass beside what was drawn there
+    std::uint64_t missed_px{};  // whose rays pass beside what was drawn there
 };
 
 // What clusters take in memory, of a picture that is drawn by them.
@@ -62,7 +62,7 @@ struct ShotResult {
     std::optional<LayersReport> layers;
     std::optional<AccuracyChoice> choice;  // with --tolerance
     // How the pixels of a picture that is only drawn again and compared differ, where they can be read.
-    std::optional<PictureDifference> beside;
+    std::optional<PictureDifference> difference;
     bool same_bytes{};
     ShotTimes times;
     std::optional<MovedToSummit> on_summit;  // how the eye came to stand there, where that was asked for

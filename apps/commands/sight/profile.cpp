@@ -4,7 +4,7 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
-#include "apps/commands/sight/profile_files.h"
+#include "apps/commands/sight/profile_text.h"
 #include "apps/commands/sight/sight_ground.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/json_text.h"

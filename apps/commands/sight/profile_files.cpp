@@ -1,4 +1,4 @@
-#include "apps/commands/sight/profile_files.h"
+#include "apps/commands/sight/profile_text.h"
 
 #include <cmath>
 #include <cstdio>

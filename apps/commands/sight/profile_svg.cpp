@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "apps/commands/sight/profile_files.h"
+#include "apps/commands/sight/profile_text.h"
 #include "apps/report/figures.h"
 
 namespace oro {

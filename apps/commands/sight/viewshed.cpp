@@ -42,7 +42,7 @@ struct ViewshedReport {
     std::size_t grid{};  // whose posts the file has
     ViewshedWindow window;
     std::vector<float> clearance_deficit_m;  // of the eye that misses it least
-    std::vector<float> count;        // of eyes that see it
+    std::vector<float> count;                // of eyes that see it
     std::size_t cells{}, seen{}, asked{};
     double looking_s{};
 };
@@ -67,7 +67,7 @@ Result<void> check_words(const ViewshedOptions& options) {
 }
 
 // A window moved by whole turns so that its columns are nearest to those of another.
-ViewshedWindow beside(ViewshedWindow window, const ViewshedWindow& other, const PostGrid& grid) {
+ViewshedWindow turned_near(ViewshedWindow window, const ViewshedWindow& other, const PostGrid& grid) {
     if (!grid.wraps_longitude() || window.columns == 0) return window;
     const int turn = grid.columns() - 1;
     while (window.first_column - other.first_column > turn / 2) window.first_column -= turn;
@@ -93,7 +93,8 @@ Result<void> make_window(const ViewshedOptions& options, const SightGround& grou
     const PostGrid& grid = ground.ground().surface(report.grid).field().grid;
     for (const Geodetic& eye : report.eyes)
         report.window = around_both(
-            report.window, beside(window_around(grid, eye, report.radius_km * 1000.0), report.window, grid));
+            report.window,
+            turned_near(window_around(grid, eye, report.radius_km * 1000.0), report.window, grid));
     const double posts = static_cast<double>(report.window.rows) * report.window.columns;
     if (posts > most_posts)
         return refused("--radius", all_digits(report.radius_km),
@@ -109,7 +110,7 @@ Result<void> make_window(const ViewshedOptions& options, const SightGround& grou
 }
 
 void take_in(const Viewshed& shed, const PostGrid& grid, ViewshedReport& report) {
-    const ViewshedWindow window = beside(shed.window, report.window, grid);
+    const ViewshedWindow window = turned_near(shed.window, report.window, grid);
     for (int row = window.first_row; row < window.first_row + window.rows; ++row) {
         for (int column = window.first_column; column < window.first_column + window.columns; ++column) {
             const float missed_m = shed.clearance_deficit_m[window.number(row, column)];

@@ -17,7 +17,7 @@ using oro::test::Words;
 
 // Runs the program while a file is overwritten in place with its own bytes, again and again: nothing but its
 // time tells.
-Outcome run_beside_writer(const fs::path& file, const Words& words) {
+Outcome run_while_written(const fs::path& file, const Words& words) {
     const std::string session = R"(
         file=$1; shift
         cp "$file" "$file.copy"
@@ -39,7 +39,7 @@ TEST(RewrittenFiles, AreRefusedByEveryCommand) {
           Words{"viewshed", land, "--at", "36.53,-84.23", "--radius", "2", "--out", folder / "a.tif", "-q"},
           Words{"shot", land, "--style", "default", "--size", "64x48", "--out", folder / "a.png", "-q"}}) {
         SCOPED_TRACE(words[0]);
-        expect_refusal(run_beside_writer(land, words), failed, {land, "was changed while it was read"});
+        expect_refusal(run_while_written(land, words), failed, {land, "was changed while it was read"});
         EXPECT_EQ(names_in(folder), Words{"land.tif"});
     }
 }
@@ -52,7 +52,7 @@ TEST(RewrittenFiles, MayBeImagesAndNames) {
                                   R"({"type":"Point","coordinates":[-84.3,36.5]}})");
     for (const auto& [option, file] : {std::pair{"--drape", image}, std::pair{"--names", names}}) {
         SCOPED_TRACE(option);
-        expect_refusal(run_beside_writer(file, {"shot", bundled(), option, file, "--style", "default",
+        expect_refusal(run_while_written(file, {"shot", bundled(), option, file, "--style", "default",
                                                 "--size", "64x48", "--out", folder / "a.png", "-q"}),
                        failed, {file, "was changed while it was read"});
         EXPECT_EQ(names_in(folder), (Words{"image.tif", "names.geojson"}));

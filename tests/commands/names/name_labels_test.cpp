@@ -7,7 +7,7 @@
 #include <iostream>
 #include <random>
 
-#include "apps/names/name_masks.h"
+#include "apps/names/names_in_view.h"
 #include "apps/text/text_face.h"
 #include "core/base/elapsed.h"
 

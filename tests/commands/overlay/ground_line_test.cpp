@@ -1,5 +1,5 @@
 // Lines on the ground: on the surface all along, and on the picture where their places project.
-#include "apps/overlay/ground_line.h"
+#include "apps/overlay/seen_lines.h"
 #include "geo/opening/open_region.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,6 @@
 #include <random>
 
 #include "apps/overlay/line_masks.h"
-#include "apps/overlay/seen_lines.h"
 #include "core/base/parallel.h"
 #include "geo/region/region.h"
 #include "tests/support/test_data.h"
@@ -77,9 +76,9 @@ TEST(GroundLine, EndsWhereTheGroundEnds) {
     ASSERT_TRUE(across[1]);
     EXPECT_NEAR(across[1]->lon_deg, 7.0, 1e-9);
     EXPECT_NEAR(across[across.size() - 2]->lon_deg, 8.0, 1e-9);
-    const auto beside = followed(*alps->surface, {45.5, 7.0}, {45.6, 8.0});
-    ASSERT_EQ(beside.size(), 1U);
-    EXPECT_FALSE(beside.front());
+    const auto outside = followed(*alps->surface, {45.5, 7.0}, {45.6, 8.0});
+    ASSERT_EQ(outside.size(), 1U);
+    EXPECT_FALSE(outside.front());
 }
 
 VectorShape track_over_alps() {

@@ -1,5 +1,5 @@
 // Places of names in a row: literal ones, and against all others that there could be.
-#include "apps/panorama/name_slots.h"
+#include "apps/panorama/panorama_names.h"
 
 #include <gtest/gtest.h>
 

@@ -189,7 +189,7 @@ TEST_F(StreamedChoices, WhatIsHiddenComesLast) {
             return !at->second.first && at->second.second;
         };
         is_hidden = [&](std::uint32_t cluster) {
-            if (const auto reported = shown.find(cluster); reported != shown.end()) return !reported->second;
+            if (const auto seen = shown.find(cluster); seen != shown.end()) return !seen->second;
             const std::uint32_t user = graph_.clusters[cluster].used_by;
             return user != no_group && is_group_hidden(user);
         };

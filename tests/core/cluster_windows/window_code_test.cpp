@@ -1,5 +1,5 @@
 // What windows keep of a group comes back as it was, and damage does no harm.
-#include "core/cluster_windows/window_code.h"
+#include "core/cluster_windows/window_file.h"
 
 #include <random>
 

@@ -24,9 +24,10 @@ DrawnHeights part_of(const DrawnHeights& heights, int first_row, int first_colum
 }
 
 // Its triangles by places, in order, its error and its sphere's radius.
-using Reported = std::pair<std::vector<std::array<std::int32_t, 6>>, std::array<double, 2>>;
-Reported reported(const ClusterGraph& graph, const OriginalSurface& surface, const ClusterGroup& group) {
-    Reported all{{}, {group.error_m, group.radius_m}};
+using GroupContent = std::pair<std::vector<std::array<std::int32_t, 6>>, std::array<double, 2>>;
+GroupContent content_of(const ClusterGraph& graph, const OriginalSurface& surface,
+                        const ClusterGroup& group) {
+    GroupContent all{{}, {group.error_m, group.radius_m}};
     for (std::uint32_t i = group.first_made; i < group.first_made + group.made; ++i) {
         for (const VertexTriangle& triangle : graph.triangles_of(graph.clusters[i])) {
             const SurfaceVertex a = surface.vertex(triangle[0]), b = surface.vertex(triangle[1]),
@@ -46,16 +47,16 @@ std::pair<std::uint32_t, std::size_t> expect_groups_of(const ClusterTerrain& reg
         part_of(region.heights, window.first_row, window.first_column, rows, columns);
     const GridSurface surface(heights, window);
     const ClusterGraph graph = build_cluster_graph(surface, region.bounds, {.threads = 2});
-    std::set<std::pair<std::uint32_t, Reported>> groups;
+    std::set<std::pair<std::uint32_t, GroupContent>> groups;
     for (const ClusterGroup& group : region.graph.groups)
-        groups.insert({group.level, reported(region.graph, region.surface, group)});
+        groups.insert({group.level, content_of(region.graph, region.surface, group)});
     std::uint32_t levels = 0;
     std::size_t whole = 0;
     for (const ClusterGroup& group : graph.groups) {
         if (!group.complete) continue;
         ++whole;
         levels = std::max(levels, group.level);
-        EXPECT_TRUE(groups.contains({group.level, reported(graph, surface, group)}))
+        EXPECT_TRUE(groups.contains({group.level, content_of(graph, surface, group)}))
             << "level " << group.level;
     }
     return {levels, whole};
@@ -79,14 +80,14 @@ TEST(GraphWindow, AtTheRegionsOwnRimNothingIsOpen) {
 // Both halves, with what they share, have every group of the first levels between them.
 TEST(GraphWindow, OverlappingWindowsHaveAllOfTheFirstLevels) {
     const ClusterTerrain region(rough_field(47.0, 8.0, 420, 200));
-    std::map<std::uint32_t, std::set<Reported>> found;
+    std::map<std::uint32_t, std::set<GroupContent>> found;
     for (const GridWindow& window :
          {GridWindow{0, 0, false, false, true, false}, GridWindow{120, 0, true, false, false, false}}) {
         const DrawnHeights heights = part_of(region.heights, window.first_row, 0, 300, 200);
         const GridSurface surface(heights, window);
         const ClusterGraph graph = build_cluster_graph(surface, region.bounds);
         for (const ClusterGroup& group : graph.groups) {
-            if (group.complete) found[group.level].insert(reported(graph, surface, group));
+            if (group.complete) found[group.level].insert(content_of(graph, surface, group));
         }
     }
     for (const std::uint32_t level : {1U, 2U, 3U})

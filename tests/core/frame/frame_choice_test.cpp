@@ -71,7 +71,7 @@ std::set<Key> keys(const std::vector<PageIndex>& pages) {
 struct Compared {
     std::size_t nodes{};
     std::size_t stitched{};
-    std::size_t beside_hidden{};  // edges beside a page that the frame does not have
+    std::size_t next_to_hidden{};  // edges beside a page that the frame does not have
     std::size_t pages{};
     std::size_t pages_of_reference{};
 };
@@ -106,7 +106,7 @@ void expect_reference(const Region& region, const GridPlan& plan, const NodeSele
             ASSERT_EQ(node.edges & bit, 0U) << "is stitched to what is not coarser";
             ASSERT_FALSE(in_plan.contains(parent_page_beyond(region, node, edge)))
                 << node.level << ": " << node.row << " " << node.column << " edge " << edge;
-            ++compared.beside_hidden;
+            ++compared.next_to_hidden;
         }
         compared.stitched += node.edges != 0 ? 1 : 0;
         ++compared.nodes;
@@ -120,7 +120,7 @@ void expect_reference(const Region& region, const GridPlan& plan, const NodeSele
 void print(const char* what, unsigned seed, const Compared& compared) {
     std::printf(
         "%s, seed %u: %zu nodes (%zu stitched), %zu edges beside hidden pages; %zu pages, %zu by nodes\n",
-        what, seed, compared.nodes, compared.stitched, compared.beside_hidden, compared.pages,
+        what, seed, compared.nodes, compared.stitched, compared.next_to_hidden, compared.pages,
         compared.pages_of_reference);
 }
 
@@ -152,7 +152,7 @@ TEST(FrameChoice, DrawsTheNodesOfTheReference) {
     print("all", seed, unhidden);
     EXPECT_GT(compared.nodes, 10000U);
     EXPECT_GT(compared.stitched, 1000U);
-    EXPECT_EQ(unhidden.beside_hidden, 0U);
+    EXPECT_EQ(unhidden.next_to_hidden, 0U);
     EXPECT_GT(unhidden.stitched, 1000U);
 }
 
@@ -193,7 +193,7 @@ TEST(FrameChoice, MeetsItselfRoundTheEarth) {
     }
     print("round", seed, compared);
     EXPECT_GT(compared.stitched, 1000U);
-    EXPECT_EQ(compared.beside_hidden, 0U);
+    EXPECT_EQ(compared.next_to_hidden, 0U);
 }
 
 // A quarter that is good enough has no node that is not, whatever tau is.

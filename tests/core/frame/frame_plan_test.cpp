@@ -186,7 +186,7 @@ TEST(FramePlan, PagesKnowTheirParentsAndWhatLiesBesideThese) {
                    ? gpu::no_page
                    : static_cast<std::uint32_t>(found - plan.page_indices.begin());
     };
-    std::size_t with_beside = 0;
+    std::size_t with_neighbours = 0;
     for (std::size_t i = 0; i < plan.pages.size(); ++i) {
         const gpu::FramePage& page = plan.pages[i];
         const auto& [row, column, level] = plan.page_indices[i];
@@ -199,12 +199,12 @@ TEST(FramePlan, PagesKnowTheirParentsAndWhatLiesBesideThese) {
             const int r = row + steps[edge][0], c = column + steps[edge][1];
             const bool inside = r >= 0 && c >= 0 && r < layout.rows && c < layout.columns;
             const std::uint32_t expected = inside ? number_of({level + 1, r / 2, c / 2}) : gpu::no_page;
-            EXPECT_EQ(page.beside[edge], expected);
-            with_beside += expected != gpu::no_page ? 1 : 0;
+            EXPECT_EQ(page.neighbours[edge], expected);
+            with_neighbours += expected != gpu::no_page ? 1 : 0;
         }
         EXPECT_EQ(page.last_column, 15U);
     }
-    EXPECT_GT(with_beside, plan.pages.size());
+    EXPECT_GT(with_neighbours, plan.pages.size());
 }
 
 // Device addresses have two words.

@@ -74,17 +74,17 @@ TEST(VisibilityFeedback, ANodeShowsWithThoseAroundIt) {
         EXPECT_TRUE(seen.add(feedback));
         for (int r = 4; r < 7; ++r)
             for (int c = 4; c < 7; ++c) {
-                const bool beside = r * 16 <= 80 + row + 1 && r * 16 + 16 >= 80 + row &&
-                                    c * 16 <= 80 + column + 1 && c * 16 + 16 >= 80 + column;
-                EXPECT_EQ(seen.is_hidden({r, c, 1}), !beside)
+                const bool adjacent = r * 16 <= 80 + row + 1 && r * 16 + 16 >= 80 + row &&
+                                      c * 16 <= 80 + column + 1 && c * 16 + 16 >= 80 + column;
+                EXPECT_EQ(seen.is_hidden({r, c, 1}), !adjacent)
                     << "node " << row << ", " << column << " in " << r << ", " << c;
             }
         // Of the pages below those over it or beside it: each has 8 x 8 of these nodes.
         for (int r = 8; r < 14; ++r)
             for (int c = 8; c < 14; ++c) {
-                const bool beside = r * 8 <= 80 + row + 1 && r * 8 + 8 >= 80 + row &&
-                                    c * 8 <= 80 + column + 1 && c * 8 + 8 >= 80 + column;
-                EXPECT_EQ(seen.is_hidden({r, c, 0}), !beside) << r << ", " << c;
+                const bool adjacent = r * 8 <= 80 + row + 1 && r * 8 + 8 >= 80 + row &&
+                                      c * 8 <= 80 + column + 1 && c * 8 + 8 >= 80 + column;
+                EXPECT_EQ(seen.is_hidden({r, c, 0}), !adjacent) << r << ", " << c;
             }
         EXPECT_FALSE(seen.is_hidden({5 / 2, 5 / 2, 2}));
         EXPECT_FALSE(seen.is_hidden({0, 0, 4}));

@@ -73,9 +73,8 @@ inline std::vector<SunCrossing> scanned_crossings(const TrueSurface& surface, co
     std::vector<std::uint8_t> wanted(skyline_cells);
     for (int i = 0; i <= seconds; i += 4)
         for_columns(from_utc_s + i, eye, [&](double azimuth_deg, double airless_deg) {
-            for (int beside = -1; beside <= 1; ++beside) {
-                if (airless_deg < surely_free_deg + 1.0)
-                    wanted[skyline_cell(azimuth_deg + beside * 0.02)] = 1;
+            for (int step = -1; step <= 1; ++step) {
+                if (airless_deg < surely_free_deg + 1.0) wanted[skyline_cell(azimuth_deg + step * 0.02)] = 1;
             }
         });
     const std::vector<double> skyline = skyline_deg(surface, eye, air, wanted, threads);

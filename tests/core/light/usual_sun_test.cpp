@@ -2,11 +2,9 @@
 // the sky's turn, sin(elevation) = sin(lat) sin(decl) + cos(lat) cos(decl) cos(hour), tan(azimuth from south)
 // = sin(hour) / (cos(hour) sin(lat) - tan(decl) cos(lat)), with the hour 30 degrees before noon. Source: J.
 // Meeus, Astronomical Algorithms, 2nd ed. 1998, eq. 13.5 and 13.6. Tolerance: 0.06 degree, that of the hour.
-#include "core/light/usual_sun.h"
+#include "core/light/sun_position.h"
 
 #include <gtest/gtest.h>
-
-#include "core/light/sun_position.h"
 
 namespace oro {
 namespace {

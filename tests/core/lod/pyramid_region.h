@@ -68,12 +68,12 @@ inline Camera random_camera(std::mt19937_64& random, const Region& region) {
     const PostGrid& grid = region.field.grid;
     Camera camera;
     const double h_m = 2.0 * std::pow(2.5e5, unit(random));
-    const double beside_deg = random() % 3 == 0 ? 0.3 + 1.0e-5 * h_m : 0.0;
+    const double offset_deg = random() % 3 == 0 ? 0.3 + 1.0e-5 * h_m : 0.0;
     const double row = unit(random) * (grid.rows() - 1);
     const double column = unit(random) * (grid.columns() - 1);
     const PostPlace over = grid.place_at(row, column);
-    camera.eye.lat_deg = over.lat_deg + beside_deg * (2.0 * unit(random) - 1.0);
-    camera.eye.lon_deg = over.lon_deg + beside_deg * (2.0 * unit(random) - 1.0);
+    camera.eye.lat_deg = over.lat_deg + offset_deg * (2.0 * unit(random) - 1.0);
+    camera.eye.lon_deg = over.lon_deg + offset_deg * (2.0 * unit(random) - 1.0);
     const std::int32_t ground = region.heights.at(static_cast<int>(row), static_cast<int>(column));
     camera.eye.h_m = h_m + (ground == void_height_steps ? 0.0 : ground * height_step_m);
     camera.vertical_fov_deg = 10.0 + 80.0 * unit(random);

@@ -170,9 +170,9 @@ TEST(GroundMeter, TellsHowFarOffWhatIsBesideThePictureIs) {
     const GroundMeter meter(surface, sight, camera);
     const glm::dmat3 ecef_from_view = glm::transpose(camera.view_from_ecef());
     const glm::dvec3 ahead_m = ecef_from_view * glm::dvec3(0.0, 0.0, -100.0);
-    const auto beside = meter.apart(ahead_m, ecef_from_view * glm::dvec3(100.0, 0.0, -0.1));
-    EXPECT_NEAR(beside.px, 24000.0, 1.0e-3);
-    EXPECT_FALSE(beside.at_least);
+    const auto outside = meter.apart(ahead_m, ecef_from_view * glm::dvec3(100.0, 0.0, -0.1));
+    EXPECT_NEAR(outside.px, 24000.0, 1.0e-3);
+    EXPECT_FALSE(outside.at_least);
     const auto behind = meter.apart(ahead_m, ecef_from_view * glm::dvec3(1000.0, 0.0, 0.1));
     EXPECT_EQ(behind.px, 80.0);
     EXPECT_TRUE(behind.at_least);

@@ -42,8 +42,8 @@ TEST(NetViewshed, IsTheLookoutsTurnedOverTheAntimeridianAndAPole) {
         const PostPlace post = field.grid.place_at(200, 130);
         expect_observers(name, surface,
                          {eye_over(surface, post.lat_deg, post.lon_deg, 3.0), {0.13}, 0.0, 6e3, 2}, 10000);
-        const PostPlace beside = field.grid.place_at(-20.0, 100.0);
-        expect_observers(name, surface, {{beside.lat_deg, beside.lon_deg, 600.0}, {}, 0.0, 8e3, 2}, 5000);
+        const PostPlace outside = field.grid.place_at(-20.0, 100.0);
+        expect_observers(name, surface, {{outside.lat_deg, outside.lon_deg, 600.0}, {}, 0.0, 8e3, 2}, 5000);
     }
 }
 

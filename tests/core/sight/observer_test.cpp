@@ -82,9 +82,9 @@ void compare(Pairs& pairs, int count, Tally& tally) {
         if (sees || i % 8 != 0) continue;
         const auto by_m = observer.clearance_deficit_m(target);
         ASSERT_TRUE(by_m);
-        for (const double beside_m : {-0.02, 0.02}) {
-            const MarchedLine raised(pairs.field, place(eye), place(target, *by_m + beside_m), k);
-            tally.raised_wrong += (raised.least_clearance_m(2.0) > 0.0) != (beside_m > 0.0);
+        for (const double offset_m : {-0.02, 0.02}) {
+            const MarchedLine raised(pairs.field, place(eye), place(target, *by_m + offset_m), k);
+            tally.raised_wrong += (raised.least_clearance_m(2.0) > 0.0) != (offset_m > 0.0);
         }
     }
 }
@@ -131,9 +131,9 @@ TEST(Observer, WhatIsCloseByHidesByItsFullHeight) {
         ASSERT_TRUE(by_m);
         if (*by_m == 0.0) continue;
         ++hidden;
-        for (const double beside_m : {-0.005, 0.005}) {
-            const MarchedLine raised(field, place(eye), place(target, *by_m + beside_m), 0.13);
-            wrong += (raised.least_clearance_m(8.0) > 0.0) != (beside_m > 0.0);
+        for (const double offset_m : {-0.005, 0.005}) {
+            const MarchedLine raised(field, place(eye), place(target, *by_m + offset_m), 0.13);
+            wrong += (raised.least_clearance_m(8.0) > 0.0) != (offset_m > 0.0);
         }
     }
     std::printf("%d hidden, %d wrong\n", hidden, wrong);

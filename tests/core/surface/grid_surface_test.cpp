@@ -65,7 +65,7 @@ TEST(GridSurface, LinesAgainstSmallSteps) {
         };
         const SurfaceVertex a = post(), b = post();
         if (a.row == b.row && a.column == b.column) continue;
-        const double reported = terrain.surface.edge_difference(a, b, no_limit);
+        const double difference_m = terrain.surface.edge_difference(a, b, no_limit);
         double found = 0.0;
         constexpr int parts = 27720;  // of all numbers of crossings up to 12
         for (int j = 1; j < parts; j += i % 8 == 0 ? 1 : 11) {
@@ -76,12 +76,12 @@ TEST(GridSurface, LinesAgainstSmallSteps) {
             ASSERT_TRUE(original);
             found = std::max(found, std::abs(*original - line));
         }
-        EXPECT_LE(found, reported + 1.0e-6) << "seed 77, line " << i;
-        EXPECT_GE(found, reported * 0.98) << "seed 77, line " << i;
+        EXPECT_LE(found, difference_m + 1.0e-6) << "seed 77, line " << i;
+        EXPECT_GE(found, difference_m * 0.98) << "seed 77, line " << i;
         // The limit only ends it sooner.
-        const double limited = terrain.surface.edge_difference(a, b, 0.5 * reported);
-        EXPECT_LE(limited, reported);
-        EXPECT_GE(limited, 0.5 * reported);
+        const double limited = terrain.surface.edge_difference(a, b, 0.5 * difference_m);
+        EXPECT_LE(limited, difference_m);
+        EXPECT_GE(limited, 0.5 * difference_m);
     }
 }
 
@@ -110,9 +110,9 @@ TEST(GridSurface, TrianglesAgainstEveryPost) {
             with_edges = std::max(with_edges, off);
             if (of_a > 0 && of_b > 0 && of_c > 0) inner = std::max(inner, off);
         }
-        const double reported = terrain.surface.inner_difference(a, b, c, no_limit);
-        EXPECT_GE(reported, inner - 1.0e-6) << "seed 78, triangle " << i;
-        EXPECT_LE(reported, with_edges + 1.0e-6) << "seed 78, triangle " << i;
+        const double difference_m = terrain.surface.inner_difference(a, b, c, no_limit);
+        EXPECT_GE(difference_m, inner - 1.0e-6) << "seed 78, triangle " << i;
+        EXPECT_LE(difference_m, with_edges + 1.0e-6) << "seed 78, triangle " << i;
     }
     EXPECT_GT(asked, 1000);
 }

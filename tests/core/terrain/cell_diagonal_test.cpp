@@ -61,9 +61,9 @@ TEST(CellDiagonal, FallsWhereBothAreAsNearAndBesideVoids) {
         ridge.H_m[post] = void_height_m;
         EXPECT_EQ(cell_diagonal(ridge, 1, 1), Diagonal::nw_se) << post;
         ridge.H_m[post] = 0.0F;
-        std::vector<char> left_out(16, 0);
-        left_out[post] = 1;
-        EXPECT_EQ(cell_diagonal(ridge, 1, 1, &left_out), Diagonal::nw_se) << post;
+        std::vector<char> masked(16, 0);
+        masked[post] = 1;
+        EXPECT_EQ(cell_diagonal(ridge, 1, 1, &masked), Diagonal::nw_se) << post;
     }
 }
 

@@ -28,7 +28,7 @@ std::unique_ptr<gpu::PageBlock> block_of(const HeightField& field) {
     return block;
 }
 
-gpu::uint reported(const gpu::PageBlock& block, int row, int column) {
+gpu::uint halves_of(const gpu::PageBlock& block, int row, int column) {
     return block.boxes[row * page_meshlets + column] >> gpu::halves_bit;
 }
 
@@ -43,10 +43,10 @@ TEST(HalvesOfAPage, EndWithTheRegion) {
             const auto block = block_of(hills(8 + rows + 1, 8 + columns + 1));
             const gpu::uint by_columns = columns <= 4 ? gpu::first_columns : gpu::both_halves;
             const gpu::uint by_rows = rows <= 4 ? gpu::first_rows : gpu::both_halves;
-            EXPECT_EQ(reported(*block, 0, 0), gpu::both_halves) << rows << " x " << columns;
-            EXPECT_EQ(reported(*block, 1, 0), by_rows) << rows << " x " << columns;
-            EXPECT_EQ(reported(*block, 0, 1), by_columns) << rows << " x " << columns;
-            EXPECT_EQ(reported(*block, 1, 1), rows <= 4 ? by_rows : by_columns) << rows << " x " << columns;
+            EXPECT_EQ(halves_of(*block, 0, 0), gpu::both_halves) << rows << " x " << columns;
+            EXPECT_EQ(halves_of(*block, 1, 0), by_rows) << rows << " x " << columns;
+            EXPECT_EQ(halves_of(*block, 0, 1), by_columns) << rows << " x " << columns;
+            EXPECT_EQ(halves_of(*block, 1, 1), rows <= 4 ? by_rows : by_columns) << rows << " x " << columns;
         }
     }
 }
@@ -64,11 +64,11 @@ TEST(HalvesOfAPage, EndWithTheData) {
         }
         const auto of_north = block_of(north), of_south = block_of(south), of_east = block_of(east);
         // A row of posts that is left has no triangle.
-        EXPECT_EQ(reported(*of_north, 1, 3), line >= 12 && line < 16 ? gpu::last_rows : gpu::both_halves)
+        EXPECT_EQ(halves_of(*of_north, 1, 3), line >= 12 && line < 16 ? gpu::last_rows : gpu::both_halves)
             << line;
         if (line < 9) continue;
-        EXPECT_EQ(reported(*of_south, 1, 3), line <= 12 ? gpu::first_rows : gpu::both_halves) << line;
-        EXPECT_EQ(reported(*of_east, 3, 1), line <= 12 ? gpu::first_columns : gpu::both_halves) << line;
+        EXPECT_EQ(halves_of(*of_south, 1, 3), line <= 12 ? gpu::first_rows : gpu::both_halves) << line;
+        EXPECT_EQ(halves_of(*of_east, 3, 1), line <= 12 ? gpu::first_columns : gpu::both_halves) << line;
     }
 }
 

@@ -133,8 +133,8 @@ Post random_post(std::mt19937_64& random) {
 
 // Somewhere in any direction from a post, in whatever longitude it is written; nothing where no eye is asked
 // for.
-std::optional<Geodetic> eye_beside(const glm::dvec3& post_m, double distance_m, double highest_m,
-                                   std::mt19937_64& random) {
+std::optional<Geodetic> eye_near(const glm::dvec3& post_m, double distance_m, double highest_m,
+                                 std::mt19937_64& random) {
     std::normal_distribution<double> normal;
     const glm::dvec3 any(normal(random), normal(random), normal(random));
     Geodetic eye = geodetic_from_ecef(Ecef{post_m + any / glm::length(any) * distance_m});
@@ -153,13 +153,13 @@ struct Worst {
 void place_posts_nearby(const Page& page, double reach_m, std::mt19937_64& random, Worst& worst) {
     std::uniform_real_distribution<double> unit(0.0, 1.0);
     for (int i = 0; i < 40; ++i) {
-        const Post beside = random_post(random);
-        const std::optional<Geodetic> eye = eye_beside(page.truth_m(beside.row, beside.column),
-                                                       reach_m * unit(random), highest_eye_m, random);
+        const Post near = random_post(random);
+        const std::optional<Geodetic> eye =
+            eye_near(page.truth_m(near.row, near.column), reach_m * unit(random), highest_eye_m, random);
         if (!eye) continue;
         const Frame frame(page, *eye);
         for (int j = 0; j < 200; ++j) {
-            const Post post = j == 0 ? beside : random_post(random);
+            const Post post = j == 0 ? near : random_post(random);
             if (frame.distance_m(post.row, post.column) > reach_m) continue;
             worst.error_m = std::max(worst.error_m, frame.error_m(post.row, post.column));
             ++worst.posts;
@@ -243,15 +243,15 @@ TEST(Placement, FromAfarTheErrorIsAShareOfTheDistance) {
             const double lat_deg = i % 10 == 0 ? 89.999 : 179.0 * unit(random) - 89.0;
             const Page page = random_ground(lat_deg, 4000.0, random);
             for (int j = 0; j < 20; ++j) {
-                const Post beside = random_post(random);
+                const Post near = random_post(random);
                 const double distance_m =
                     bands_m[band] * std::pow(bands_m[band + 1] / bands_m[band], unit(random));
                 const std::optional<Geodetic> eye =
-                    eye_beside(page.truth_m(beside.row, beside.column), distance_m, 4.0e8, random);
+                    eye_near(page.truth_m(near.row, near.column), distance_m, 4.0e8, random);
                 if (!eye) continue;
                 const Frame frame(page, *eye);
                 for (int k = 0; k < 20; ++k) {
-                    const Post post = k == 0 ? beside : random_post(random);
+                    const Post post = k == 0 ? near : random_post(random);
                     const double error_m = frame.error_m(post.row, post.column);
                     worst = std::max(worst,
                                      (error_m - placement_near_m) / frame.distance_m(post.row, post.column));

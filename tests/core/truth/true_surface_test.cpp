@@ -111,11 +111,11 @@ TEST(TrueSurface, VoidPostsTakeTheirTrianglesAlone) {
     EXPECT_NEAR(*surface.h_m(1.5, 10.5), 20.0, 1e-9);
     // An end of the diagonal void: nothing is left of the cell; the edge that a neighbour has stays.
     const HeightField wide = field_of(2, 3, {none, 20, 30, 10, 40, 50});
-    const TrueSurface beside(wide, 1.0, 1);
-    EXPECT_FALSE(beside.h_m(1.75, 10.75));
-    EXPECT_FALSE(beside.h_m(1.25, 10.25));
-    EXPECT_NEAR(*beside.h_m(1.5, 11.0), 30.0, 1e-9);
-    EXPECT_NEAR(*beside.h_m(1.25, 11.25), 20.0 + 0.75 * 20.0 + 0.25 * 10.0, 1e-9);
+    const TrueSurface neighbour(wide, 1.0, 1);
+    EXPECT_FALSE(neighbour.h_m(1.75, 10.75));
+    EXPECT_FALSE(neighbour.h_m(1.25, 10.25));
+    EXPECT_NEAR(*neighbour.h_m(1.5, 11.0), 30.0, 1e-9);
+    EXPECT_NEAR(*neighbour.h_m(1.25, 11.25), 20.0 + 0.75 * 20.0 + 0.25 * 10.0, 1e-9);
 }
 
 TEST(TrueSurface, EndsAtItsRim) {

@@ -50,8 +50,8 @@ TEST(ViewSamples, GroundInAStripBetweenPixelsIsThere) {
         const auto far = [](const ViewSample& sample) { return sample.distance_m > far_m; };
         const auto found = std::find_if(samples.begin(), samples.end(), far);
         ASSERT_NE(found, samples.end()) << "pitch " << pitch_deg;
-        EXPECT_GT(found->beside_px, 0.0);
-        EXPECT_LE(found->beside_px, behind_edges_px);
+        EXPECT_GT(found->from_seen_px, 0.0);
+        EXPECT_LE(found->from_seen_px, behind_edges_px);
         EXPECT_FALSE(found->even);
     }
     EXPECT_GE(hidden, 3);
@@ -70,7 +70,8 @@ TEST(ViewSamples, GroundWellBehindAnEdgeIsNot) {
     for (const ViewSample& sample : samples) EXPECT_LT(sample.distance_m, 2500.0);
 }
 
-// From 20 km over a plane a pixel that looks 0.25 degrees down sees ground at 20 km / tan(0.25 deg) = 4,584 km.
+// From 20 km over a plane a pixel that looks 0.25 degrees down sees ground at 20 km / tan(0.25 deg) = 4,584
+// km.
 TEST(ViewSamples, APlaneHasNoHorizon) {
     const HeightField field = test::made_field(10.0, -5.0, 1.0, 21, 71, [](double, double) { return 0.0F; });
     const TrueSurface surface(field, 1.0, thread_count());
@@ -81,7 +82,7 @@ TEST(ViewSamples, APlaneHasNoHorizon) {
     double farthest_m = 0.0;
     for (const ViewSample& sample :
          view_samples(surface, sight_of(plane, camera.eye), camera, thread_count()))
-        if (sample.beside_px == 0.0) farthest_m = std::max(farthest_m, sample.distance_m);
+        if (sample.from_seen_px == 0.0) farthest_m = std::max(farthest_m, sample.distance_m);
     EXPECT_GT(farthest_m, 4.5e6);
 }
 

@@ -26,9 +26,9 @@ First walked(const Land& land, const Camera& camera, const Sight& sight, glm::dv
     double t_m = 0.0;
     const double radius_m = wgs84_a_m + ceiling_h_m + 1000.0;
     const double along = glm::dot(sight.eye.m, direction);
-    const double beside = glm::dot(sight.eye.m, sight.eye.m) - radius_m * radius_m;
-    if (beside > 0.0 && sight.refraction.straight()) {
-        const double root = along * along - beside;
+    const double below_eye = glm::dot(sight.eye.m, sight.eye.m) - radius_m * radius_m;
+    if (below_eye > 0.0 && sight.refraction.straight()) {
+        const double root = along * along - below_eye;
         if (root < 0.0 || along > 0.0) return First::neither;
         t_m = -along - std::sqrt(root);
     }

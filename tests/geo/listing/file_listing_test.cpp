@@ -107,7 +107,7 @@ TEST_F(Listing, TellsOfEveryFileWhateverCanBeOpenedTogether) {
     EXPECT_EQ(file_named(listing, "b_swiss.tif").report->crs, "EPSG:2056 CH1903+ / LV95");
     for (const auto& [name, reason, damaged] : {std::tuple{"c_nowhere.tif", "--source-crs EPSG:CODE", false},
                                                 {"d_image.tif", "3 bands", false},
-                                                {"f_broken.tif", "no raster that GDAL can open", true},
+                                                {"f_broken.tif", "cannot be opened as a raster", true},
                                                 {"N46E008.hgt", "has 5 bytes", true},
                                                 {"g_link.tif", "symbolic link to nothing", true}}) {
         const ListedFile& file = file_named(listing, name);

@@ -66,8 +66,8 @@ PictureDifference between(const std::string& file, const Image& image) {
 TEST(PictureDifference, NoneBetweenADrawingAndItsFile) {
     const fs::path folder = test::scratch_folder();
     const Image image = drawn();
-    PixelPrint print(width, height);
-    print.add(image);
+    PixelFingerprint fingerprint(width, height);
+    fingerprint.add(image);
     for (const char* name : {"a.png", "a.tif", "a.jpg"}) {
         SCOPED_TRACE(name);
         const std::string file = written(folder / name, image);
@@ -75,13 +75,13 @@ TEST(PictureDifference, NoneBetweenADrawingAndItsFile) {
         EXPECT_EQ(found.pixels, 24000U);
         EXPECT_EQ(found.any.count, 0U);
         EXPECT_EQ(found.largest, 0);
-        EXPECT_EQ(found.drawn_print, print.print());
-        const auto of_file = print_of_pixels(file, width, height);
+        EXPECT_EQ(found.drawn_fingerprint, fingerprint.value());
+        const auto of_file = fingerprint_of_pixels(file, width, height);
         ASSERT_TRUE(of_file.ok()) << of_file.error().line();
         EXPECT_EQ(found.lossy, std::string(name) == "a.jpg");
-        EXPECT_EQ(found.file_print, *of_file);
+        EXPECT_EQ(found.file_fingerprint, *of_file);
         if (!found.lossy) {
-            EXPECT_EQ(*of_file, print.print()) << "the same in each format that keeps pixels";
+            EXPECT_EQ(*of_file, fingerprint.value()) << "the same in each format that keeps pixels";
         }
     }
 }
@@ -145,7 +145,7 @@ TEST(PictureDifference, AnotherSizeAndHalfFilesAreErrors) {
             std::fwrite(bytes.data(), 1, static_cast<std::size_t>(share * static_cast<double>(bytes.size())),
                         out);
             std::fclose(out);
-            const auto print = print_of_pixels(half, width, height);
+            const auto fingerprint = fingerprint_of_pixels(half, width, height);
             auto comparison = PictureComparison::open(half, width, height, slack);
             bool refused = !comparison.ok();
             for (std::size_t y = 0; y < height && !refused; ++y)

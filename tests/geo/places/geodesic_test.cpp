@@ -29,9 +29,9 @@ TEST(Geodesic, TenThousandPairsAreTheExactSolutions) {
         const GeodesicPath path = geodesic_between(from_lat, from_lon, to_lat, to_lon);
         if (truth_m > 0.01) worst = std::max(worst, (std::abs(path.distance_m - truth_m) - 2.0e-8) / truth_m);
         const LatLon there = geodesic_towards(from_lat, from_lon, path.bearing_deg, path.distance_m);
-        double beside_m = 0.0;
-        GeographicLib::GeodesicExact::WGS84().Inverse(there.lat_deg, there.lon_deg, to_lat, to_lon, beside_m);
-        worst_there_m = std::max(worst_there_m, beside_m);
+        double off_m = 0.0;
+        GeographicLib::GeodesicExact::WGS84().Inverse(there.lat_deg, there.lon_deg, to_lat, to_lon, off_m);
+        worst_there_m = std::max(worst_there_m, off_m);
     }
     std::printf("distances off by %.2e of them at most (but for 20 nm); ends by %.2e m\n", worst,
                 worst_there_m);

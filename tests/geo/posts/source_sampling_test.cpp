@@ -6,7 +6,6 @@
 #include <numbers>
 #include <random>
 
-#include "geo/posts/source_cubic.h"
 #include "tests/geo/written_terrain.h"
 #include "tests/support/test_data.h"
 

@@ -20,59 +20,61 @@ double hill(int row, int column) {
     return 300 + row * 7 % 400 + column * 5 % 300;
 }
 
-struct Reported {
+struct PostFingerprints {
     std::uint64_t source{}, region{}, geoid{};
-    bool operator==(const Reported&) const = default;
+    bool operator==(const PostFingerprints&) const = default;
 };
 
-Reported reported_of(const RegionRequest& request) {
+PostFingerprints post_fingerprints(const RegionRequest& request) {
     std::string reason;
     const auto region = opened(request, &reason);
     EXPECT_TRUE(region) << reason;
     if (!region) return {};
     EXPECT_EQ(region->posts_hash, posts_hash(region->field));
     EXPECT_EQ(region->sources.size(), 1U);
-    return {region->sources[0].posts_hash.value_or(0), region->posts_hash.value_or(0), region->geoid_print};
+    return {region->sources[0].posts_hash.value_or(0), region->posts_hash, region->geoid_fingerprint};
 }
 
 TEST(RegionFingerprints, AreThoseOfThePostsInEachContainer) {
     const fs::path folder = test::scratch_folder();
     fs::create_directory(folder / "zip");
     const std::string tile = test::write_hgt(folder / "N46E008.hgt", 1201, hill);
-    const Reported reported = reported_of(request_for({tile}));
-    EXPECT_NE(reported.source, 0U);
+    const PostFingerprints usual = post_fingerprints(request_for({tile}));
+    EXPECT_NE(usual.source, 0U);
     const std::string packed = (folder / "zip" / "any.zip").string();
     ASSERT_NE(test::write_bytes("/vsizip/" + packed + "/N46E008.hgt", test::hgt_bytes(1201, hill)), "");
-    EXPECT_EQ(reported_of(request_for({packed})), reported) << "a .zip";
+    EXPECT_EQ(post_fingerprints(request_for({packed})), usual) << "a .zip";
     test::Raster raster;
     raster.rows = raster.columns = 1201;
     raster.cell_corners = test::posts_from(8.0, 47.0, 1200);
     for (const GDALDataType type : {GDT_Int16, GDT_Int32, GDT_Float32, GDT_Float64}) {
         raster.type = type;
-        EXPECT_EQ(reported_of(request_for({test::write_raster(folder / "other.tif", raster, hill)})),
-                  reported)
+        EXPECT_EQ(post_fingerprints(request_for({test::write_raster(folder / "other.tif", raster, hill)})),
+                  usual)
             << type;
     }
     raster.points = true;
-    EXPECT_EQ(reported_of(request_for({test::write_raster(folder / "points.tif", raster, hill)})), reported);
+    EXPECT_EQ(post_fingerprints(request_for({test::write_raster(folder / "points.tif", raster, hill)})),
+              usual);
 }
 
 TEST(RegionFingerprints, AreOthersForOtherPosts) {
     const fs::path folder = test::scratch_folder();
-    const auto print = [&](const char* name, const test::HeightOfPost& height) {
-        return reported_of(request_for({test::write_hgt(folder / name, 1201, height)}));
+    const auto fingerprint = [&](const char* name, const test::HeightOfPost& height) {
+        return post_fingerprints(request_for({test::write_hgt(folder / name, 1201, height)}));
     };
-    const Reported reported = print("N46E008.hgt", hill);
-    const Reported raised =
-        print("N46E008.hgt", [](int r, int c) { return hill(r, c) + (r == 600 && c == 3); });
-    EXPECT_NE(raised.source, reported.source);
-    EXPECT_NE(raised.region, reported.region);
-    EXPECT_EQ(raised.geoid, reported.geoid) << "the same place has the same N";
-    const Reported beside = print("N46E009.hgt", hill);
-    EXPECT_NE(beside.source, reported.source) << "the same heights elsewhere";
-    EXPECT_NE(beside.geoid, reported.geoid);
-    const Reported voids = print("N46E008.hgt", [](int r, int c) { return r == 5 ? -32768 : hill(r, c); });
-    EXPECT_NE(voids.source, reported.source);
+    const PostFingerprints usual = fingerprint("N46E008.hgt", hill);
+    const PostFingerprints raised =
+        fingerprint("N46E008.hgt", [](int r, int c) { return hill(r, c) + (r == 600 && c == 3); });
+    EXPECT_NE(raised.source, usual.source);
+    EXPECT_NE(raised.region, usual.region);
+    EXPECT_EQ(raised.geoid, usual.geoid) << "the same place has the same N";
+    const PostFingerprints elsewhere = fingerprint("N46E009.hgt", hill);
+    EXPECT_NE(elsewhere.source, usual.source) << "the same heights elsewhere";
+    EXPECT_NE(elsewhere.geoid, usual.geoid);
+    const PostFingerprints voids =
+        fingerprint("N46E008.hgt", [](int r, int c) { return r == 5 ? -32768 : hill(r, c); });
+    EXPECT_NE(voids.source, usual.source);
 }
 
 // Two neighbours: what one brings does not depend on the other.
@@ -83,21 +85,21 @@ TEST(RegionFingerprints, OfOneSourceAreItsOwn) {
     const auto both = opened(request_for({west, east}));
     ASSERT_TRUE(both);
     ASSERT_EQ(both->sources.size(), 2U);
-    EXPECT_EQ(both->sources[0].posts_hash, reported_of(request_for({west})).source);
-    EXPECT_EQ(both->sources[1].posts_hash, reported_of(request_for({east})).source);
+    EXPECT_EQ(both->sources[0].posts_hash, post_fingerprints(request_for({west})).source);
+    EXPECT_EQ(both->sources[1].posts_hash, post_fingerprints(request_for({east})).source);
 }
 
 TEST(RegionFingerprints, OfABoxAreThoseOfItsPosts) {
     const fs::path folder = test::scratch_folder();
     RegionRequest request = request_for({test::write_hgt(folder / "N46E008.hgt", 1201, hill)});
-    const Reported whole = reported_of(request);
+    const PostFingerprints whole = post_fingerprints(request);
     request.box = BoundingBox{8.2, 46.2, 8.4, 46.4};
-    const Reported part = reported_of(request);
+    const PostFingerprints part = post_fingerprints(request);
     EXPECT_NE(part.region, whole.region);
     // What lies outside the box is another, what lies in it is not.
     const auto outside = [](int r, int c) { return r < 100 ? 7.0 : hill(r, c); };
     request.paths = {test::write_hgt(folder / "N46E008.hgt", 1201, outside)};
-    EXPECT_EQ(reported_of(request), part);
+    EXPECT_EQ(post_fingerprints(request), part);
 }
 
 // What it costs: nothing that is felt beside reading a tile.
@@ -110,11 +112,11 @@ TEST(RegionFingerprints, CostLittle) {
     double best_ms = 1e9;
     for (int i = 0; i < 20; ++i) {
         const auto start = std::chrono::steady_clock::now();
-        SourcePrint print;
-        print.begin(field.grid, 0, 0, 1201, 1201);
+        SourceFingerprint fingerprint;
+        fingerprint.begin(field.grid, 0, 0, 1201, 1201);
         for (std::size_t row = 0; row < 1201; ++row)
-            print.add(std::span(field.H_m).subspan(row * 1201, 1201));
-        const std::uint64_t sum = print.print() + posts_hash(field);
+            fingerprint.add(std::span(field.H_m).subspan(row * 1201, 1201));
+        const std::uint64_t sum = fingerprint.value() + posts_hash(field);
         EXPECT_NE(sum, 0U);
         best_ms = std::min(
             best_ms,

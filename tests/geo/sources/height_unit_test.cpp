@@ -144,9 +144,9 @@ TEST(HeightUnit, AnUnknownOneNamesTheOption) {
         {write_bytes((folder / "keys.tif").string(), tiff_with_vertical_unit(false, true, 9102, 1000))}));
     ASSERT_FALSE(keys.ok());  // 9102 is the degree
     EXPECT_NE(keys.error().line().find("--height-unit"), std::string::npos) << keys.error().line();
-    RegionRequest reported = request_for({file});
-    reported.height_unit = "ft";
-    EXPECT_TRUE(opened(reported));
+    RegionRequest with_unit = request_for({file});
+    with_unit.height_unit = "ft";
+    EXPECT_TRUE(opened(with_unit));
 }
 
 // International foot 0.3048 m, US survey foot 1200/3937 m: NIST Special Publication 811, B.6.
@@ -178,9 +178,9 @@ TEST(HeightUnit, ZunitsThatAreNoUnitAreRefused) {
                                     "no known unit of height; --height-unit m, ft, us-ft"),
         std::string::npos)
         << refused.error().line();
-    RegionRequest reported = request_for({file});
-    reported.height_unit = "m";
-    EXPECT_TRUE(opened(reported));
+    RegionRequest with_unit = request_for({file});
+    with_unit.height_unit = "m";
+    EXPECT_TRUE(opened(with_unit));
 }
 
 TEST(HeightUnit, ZunitsOfOldPrjFiles) {
@@ -237,10 +237,10 @@ TEST(HeightUnit, AssumedMetresBesideACrsInFeetAreTold) {
         "a.tif and 1 more file: its coordinate reference system counts in US survey foot, and nothing says "
         "what its heights count in; metres are assumed (--height-unit us-ft tells it otherwise)");
     request.height_unit = "us-ft";
-    const auto reported = opened(request);
-    ASSERT_TRUE(reported);
-    EXPECT_TRUE(about_unit(*reported).empty());
-    EXPECT_NEAR(static_cast<double>(reported->field.H_at_post_m(0, 0)), 304.8006096, 1e-4);
+    const auto region = opened(request);
+    ASSERT_TRUE(region);
+    EXPECT_TRUE(about_unit(*region).empty());
+    EXPECT_NEAR(static_cast<double>(region->field.H_at_post_m(0, 0)), 304.8006096, 1e-4);
     request.height_unit = "";
     raster.unit = "US survey foot";
     request.paths = {write_raster(folder / "c.tif", raster, slope_m)};

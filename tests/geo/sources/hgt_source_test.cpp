@@ -111,9 +111,10 @@ TEST(Hgt, SeveralTilesInOneZipAndMixedPaths) {
     write_bytes(zip + "/a/n10e021.hgt", hgt_bytes(1201, [](int, int c) { return 1200 + c; }));
     write_bytes(zip + "/notes.txt", {'x'});
     VSIFCloseL(keep_open);
-    const std::string beside = write_hgt(folder / "N10E022.hgt", 1201, [](int, int c) { return 2400 + c; });
+    const std::string neighbour =
+        write_hgt(folder / "N10E022.hgt", 1201, [](int, int c) { return 2400 + c; });
     std::string reason;
-    const auto region = opened(request_for({(folder / "tiles.zip").string(), beside}), &reason);
+    const auto region = opened(request_for({(folder / "tiles.zip").string(), neighbour}), &reason);
     ASSERT_TRUE(region) << reason;
     EXPECT_EQ(region->sources.size(), 3U);
     EXPECT_EQ(region->field.grid.columns(), 3601);

@@ -1,4 +1,4 @@
-#include "geo/sources/place_doubts.h"
+#include "geo/sources/raster_place.h"
 
 #include <gtest/gtest.h>
 

@@ -135,10 +135,10 @@ TEST(Raster, AreaAndPointAgreeToTheHalfPost) {
 
 TEST(Raster, UnitsScaleAndOffset) {
     const fs::path folder = scratch_folder();
-    const auto highest = [&](const std::string& name, const Raster& raster, const std::string& reported) {
+    const auto highest = [&](const std::string& name, const Raster& raster, const std::string& height_unit) {
         RegionRequest request =
             request_for({write_raster(folder / name, raster, [](int, int) { return 1000.0; })});
-        request.height_unit = reported;
+        request.height_unit = height_unit;
         std::string reason;
         const auto region = opened(request, &reason);
         EXPECT_TRUE(region) << reason;

@@ -23,7 +23,7 @@ TEST(Raster, RealCollection) {
     if (!folder) GTEST_SKIP() << "needs geotiff";
     struct Case {
         const char* file;
-        const char* reported;
+        const char* height_unit;
         double lowest, highest, tolerance;  // of the data's README, after units; resampling moves extremes
     };
     for (const Case& c :
@@ -43,7 +43,7 @@ TEST(Raster, RealCollection) {
           Case{"N46E008_EPSG2056_f32_cog.tif", "", 431, 4107.9, 25},
           Case{"N46E008_EPSG21781_i16_rotated_nodata_edges.tif", "", 190, 4114, 25}}) {
         RegionRequest request = request_for({(*folder / c.file).string()});
-        request.height_unit = c.reported;
+        request.height_unit = c.height_unit;
         std::string reason;
         const auto region = opened(request, &reason);
         ASSERT_TRUE(region) << c.file << ": " << reason;

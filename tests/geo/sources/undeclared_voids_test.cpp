@@ -40,7 +40,7 @@ TEST(UndeclaredVoids, EverySpellingIsVoidAndTold) {
     struct Spelling {
         GDALDataType type;
         double value;
-        const char* reported;
+        const char* value_text;
     };
     int number = 0;
     for (const Spelling& one : {Spelling{GDT_Float32, -9999.0, "-9999"},
@@ -67,14 +67,14 @@ TEST(UndeclaredVoids, EverySpellingIsVoidAndTold) {
                          [&](int r, int c) { return is_in_hole(r, c) ? one.value : hills_m(r, c); });
         std::string reason;
         const auto region = opened(request_for({file}), &reason);
-        ASSERT_TRUE(region) << one.reported << ": " << reason;
-        EXPECT_EQ(region->voids, 36U) << one.reported;
-        EXPECT_GE(height_range(region->field).lowest_m, 200.0F) << one.reported;
-        EXPECT_LE(height_range(region->field).highest_m, 700.0F) << one.reported;
-        EXPECT_EQ(notes_with(region->notes, std::string(": 36 posts hold ") + one.reported +
+        ASSERT_TRUE(region) << one.value_text << ": " << reason;
+        EXPECT_EQ(region->voids, 36U) << one.value_text;
+        EXPECT_GE(height_range(region->field).lowest_m, 200.0F) << one.value_text;
+        EXPECT_LE(height_range(region->field).highest_m, 700.0F) << one.value_text;
+        EXPECT_EQ(notes_with(region->notes, std::string(": 36 posts hold ") + one.value_text +
                                                 ", which no tag declares as no data; they are taken as void"),
                   1U)
-            << one.reported << ": " << (region->notes.empty() ? "no note" : region->notes[0]);
+            << one.value_text << ": " << (region->notes.empty() ? "no note" : region->notes[0]);
     }
 }
 

@@ -16,9 +16,9 @@ TEST(BakedGrid, IsTakenWhereItIsWhatIsToBeBaked) {
     how.fingerprint = 5;
     how.description = "{}";
     ASSERT_TRUE(bake_region(test::rough_field(47.0, 8.0, 40, 50), how).ok());
-    EXPECT_TRUE(is_baked_grid(how.path, 5, "{}"));
-    EXPECT_FALSE(is_baked_grid(how.path, 6, "{}"));
-    EXPECT_FALSE(is_baked_grid(how.path, 5, ""));
+    EXPECT_TRUE(baked_grid(how.path, 5, "{}"));
+    EXPECT_FALSE(baked_grid(how.path, 6, "{}"));
+    EXPECT_FALSE(baked_grid(how.path, 5, ""));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 namespace oro {
 namespace {
 
-const std::vector<char>* left_out_of(const RegionCuts& cuts, std::size_t grid) {
+const std::vector<char>* masked_in(const RegionCuts& cuts, std::size_t grid) {
     return cuts.grids[grid].masked_posts.empty() ? nullptr : &cuts.grids[grid].masked_posts;
 }
 
@@ -25,7 +25,7 @@ std::optional<double> H_below_m(const std::vector<RegionGrid>& grids, const Regi
                                 std::size_t number, const PostPlace& at) {
     std::optional<double> H_m;
     for (std::size_t below = number; below-- > 0 && !H_m;)
-        H_m = grids[below].field.surface_H_m(at.lat_deg, at.lon_deg, left_out_of(cuts, below));
+        H_m = grids[below].field.surface_H_m(at.lat_deg, at.lon_deg, masked_in(cuts, below));
     return H_m;
 }
 

@@ -217,12 +217,12 @@ void Scene::expect_no_gap() const {
 
 // H of a surface at a place that may be on its rim: at the nearest of some places around that has one. 1e-5
 // posts are at most 15 mm of these waves.
-double H_near(const HeightField& field, double x, double y, const std::vector<char>* left_out = nullptr) {
+double H_near(const HeightField& field, double x, double y, const std::vector<char>* masked = nullptr) {
     for (int i = 0; i < 16; ++i) {
         const double angle = i * std::numbers::pi / 8.0 + 0.1;
         const PostPlace place =
             field.grid.place_at(y + 1.0e-5 * std::sin(angle), x + 1.0e-5 * std::cos(angle));
-        if (const auto H_m = field.surface_H_m(place.lat_deg, place.lon_deg, left_out)) return *H_m;
+        if (const auto H_m = field.surface_H_m(place.lat_deg, place.lon_deg, masked)) return *H_m;
     }
     return std::nan("");
 }

@@ -32,10 +32,10 @@ std::string wkt(const char* crs) {
     EXPECT_EQ(OSRSetFromUserInput(reference, crs), OGRERR_NONE);
     char* text = nullptr;
     OSRExportToWkt(reference, &text);
-    const std::string reported = text;
+    std::string exported = text;
     CPLFree(text);
     OSRDestroySpatialReference(reference);
-    return reported;
+    return exported;
 }
 
 // 100 x 100 posts of LV95, from so many metres east and south of a place in N46E008.

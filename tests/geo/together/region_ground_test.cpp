@@ -158,7 +158,7 @@ TEST(RegionGround, ProfilesFollowTheGridThatIsTheGround) {
     const auto grounds = RegionGround::of(region, 1.0);
     ASSERT_TRUE(grounds.ok()) << grounds.error().line();
     const TrueGround& ground = (*grounds)->ground();
-    int compared = 0, beside_rims = 0;
+    int compared = 0, near_rims = 0;
     double worst_m = 0.0;
     for (int i = 0; i < 60; ++i) {
         const double north_deg = 47.0 - between(random, 0.005, 0.07),
@@ -180,20 +180,20 @@ TEST(RegionGround, ProfilesFollowTheGridThatIsTheGround) {
             const Geodetic place = way(along_m);
             const auto h_m = ground.h_m(place.lat_deg, place.lon_deg);
             if (!h_m || !before->has_ground || !after->has_ground) continue;
-            const double reported_m = std::lerp(
+            const double profile_h_m = std::lerp(
                 before->h_m, after->h_m, (along_m - before->along_m) / (after->along_m - before->along_m));
-            if (after->along_m - before->along_m < 3.0 * beside_rim_m) {
-                ++beside_rims;
+            if (after->along_m - before->along_m < 3.0 * off_rim_m) {
+                ++near_rims;
                 continue;
             }
             ++compared;
-            worst_m = std::max(worst_m, std::abs(reported_m - *h_m));
+            worst_m = std::max(worst_m, std::abs(profile_h_m - *h_m));
         }
     }
     std::printf("seed %u: %d places of 60 profiles, at most %.4f m off; %d on a rim left out\n", seed,
-                compared, worst_m, beside_rims);
+                compared, worst_m, near_rims);
     EXPECT_GT(compared, 10'000);
-    EXPECT_LT(beside_rims, compared / 50);
+    EXPECT_LT(near_rims, compared / 50);
     EXPECT_LT(worst_m, 0.02);
 }
 

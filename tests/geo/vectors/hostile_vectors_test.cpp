@@ -57,7 +57,7 @@ TEST(HostileVectors, FilesThatAreNoneHaveOneLine) {
     EXPECT_EQ(error_of(written("a.geojson", "")), "is empty");
     EXPECT_EQ(error_of(written("a.kmz", "PK\3\4....")),
               "cannot be read as an archive: it is no .zip, or its end is missing");
-    const std::string none = "is no vector file that can be opened here (GPX, KML, GeoJSON, GeoPackage): ";
+    const std::string none = "is not a vector file in an accepted format (GPX, KML, GeoJSON, GeoPackage): ";
     EXPECT_TRUE(starts(error_of(written("a.geojson", "hello")), none));
     EXPECT_TRUE(starts(error_of(written("a.gpx", "<html></html>")), none));
     EXPECT_TRUE(starts(error_of(written("a.csv", "x,y\n1,2\n")), none));

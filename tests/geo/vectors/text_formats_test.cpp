@@ -18,7 +18,7 @@ using test::feature;
 using test::written;
 
 // What a file gives, in a line: "line 8 46, 9 47; point 1 2 | note".
-std::string reported(const std::string& file) {
+std::string line_of(const std::string& file) {
     const auto read = read_vectors(file);
     if (!read.ok()) return "error: " + read.error().what;
     std::string all;
@@ -50,65 +50,64 @@ std::string kml_of(const std::string& geometry) {
 TEST(KmlFile, TracksModelsAndTheirCollectionsAreRead) {
     const std::string two = "<gx:coord>8.01 46.96 0</gx:coord><gx:coord>8.03 46.98 0</gx:coord>",
                       when = "<when>2010-05-28T02:02:09Z</when>", line = "line 8.01 46.96, 8.03 46.98";
-    EXPECT_EQ(reported(written("a.kml", kml_of("<gx:Track>" + two + "</gx:Track>"))), line);
-    EXPECT_EQ(reported(written("a.kml", kml_of("<gx:Track>" + when + two + "</gx:Track>"))), line);
+    EXPECT_EQ(line_of(written("a.kml", kml_of("<gx:Track>" + two + "</gx:Track>"))), line);
+    EXPECT_EQ(line_of(written("a.kml", kml_of("<gx:Track>" + when + two + "</gx:Track>"))), line);
     EXPECT_EQ(
-        reported(written("a.kml", kml_of("<gx:MultiTrack><gx:Track>" + two + "</gx:Track></gx:MultiTrack>"))),
+        line_of(written("a.kml", kml_of("<gx:MultiTrack><gx:Track>" + two + "</gx:Track></gx:MultiTrack>"))),
         line);
     EXPECT_EQ(
-        reported(written(
+        line_of(written(
             "a.kml",
             kml_of("<MultiGeometry><Model><Location><longitude>8.02</longitude><latitude>46.97</latitude>"
                    "<altitude>0</altitude></Location></Model></MultiGeometry>"))),
         "point 8.02 46.97");
     // KML 2.3 (OGC 12-007r2) has them without a prefix.
-    EXPECT_EQ(reported(written(
+    EXPECT_EQ(line_of(written(
                   "a.kml", kml_of("<Track><altitudeMode>absolute</altitudeMode>" + when +
                                   "<coord>10.10 45.80 322</coord><coord>10.20 45.80 322</coord></Track>"))),
               "line 10.1 45.8, 10.2 45.8");
     EXPECT_EQ(
-        reported(
-            written("a.kml", kml_of("<gx:Track><gx:coord>8.01</gx:coord><gx:coord>8.03 46.98</gx:coord>" +
-                                    two + "</gx:Track>"))),
+        line_of(written("a.kml", kml_of("<gx:Track><gx:coord>8.01</gx:coord><gx:coord>8.03 46.98</gx:coord>" +
+                                        two + "</gx:Track>"))),
         "line 8.03 46.98, 8.01 46.96, 8.03 46.98 | left out 1 place of a line without a latitude or without "
         "a "
         "longitude, in line 1");
 }
 
 TEST(KmlFile, GeometriesFoldersAndOverlaysAreRead) {
-    EXPECT_EQ(reported(written("a.kml", kml_of("<LineString><coordinates>8.1, 46.1, 5  8.2 , 46.2\n8.3,46.3,"
-                                               "</coordinates></LineString>"))),
+    EXPECT_EQ(line_of(written("a.kml", kml_of("<LineString><coordinates>8.1, 46.1, 5  8.2 , 46.2\n8.3,46.3,"
+                                              "</coordinates></LineString>"))),
               "line 8.1 46.1, 8.2 46.2, 8.3 46.3");
     EXPECT_EQ(
-        reported(written(
+        line_of(written(
             "a.kml",
             kml_of("<Polygon><outerBoundaryIs><LinearRing><coordinates>8,46 9,46 9,47 8,46</coordinates>"
                    "</LinearRing></outerBoundaryIs><innerBoundaryIs><LinearRing><coordinates>8.5,46.1 "
                    "8.6,46.1 8.6,46.2 8.5,46.1</coordinates></LinearRing></innerBoundaryIs></Polygon>"))),
         "polygon 8 46, 9 46, 9 47 8.5 46.1, 8.6 46.1, 8.6 46.2");
     EXPECT_EQ(
-        reported(written("a.kml",
-                         test::kml("<Folder><Folder><GroundOverlay><LatLonBox><north>47</north><south>46"
-                                   "</south><east>9</east><west>8</west></LatLonBox></GroundOverlay></Folder>"
-                                   "</Folder><Placemark><Camera><longitude>8</longitude><latitude>46"
-                                   "</latitude></Camera></Placemark>"))),
+        line_of(written("a.kml",
+                        test::kml("<Folder><Folder><GroundOverlay><LatLonBox><north>47</north><south>46"
+                                  "</south><east>9</east><west>8</west></LatLonBox></GroundOverlay></Folder>"
+                                  "</Folder><Placemark><Camera><longitude>8</longitude><latitude>46"
+                                  "</latitude></Camera></Placemark>"))),
         "point 8 46; polygon 9 47, 9 46, 8 46, 8 47");
     EXPECT_EQ(
-        reported(written("a.kml", "<Placemark><Point><coordinates>8,46</coordinates></Point></Placemark>")),
+        line_of(written("a.kml", "<Placemark><Point><coordinates>8,46</coordinates></Point></Placemark>")),
         "point 8 46");
 }
 
 TEST(KmlFile, WhatStandsWhereNothingBelongsIsCounted) {
     const std::string point = "<Placemark><Point><coordinates>8,46</coordinates></Point></Placemark>";
-    EXPECT_EQ(reported(written(
+    EXPECT_EQ(line_of(written(
                   "a.kml", test::kml(point + "\n<coordinates>1,2 3,4</coordinates><Style><Point><coordinates>"
                                              "5,6</coordinates></Point></Style>"))),
               "point 8 46 | left out 3 places that stand where KML has none, the first in line 2");
-    EXPECT_EQ(reported(written(
+    EXPECT_EQ(line_of(written(
                   "a.kml", test::kml(point + "<NetworkLink><Link><href>b.kml</href></Link></NetworkLink>"))),
               "point 8 46 | left out 1 link to another file, which is not followed, in line 1");
     EXPECT_EQ(
-        reported(written("a.kml", kml_of("<Point><coordinates>8,01 46,96</coordinates></Point>"))),
+        line_of(written("a.kml", kml_of("<Point><coordinates>8,01 46,96</coordinates></Point>"))),
         "error: holds no points, lines or polygons; left out: 1 point of more than one place, in line 1");
 }
 
@@ -116,22 +115,22 @@ TEST(KmlFile, IsReadFromAKmz) {
     const std::string text = kml_of("<Point><coordinates>8,46</coordinates></Point>"),
                       other = kml_of("<Point><coordinates>9,47</coordinates></Point>");
     EXPECT_EQ(
-        reported(test::written_zip("a.kmz", {{"files/x.png", "x"}, {"b.kml", other}, {"doc.kml", text}})),
+        line_of(test::written_zip("a.kmz", {{"files/x.png", "x"}, {"b.kml", other}, {"doc.kml", text}})),
         "point 8 46");
-    EXPECT_EQ(reported(test::written_zip("a.kmz", {{"in/b.kml", other}})), "point 9 47");
-    EXPECT_EQ(reported(test::written_zip("a.zip", {{"a.gpx", "x"}})),
+    EXPECT_EQ(line_of(test::written_zip("a.kmz", {{"in/b.kml", other}})), "point 9 47");
+    EXPECT_EQ(line_of(test::written_zip("a.zip", {{"a.gpx", "x"}})),
               "error: is packed and holds no .kml: unpack it and name what is in it");
     test::ZipEntry locked{"doc.kml", text};
     locked.flags = 1;
-    EXPECT_EQ(reported(test::written_zip("a.kmz", {locked})),
+    EXPECT_EQ(line_of(test::written_zip("a.kmz", {locked})),
               "error: is locked with a password: unpack it, and name the file");
     test::ZipEntry rare{"doc.kml", text};
     rare.method = 9;
-    EXPECT_EQ(reported(test::written_zip("a.kmz", {rare})),
+    EXPECT_EQ(line_of(test::written_zip("a.kmz", {rare})),
               "error: is packed by Deflate64, and only Deflate is read: unpack it, and name the file");
     test::ZipEntry broken{"doc.kml", text};
     broken.crc ^= 1U;
-    EXPECT_EQ(reported(test::written_zip("a.kmz", {broken})), "error: cannot be unpacked: it is damaged");
+    EXPECT_EQ(line_of(test::written_zip("a.kmz", {broken})), "error: cannot be unpacked: it is damaged");
 }
 
 // A 2.7 km track became one of 216 km: what is no number was read as far as it was one.
@@ -159,15 +158,15 @@ TEST(GpxFile, CoordinatesThatAreNoNumbersAreLeftOutAndCounted) {
         {"1e400", "that is no finite number, in line 3: '1e400'"},
         {"95", "with a latitude beyond 90 degrees, in line 3"},
     };
-    for (const auto& [lat, says] : cases) EXPECT_EQ(reported(track(lat)), rest + says) << lat;
-    EXPECT_EQ(reported(track(" +46.97 ")), "line 8 46.95, 8.01 46.96, 8.02 46.97, 8.03 46.98, 8.04 46.99");
+    for (const auto& [lat, says] : cases) EXPECT_EQ(line_of(track(lat)), rest + says) << lat;
+    EXPECT_EQ(line_of(track(" +46.97 ")), "line 8 46.95, 8.01 46.96, 8.02 46.97, 8.03 46.98, 8.04 46.99");
     EXPECT_EQ(
-        reported(written(
+        line_of(written(
             "a.gpx", test::gpx("<wpt lon=\"8\"/><wpt lat=\"46\" lon=\"8\"/><trkpt lat=\"1\" lon=\"2\"/>"))),
         "point 8 46 | left out 1 point without a latitude or without a longitude, in line 1 | left out 1 "
         "place "
         "that stands where GPX has none");
-    EXPECT_EQ(reported(written("a.gpx", test::gpx("<wpt lat=\"46\" lon=\"8\"><ele>1 200,5</ele></wpt>"))),
+    EXPECT_EQ(line_of(written("a.gpx", test::gpx("<wpt lat=\"46\" lon=\"8\"><ele>1 200,5</ele></wpt>"))),
               "point 8 46 | left out 1 height that is no number, in line 1");
 }
 
@@ -202,34 +201,34 @@ TEST(GeoJsonFile, CoordinatesThatAreNoNumbersAreLeftOutAndCounted) {
         {"[3,1.2.3]", "that is no number, in line 2: '1.2.3'"},
     };
     for (const auto& [place, says] : cases)
-        EXPECT_EQ(reported(written("a.geojson", collection(feature("LineString", "[[1,1],[2,2],\n" + place +
-                                                                                     ",[4,4],[5,5]]")))),
+        EXPECT_EQ(line_of(written("a.geojson", collection(feature("LineString", "[[1,1],[2,2],\n" + place +
+                                                                                    ",[4,4],[5,5]]")))),
                   rest + says)
             << place;
     const std::string good = feature("Point", "[8,46]");
     EXPECT_EQ(
-        reported(written("a.geojson", collection(good + "," + feature("LineString", "[8,46]") + ",\n" +
-                                                 feature("Circle", "[8,46]") + "," +
-                                                 feature("Polygon", "[[1,2],[3,4]]")))),
+        line_of(written("a.geojson",
+                        collection(good + "," + feature("LineString", "[8,46]") + ",\n" +
+                                   feature("Circle", "[8,46]") + "," + feature("Polygon", "[[1,2],[3,4]]")))),
         "point 8 46 | left out 2 geometries whose coordinates do not fit their type, the first in line 1: "
         "'LineString' | left out 1 geometry of a kind that is not known here, in line 2: 'Circle'");
     // What Python writes for a number that is none.
     EXPECT_EQ(
-        reported(written("a.geojson", collection(feature("Point", "[8,46]", "\"ele\":NaN,\"x\":-Infinity")))),
+        line_of(written("a.geojson", collection(feature("Point", "[8,46]", "\"ele\":NaN,\"x\":-Infinity")))),
         "point 8 46");
 }
 
 TEST(GeoJsonFile, BrokenJsonIsToldWithItsLine) {
     const std::string none = "error: is no whole JSON: line ";
-    EXPECT_EQ(reported(written("a.geojson", "{\"type\":\"Point\",\n\"coordinates\":[8,46,]}")),
+    EXPECT_EQ(line_of(written("a.geojson", "{\"type\":\"Point\",\n\"coordinates\":[8,46,]}")),
               none + "2: here should be a value, and is ']'");
-    EXPECT_EQ(reported(written("a.geojson", "{\"type\":\"Point\",\n\"coordinates\":[8 46]}")),
+    EXPECT_EQ(line_of(written("a.geojson", "{\"type\":\"Point\",\n\"coordinates\":[8 46]}")),
               none + "2: a comma is missing, or a bracket is too many");
-    EXPECT_EQ(reported(written("a.geojson", "{\"type\":\"Point\",\"coordinates\":[8,46]}\n{}")),
+    EXPECT_EQ(line_of(written("a.geojson", "{\"type\":\"Point\",\"coordinates\":[8,46]}\n{}")),
               none + "2: more follows after its end");
-    EXPECT_EQ(reported(written("a.geojson", "{\"a\":" + std::string(200, '[') + std::string(200, ']') + "}")),
+    EXPECT_EQ(line_of(written("a.geojson", "{\"a\":" + std::string(200, '[') + std::string(200, ']') + "}")),
               none + "1: lists within lists are more than 128 deep");
-    EXPECT_EQ(reported(written("a.geojson", "{\"type\":\"Topology\",\"arcs\":[]}")),
+    EXPECT_EQ(line_of(written("a.geojson", "{\"type\":\"Topology\",\"arcs\":[]}")),
               "error: is JSON, but no GeoJSON: its type is 'Topology'");
 }
 
@@ -260,12 +259,12 @@ TEST(TextFormats, MarksAndEncodingsAreReadAsTheyAreMeant) {
         EXPECT_EQ(layer.text(layer.shapes.front(), "name"), "H\u00fctte");
     }
     const std::string json = feature("Point", "[8,46]");
-    EXPECT_EQ(reported(written("a.geojson", "\xef\xbb\xbf\r\n" + json)), "point 8 46");
-    EXPECT_EQ(reported(written("a.geojson", wide(json, false))), "point 8 46");
+    EXPECT_EQ(line_of(written("a.geojson", "\xef\xbb\xbf\r\n" + json)), "point 8 46");
+    EXPECT_EQ(line_of(written("a.geojson", wide(json, false))), "point 8 46");
     const std::string earth = kml_of("<Point><coordinates>8,46</coordinates></Point>");
-    EXPECT_EQ(reported(written("a.kml", "\xef\xbb\xbf" + earth)), "point 8 46");
-    EXPECT_EQ(reported(written("a.kml", wide(earth, true).substr(2))), "point 8 46");
-    EXPECT_EQ(reported(written("a.kml", wide(earth, false) + "x")),
+    EXPECT_EQ(line_of(written("a.kml", "\xef\xbb\xbf" + earth)), "point 8 46");
+    EXPECT_EQ(line_of(written("a.kml", wide(earth, true).substr(2))), "point 8 46");
+    EXPECT_EQ(line_of(written("a.kml", wide(earth, false) + "x")),
               "error: is UTF-16 and ends within a character: it is cut");
 }
 
@@ -274,18 +273,18 @@ TEST(TextFormats, DeepAndWideFilesAreRead) {
     std::string open, close;
     for (int i = 0; i < 200'000; ++i) open += "<MultiGeometry>", close += "</MultiGeometry>";
     EXPECT_EQ(
-        reported(written("a.kml", kml_of(open + "<Point><coordinates>8,46</coordinates></Point>" + close))),
+        line_of(written("a.kml", kml_of(open + "<Point><coordinates>8,46</coordinates></Point>" + close))),
         "point 8 46");
     open.clear(), close.clear();
     for (int i = 0; i < 200'000; ++i) open += "<Folder>", close += "</Folder>";
-    EXPECT_EQ(reported(written(
+    EXPECT_EQ(line_of(written(
                   "a.kml",
                   test::kml(open + "<Placemark><Point><coordinates>8,46</coordinates></Point></Placemark>" +
                             close))),
               "point 8 46");
     std::string fields;
     for (int i = 0; i < 100'000; ++i) fields += (i > 0 ? ",\"f" : "\"f") + std::to_string(i) + "\":1";
-    EXPECT_EQ(reported(written("a.geojson", collection(feature("Point", "[8,46]", fields)))), "point 8 46");
+    EXPECT_EQ(line_of(written("a.geojson", collection(feature("Point", "[8,46]", fields)))), "point 8 46");
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ TEST(VectorFile, PointsHaveTheirPlaceAndAllFieldsAsText) {
     EXPECT_EQ(layer.text(shape, "none"), "");
     EXPECT_EQ(layer.text(shape, "other"), "");
     EXPECT_TRUE(read->notes.empty());
-    EXPECT_NE(read->print, 0U);
+    EXPECT_NE(read->fingerprint, 0U);
 }
 
 TEST(VectorFile, PolygonsKeepTheirHolesAndCollectionsAreSplit) {

@@ -205,13 +205,14 @@ TEST_P(StreamedClusters, BringWhatShowsBeforeWhatIsHidden) {
         EXPECT_EQ(*streams.renderer().read_picture(streamed_px, streamed_px), picture);
         return groups;
     };
-    const std::size_t reported = groups_until(true), untold = groups_until(false);
-    std::printf("%zu groups until all is there that shows, %zu where nothing is told\n", reported, untold);
-    EXPECT_GT(reported, 0U);
+    const std::size_t with_feedback = groups_until(true), without_feedback = groups_until(false);
+    std::printf("%zu groups until all is there that shows, %zu where nothing is told\n", with_feedback,
+                without_feedback);
+    EXPECT_GT(with_feedback, 0U);
     // More readers read what is hidden, too, for want of other work; the order itself is the business of
     // StreamedChoices and ClusterStreams.
     if (thread_count() <= 4) {
-        EXPECT_LT(5 * reported, 4 * untold);
+        EXPECT_LT(5 * with_feedback, 4 * without_feedback);
     }
 }
 

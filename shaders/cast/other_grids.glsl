@@ -1,8 +1,8 @@
 // Lines towards the sun in a frame of several grids: over the terrain of one of them, from the ground of any. Needs smooth.glsl,
-// compiled with BESIDE, and net.glsl.
+// compiled with OTHER_GRIDS, and net.glsl.
 
 // The place of a pixel that another grid shows, among the posts of this one or beyond its rims.
-CastPoint point_beside(CastPlace place) {
+CastPoint point_on_other_grid(CastPlace place) {
     EyePost eye = FRAME.eye_post;
     CastPoint point;
     point.distance_m = place.distance_m;
@@ -104,9 +104,9 @@ float sun_from(CastStart start, bool is_own) {
 }
 
 // On the ground of another grid.
-CastStart start_beside(CastPlace place) {
+CastStart start_on_other_grid(CastPlace place) {
     CastStart start;
-    start.point = point_beside(place);
+    start.point = point_on_other_grid(place);
     start.at = cast_frame(start.point, place.h_m);
     start.error_m = caster_error_m(start.at, place.distance_m);
     start.level = start.point.level;
