@@ -10,6 +10,7 @@
 
 #include "core/base/checksum.h"
 #include "core/base/open_file.h"
+#include "geo/drape/image_values.h"
 #include "geo/drape/window_read.h"
 #include "geo/files/guarded_files.h"
 #include "geo/files/raster_library.h"

@@ -2,12 +2,8 @@
 // trusted for terrain, too (raster_library.h).
 #pragma once
 
-#include <gdal.h>
 #include <array>
-#include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -53,18 +49,5 @@ Result<ImageSource> open_image(const std::string& file, ImageValues values = Ima
 // XXH64 of the bytes of some files, each with its length; of one longer than 256 MiB its length, its ends,
 // and a MiB at each of 64 places between them. Errors: a file that cannot be read.
 Result<std::uint64_t> image_fingerprint(const std::vector<std::string>& files);
-
-// What an ICC profile says of its values, by the curve of its red (or of its grey): reflectance where that is
-// a straight line, else codes. Nothing where this is no profile. Source: ICC.1:2022, 7.2, 7.3, 10.6, 10.18.
-std::optional<ImageValues> values_by_profile(std::span<const std::byte> profile);
-
-// What some bands of an image hold. Bytes are codes. Of other numbers the file's ICC profile tells; without
-// one they are reflectance: bands named red, green and blue are no sign, for scenes name theirs so, too.
-ImageValues values_in(GDALDatasetH dataset, const std::vector<int>& bands);
-
-// The code that is white in a band whose values are codes: the largest number that it can hold, by its type
-// and the bits that the file says it uses; of floats 1. 255 where there are bytes in wider numbers: nothing
-// in the band is above that (`largest`), and, of floats, something above 1.
-double white_code(GDALRasterBandH band, double largest);
 
 }  // namespace oro

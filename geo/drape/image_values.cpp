@@ -1,4 +1,4 @@
-#include "geo/drape/image_source.h"
+#include "geo/drape/image_values.h"
 
 #include <cpl_conv.h>
 #include <cpl_string.h>

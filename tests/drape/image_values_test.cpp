@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geo/drape/image_pixels.h"
-#include "geo/drape/image_source.h"
+#include "geo/drape/image_values.h"
 #include "tests/drape/written_image.h"
 #include "tests/drape/written_profile.h"
 #include "tests/support/test_data.h"
