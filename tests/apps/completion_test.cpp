@@ -24,7 +24,7 @@ bool is_there(const std::string& program) {
     return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-std::string printed(const Words& words) {
+std::string printed_by(const Words& words) {
     const Outcome outcome = run_orograph(words);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
@@ -42,7 +42,7 @@ std::set<std::string> lines_in(const std::string& text) {
 // What bash completes the last of these words to, as it stands after the others.
 std::set<std::string> completed(const Words& words, const fs::path& folder = oro::test::scratch_folder()) {
     const fs::path script = oro::test::scratch_folder() / "orograph";
-    oro::test::write_bytes(script, printed({"completion", "bash"}));
+    oro::test::write_bytes(script, printed_by({"completion", "bash"}));
     oro::test::Circumstances there;
     there.folder = folder;
     const Outcome outcome = run_program(
@@ -58,32 +58,32 @@ std::set<std::string> completed(const Words& words, const fs::path& folder = oro
     return lines_in(outcome.out);
 }
 
-using Set = std::set<std::string>;
+using WordSet = std::set<std::string>;
 
 TEST(BashCompletion, OfCommandsAndOptions) {
-    EXPECT_EQ(completed({"orograph", "sh"}), Set{"shot"});
-    EXPECT_EQ(completed({"orograph", "--v"}), Set{"--version"});
-    const Set commands = completed({"orograph", ""});
+    EXPECT_EQ(completed({"orograph", "sh"}), WordSet{"shot"});
+    EXPECT_EQ(completed({"orograph", "--v"}), WordSet{"--version"});
+    const WordSet all = completed({"orograph", ""});
     for (const char* command : {"shot", "view", "doctor", "--help"})
-        EXPECT_TRUE(commands.contains(command)) << command;
-    EXPECT_FALSE(commands.contains("completion"));
-    EXPECT_EQ(completed({"orograph", "shot", "--sty"}), Set{"--style"});
+        EXPECT_TRUE(all.contains(command)) << command;
+    EXPECT_FALSE(all.contains("completion"));
+    EXPECT_EQ(completed({"orograph", "shot", "--sty"}), WordSet{"--style"});
     EXPECT_EQ(completed({"orograph", "shot", "a.hgt", "--over"}),
-              (Set{"--overlay", "--overlay-colour", "--overlay-fill", "--overlay-width", "--overwrite"}));
-    EXPECT_EQ(completed({"orograph", "doctor", ""}), (Set{"--json", "--help", "-h"}));
-    EXPECT_EQ(completed({"orograph", "trade", "--tau"}), Set()) << "what help hides";
-    EXPECT_EQ(completed({"orograph", "shot", "--help", ""}), Set{"all"});
+              (WordSet{"--overlay", "--overlay-colour", "--overlay-fill", "--overlay-width", "--overwrite"}));
+    EXPECT_EQ(completed({"orograph", "doctor", ""}), (WordSet{"--json", "--help", "-h"}));
+    EXPECT_EQ(completed({"orograph", "trade", "--tau"}), WordSet()) << "what help hides";
+    EXPECT_EQ(completed({"orograph", "shot", "--help", ""}), WordSet{"all"});
 }
 
 TEST(BashCompletion, OfChoicesAndStyles) {
-    EXPECT_EQ(completed({"orograph", "shot", "--style", "re"}), Set{"relief"});
-    EXPECT_EQ(completed({"orograph", "shot", "--style", "=", "re"}), Set{"relief"}) << "--style=re";
-    EXPECT_EQ(completed({"orograph", "view", "--sea", "="}), (Set{"level", "low", "voids"})) << "--sea=";
+    EXPECT_EQ(completed({"orograph", "shot", "--style", "re"}), WordSet{"relief"});
+    EXPECT_EQ(completed({"orograph", "shot", "--style", "=", "re"}), WordSet{"relief"}) << "--style=re";
+    EXPECT_EQ(completed({"orograph", "view", "--sea", "="}), (WordSet{"level", "low", "voids"})) << "--sea=";
     EXPECT_EQ(completed({"orograph", "info", "--height-unit", ""}),
-              (Set{"m", "ft", "us-ft", "cm", "dm", "mm"}));
-    EXPECT_EQ(completed({"orograph", "plan", "--air", "s"}), Set{"standard"});
-    EXPECT_EQ(completed({"orograph", "bake", "--mesh", ""}), (Set{"grid", "clusters"}));
-    EXPECT_EQ(completed({"orograph", "shot", "--heading", ""}), Set()) << "a number is typed";
+              (WordSet{"m", "ft", "us-ft", "cm", "dm", "mm"}));
+    EXPECT_EQ(completed({"orograph", "plan", "--air", "s"}), WordSet{"standard"});
+    EXPECT_EQ(completed({"orograph", "bake", "--mesh", ""}), (WordSet{"grid", "clusters"}));
+    EXPECT_EQ(completed({"orograph", "shot", "--heading", ""}), WordSet()) << "a number is typed";
 }
 
 TEST(BashCompletion, OfFilesByTheirType) {
@@ -92,22 +92,22 @@ TEST(BashCompletion, OfFilesByTheirType) {
         oro::test::write_bytes(folder / name, "");
     fs::create_directory(folder / "data");
     EXPECT_EQ(completed({"orograph", "shot", ""}, folder),
-              (Set{"N46E008.HGT", "a map.tif", "old.oro", "data"}));
-    EXPECT_EQ(completed({"orograph", "shot", "--names", ""}, folder), (Set{"track.gpx", "data"}));
-    EXPECT_EQ(completed({"orograph", "bake", "--out", "o"}, folder), Set{"old.oro"});
-    EXPECT_EQ(completed({"orograph", "shot", "--view", "p"}, folder), Set{"p.png"});
-    EXPECT_EQ(completed({"orograph", "trade", "--out", ""}, folder), Set{"data"});
-    EXPECT_EQ(completed({"orograph", "shot", "no"}, folder), Set{"notes.txt"})
+              (WordSet{"N46E008.HGT", "a map.tif", "old.oro", "data"}));
+    EXPECT_EQ(completed({"orograph", "shot", "--names", ""}, folder), (WordSet{"track.gpx", "data"}));
+    EXPECT_EQ(completed({"orograph", "bake", "--out", "o"}, folder), WordSet{"old.oro"});
+    EXPECT_EQ(completed({"orograph", "shot", "--view", "p"}, folder), WordSet{"p.png"});
+    EXPECT_EQ(completed({"orograph", "trade", "--out", ""}, folder), WordSet{"data"});
+    EXPECT_EQ(completed({"orograph", "shot", "no"}, folder), WordSet{"notes.txt"})
         << "any, where none has its type";
-    EXPECT_EQ(completed({"orograph", "shot", "--drape", "n"}, folder), Set{"notes.txt"});
-    EXPECT_EQ(completed({"orograph", "compare", "p"}, folder), Set{"p.png"});
+    EXPECT_EQ(completed({"orograph", "shot", "--drape", "n"}, folder), WordSet{"notes.txt"});
+    EXPECT_EQ(completed({"orograph", "compare", "p"}, folder), WordSet{"p.png"});
 }
 
 // The other shells read their scripts without a fault.
 TEST(ShellScripts, AreRead) {
     for (const std::string shell : {"bash", "zsh", "fish"}) {
         const fs::path script = oro::test::scratch_folder() / shell;
-        oro::test::write_bytes(script, printed({"completion", shell}));
+        oro::test::write_bytes(script, printed_by({"completion", shell}));
         if (!is_there(shell)) continue;
         const Outcome outcome = run_program({shell, "-n", script.string()});
         EXPECT_EQ(outcome.exit_code, 0) << shell << ": " << outcome.err;
@@ -118,7 +118,7 @@ TEST(ShellScripts, AreRead) {
 TEST(ShellScripts, FishCompletes) {
     if (!is_there("fish")) GTEST_SKIP() << "needs fish";
     const fs::path folder = oro::test::scratch_folder();
-    oro::test::write_bytes(folder / "script", printed({"completion", "fish"}));
+    oro::test::write_bytes(folder / "script", printed_by({"completion", "fish"}));
     oro::test::write_bytes(folder / "N46E008.hgt", "");
     oro::test::Circumstances there;
     there.folder = folder;
@@ -128,9 +128,9 @@ TEST(ShellScripts, FishCompletes) {
             run_program({"fish", "--no-config", "-c", "source script; complete -C '" + line + "'"}, there);
         return std::regex_replace(outcome.out, std::regex("\t[^\n]*"), "");
     };
-    EXPECT_EQ(lines_in(ask("orograph shot --sty")), Set{"--style"});
+    EXPECT_EQ(lines_in(ask("orograph shot --sty")), WordSet{"--style"});
     EXPECT_TRUE(lines_in(ask("orograph shot --style re")).contains("relief"));
-    EXPECT_EQ(lines_in(ask("orograph sho")), Set{"shot"});
+    EXPECT_EQ(lines_in(ask("orograph sho")), WordSet{"shot"});
     EXPECT_TRUE(lines_in(ask("orograph shot N46")).contains("N46E008.hgt"));
 }
 
@@ -143,7 +143,7 @@ TEST(ShellScripts, WhatIsNoShellOrPageIsRefused) {
 // The options that `--help all` lists: "--above".
 std::set<std::string> options_of(const std::string& command) {
     std::set<std::string> options;
-    const std::string help = printed({command, "--help", "all"});
+    const std::string help = printed_by({command, "--help", "all"});
     const std::regex option("\n  (?:-q, |-h, )?(--[a-z-]+)");
     for (std::sregex_iterator at(help.begin(), help.end(), option), end; at != end; ++at)
         options.insert((*at)[1]);
@@ -152,18 +152,19 @@ std::set<std::string> options_of(const std::string& command) {
 
 // The commands whose pages the program's page names.
 std::vector<std::string> commands_in(const std::string& page) {
-    std::vector<std::string> commands;
-    const std::regex named("\n\\.BR orograph\\\\-([a-z]+) \\(1\\)");
-    for (std::sregex_iterator at(page.begin(), page.end(), named), end; at != end; ++at)
-        commands.push_back((*at)[1]);
-    return commands;
+    std::vector<std::string> named;
+    const std::regex name("\n\\.BR orograph\\\\-([a-z]+) \\(1\\)");
+    for (std::sregex_iterator at(page.begin(), page.end(), name), end; at != end; ++at)
+        named.push_back((*at)[1]);
+    return named;
 }
 
 TEST(Manual, HasEachOptionOfHelp) {
-    const std::vector<std::string> commands = commands_in(printed({"manual"}));
-    EXPECT_GE(commands.size(), 13U);
-    for (const std::string& command : commands) {
-        const std::string page = std::regex_replace(printed({"manual", command}), std::regex("\\\\-"), "-");
+    const std::vector<std::string> pages = commands_in(printed_by({"manual"}));
+    EXPECT_GE(pages.size(), 13U);
+    for (const std::string& command : pages) {
+        const std::string page =
+            std::regex_replace(printed_by({"manual", command}), std::regex("\\\\-"), "-");
         const auto options = options_of(command);
         EXPECT_GE(options.size(), 2U) << command;
         for (const std::string& option : options)
@@ -174,10 +175,11 @@ TEST(Manual, HasEachOptionOfHelp) {
 TEST(Manual, IsReadWithoutAWarning) {
     if (!is_there("groff")) GTEST_SKIP() << "needs groff";
     std::vector<Words> pages = {{"manual"}};
-    for (const std::string& command : commands_in(printed({"manual"}))) pages.push_back({"manual", command});
+    for (const std::string& command : commands_in(printed_by({"manual"})))
+        pages.push_back({"manual", command});
     for (const Words& words : pages) {
         const fs::path file = oro::test::scratch_folder() / "page.1";
-        oro::test::write_bytes(file, printed(words));
+        oro::test::write_bytes(file, printed_by(words));
         const Outcome outcome = run_program({"groff", "-man", "-Tutf8", "-ww", "-P-cbou", file.string()});
         EXPECT_EQ(outcome.exit_code, 0) << words.back();
         EXPECT_EQ(outcome.err, "") << words.back();
