@@ -81,7 +81,7 @@ oro::Result<void> of_unchanged_files(const oro::Result<void>& result) {
     return result.ok() ? oro::check_files_unchanged() : result;
 }
 
-int run_command(const CLI::App& app, oro::CommandLine& line, const std::vector<std::string>& words) {
+int run_command(CLI::App& app, oro::CommandLine& line, const std::vector<std::string>& words) {
     if (app.got_subcommand("shot")) return exit_code(oro::run_shot(line.shot));
     if (app.got_subcommand("panorama")) return exit_code(oro::run_panorama(line.panorama));
     if (app.got_subcommand("compare")) return exit_code(oro::run_compare(line.compare));
@@ -97,6 +97,8 @@ int run_command(const CLI::App& app, oro::CommandLine& line, const std::vector<s
     if (app.got_subcommand("viewshed")) return exit_code(oro::run_viewshed(line.viewshed));
     if (app.got_subcommand("bake")) return exit_code(oro::run_bake(line.bake));
     if (app.got_subcommand("info")) return exit_code(of_unchanged_files(oro::run_info(line.info)));
+    if (app.got_subcommand("completion")) return exit_code(oro::run_completion(app, line.completion));
+    if (app.got_subcommand("manual")) return exit_code(oro::run_manual(app, line.manual));
     return exit_code(oro::run_doctor(line.doctor));
 }
 

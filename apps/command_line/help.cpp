@@ -5,13 +5,21 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 namespace oro {
 namespace {
 
 constexpr const char* messages = "Messages";
-constexpr const char* exit_codes =
-    "Exit code: 0 done, 1 failed, 2 wrong arguments, 3 no data in the region, 4 no suitable GPU.";
+
+// "Exit code: 0 done, 1 failed, 2 wrong arguments, ..."
+std::string exit_codes() {
+    std::string line;
+    for (const auto& [code, words] : exit_code_words())
+        line += (line.empty() ? "Exit code: " : ", ") + std::to_string(code) + " " + words;
+    return line + ".";
+}
 
 // Of standard output, where it is a terminal; else as wide as a page.
 std::size_t columns_here() {
@@ -106,7 +114,7 @@ std::string help_text(const CLI::App& command, const CommandHelp& help, bool all
     const auto listed = shown_options(command, all);
     text += options_text(listed, columns) + "\n";
     if (!help.note.empty()) text += wrapped(help.note, 0, 0, columns) + "\n";
-    text += wrapped(exit_codes, 0, 0, columns) + "More: " + help.page + "\n";
+    text += wrapped(exit_codes(), 0, 0, columns) + "More: " + help.page + "\n";
     if (const std::size_t more = shown_options(command, true).size() - listed.size(); more > 0)
         text += wrapped("`orograph " + command.get_name() + " --help all` lists " + std::to_string(more) +
                             (more == 1 ? " more option." : " more options."),
@@ -120,8 +128,10 @@ std::string program_text(const CLI::App& app, std::size_t columns) {
                        "\nUsage: orograph COMMAND [OPTIONS]\n"
                        "       orograph COMMAND --help\n"
                        "\nCommands:\n";
-    for (const CLI::App* command : app.get_subcommands({}))
-        text += row(command->get_name(), command->get_description(), command_column, columns);
+    for (const CLI::App* command : app.get_subcommands({})) {
+        if (is_listed(*command))
+            text += row(command->get_name(), command->get_description(), command_column, columns);
+    }
     text += "\nTo begin with a folder of elevation data:\n";
     text += row("orograph info FOLDER", "what the data are", example_column, columns);
     text += row("orograph shot FOLDER --out picture.png", "a picture of all of it", example_column, columns);
@@ -129,17 +139,54 @@ std::string program_text(const CLI::App& app, std::size_t columns) {
     text += "\nOptions:\n";
     text += row("-h, --help", "Print this help.", example_column, columns);
     text += row("--version", "Print the program's version.", example_column, columns);
-    return text + "\n" + wrapped(exit_codes, 0, 0, columns) +
+    text += "\n" + wrapped(
+                       "`orograph completion --help` tells how a shell completes these words, and "
+                       "`orograph manual --help` how they become pages of the manual.",
+                       0, 0, columns);
+    return text + "\n" + wrapped(exit_codes(), 0, 0, columns) +
            wrapped("More: README.md, and a page for each command in docs/commands.", 0, 0, columns);
 }
 
+// Writes the help of one command.
+class CommandFormatter final : public CLI::FormatterBase {
+  public:
+    explicit CommandFormatter(CommandHelp help) : help_(std::move(help)) {}
+    [[nodiscard]] const CommandHelp& help() const { return help_; }
+    std::string make_help(const CLI::App* command, std::string, CLI::AppFormatMode mode) const override {
+        return help_text(*command, help_, mode == CLI::AppFormatMode::All, columns_here());
+    }
+
+  private:
+    CommandHelp help_;
+};
+
 }  // namespace
+
+const std::vector<std::pair<int, const char*>>& exit_code_words() {
+    static const std::vector<std::pair<int, const char*>> words = {{0, "done"},
+                                                                   {1, "failed"},
+                                                                   {2, "wrong arguments"},
+                                                                   {3, "no data in the region"},
+                                                                   {4, "no suitable GPU"}};
+    return words;
+}
 
 void set_help(CLI::App& command, const CommandHelp& help) {
     command.set_help_flag("-h,--help", "Print this help.")->group(messages);
-    command.formatter_fn([help](const CLI::App* asked, const std::string&, CLI::AppFormatMode mode) {
-        return help_text(*asked, help, mode == CLI::AppFormatMode::All, columns_here());
-    });
+    command.formatter(std::make_shared<CommandFormatter>(help));
+}
+
+CommandHelp help_of(const CLI::App& command) {
+    const auto* const formatter = dynamic_cast<const CommandFormatter*>(command.get_formatter().get());
+    return formatter == nullptr ? CommandHelp() : formatter->help();
+}
+
+void hide_command(CLI::App& command) {
+    command.group("");
+}
+
+bool is_listed(const CLI::App& command) {
+    return !command.get_group().empty();
 }
 
 // The parser's mark for what a config file may set says which are listed first: no command reads such a file.

@@ -13,6 +13,10 @@
 namespace oro {
 namespace {
 
+// The name of the check of choices, whose description lists them, each but the last with an end.
+constexpr const char* choice_check = "choice";
+constexpr const char* choice_end = "|";
+
 // What a check of a value throws through the parser.
 class RefusedValue final : public CLI::ParseError {
   public:
@@ -78,6 +82,14 @@ std::string nearest_words(const std::string& word, const std::vector<std::string
 std::vector<std::string> command_names(const CLI::App& app) {
     std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+    return names;
+}
+
+// Those that help names.
+std::vector<std::string> listed_commands(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({}))
+        if (is_listed(*command)) names.push_back(command->get_name());
     return names;
 }
 
@@ -182,10 +194,19 @@ void need_value(const CLI::App& command, CLI::Option& option) {
 }
 
 void need_choice(CLI::Option& option, const std::vector<std::string>& choices) {
-    option.check([&option, choices](const std::string& text) {
+    const auto listed = [&option, choices](const std::string& text) {
         if (std::ranges::find(choices, text) == choices.end()) refuse(option, text, choose_words(choices));
         return std::string();
-    });
+    };
+    option.check(listed, CLI::detail::join(choices, choice_end), choice_check);
+}
+
+std::vector<std::string> choices_of(CLI::Option& option) {
+    try {
+        return CLI::detail::split(option.get_validator(choice_check)->get_description(), choice_end[0]);
+    } catch (const CLI::OptionNotFound&) {
+        return {};
+    }
 }
 
 void need_number(CLI::Option& option) {
@@ -236,7 +257,7 @@ std::optional<Error> refusal_of_command(const CLI::App& app, const std::vector<s
         }
         if (has_command || word.starts_with('-')) continue;
         has_command = std::ranges::find(names, word) != names.end();
-        if (!has_command) return of_no_command(word, names);
+        if (!has_command) return of_no_command(word, listed_commands(app));
     }
     return std::nullopt;
 }
@@ -245,7 +266,7 @@ Error refusal_of(const CLI::App& app, const CLI::ParseError& error, const std::v
     if (const auto* of_value = dynamic_cast<const RefusedValue*>(&error)) return of_value->error();
     const std::vector<std::string> names = command_names(app);
     if (words.size() > 1 && !words[1].starts_with('-') && std::ranges::find(names, words[1]) == names.end())
-        return of_no_command(words[1], names);
+        return of_no_command(words[1], listed_commands(app));
     if (dynamic_cast<const CLI::ExtrasError*>(&error)) return of_left_over(app);
     if (app.get_subcommands().empty()) return before_command(words.size() > 1 ? words[1] : "");
     const CLI::App& command = *app.get_subcommands().front();

@@ -31,6 +31,8 @@ std::string either_words(const std::string& one, const std::string& other);
 // A value: not nothing, nor the name of another option where this one's value is missing.
 void need_value(const CLI::App& command, CLI::Option& option);
 void need_choice(CLI::Option& option, const std::vector<std::string>& choices);
+// The choices that need_choice() was given for the option; none where it was not.
+std::vector<std::string> choices_of(CLI::Option& option);
 void need_number(CLI::Option& option);
 // Decimal digits alone, from low to high; the parser itself takes 010 for eight and 0x10 for sixteen.
 void need_whole_number(const CLI::App& command, CLI::Option& option, int low, int high);

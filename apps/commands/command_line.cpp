@@ -2,9 +2,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "apps/command_line/described_command.h"
 #include "apps/command_line/help.h"
 #include "apps/command_line/option_group.h"
 #include "apps/commands/options.h"
+#include "apps/completion/completion.h"
 #include "apps/view/view_option_table.h"
 
 namespace oro {
@@ -362,6 +364,36 @@ void add_doctor(CLI::App& app, DoctorOptions& options) {
     set_help(command, {{"doctor [OPTIONS]"}, "", "docs/commands/doctor.md"});
 }
 
+void add_completion(CLI::App& app, CompletionOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "completion", "Print the script by which a shell completes the words of commands");
+    OptionGroup(command, "The shell")
+        .choice("SHELL", options.shell, completion_shells(), "bash, zsh or fish.")
+        .option_text("")
+        ->required();
+    hide_command(command);
+    set_help(command,
+             {{"completion SHELL"},
+              "An installation has these scripts where the shells look for them. For a program that was "
+              "not installed: source <(orograph completion bash), or orograph completion fish | source.",
+              "docs/commands/completion.md"});
+}
+
+// The last one: its argument is the name of another.
+void add_manual(CLI::App& app, ManualOptions& options) {
+    std::vector<std::string> names;
+    for (const DescribedCommand& command : described_commands(app))
+        if (command.is_listed) names.push_back(command.name);
+    CLI::App& command = *app.add_subcommand("manual", "Print a page of the manual, as man(1) reads it");
+    OptionGroup(command, "The page")
+        .choice("COMMAND", options.command, names, "The command. Without it the page is that of the program.")
+        .option_text("");
+    hide_command(command);
+    set_help(command, {{"manual [COMMAND]"},
+                       "An installation has these pages where man(1) looks for them.",
+                       "docs/commands/completion.md"});
+}
+
 }  // namespace
 
 void add_commands(CLI::App& app, CommandLine& line) {
@@ -379,6 +411,8 @@ void add_commands(CLI::App& app, CommandLine& line) {
     add_bake(app, line.bake);
     add_info(app, line.info);
     add_doctor(app, line.doctor);
+    add_completion(app, line.completion);
+    add_manual(app, line.manual);
 }
 
 }  // namespace oro

@@ -20,6 +20,8 @@ struct CommandLine {
     BakingOptions bake;
     InfoOptions info;
     DoctorOptions doctor;
+    CompletionOptions completion;
+    ManualOptions manual;
 };
 
 // Adds the commands with their options and help. `line` must stay where it is while `app` is used.

@@ -4,6 +4,10 @@
 #include "apps/options/options.h"
 #include "core/base/result.h"
 
+namespace CLI {
+class App;
+}  // namespace CLI
+
 namespace oro {
 
 // Writes a geotagged picture and, beside it, its view; with --verify also a picture of its errors.
@@ -32,5 +36,9 @@ Result<void> run_bake(const BakingOptions& options);
 Result<void> run_info(const InfoOptions& options);
 // Tells what the machine has and what each lack means.
 Result<void> run_doctor(const DoctorOptions& options);
+// Prints the script by which a shell completes command lines. app: with all its commands.
+Result<void> run_completion(CLI::App& app, const CompletionOptions& options);
+// Prints a page of the manual as roff: of a command, or of the program.
+Result<void> run_manual(CLI::App& app, const ManualOptions& options);
 
 }  // namespace oro

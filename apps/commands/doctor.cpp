@@ -5,6 +5,7 @@
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
+#include "apps/report/library_versions.h"
 #include "apps/styles/data_folder.h"
 #include "geo/sources/library_report.h"
 #include "render/device/device_report.h"
@@ -123,6 +124,7 @@ ordered_json doctor_json(const std::vector<Finding>& devices, const std::string&
     if (!no_device.empty()) json["device_problem"] = no_device;
     json["libraries"] =
         json_object("gdal", libraries.gdal, "proj", libraries.proj, "geographiclib", libraries.geographiclib);
+    for (const LibraryVersion& library : library_versions()) json["libraries"][library.key] = library.version;
     json["geoids"] = ordered_json::array();
     for (const GeoidGridReport& g : libraries.geoids) json["geoids"].push_back(geoid_json(g));
     json["data_folder"] = json_object("path", data_folder().string(), "found", has_data_folder());
@@ -170,6 +172,10 @@ void print_doctor(const std::vector<Finding>& devices, const std::string& no_dev
     print_line("GDAL         " + libraries.gdal);
     print_line("PROJ         " + libraries.proj);
     print_line("GeographicLib " + libraries.geographiclib);
+    std::vector<std::string> others;
+    for (const LibraryVersion& library : library_versions())
+        others.push_back(library.name + " " + library.version);
+    print_line("libraries    " + joined(others));
     for (const GeoidGridReport& g : libraries.geoids) {
         const std::string state = !g.found           ? "not found"
                                   : g.damage.empty() ? "found"

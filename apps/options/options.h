@@ -212,4 +212,12 @@ struct DoctorOptions {
     bool json{false};
 };
 
+struct CompletionOptions {
+    std::string shell;
+};
+
+struct ManualOptions {
+    std::string command;  // "": the program
+};
+
 }  // namespace oro

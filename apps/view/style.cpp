@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/command_line/refusals.h"
 #include "apps/report/json_fields.h"
 #include "apps/styles/colour_table.h"
 #include "apps/styles/contour_interval.h"
@@ -21,20 +22,6 @@
 
 namespace oro {
 namespace {
-
-// "natural, aspect, grey": of the styles that come with the program; "" where there are none.
-std::string style_names() {
-    std::vector<std::string> names;
-    std::error_code failed;
-    std::filesystem::directory_iterator entry(data_folder() / "styles", failed);
-    for (; !failed && entry != std::filesystem::directory_iterator(); entry.increment(failed)) {
-        if (entry->path().extension() == ".json") names.push_back(entry->path().stem().string());
-    }
-    std::ranges::sort(names, {}, [](const std::string& name) { return std::pair(name != "natural", name); });
-    std::string all;
-    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-    return all;
-}
 
 bool is_table(const std::string& style) {
     return style.ends_with(".txt");
@@ -102,6 +89,17 @@ Result<void> label_by(const View& view, Style& style) {
 
 }  // namespace
 
+std::vector<std::string> style_names() {
+    std::vector<std::string> names;
+    std::error_code failed;
+    std::filesystem::directory_iterator entry(data_folder() / "styles", failed);
+    for (; !failed && entry != std::filesystem::directory_iterator(); entry.increment(failed)) {
+        if (entry->path().extension() == ".json") names.push_back(entry->path().stem().string());
+    }
+    std::ranges::sort(names, {}, [](const std::string& name) { return std::pair(name != "natural", name); });
+    return names;
+}
+
 bool is_style_path(const std::string& style) {
     return style.ends_with(".json") || is_table(style) || style.find('/') != std::string::npos;
 }
@@ -143,7 +141,7 @@ Result<Style> load_style(const View& view, const HeightField& field) {
     if (!text.ok()) {
         const bool no_such = access(path.c_str(), F_OK) != 0 && (errno == ENOENT || errno == ENAMETOOLONG);
         if (!is_path && no_such) {
-            if (const std::string names = style_names(); !names.empty())
+            if (const std::string names = joined(style_names(), ", "); !names.empty())
                 return Error{ErrorKind::usage, "--style " + name,
                              "no style is called '" + name + "'; there is: " + names};
         }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "apps/styles/style.h"
 #include "apps/view/view.h"
@@ -10,6 +11,9 @@ namespace oro {
 
 // gpu::show_... of the same.
 gpu::uint shown_by(Show show);
+
+// The names of the styles that come with the program, natural first; none where there are none.
+std::vector<std::string> style_names();
 
 // True for a path (ending in .json or .txt, or with a folder), false for a name in the data folder.
 bool is_style_path(const std::string& style);
