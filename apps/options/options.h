@@ -83,6 +83,30 @@ struct ShotOptions {
     bool quiet{false};
 };
 
+struct FilmOptions {
+    std::string path;  // of the camera: keys, a tour or a track
+    RegionOptions region;
+    ViewOptions view;
+    MemoryOptions memory;
+    std::string out;     // a folder, or an .mp4
+    double fps{25.0};    // frames a second
+    std::string frames;  // FIRST:LAST
+    std::string shard;   // NUMBER/COUNT
+    std::string format{"png"};
+    std::string write_path;
+    std::optional<int> line;                // of a file with several tracks, from 1
+    std::optional<double> above_m;          // over the ground of a track
+    std::optional<double> duration_s;       // of a track
+    std::optional<double> speed_m_s;        // along a track
+    std::optional<double> smoothing_m;      // of a track
+    std::optional<std::string> look_ahead;  // along a track
+    bool no_legend{false};
+    bool no_paths{false};
+    bool overwrite{false};
+    bool json{false};
+    bool quiet{false};
+};
+
 struct CompareOptions {
     RegionOptions region;
     MemoryOptions memory;

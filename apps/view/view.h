@@ -1,6 +1,7 @@
 // A view: all that decides a picture, complete and resolved. Written into every picture and read back.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -27,7 +28,7 @@ struct RecordedView {
     std::string file;
     int width_px{};
     int height_px{};
-    bool own_look{true};                 // no option of this command changes its colours or its light
+    bool own_look{true};                       // no option of this command changes its colours or its light
     std::optional<Fingerprints> fingerprints;  // none of before there were any
 };
 
@@ -68,6 +69,9 @@ struct View : ViewSettings<OfView> {
     // What it was drawn from, as its file tells; from open_view on, what it is drawn from here.
     std::optional<Fingerprints> fingerprints;
     std::optional<RecordedView> recorded;  // of a view from a file, from open_view on
+    // Which of its region's grids stands first (begin_with_grid_at), by its number when the region was
+    // opened.
+    std::size_t first_grid{};
 };
 
 // What to read, from the options. Usage errors: no path, a malformed box or tile.
@@ -106,6 +110,11 @@ Result<View> read_view(const std::string& path);
 // That the view, written, is read back as it is. Errors: what the reader would say of it. To be asked before
 // a picture is drawn that nobody could open again.
 Result<void> check_view_opens(const View& view, const std::string& where);
+
+// Puts the grid first whose ground the eye is over, or else the nearest: what is told of ground around the
+// eye is told of that, and what a style asks of the ground. All others stand as they did when the region was
+// opened for the view, which keeps the grid's number then.
+void begin_with_grid_at(const Geodetic& eye, View& view, Region& region);
 
 // Takes N out of a region: heights are then above the ellipsoid, for the eye's place as for the terrain's.
 void leave_geoid_out(Region& region);

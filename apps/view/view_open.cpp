@@ -28,12 +28,11 @@ bool keeps_own_posts(const Region& region) {
 
 namespace {
 
-// The first grid is the one whose ground the eye is over, or else the nearest: what is told of ground around
-// the eye is told of that, and what a style asks of the ground. The first has the notes on all.
-void begin_with_grid_at(const Geodetic& eye, Region& region) {
+// Changes places of the first grid and another one. The first has the notes on all.
+void swap_first_grid(std::size_t number, Region& region) {
+    if (number == 0) return;
     std::vector<std::string> notes = std::move(region.grids.front().notes);
-    const auto number = &grid_at(region, eye.lat_deg, eye.lon_deg) - region.grids.data();
-    std::swap(region.grids.front(), region.grids[static_cast<std::size_t>(number)]);
+    std::swap(region.grids.front(), region.grids[number]);
     region.grids.front().notes = std::move(notes);
 }
 
@@ -103,6 +102,13 @@ Result<void> check_map(const View& view, const ViewOptions& options, const std::
 
 }  // namespace
 
+void begin_with_grid_at(const Geodetic& eye, View& view, Region& region) {
+    swap_first_grid(view.first_grid, region);
+    view.first_grid =
+        static_cast<std::size_t>(&grid_at(region, eye.lat_deg, eye.lon_deg) - region.grids.data());
+    swap_first_grid(view.first_grid, region);
+}
+
 Result<void> open_view(const std::string& view_file, const ViewOptions& view_options,
                        const RegionOptions& region_options, const Progress& progress, View& view,
                        Region& region, PictureKind kind) {
@@ -134,7 +140,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         view.own_posts = keeps_own_posts(region);
         view.several_grids = region.grids.size() > 1;
         view.fingerprints = fingerprints_of(region);
-        begin_with_grid_at(view.camera.eye, region);
+        begin_with_grid_at(view.camera.eye, view, region);
         ORO_CHECK(check_own_posts(view, region));
         if (!view.has_geoid) leave_geoid_out(region);
         // Those that somebody names instead are others on purpose.
@@ -155,7 +161,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     ORO_CHECK(open_files(view));
     if (!view.has_geoid) leave_geoid_out(region);
     const Result<void> placed = place_eye(view, view_options, region);
-    begin_with_grid_at(view.camera.eye, region);
+    begin_with_grid_at(view.camera.eye, view, region);
     if (placed.ok()) aim_sun(view.sun, view.camera.eye);
     // Ground that could not be read is no ground to stand on, but that is not why there is none.
     ORO_CHECK(region.grids.front().field.health());

@@ -18,8 +18,8 @@ using oro::test::run_orograph;
 using oro::test::run_program;
 using oro::test::Words;
 
-const Words commands{"shot",  "panorama", "view",     "compare", "plan", "trade", "sun",
-                     "sight", "profile",  "viewshed", "bake",    "info", "doctor"};
+const Words commands{"shot", "panorama", "film",    "view",     "compare", "plan", "trade",
+                     "sun",  "sight",    "profile", "viewshed", "bake",    "info", "doctor"};
 const std::string exit_line =
     "\nExit code: 0 done, 1 failed, 2 wrong arguments, 3 no data in the region, 4 no suitable GPU.\n";
 
