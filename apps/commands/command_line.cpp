@@ -24,6 +24,19 @@ void add_quiet(CLI::App& command, bool& quiet, const std::string& but) {
     OptionGroup(command, "Messages").flag("-q,--quiet", quiet, "Print nothing but " + but + ".");
 }
 
+void add_kml(OptionGroup& group, bool& kml) {
+    group.flag(
+        "--kml", kml,
+        "Write NAME.kml beside each picture: a PhotoOverlay, which shows it in its place in Google Earth "
+        "and others.");
+}
+
+void add_geopose(OptionGroup& group, bool& geopose) {
+    group.flag(
+        "--geopose", geopose,
+        "Write NAME.geopose.json beside each picture: the eye's place and direction as an OGC GeoPose.");
+}
+
 void add_shot(CLI::App& app, ShotOptions& options) {
     CLI::App& command = *app.add_subcommand(
         "shot", "Write a picture of terrain that tells where it was taken from and can be drawn again");
@@ -39,6 +52,8 @@ void add_shot(CLI::App& app, ShotOptions& options) {
     picture.flag("--layers", options.layers,
                  "Write what each pixel shows as TIFFs beside the picture: NAME.longitude.tif and latitude, "
                  "height (above sea level), ellipsoidal-height, distance, slope, source and shadow.");
+    add_kml(picture, options.kml);
+    add_geopose(picture, options.geopose);
     picture.flag(
         "--ortho", options.ortho,
         "Draw a map from straight above instead, of all the data or of --bbox: a GeoTIFF with opacity "
@@ -65,12 +80,13 @@ void add_shot(CLI::App& app, ShotOptions& options) {
     add_memory_options(command, options.memory);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "errors, and the table of --verify");
-    set_help(command,
-             {{"shot PATH... --out FILE [OPTIONS]", "shot --view PICTURE [--out FILE] [OPTIONS]"},
-              "",
-              "docs/commands/shot.md"},
-             options_for_later({"--time", "--layers", "--ortho", "--crs", "--resolution", "--legend",
-                                "--no-legend", "--unseen-ceiling", "--no-paths", "--data-changed"}));
+    set_help(
+        command,
+        {{"shot PATH... --out FILE [OPTIONS]", "shot --view PICTURE [--out FILE] [OPTIONS]"},
+         "",
+         "docs/commands/shot.md"},
+        options_for_later({"--time", "--layers", "--kml", "--geopose", "--ortho", "--crs", "--resolution",
+                           "--legend", "--no-legend", "--unseen-ceiling", "--no-paths", "--data-changed"}));
 }
 
 void add_panorama(CLI::App& app, PanoramaOptions& options) {
@@ -96,6 +112,7 @@ void add_panorama(CLI::App& app, PanoramaOptions& options) {
         "Take data, eye and settings from a panorama that orograph wrote. Looks, detail and --width "
         "may be changed.");
     add_time(command, "The picture", options.view);
+    add_geopose(picture, options.geopose);
     add_no_paths(command, "The picture", options.no_paths);
     add_data_changed(command, options.data_changed);
     picture.flag("--overwrite", options.overwrite, "Replace a file that is there.");
@@ -116,7 +133,7 @@ void add_panorama(CLI::App& app, PanoramaOptions& options) {
         {{"panorama PATH... --at PLACE --out FILE [OPTIONS]", "panorama --view PICTURE --out FILE [OPTIONS]"},
          "The Earth's curvature always counts.",
          "docs/commands/panorama.md"},
-        options_for_later({"--ridges", "--time", "--no-paths", "--data-changed"}));
+        options_for_later({"--ridges", "--time", "--geopose", "--no-paths", "--data-changed"}));
 }
 
 // How a camera follows a track.
@@ -161,6 +178,8 @@ void add_film(CLI::App& app, FilmOptions& options) {
     film.option("--write-path", options.write_path, "FILE",
                 "Write the camera's path as keys into this .json file. Without --out nothing is drawn.");
     add_time(command, "The film", options.view);
+    add_kml(film, options.kml);
+    add_geopose(film, options.geopose);
     film.flag("--legend", options.view.legend,
               "Add a strip below each frame: north, scale, colours, eye, sun and where the data come from.");
     film.flag("--no-legend", options.no_legend, "Leave out the strip that films of --show have.")
@@ -178,7 +197,8 @@ void add_film(CLI::App& app, FilmOptions& options) {
              {{"film FLIGHT PATH... --out FOLDER [OPTIONS]", "film FLIGHT PATH... --out FILE.mp4 [OPTIONS]"},
               "A film that was stopped goes on when the same command is given again.",
               "docs/commands/film.md"},
-             options_for_later({"--format", "--line", "--time", "--legend", "--no-legend", "--no-paths"}));
+             options_for_later({"--format", "--line", "--time", "--kml", "--geopose", "--legend",
+                                "--no-legend", "--no-paths"}));
 }
 
 void add_compare(CLI::App& app, CompareOptions& options) {

@@ -81,6 +81,8 @@ struct ShotOptions {
     bool overwrite{false};
     bool json{false};
     bool quiet{false};
+    bool kml{false};      // a PhotoOverlay beside the picture
+    bool geopose{false};  // a GeoPose beside it
 };
 
 struct FilmOptions {
@@ -100,6 +102,8 @@ struct FilmOptions {
     std::optional<double> speed_m_s;        // along a track
     std::optional<double> smoothing_m;      // of a track
     std::optional<std::string> look_ahead;  // along a track
+    bool kml{false};
+    bool geopose{false};
     bool no_legend{false};
     bool no_paths{false};
     bool overwrite{false};
@@ -205,6 +209,7 @@ struct PanoramaOptions {
     bool overwrite{false};
     bool json{false};
     bool quiet{false};
+    bool geopose{false};  // beside the picture
 };
 
 struct WindowOptions {

@@ -17,11 +17,13 @@
 #include "apps/commands/film/tour_keys.h"
 #include "apps/commands/film/track_keys.h"
 #include "apps/drawing/mesh_choice.h"
+#include "apps/eye/standpoint.h"
 #include "apps/film/frame_range.h"
 #include "apps/film/written_keys.h"
 #include "apps/legend/legend.h"
 #include "apps/options/option_table.h"
 #include "apps/output/overwrite_guard.h"
+#include "apps/output/pose_files.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
@@ -66,6 +68,7 @@ struct FilmFrame {
     CameraKey key;
     std::int64_t time_utc_s{};
     bool is_there{};
+    int legend_px{};  // of one that is there
 };
 
 struct FilmReport {
@@ -128,6 +131,9 @@ Result<FilmFiles> film_files(const FilmOptions& options) {
                                      : !options.shard.empty() ? "--shard"
                                                               : nullptr)
             return refused(part, "", "draws a part of the frames: name a folder in --out, not an .mp4");
+        if (options.kml || options.geopose)
+            return refused(options.kml ? "--kml" : "--geopose", "",
+                           "is written beside frames: name a folder in --out, not an .mp4");
         ORO_TRY(files.ffmpeg, ffmpeg_in_path(options.out));
         files.movie = options.out;
         files.folder = options.out + ".frames";
@@ -218,7 +224,7 @@ Result<std::vector<FilmFrame>> frames_of(const FilmOptions& options, const FilmF
             key.time_utc_s.value_or(begins_s + static_cast<std::int64_t>(std::floor(since_s + 1e-6)));
         if (!view_limits::time_utc_s.hold(static_cast<double>(time_s)))
             return refused("--time", "", "the film leaves the years 0 to 9999");
-        frames.push_back({number, key, time_s, false});
+        frames.push_back({number, key, time_s, false, 0});
     }
     return frames;
 }
@@ -233,7 +239,9 @@ Result<void> look_at_files(const FilmOptions& options, const FilmFiles& files, F
         if (!there) continue;
         bar.show(static_cast<double>(&frame - frames.data()) / static_cast<double>(frames.size()),
                  "reading frames that are there");
-        ORO_TRY(frame.is_there, film.is_drawn(file, film.view_of(frame.key, frame.time_utc_s)));
+        View view = film.view_of(frame.key, frame.time_utc_s);
+        ORO_TRY(frame.is_there, film.is_drawn(file, view));
+        frame.legend_px = view.legend_px;
         if (frame.is_there || options.overwrite || !files.movie.empty()) continue;
         return Error{ErrorKind::failed, file,
                      "is there already, and is no whole frame of this film (--overwrite draws it anew)"};
@@ -241,25 +249,50 @@ Result<void> look_at_files(const FilmOptions& options, const FilmFiles& files, F
     return {};
 }
 
-Result<void> draw_frames(const FilmOptions& options, const FilmFiles& files, FilmFrames& film,
-                         ProgressBar& bar, const std::vector<FilmFrame>& frames, FilmReport& report) {
+// The poses of a frame that are not there yet, without names. Errors: one that is another, unless it may be
+// replaced.
+Result<std::vector<WholeFile>> missing_poses(const FilmOptions& options, const std::string& file,
+                                             const View& view, const Region& region) {
+    const Geodetic& eye = view.camera.eye;
+    const double N_m =
+        grid_at(region, eye.lat_deg, eye.lon_deg).field.undulation.at_m(eye.lat_deg, eye.lon_deg);
+    std::vector<PoseText> texts = pose_texts(file, {options.kml, options.geopose}, view, N_m);
+    std::vector<PoseText> missing;
+    for (PoseText& one : texts) {
+        ORO_TRY(const bool there, is_there(one.file));
+        if (there) {
+            const auto text = read_own_text_file(one.file);
+            if (text.ok() && *text == one.text) continue;
+        }
+        missing.push_back(std::move(one));
+    }
+    return pose_files(missing, options.overwrite);
+}
+
+Result<void> draw_frames(const FilmOptions& options, const FilmFiles& files, const Region& region,
+                         FilmFrames& film, ProgressBar& bar, const std::vector<FilmFrame>& frames,
+                         FilmReport& report) {
     const bool overwrite = options.overwrite || !files.movie.empty();
     const auto count = static_cast<double>(frames.size());
     for (const FilmFrame& frame : frames) {
         const auto done = static_cast<double>(report.drawn + report.kept);
-        if (frame.is_there) {
-            ++report.kept;
-            continue;
-        }
         const std::string file = files.frame(frame.number);
-        const std::string what = "drawing frame " + grouped(static_cast<std::uint64_t>(frame.number)) +
-                                 " of " + grouped(static_cast<std::uint64_t>(report.frames));
         View view = film.view_of(frame.key, frame.time_utc_s);
-        ORO_TRY(DrawnPicture picture, film.draw(file, overwrite, view, [&](double share) {
-            bar.show((done + share) / count, what);
-        }));
-        ORO_CHECK(picture.file.commit());
-        ++report.drawn;
+        view.legend_px = frame.legend_px;
+        std::vector<WholeFile> together;
+        std::optional<DrawnPicture> picture;
+        if (!frame.is_there) {
+            const std::string what = "drawing frame " + grouped(static_cast<std::uint64_t>(frame.number)) +
+                                     " of " + grouped(static_cast<std::uint64_t>(report.frames));
+            ORO_TRY(picture, film.draw(file, overwrite, view,
+                                       [&](double share) { bar.show((done + share) / count, what); }));
+        }
+        ORO_TRY(together, missing_poses(options, file, view, region));
+        if (picture) together.push_back(std::move(picture->file));
+        std::vector<WholeFile*> names;
+        for (WholeFile& one : together) names.push_back(&one);
+        ORO_CHECK(commit_together(names));
+        ++(frame.is_there ? report.kept : report.drawn);
     }
     return {};
 }
@@ -310,13 +343,17 @@ Result<void> film_it(const FilmOptions& options, const FilmFiles& files, const C
     FilmFrames film(options, *gpu, view, region);
     ORO_TRY(std::vector<FilmFrame> frames, frames_of(options, files, path, view, report));
     std::vector<std::string> written;
-    for (const FilmFrame& frame : frames) written.push_back(files.frame(frame.number));
+    for (const FilmFrame& frame : frames) {
+        written.push_back(files.frame(frame.number));
+        for (const std::string& pose : pose_paths(written.back(), {options.kml, options.geopose}))
+            written.push_back(pose);
+    }
     if (!files.movie.empty()) written.push_back(files.movie);
     ORO_CHECK(spare_inputs(written,
                            {files_of_picture(view, region), {{options.path}, "which is the camera's path"}}));
     ORO_CHECK(make_folder(files.folder));
     ORO_CHECK(look_at_files(options, files, film, bar, frames));
-    ORO_CHECK(draw_frames(options, files, film, bar, frames, report));
+    ORO_CHECK(draw_frames(options, files, region, film, bar, frames, report));
     report.scenes = film.scenes_made();
     if (!files.movie.empty()) {
         bar.show(1.0, "making the movie");

@@ -39,7 +39,7 @@ void FilmFrames::look_from(const Geodetic& eye) {
     begin_with_grid_at(eye, view_, region_);
 }
 
-Result<bool> FilmFrames::is_drawn(const std::string& file, const View& view) {
+Result<bool> FilmFrames::is_drawn(const std::string& file, View& view) {
     const auto read = read_view_json(file);
     forget_file_read(file);
     if (!read.ok()) return false;
@@ -50,7 +50,7 @@ Result<bool> FilmFrames::is_drawn(const std::string& file, const View& view) {
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, gpu_));
     ORO_TRY(View wanted, view_as_written_in(view, file));
     wanted.pipeline = name_of(path);
-    wanted.legend_px = there->legend_px;
+    wanted.legend_px = view.legend_px = there->legend_px;
     wanted.fingerprints->style = style_print(style);
     wanted.fingerprints->pixels = there->fingerprints->pixels;
     if (view_to_json(wanted, false) != *read) return false;

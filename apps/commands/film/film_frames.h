@@ -31,9 +31,9 @@ class FilmFrames {
     // The view of a frame: as the film's, from a key, at a time of the clock.
     [[nodiscard]] View view_of(const CameraKey& key, std::int64_t time_utc_s) const;
     // Whether a file is a frame's picture, whole, of the same data, style and program; no, too, where it
-    // cannot be read. Of a JPEG, which does not keep its pixels, the view alone is asked. Errors: a style
-    // that cannot be read; the device's.
-    Result<bool> is_drawn(const std::string& file, const View& view);
+    // cannot be read. Of a JPEG, which does not keep its pixels, the view alone is asked. The view then has
+    // the file's legend_px. Errors: a style that cannot be read; the device's.
+    Result<bool> is_drawn(const std::string& file, View& view);
     // Draws a frame's picture that is to be `file`, and has no name yet. Errors: those of draw_picture(), of
     // the scene and of the style.
     Result<DrawnPicture> draw(const std::string& file, bool overwrite, View& view,

@@ -21,6 +21,7 @@
 #include "apps/maps/ortho_map.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/output/picture_file.h"
+#include "apps/output/pose_files.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
@@ -143,6 +144,8 @@ void tell(const ShotOptions& options, const PictureFiles& files, bool checks, co
           const Gpu& gpu, const Style& style) {
     if (!checks) say(options.quiet, "wrote " + files.picture);
     if (!checks && shot.view.map) say(options.quiet, "wrote " + world_file_path(files.picture));
+    for (const std::string& pose : pose_paths(files.picture, {options.kml, options.geopose}))
+        say(options.quiet, "wrote " + pose);
     if (shot.layers)
         for (const char* layer : layer_names) say(options.quiet, "wrote " + layer_path(files.picture, layer));
     // Measurements say it themselves.
@@ -293,6 +296,13 @@ Result<std::vector<WholeFile>> files_beside(const ShotOptions& options, const Pi
     if (options.layers) {
         ORO_TRY(beside, layers_of(options, files, ground, gpu, scene, style, bar, shot));
     }
+    const RegionGrid& at_eye = shot.region.grids.front();
+    const Geodetic& eye = shot.view.camera.eye;
+    ORO_TRY(std::vector<WholeFile> poses,
+            pose_files(pose_texts(files.picture, {options.kml, options.geopose}, shot.view,
+                                  at_eye.field.undulation.at_m(eye.lat_deg, eye.lon_deg)),
+                       options.overwrite));
+    for (WholeFile& pose : poses) beside.push_back(std::move(pose));
     if (options.verify) {
         bar.show(1.0, "measuring errors");
         ORO_TRY(WholeFile errors, verify_shot(options, files, ground, gpu, scene, style, shot));
@@ -342,6 +352,8 @@ Result<void> run_shot(const ShotOptions& asked) {
             return refused(options.verify ? "--verify" : "--layers", "",
                            "is for pictures from an eye; " + options.view_file + " is a map");
     }
+    if (options.ortho && (options.kml || options.geopose))
+        return refused(options.kml ? "--kml" : "--geopose", "", "is for pictures from an eye, not for maps");
     return take_shot(options, files);
 }
 

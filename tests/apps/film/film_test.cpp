@@ -140,7 +140,8 @@ TEST_F(Film, ReplacesNoOtherFrames) {
                    {"frame-000001.png", "is no whole frame of this film", "--overwrite"});
     EXPECT_TRUE(bytes_in(out) == whole);
     write_bytes(out / five[3], whole[3].substr(0, whole[3].size() / 2));
-    expect_refusal(film(joined(at_nine, {"-q"}), out), oro::test::failed, {"frame-000004.png", "is no whole frame"});
+    expect_refusal(film(joined(at_nine, {"-q"}), out), oro::test::failed,
+                   {"frame-000004.png", "is no whole frame"});
     const Outcome mended = film(joined(at_nine, {"--overwrite", "--json", "-q"}), out);
     ASSERT_EQ(mended.exit_code, 0) << mended.err;
     EXPECT_EQ(json::parse(mended.out)["frames"]["drawn"], 1);
@@ -155,8 +156,36 @@ TEST_F(Film, PartsAreTheWholeTogether) {
     ASSERT_EQ(film(joined(at_nine, {"--frames", ":3", "-q"}), parts).exit_code, 0);
     ASSERT_EQ(film(joined(at_nine, {"--frames", "5:5", "-q"}), parts).exit_code, 0);
     EXPECT_TRUE(bytes_in(parts) == bytes_in(out));
-    expect_refusal(film({"--shard", "1/2", "-q"}, folder / "new"), oro::test::usage, {"--time", "is missing"});
+    expect_refusal(film({"--shard", "1/2", "-q"}, folder / "new"), oro::test::usage,
+                   {"--time", "is missing"});
     EXPECT_FALSE(fs::exists(folder / "new"));
+}
+
+// Beside each frame, and again where they are gone; shot writes the same.
+TEST_F(Film, FramesHaveTheirPosesBesideThem) {
+    const Words poses = joined(at_nine, {"--kml", "--geopose", "--frames", "3:3", "-q"});
+    ASSERT_EQ(film(poses, out).exit_code, 0);
+    const Words all{"frame-000003.geopose.json", "frame-000003.kml", "frame-000003.png"};
+    EXPECT_EQ(names_in(out), all);
+    const json pose = json::parse(bytes_of(out / all[0]));
+    EXPECT_EQ(pose["position"], json::parse(R"({"lat": 36.58, "lon": -84.21, "h": 800.5})"));
+    const std::string kml = bytes_of(out / all[1]);
+    EXPECT_NE(kml.find("<href>frame-000003.png</href>"), std::string::npos) << kml;
+    fs::remove(out / all[1]);
+    ASSERT_EQ(film(poses, out).exit_code, 0);
+    EXPECT_EQ(bytes_of(out / all[1]), kml);
+    write_bytes(out / all[1], "mine");
+    expect_refusal(film(poses, out), oro::test::failed, {"frame-000003.kml", "is there already"});
+    EXPECT_EQ(bytes_of(out / all[1]), "mine");
+    fs::create_directory(folder / "shot");
+    const fs::path shot = folder / "shot" / "frame-000003.png";
+    ASSERT_EQ(
+        run_orograph({"shot", "--view", out / all[2], "--out", shot, "--kml", "--geopose", "-q"}).exit_code,
+        0);
+    EXPECT_EQ(bytes_of(folder / "shot" / all[0]), bytes_of(out / all[0]));
+    EXPECT_EQ(bytes_of(folder / "shot" / all[1]), kml);
+    expect_refusal(run_orograph({"shot", bundled(), "--ortho", "--out", folder / "m.tif", "--kml"}),
+                   oro::test::usage, {"--kml", "not for maps"});
 }
 
 // A track becomes keys, and these draw the same film.
