@@ -44,7 +44,13 @@ void add_shot(CLI::App& app, ShotOptions& options) {
     picture.option("--out", options.out, "FILE",
                    "The picture to write: .png, .jpg or .tif. With --view it may be left out: then the "
                    "picture is drawn again and compared with the file.");
-    picture.option("--view", options.view_file, "FILE", draw_view);
+    picture
+        .option(
+            "--view", options.view_files, "FILE",
+            std::string(draw_view) +
+                " Several views (give it again, or a list in a .json) are drawn one after the other; --out "
+                "numbers them: view-%04d.png.")
+        .allow_extra_args(false);
     add_time(command, "The picture", options.view);
     picture.flag("--verify", options.verify,
                  "Measure how far the picture is from full detail, in metres and pixels, and write "

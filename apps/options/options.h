@@ -81,8 +81,9 @@ struct ShotOptions {
     bool overwrite{false};
     bool json{false};
     bool quiet{false};
-    bool kml{false};      // a PhotoOverlay beside the picture
-    bool geopose{false};  // a GeoPose beside it
+    bool kml{false};                      // a PhotoOverlay beside the picture
+    bool geopose{false};                  // a GeoPose beside it
+    std::vector<std::string> view_files;  // as given; view_file: the one that a picture is drawn from
 };
 
 struct FilmOptions {

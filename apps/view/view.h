@@ -128,4 +128,14 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
                        const RegionOptions& region_options, const Progress& progress, View& view,
                        Region& region, PictureKind kind = PictureKind::plane);
 
+// Whether two views ask for the same region: the same data, read in the same way, with or without a geoid.
+bool asks_for_same_region(const View& one, const View& other);
+
+// The same for a view that was read already; `where` is the file that it stands in. held: the view, as it
+// came out of here, for which `region` was opened, which then stays if this view asks for the same one; null:
+// `region` is none. Errors: as above.
+Result<void> open_recorded_view(const std::string& where, const ViewOptions& view_options,
+                                const RegionOptions& region_options, const Progress& progress, View& view,
+                                Region& region, PictureKind kind, const View* held);
+
 }  // namespace oro

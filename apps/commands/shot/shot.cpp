@@ -2,13 +2,17 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "apps/accuracy/verification.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/shot/shot_files.h"
 #include "apps/commands/shot/shot_json.h"
+#include "apps/commands/shot/shot_views.h"
 #include "apps/drawing/drape.h"
 #include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/picking.h"
@@ -228,9 +232,32 @@ Result<void> spare_files_of(const ShotOptions& options, const PictureFiles& file
     return spare_inputs(written_files(options, files), inputs);
 }
 
+// What goes on from one of several views to the next: the region, with the view that it was opened for, and
+// the GPU.
+struct ShotSeries {
+    std::optional<View> opened;
+    Region region;
+    std::unique_ptr<Gpu> gpu;
+};
+
+// The view of a shot, and its region. listed: the view itself, of several; null: it is in its file, or in
+// options.
+Result<void> open_view_of(const ShotOptions& options, const View* listed, ProgressBar& bar,
+                          ShotSeries& series, ShotResult& shot) {
+    const auto progress = [&](double share, const std::string& what) { bar.show(share, "reading " + what); };
+    if (listed == nullptr)
+        return open_view(options.view_file, options.view, options.region, progress, shot.view, shot.region);
+    shot.view = *listed;
+    shot.region = std::move(series.region);
+    ORO_CHECK(open_recorded_view(options.view_file, options.view, options.region, progress, shot.view,
+                                 shot.region, PictureKind::plane, series.opened ? &*series.opened : nullptr));
+    series.opened = shot.view;
+    return {};
+}
+
 // All that can be refused before a GPU is asked for: options, data, files to be written. Gives the style.
-Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, ProgressBar& bar,
-                        ShotResult& shot) {
+Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, const View* listed,
+                        ProgressBar& bar, ShotSeries& series, ShotResult& shot) {
     ORO_CHECK(check_out(options, files));
     if (options.view.tolerance) {
         if (options.view.accuracy)
@@ -238,10 +265,7 @@ Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, P
         ORO_CHECK(parse_tolerance(*options.view.tolerance));
     }
     const auto reading = Clock::now();
-    ORO_CHECK(open_view(
-        options.view_file, options.view, options.region,
-        [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, shot.view,
-        shot.region));
+    ORO_CHECK(open_view_of(options, listed, bar, series, shot));
     ORO_TRY(shot.on_summit, asked_summit(options.view, shot.region, shot.view.exaggeration));
     if (options.ortho && options.view_file.empty()) ORO_CHECK(make_map(shot.view, options, shot.region));
     choose_legend(options, shot.view);
@@ -311,14 +335,18 @@ Result<std::vector<WholeFile>> files_beside(const ShotOptions& options, const Pi
     return beside;
 }
 
-Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
+Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, const View* listed,
+                       ShotSeries& series) {
     ORO_TRY(const double ceiling_m, unseen_ceiling(options.unseen_ceiling_m));
     ProgressBar bar(options.quiet);
     ShotResult shot;
-    ORO_TRY(const Style style, open_shot(options, files, bar, shot));
+    ORO_TRY(const Style style, open_shot(options, files, listed, bar, series, shot));
     bar.clear();
     ORO_CHECK(say_notes(options, shot));
-    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
+    if (!series.gpu) {
+        ORO_TRY(series.gpu, Gpu::create(gpu_options_from_environment()));
+    }
+    const Gpu* const gpu = series.gpu.get();
     ShotGround ground;
     ORO_TRY(ground.cuts, cut_regions(shot.region));
     say_rims(shot.region, ground.cuts, options.quiet);
@@ -335,26 +363,60 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files) {
     if (finished.ok() && checks)
         say(options.quiet, files.picture + " is there already, and its view draws the same " +
                                (shot.same_bytes ? "bytes" : "pixels"));
+    // The next view may look at the same region.
+    series.region = std::move(shot.region);
     return finished;
+}
+
+// What is asked for of a view that is not known before its file is read.
+Result<void> check_view_of_file(const View& recorded, ShotOptions& options) {
+    options.ortho = recorded.map.has_value();
+    if (options.ortho && (options.verify || options.layers))
+        return refused(options.verify ? "--verify" : "--layers", "",
+                       "is for pictures from an eye; " + options.view_file + " is a map");
+    if (options.ortho && (options.kml || options.geopose))
+        return refused(options.kml ? "--kml" : "--geopose", "",
+                       "is for pictures from an eye; " + options.view_file + " is a map");
+    return {};
+}
+
+// One picture of each view, by numbers. All files are looked at before the first is drawn.
+Result<void> take_shots(const ShotOptions& options, const std::vector<ListedView>& views) {
+    std::vector<ShotOptions> shots;
+    for (const ListedView& listed : views) {
+        ShotOptions& one = shots.emplace_back(options);
+        one.view_file = listed.file;
+        ORO_TRY(one.out, numbered_name(options.out, views.size(), shots.size()));
+        ORO_CHECK(check_view_of_file(listed.view, one));
+        ORO_TRY(const PictureFiles files, shot_files(one));
+        ORO_CHECK(check_out(one, files));
+    }
+    ShotSeries series;
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+        ORO_TRY(const PictureFiles files, shot_files(shots[i]));
+        ORO_CHECK(take_shot(shots[i], files, &views[i].view, series));
+    }
+    return {};
 }
 
 }  // namespace
 
 Result<void> run_shot(const ShotOptions& asked) {
     ShotOptions options = asked;
+    if (!options.view_files.empty()) options.view_file = options.view_files.front();
     ORO_CHECK(check_map_options(options));
     ORO_TRY(const PictureFiles files, shot_files(options));
-    options.view.takes_maps = true;
-    if (!options.view_file.empty()) {
-        ORO_TRY(const View recorded, read_view(options.view_file));
-        options.ortho = recorded.map.has_value();
-        if (options.ortho && (options.verify || options.layers))
-            return refused(options.verify ? "--verify" : "--layers", "",
-                           "is for pictures from an eye; " + options.view_file + " is a map");
-    }
     if (options.ortho && (options.kml || options.geopose))
         return refused(options.kml ? "--kml" : "--geopose", "", "is for pictures from an eye, not for maps");
-    return take_shot(options, files);
+    options.view.takes_maps = true;
+    ORO_TRY(const std::vector<ListedView> views, listed_views(options.view_files));
+    if (!views.empty()) return take_shots(options, views);
+    if (!options.view_file.empty()) {
+        ORO_TRY(const View recorded, read_view(options.view_file));
+        ORO_CHECK(check_view_of_file(recorded, options));
+    }
+    ShotSeries series;
+    return take_shot(options, files, nullptr, series);
 }
 
 }  // namespace oro
