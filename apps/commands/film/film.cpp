@@ -263,6 +263,9 @@ Result<std::vector<WholeFile>> missing_poses(const FilmOptions& options, const s
         if (there) {
             const auto text = read_own_text_file(one.file);
             if (text.ok() && *text == one.text) continue;
+            if (!options.overwrite)
+                return Error{ErrorKind::failed, one.file,
+                             "is there already, and tells another pose (--overwrite replaces it)"};
         }
         missing.push_back(std::move(one));
     }
