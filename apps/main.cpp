@@ -84,6 +84,7 @@ oro::Result<void> of_unchanged_files(const oro::Result<void>& result) {
 int run_command(CLI::App& app, oro::CommandLine& line, const std::vector<std::string>& words) {
     if (app.got_subcommand("shot")) return exit_code(oro::run_shot(line.shot));
     if (app.got_subcommand("panorama")) return exit_code(oro::run_panorama(line.panorama));
+    if (app.got_subcommand("film")) return exit_code(oro::run_film(line.film));
     if (app.got_subcommand("compare")) return exit_code(oro::run_compare(line.compare));
     if (app.got_subcommand("view")) return exit_code(oro::run_view(line.view));
     if (app.got_subcommand("plan")) return exit_code(of_unchanged_files(oro::run_plan(line.plan)));

@@ -28,6 +28,7 @@ set_tests_properties(
   ShotDrape.OfSixteenBitsIsWhatItsProfileOrTheOptionSays
   FilesFarApart.AreEachDrawnAsAlone
   FilesFarApart.AreMeasured
+  Film.KilledAgainAndAgainItHasTheSameBytes
   FoundViews.APlaneIsCutOppositeToTheEye
   FoundViews.AtTheFootOfAWall
   FoundViews.FarGroundOverAPlane

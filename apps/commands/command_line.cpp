@@ -26,6 +26,19 @@ void add_quiet(CLI::App& command, bool& quiet, const std::string& but) {
     OptionGroup(command, "Messages").flag("-q,--quiet", quiet, "Print nothing but " + but + ".");
 }
 
+void add_kml(OptionGroup& group, bool& kml) {
+    group.flag(
+        "--kml", kml,
+        "Write NAME.kml beside each picture: a PhotoOverlay, which shows it in its place in Google Earth "
+        "and others.");
+}
+
+void add_geopose(OptionGroup& group, bool& geopose) {
+    group.flag(
+        "--geopose", geopose,
+        "Write NAME.geopose.json beside each picture: the eye's place and direction as an OGC GeoPose.");
+}
+
 void add_shot(CLI::App& app, ShotOptions& options) {
     CLI::App& command = *app.add_subcommand(
         "shot", "Write a picture of terrain that tells where it was taken from and can be drawn again");
@@ -33,7 +46,13 @@ void add_shot(CLI::App& app, ShotOptions& options) {
     picture.option("--out", options.out, "FILE",
                    "The picture to write: .png, .jpg or .tif. With --view it may be left out: then the "
                    "picture is drawn again and compared with the file.");
-    picture.option("--view", options.view_file, "FILE", draw_view);
+    picture
+        .option(
+            "--view", options.view_files, "FILE",
+            std::string(draw_view) +
+                " Several views (give it again, or a list in a .json) are drawn one after the other; --out "
+                "numbers them: view-%04d.png.")
+        .allow_extra_args(false);
     add_time(command, "The picture", options.view);
     picture.flag("--verify", options.verify,
                  "Measure how far the picture is from full detail, in metres and pixels, and write "
@@ -41,6 +60,8 @@ void add_shot(CLI::App& app, ShotOptions& options) {
     picture.flag("--layers", options.layers,
                  "Write what each pixel shows as TIFFs beside the picture: NAME.longitude.tif and latitude, "
                  "height (above sea level), ellipsoidal-height, distance, slope, source and shadow.");
+    add_kml(picture, options.kml);
+    add_geopose(picture, options.geopose);
     picture.flag(
         "--ortho", options.ortho,
         "Draw a map from straight above instead, of all the data or of --bbox: a GeoTIFF with opacity "
@@ -67,11 +88,12 @@ void add_shot(CLI::App& app, ShotOptions& options) {
     add_memory_options(command, options.memory);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "errors, and the table of --verify");
-    set_help(command, {{"shot PATH... --out FILE [OPTIONS]", "shot --view PICTURE [--out FILE] [OPTIONS]"},
-                       "",
-                       "docs/commands/shot.md"});
-    list_later(command, {"--time", "--layers", "--ortho", "--crs", "--resolution", "--legend", "--no-legend",
-                         "--unseen-ceiling", "--no-paths", "--data-changed"});
+    set_help(
+        command,
+        {{"shot PATH... --out FILE [OPTIONS]", "shot --view PICTURE [--out FILE] [OPTIONS]"},
+         "",
+         "docs/commands/shot.md"});
+    list_later(command, {"--time", "--layers", "--kml", "--geopose", "--ortho", "--crs", "--resolution", "--legend", "--no-legend", "--unseen-ceiling", "--no-paths", "--data-changed"});
 }
 
 void add_panorama(CLI::App& app, PanoramaOptions& options) {
@@ -97,6 +119,7 @@ void add_panorama(CLI::App& app, PanoramaOptions& options) {
         "Take data, eye and settings from a panorama that orograph wrote. Looks, detail and --width "
         "may be changed.");
     add_time(command, "The picture", options.view);
+    add_geopose(picture, options.geopose);
     add_no_paths(command, "The picture", options.no_paths);
     add_data_changed(command, options.data_changed);
     picture.flag("--overwrite", options.overwrite, "Replace a file that is there.");
@@ -112,11 +135,76 @@ void add_panorama(CLI::App& app, PanoramaOptions& options) {
     add_memory_options(command, options.memory);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "errors");
-    set_help(command, {{"panorama PATH... --at PLACE --out FILE [OPTIONS]",
-                        "panorama --view PICTURE --out FILE [OPTIONS]"},
-                       "The Earth's curvature always counts.",
-                       "docs/commands/panorama.md"});
-    list_later(command, {"--ridges", "--time", "--no-paths", "--data-changed"});
+    set_help(
+        command,
+        {{"panorama PATH... --at PLACE --out FILE [OPTIONS]", "panorama --view PICTURE --out FILE [OPTIONS]"},
+         "The Earth's curvature always counts.",
+         "docs/commands/panorama.md"});
+    list_later(command, {"--ridges", "--time", "--geopose", "--no-paths", "--data-changed"});
+}
+
+// How a camera follows a track.
+void add_track_options(CLI::App& command, FilmOptions& options) {
+    OptionGroup track(command, "Along a track");
+    track.number("--above", options.above_m, "METRES",
+                 "Height of the eye over the ground, 1 to 1000000 (default 150).");
+    track.option("--look-ahead", options.look_ahead, "DISTANCE",
+                 "Look at the ground of the track so far ahead: metres, or seconds of the film as in 10s "
+                 "(default 500).");
+    track.number("--smoothing", options.smoothing_m, "METRES",
+                 "Even the track out: each place is the mean of so much of it, 0 to 100000 (default 200).");
+    CLI::Option& duration = track.number("--duration", options.duration_s, "SECONDS",
+                                         "How long the film lasts, 0.1 to 1000000 (default 60).");
+    track
+        .number("--speed", options.speed_m_s, "METRES",
+                "Metres of the track in each second instead. Not with --duration.")
+        .excludes(&duration);
+    track.whole_number("--line", options.line, 1, 1000000000, "N",
+                       "Which track of a file that has several, from 1. Default: the only one.");
+}
+
+void add_film(CLI::App& app, FilmOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "film",
+        "Write the pictures of a camera's flight, numbered or as a movie, and go on where it stopped");
+    OptionGroup film(command, "The film");
+    film.option("FLIGHT", options.path, "",
+                "The camera's path: keys in a .json file, a tour of a .kml file, or a track of a GPX, KML, "
+                "GeoJSON or GeoPackage file.")
+        .required();
+    film.option("--out", options.out, "FOLDER",
+                "Write frame-000001.png and so on into this folder; or an .mp4 file, with ffmpeg. Frames of "
+                "the same film that are there already stay.");
+    film.number("--fps", options.fps, "N", "Frames in each second of the film, 0.01 to 1000 (default 25).");
+    film.option("--frames", options.frames, "RANGE", "Draw these frames alone, FIRST:LAST as in 121:240.");
+    film.option(
+        "--shard", options.shard, "PART",
+        "Draw a part of the frames, NUMBER/COUNT: 2/4 draws the second of each four. Several machines "
+        "then draw a film together.");
+    film.choice("--format", options.format, {"png", "jpg", "tif"}, "The format of frames (default png).");
+    film.option("--write-path", options.write_path, "FILE",
+                "Write the camera's path as keys into this .json file. Without --out nothing is drawn.");
+    add_time(command, "The film", options.view);
+    add_kml(film, options.kml);
+    add_geopose(film, options.geopose);
+    film.flag("--legend", options.view.legend,
+              "Add a strip below each frame: north, scale, colours, eye, sun and where the data come from.");
+    film.flag("--no-legend", options.no_legend, "Leave out the strip that films of --show have.")
+        .excludes(command.get_option("--legend"));
+    add_no_paths(command, "The film", options.no_paths);
+    film.flag("--overwrite", options.overwrite, "Replace files that are there.");
+    add_track_options(command, options);
+    add_region_options(command, options.region);
+    add_film_view_options(command, options.view);
+    hide(command, {"--tolerance"});
+    add_memory_options(command, options.memory);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "errors");
+    set_help(command,
+             {{"film FLIGHT PATH... --out FOLDER [OPTIONS]", "film FLIGHT PATH... --out FILE.mp4 [OPTIONS]"},
+              "A film that was stopped goes on when the same command is given again.",
+              "docs/commands/film.md"});
+    list_later(command, {"--format", "--line", "--time", "--kml", "--geopose", "--legend", "--no-legend", "--no-paths"});
 }
 
 void add_compare(CLI::App& app, CompareOptions& options) {
@@ -400,6 +488,7 @@ void add_commands(CLI::App& app, CommandLine& line) {
     set_program_help(app);
     add_shot(app, line.shot);
     add_panorama(app, line.panorama);
+    add_film(app, line.film);
     add_view(app, line.view);
     add_compare(app, line.compare);
     add_plan(app, line.plan);

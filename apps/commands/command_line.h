@@ -9,6 +9,7 @@ namespace oro {
 struct CommandLine {
     ShotOptions shot;
     PanoramaOptions panorama;
+    FilmOptions film;
     WindowOptions view;
     CompareOptions compare;
     PlanOptions plan;

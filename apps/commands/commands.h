@@ -14,6 +14,8 @@ namespace oro {
 Result<void> run_shot(const ShotOptions& options);
 // Writes a picture all around a place, with rulers and names.
 Result<void> run_panorama(const PanoramaOptions& options);
+// Writes the numbered pictures of a camera's path, or a movie of them.
+Result<void> run_film(const FilmOptions& options);
 // Measures how far the picture of a view is from the truth; draws it again, replaces no picture.
 Result<void> run_compare(const CompareOptions& options);
 // Predicts how large each effect is in a view, before anything is drawn.

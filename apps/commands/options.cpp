@@ -58,6 +58,15 @@ void add_some_view_options(CLI::App& command, ViewOptions& options,
         add_row<ViewOptions>(command, row_named(view_option_table(), name), options);
 }
 
+void add_film_view_options(CLI::App& command, ViewOptions& options) {
+    for (const ViewOption& row : view_option_table())
+        if (!is_of_eye(row) || row.name == "--fov") add_row<ViewOptions>(command, row, options);
+    const ViewOption& fov = row_named(view_option_table(), "--fov");
+    OptionText text = fov.text;
+    text.usual = "45";
+    command.get_option("--fov")->description(sentence_of(fov.help, text));
+}
+
 void add_air_options(CLI::App& command, ViewOptions& options) {
     add_some_view_options(command, options, {"--refraction", "--air"});
     describe_standard_air(command);

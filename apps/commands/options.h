@@ -20,6 +20,8 @@ void add_view_options(CLI::App& command, ViewOptions& options);
 void add_memory_options(CLI::App& command, MemoryOptions& options);
 // Those of a view with these names alone.
 void add_some_view_options(CLI::App& command, ViewOptions& options, std::initializer_list<const char*> names);
+// Those of a view whose eye is said elsewhere: all but the eye's place and direction.
+void add_film_view_options(CLI::App& command, ViewOptions& options);
 // Air alone, for commands without a picture: standard where nothing is given.
 void add_air_options(CLI::App& command, ViewOptions& options);
 // Lets help say that standard air is the default.

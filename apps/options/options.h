@@ -81,6 +81,35 @@ struct ShotOptions {
     bool overwrite{false};
     bool json{false};
     bool quiet{false};
+    bool kml{false};                      // a PhotoOverlay beside the picture
+    bool geopose{false};                  // a GeoPose beside it
+    std::vector<std::string> view_files;  // as given; view_file: the one that a picture is drawn from
+};
+
+struct FilmOptions {
+    std::string path;  // of the camera: keys, a tour or a track
+    RegionOptions region;
+    ViewOptions view;
+    MemoryOptions memory;
+    std::string out;     // a folder, or an .mp4
+    double fps{25.0};    // frames a second
+    std::string frames;  // FIRST:LAST
+    std::string shard;   // NUMBER/COUNT
+    std::string format{"png"};
+    std::string write_path;
+    std::optional<int> line;                // of a file with several tracks, from 1
+    std::optional<double> above_m;          // over the ground of a track
+    std::optional<double> duration_s;       // of a track
+    std::optional<double> speed_m_s;        // along a track
+    std::optional<double> smoothing_m;      // of a track
+    std::optional<std::string> look_ahead;  // along a track
+    bool kml{false};
+    bool geopose{false};
+    bool no_legend{false};
+    bool no_paths{false};
+    bool overwrite{false};
+    bool json{false};
+    bool quiet{false};
 };
 
 struct CompareOptions {
@@ -181,6 +210,7 @@ struct PanoramaOptions {
     bool overwrite{false};
     bool json{false};
     bool quiet{false};
+    bool geopose{false};  // beside the picture
 };
 
 struct WindowOptions {

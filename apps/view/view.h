@@ -1,6 +1,7 @@
 // A view: all that decides a picture, complete and resolved. Written into every picture and read back.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -77,6 +78,9 @@ struct View : ViewSettings<OfView> {
     // What it was drawn from, as its file tells; from open_view on, what it is drawn from here.
     std::optional<Fingerprints> fingerprints;
     std::optional<RecordedView> recorded;  // of a view from a file, from open_view on
+    // Which of its region's grids stands first (begin_with_grid_at), by its number when the region was
+    // opened.
+    std::size_t first_grid{};
 };
 
 // What to read, from the options. Usage errors: no path, a malformed box or tile.
@@ -117,6 +121,11 @@ Result<View> read_view(const std::string& path);
 // a picture is drawn that nobody could open again.
 Result<void> check_view_opens(const View& view, const std::string& where);
 
+// Puts the grid first whose ground the eye is over, or else the nearest: what is told of ground around the
+// eye is told of that, and what a style asks of the ground. All others stand as they did when the region was
+// opened for the view, which keeps the grid's number then.
+void begin_with_grid_at(const Geodetic& eye, View& view, Region& region);
+
 // Takes N out of a region: heights are then above the ellipsoid, for the eye's place as for the terrain's.
 void leave_geoid_out(Region& region);
 // Whether one of its grids has posts where their own CRS has them.
@@ -128,6 +137,16 @@ bool keeps_own_posts(const Region& region);
 Result<void> open_view(const std::string& view_file, const ViewOptions& view_options,
                        const RegionOptions& region_options, const Progress& progress, View& view,
                        Region& region, PictureKind kind = PictureKind::plane);
+
+// Whether two views ask for the same region: the same data, read in the same way, with or without a geoid.
+bool asks_for_same_region(const View& one, const View& other);
+
+// The same for a view that was read already; `where` is the file that it stands in. held: the view, as it
+// came out of here, for which `region` was opened, which then stays if this view asks for the same one; null:
+// `region` is none. Errors: as above.
+Result<void> open_recorded_view(const std::string& where, const ViewOptions& view_options,
+                                const RegionOptions& region_options, const Progress& progress, View& view,
+                                Region& region, PictureKind kind, const View* held);
 
 // A usage error where a view of such a region asks for what only regions of latitudes and longitudes have:
 // another model of the Earth or of placing.

@@ -346,6 +346,14 @@ std::string view_to_json(const View& view, bool pretty) {
     return json_text(json, pretty);
 }
 
+bool asks_for_same_region(const View& one, const View& other) {
+    const auto region_of = [](View view) {
+        view.paths_from_own_file = false;
+        return json_text(begun_with_region(view), false);
+    };
+    return one.has_geoid == other.has_geoid && region_of(one) == region_of(other);
+}
+
 Result<View> view_from_json(const std::string& text, const std::string& where) {
     try {
         const nlohmann::json json = parsed_json(text);

@@ -27,12 +27,11 @@ bool keeps_own_posts(const Region& region) {
 
 namespace {
 
-// The first grid is the one whose ground the eye is over, or else the nearest: what is told of ground around
-// the eye is told of that, and what a style asks of the ground. The first has the notes on all.
-void begin_with_grid_at(const Geodetic& eye, Region& region) {
+// Changes places of the first grid and another one. The first has the notes on all.
+void swap_first_grid(std::size_t number, Region& region) {
+    if (number == 0) return;
     std::vector<std::string> notes = std::move(region.grids.front().notes);
-    const auto number = &grid_at(region, eye.lat_deg, eye.lon_deg) - region.grids.data();
-    std::swap(region.grids.front(), region.grids[static_cast<std::size_t>(number)]);
+    std::swap(region.grids.front(), region.grids[number]);
     region.grids.front().notes = std::move(notes);
 }
 
@@ -103,6 +102,71 @@ Result<void> check_map(const View& view, const ViewOptions& options, const std::
 
 }  // namespace
 
+void begin_with_grid_at(const Geodetic& eye, View& view, Region& region) {
+    swap_first_grid(view.first_grid, region);
+    view.first_grid =
+        static_cast<std::size_t>(&grid_at(region, eye.lat_deg, eye.lon_deg) - region.grids.data());
+    swap_first_grid(view.first_grid, region);
+}
+
+namespace {
+
+// The region of a view that comes from a file, and its fingerprints; `held` as of open_recorded_view().
+Result<void> open_region_of(const RegionOptions& region_options, const Progress& progress, const View* held,
+                            View& view, Region& region) {
+    if (held != nullptr && asks_for_same_region(view, *held)) {
+        view.fingerprints = held->fingerprints;
+        view.fingerprints->images.clear();
+        view.fingerprints->vectors.clear();
+        view.first_grid = held->first_grid;
+        begin_with_grid_at(view.camera.eye, view, region);
+        return check_own_posts(view, region);
+    }
+    auto opened = open_region(view.region, progress);
+    if (!opened) return with_way_out(opened.error(), view, region_options);
+    region = std::move(*opened);
+    view.own_posts = keeps_own_posts(region);
+    view.several_grids = region.grids.size() > 1;
+    view.fingerprints = fingerprints_of(region);
+    begin_with_grid_at(view.camera.eye, view, region);
+    ORO_CHECK(check_own_posts(view, region));
+    if (!view.has_geoid) leave_geoid_out(region);
+    return {};
+}
+
+}  // namespace
+
+Result<void> open_recorded_view(const std::string& where, const ViewOptions& view_options,
+                                const RegionOptions& region_options, const Progress& progress, View& view,
+                                Region& region, PictureKind kind, const View* held) {
+    ORO_CHECK(check_map(view, view_options, where));
+    ORO_CHECK(check_kind(view, where, kind));
+    view.recorded = RecordedView{where, view.camera.width_px, view.camera.height_px + view.legend_px,
+                                 !first_given(view_option_table(), view_options, is_look), view.fingerprints};
+    const std::string recorded_style = view.style;
+    ORO_CHECK(change_view(view, view_options));
+    // With another style goes another usual sun.
+    if (view.style != recorded_style && (!view.sun || view.sun->is_usual)) {
+        view.sun.reset();
+        take_usual_sun(view);
+        aim_sun(view.sun, eye_for_sun(view));
+    }
+    // A sun that its file told stays where the file has it: the same view, the same bytes.
+    if (view_options.sun_time) aim_sun(view.sun, eye_for_sun(view));
+    ORO_CHECK(change_region(view, region_options));
+    view.region.allow_multiple_grids = view.several_grids;
+    if (view.region.paths.empty())
+        return Error{ErrorKind::usage, "--view " + where,
+                     "does not tell where its elevation data lie: name them, too"};
+    ORO_CHECK(open_region_of(region_options, progress, held, view, region));
+    // Those that somebody names instead are others on purpose.
+    if (!view_options.drape.empty() && view.recorded->fingerprints)
+        view.recorded->fingerprints->images.clear();
+    if ((!view_options.names.empty() || !view_options.overlay.empty()) && view.recorded->fingerprints)
+        view.recorded->fingerprints->vectors.clear();
+    return open_files(view);
+}
+
 Result<void> open_view(const std::string& view_file, const ViewOptions& view_options,
                        const RegionOptions& region_options, const Progress& progress, View& view,
                        Region& region, PictureKind kind) {
@@ -110,41 +174,8 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         if (view.read_from != view_file) {
             ORO_TRY(view, read_view(view_file));
         }
-        ORO_CHECK(check_map(view, view_options, view_file));
-        ORO_CHECK(check_kind(view, view_file, kind));
-        view.recorded =
-            RecordedView{view_file, view.camera.width_px, view.camera.height_px + view.legend_px,
-                         !first_given(view_option_table(), view_options, is_look), view.fingerprints};
-        const std::string recorded_style = view.style;
-        ORO_CHECK(change_view(view, view_options));
-        // With another style goes another usual sun.
-        if (view.style != recorded_style && (!view.sun || view.sun->is_usual)) {
-            view.sun.reset();
-            take_usual_sun(view);
-            aim_sun(view.sun, eye_for_sun(view));
-        }
-        // A sun that its file told stays where the file has it: the same view, the same bytes.
-        if (view_options.sun_time) aim_sun(view.sun, eye_for_sun(view));
-        ORO_CHECK(change_region(view, region_options));
-        view.region.allow_multiple_grids = view.several_grids;
-        if (view.region.paths.empty())
-            return Error{ErrorKind::usage, "--view " + view_file,
-                         "does not tell where its elevation data lie: name them, too"};
-        auto opened = open_region(view.region, progress);
-        if (!opened) return with_way_out(opened.error(), view, region_options);
-        region = std::move(*opened);
-        view.own_posts = keeps_own_posts(region);
-        view.several_grids = region.grids.size() > 1;
-        view.fingerprints = fingerprints_of(region);
-        begin_with_grid_at(view.camera.eye, region);
-        ORO_CHECK(check_own_posts(view, region));
-        if (!view.has_geoid) leave_geoid_out(region);
-        // Those that somebody names instead are others on purpose.
-        if (!view_options.drape.empty() && view.recorded->fingerprints)
-            view.recorded->fingerprints->images.clear();
-        if ((!view_options.names.empty() || !view_options.overlay.empty()) && view.recorded->fingerprints)
-            view.recorded->fingerprints->vectors.clear();
-        return open_files(view);
+        return open_recorded_view(view_file, view_options, region_options, progress, view, region, kind,
+                                  nullptr);
     }
     ORO_TRY(RegionRequest request, region_request(region_options));
     ORO_TRY(view, view_without_eye(view_options, std::move(request)));
@@ -157,7 +188,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     ORO_CHECK(open_files(view));
     if (!view.has_geoid) leave_geoid_out(region);
     const Result<void> placed = place_eye(view, view_options, region);
-    begin_with_grid_at(view.camera.eye, region);
+    begin_with_grid_at(view.camera.eye, view, region);
     if (placed.ok()) aim_sun(view.sun, view.camera.eye);
     // Ground that could not be read is no ground to stand on, but that is not why there is none.
     ORO_CHECK(region.grids.front().field.health());

@@ -107,6 +107,13 @@ void forget_files_read() {
     all.changed.clear();
 }
 
+void forget_file_read(const std::string& path) {
+    FilesRead& all = files_read();
+    const std::scoped_lock lock(all.mutex);
+    all.states.erase(path);
+    if (all.changed == path) all.changed.clear();
+}
+
 void remember_file_read(const std::string& path, const struct stat& found) {
     if (!S_ISREG(found.st_mode)) return;
     FilesRead& all = files_read();

@@ -19,6 +19,10 @@ void remember_files_read();
 // and what is read from now on are files that it makes itself.
 void forget_files_read();
 
+// From now on the file `path` is as if it had never been read: for one that the program has made itself, in
+// this run or an earlier one, and that it may make again.
+void forget_file_read(const std::string& path);
+
 // For what opens files, before it reads: what the system says of the regular file `path` (others are passed
 // over). Of one that was changed in the last moments, whose next change the system's clock might not tell
 // from this one, the answer is waited for, some hundredths of a second. From any thread.

@@ -18,8 +18,8 @@ using oro::test::run_orograph;
 using oro::test::run_program;
 using oro::test::Words;
 
-const Words commands{"shot",  "panorama", "view",     "compare", "plan", "trade", "sun",
-                     "sight", "profile",  "viewshed", "bake",    "info", "doctor"};
+const Words commands{"shot", "panorama", "film",    "view",     "compare", "plan", "trade",
+                     "sun",  "sight",    "profile", "viewshed", "bake",    "info", "doctor"};
 const std::string exit_line =
     "\nExit code: 0 done, 1 failed, 2 wrong arguments, 3 no data in the region, 4 no suitable GPU.\n";
 
@@ -103,10 +103,10 @@ TEST(Help, HasTheSameHeadingsInTheSameOrder) {
 
 // A value word for all but flags; a sentence, which begins in the same column and ends with a full stop.
 TEST(Help, ExplainsEachOption) {
-    const Words flags{"--verify",       "--layers",       "--ortho",     "--legend",
-                      "--no-paths",     "--data-changed", "--overwrite", "--json",
-                      "-q, --quiet",    "--check",        "--no-legend", "--fill-voids",
-                      "--strict-datum", "-h, --help",     "--resample",  "--on-summit"};
+    const Words flags{"--verify",       "--layers",     "--ortho",        "--legend",    "--no-paths",
+                      "--data-changed", "--overwrite",  "--json",         "-q, --quiet", "--check",
+                      "--no-legend",    "--fill-voids", "--strict-datum", "-h, --help",  "--resample",
+                      "--on-summit",    "--kml",        "--geopose"};
     for (const std::string& command : commands) {
         const auto options = options_in(help_of({command}));
         EXPECT_GE(options.size(), 2U) << command;

@@ -58,7 +58,8 @@ std::string cache_folder() {
 bool draws_as_it_likes(const std::vector<std::string>& words) {
     const auto has = [&](const char* word) { return std::ranges::find(words, word) != words.end(); };
     return !words.empty() &&
-           (words[0] == "shot" || words[0] == "panorama" || words[0] == "trade" || words[0] == "view") &&
+           (words[0] == "shot" || words[0] == "panorama" || words[0] == "trade" || words[0] == "view" ||
+            words[0] == "film") &&
            !has("--style") && !has("--view");
 }
 

@@ -31,7 +31,8 @@ void expect_lines(const std::vector<Refused>& all) {
 // Found: exit code 0, and the program's help.
 TEST(RefusedOptions, NoCommandIsOneForHelpEither) {
     const std::string these =
-        "; these are shot, panorama, view, compare, plan, trade, sun, sight, profile, viewshed, bake, info "
+        "; these are shot, panorama, film, view, compare, plan, trade, sun, sight, profile, viewshed, bake, "
+        "info "
         "and "
         "doctor";
     expect_lines({{{"nonsense", "--help"}, "there is no command \"nonsense\"" + these},
@@ -152,10 +153,11 @@ TEST(RefusedOptions, NamesThatThereAreNot) {
          {{"--nonsense"}, "--nonsense: stands before the command: orograph COMMAND --nonsense"},
          {{"info", file, "--json=perhaps"}, "--json: takes no value"},
          {{"sho", file}, "there is no command \"sho\": did you mean shot?"},
-         {{"fly"},
-          "there is no command \"fly\"; these are shot, panorama, view, compare, plan, trade, sun, sight, "
-          "profile, "
-          "viewshed, bake, info and doctor"}});
+         {{"fly"}, "there is no command \"fly\": did you mean film?"},
+         {{"soar"},
+          "there is no command \"soar\"; these are shot, panorama, film, view, compare, plan, trade, sun, "
+          "sight, "
+          "profile, viewshed, bake, info and doctor"}});
 }
 
 TEST(RefusedOptions, NamesOfFilesToWrite) {

@@ -15,6 +15,7 @@
 #include "apps/names/names_in_view.h"
 #include "apps/options/view_limits.h"
 #include "apps/output/overwrite_guard.h"
+#include "apps/output/pose_files.h"
 #include "apps/panorama/elevations.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_text.h"
@@ -60,6 +61,11 @@ Result<void> check_out(const PanoramaOptions& options) {
         return Error{ErrorKind::failed, options.out, "is there already (--overwrite replaces it)"};
     if (const auto trial = WholeFile::create(options.out, options.overwrite); !trial.ok())
         return trial.error();
+    for (const std::string& pose : pose_paths(options.out, {false, options.geopose})) {
+        ORO_TRY(const bool pose_there, is_there(pose));
+        if (pose_there && !options.overwrite)
+            return Error{ErrorKind::failed, pose, "is there already (--overwrite replaces it)"};
+    }
     return {};
 }
 
@@ -221,6 +227,8 @@ Result<void> draw(const PanoramaOptions& options, const RegionGround& ground, co
 
 void tell(const PanoramaOptions& options, const Style& style, const PanoramaReport& report) {
     say(options.quiet, "wrote " + options.out);
+    for (const std::string& pose : pose_paths(options.out, {false, options.geopose}))
+        say(options.quiet, "wrote " + pose);
     const PanoramaNames& names = report.laid.names;
     if (names.without_letters > 0)
         say(options.quiet,
@@ -252,8 +260,10 @@ Result<void> run_panorama(const PanoramaOptions& options) {
     ORO_TRY(report.on_summit, asked_summit(options.view, report.region, view.exaggeration));
     if (options.no_paths) view.tells_paths = false;
     say_edited(view, options.quiet);
+    std::vector<std::string> outputs = pose_paths(options.out, {false, options.geopose});
+    outputs.push_back(options.out);
     ORO_CHECK(spare_inputs(
-        {options.out}, {files_of_picture(view, report.region), {{options.view_file}, "which is the view"}}));
+        outputs, {files_of_picture(view, report.region), {{options.view_file}, "which is the view"}}));
     // view.mesh tells what is drawn from then on.
     if (const auto drawn = draws_clusters(report.region, view); !drawn.ok()) return drawn.error();
     report.read_s = seconds_since(reading);
@@ -279,7 +289,12 @@ Result<void> run_panorama(const PanoramaOptions& options) {
                                                  report.laid, report.scene));
     view.camera.height_px = report.laid.sheet.height_px;
     view.fingerprints = written.fingerprints;
-    ORO_CHECK(written.file.commit());
+    ORO_TRY(std::vector<WholeFile> together,
+            pose_files(pose_texts(options.out, {false, options.geopose}, view, 0.0), options.overwrite));
+    together.push_back(std::move(written.file));
+    std::vector<WholeFile*> files;
+    for (WholeFile& file : together) files.push_back(&file);
+    ORO_CHECK(commit_together(files));
     bar.clear();
     tell(options, style, report);
     return {};

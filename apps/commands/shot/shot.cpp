@@ -2,13 +2,17 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "apps/accuracy/verification.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/shot/shot_files.h"
 #include "apps/commands/shot/shot_json.h"
+#include "apps/commands/shot/shot_views.h"
 #include "apps/drawing/drape.h"
 #include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/picking.h"
@@ -21,6 +25,7 @@
 #include "apps/maps/ortho_map.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/output/picture_file.h"
+#include "apps/output/pose_files.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
@@ -143,6 +148,8 @@ void tell(const ShotOptions& options, const PictureFiles& files, bool checks, co
           const Gpu& gpu, const Style& style) {
     if (!checks) say(options.quiet, "wrote " + files.picture);
     if (!checks && shot.view.map) say(options.quiet, "wrote " + world_file_path(files.picture));
+    for (const std::string& pose : pose_paths(files.picture, {options.kml, options.geopose}))
+        say(options.quiet, "wrote " + pose);
     if (shot.layers)
         for (const char* layer : layer_names) say(options.quiet, "wrote " + layer_path(files.picture, layer));
     // Measurements say it themselves.
@@ -225,9 +232,32 @@ Result<void> spare_files_of(const ShotOptions& options, const PictureFiles& file
     return spare_inputs(written_files(options, files), inputs);
 }
 
+// What goes on from one of several views to the next: the region, with the view that it was opened for, and
+// the GPU.
+struct ShotSeries {
+    std::optional<View> opened;
+    Region region;
+    std::unique_ptr<Gpu> gpu;
+};
+
+// The view of a shot, and its region. listed: the view itself, of several; null: it is in its file, or in
+// options.
+Result<void> open_view_of(const ShotOptions& options, const View* listed, ProgressBar& bar,
+                          ShotSeries& series, ShotResult& shot) {
+    const auto progress = [&](double share, const std::string& what) { bar.show(share, "reading " + what); };
+    if (listed == nullptr)
+        return open_view(options.view_file, options.view, options.region, progress, shot.view, shot.region);
+    shot.view = *listed;
+    shot.region = std::move(series.region);
+    ORO_CHECK(open_recorded_view(options.view_file, options.view, options.region, progress, shot.view,
+                                 shot.region, PictureKind::plane, series.opened ? &*series.opened : nullptr));
+    series.opened = shot.view;
+    return {};
+}
+
 // All that can be refused before a GPU is asked for: options, data, files to be written. Gives the style.
-Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, ProgressBar& bar,
-                        ShotResult& shot) {
+Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, const View* listed,
+                        ProgressBar& bar, ShotSeries& series, ShotResult& shot) {
     ORO_CHECK(check_out(options, files));
     if (options.view.tolerance) {
         if (options.view.accuracy)
@@ -235,10 +265,7 @@ Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, P
         ORO_CHECK(parse_tolerance(*options.view.tolerance));
     }
     const auto reading = Clock::now();
-    ORO_CHECK(open_view(
-        options.view_file, options.view, options.region,
-        [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, shot.view,
-        shot.region));
+    ORO_CHECK(open_view_of(options, listed, bar, series, shot));
     ORO_TRY(shot.on_summit, asked_summit(options.view, shot.region, shot.view.exaggeration));
     if (options.ortho && options.view_file.empty()) ORO_CHECK(make_map(shot.view, options, shot.region));
     choose_legend(options, shot.view);
@@ -293,6 +320,13 @@ Result<std::vector<WholeFile>> companion_files(const ShotOptions& options, const
     if (options.layers) {
         ORO_TRY(companions, layers_of(options, files, ground, gpu, scene, style, bar, shot));
     }
+    const RegionGrid& at_eye = shot.region.grids.front();
+    const Geodetic& eye = shot.view.camera.eye;
+    ORO_TRY(std::vector<WholeFile> poses,
+            pose_files(pose_texts(files.picture, {options.kml, options.geopose}, shot.view,
+                                  at_eye.field.undulation.at_m(eye.lat_deg, eye.lon_deg)),
+                       options.overwrite));
+    for (WholeFile& pose : poses) companions.push_back(std::move(pose));
     if (options.verify) {
         bar.show(1.0, "measuring errors");
         ORO_TRY(WholeFile errors, verify_shot(options, files, ground, gpu, scene, style, shot));
@@ -301,13 +335,18 @@ Result<std::vector<WholeFile>> companion_files(const ShotOptions& options, const
     return companions;
 }
 
-Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, ShotResult& shot) {
+Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, const View* listed,
+                       ShotSeries& series) {
     ORO_TRY(const double ceiling_m, unseen_ceiling(options.unseen_ceiling_m));
     ProgressBar bar(options.quiet);
-    ORO_TRY(const Style style, open_shot(options, files, bar, shot));
+    ShotResult shot;
+    ORO_TRY(const Style style, open_shot(options, files, listed, bar, series, shot));
     bar.clear();
     ORO_CHECK(say_notes(options, shot));
-    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
+    if (!series.gpu) {
+        ORO_TRY(series.gpu, Gpu::create(gpu_options_from_environment()));
+    }
+    const Gpu* const gpu = series.gpu.get();
     ShotGround ground;
     ORO_TRY(ground.cuts, cut_regions(shot.region));
     say_rims(shot.region, ground.cuts, options.quiet);
@@ -324,25 +363,59 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, Sh
     if (finished.ok() && checks)
         say(options.quiet, files.picture + " is there already, and its view draws the same " +
                                (shot.same_bytes ? "bytes" : "pixels"));
+    // The next view may look at the same region.
+    series.region = std::move(shot.region);
     return finished;
+}
+
+// What is asked for of a view that is not known before its file is read.
+Result<void> check_view_of_file(const View& recorded, ShotOptions& options) {
+    options.ortho = recorded.map.has_value();
+    if (options.ortho && (options.verify || options.layers))
+        return refused(options.verify ? "--verify" : "--layers", "",
+                       "is for pictures from an eye; " + options.view_file + " is a map");
+    if (options.ortho && (options.kml || options.geopose))
+        return refused(options.kml ? "--kml" : "--geopose", "",
+                       "is for pictures from an eye; " + options.view_file + " is a map");
+    return {};
+}
+
+// One picture of each view, by numbers. All files are looked at before the first is drawn.
+Result<void> take_shots(const ShotOptions& options, const std::vector<ListedView>& views) {
+    std::vector<ShotOptions> shots;
+    for (const ListedView& listed : views) {
+        ShotOptions& one = shots.emplace_back(options);
+        one.view_file = listed.file;
+        ORO_TRY(one.out, numbered_name(options.out, views.size(), shots.size()));
+        ORO_CHECK(check_view_of_file(listed.view, one));
+        ORO_TRY(const PictureFiles files, shot_files(one));
+        ORO_CHECK(check_out(one, files));
+    }
+    ShotSeries series;
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+        ORO_TRY(const PictureFiles files, shot_files(shots[i]));
+        ORO_CHECK(take_shot(shots[i], files, &views[i].view, series));
+    }
+    return {};
 }
 
 }  // namespace
 
 Result<void> run_shot(const ShotOptions& asked) {
     ShotOptions options = asked;
+    if (!options.view_files.empty()) options.view_file = options.view_files.front();
     ORO_CHECK(check_map_options(options));
     ORO_TRY(const PictureFiles files, shot_files(options));
+    if (options.ortho && (options.kml || options.geopose))
+        return refused(options.kml ? "--kml" : "--geopose", "", "is for pictures from an eye, not for maps");
     options.view.takes_maps = true;
-    ShotResult shot;
-    if (!options.view_file.empty()) {
-        ORO_TRY(shot.view, read_view(options.view_file));
-        options.ortho = shot.view.map.has_value();
-        if (options.ortho && (options.verify || options.layers))
-            return refused(options.verify ? "--verify" : "--layers", "",
-                           "is for pictures from an eye; " + options.view_file + " is a map");
-    }
-    return take_shot(options, files, shot);
+    ORO_TRY(const std::vector<ListedView> views, listed_views(options.view_files));
+    if (!views.empty()) return take_shots(options, views);
+    ShotSeries series;
+    if (options.view_file.empty()) return take_shot(options, files, nullptr, series);
+    ORO_TRY(const View recorded, read_view(options.view_file));
+    ORO_CHECK(check_view_of_file(recorded, options));
+    return take_shot(options, files, &recorded, series);
 }
 
 }  // namespace oro

@@ -8,6 +8,7 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/layers/picture_layers.h"
+#include "apps/output/pose_files.h"
 #include "core/base/file_there.h"
 #include "core/base/open_file.h"
 #include "geo/files/whole_file.h"
@@ -67,6 +68,8 @@ std::vector<std::string> written_files(const ShotOptions& options, const Picture
     if (!is_check(options, files)) all.push_back(files.picture);
     if (options.verify) all.push_back(files.error);
     if (options.ortho && !is_check(options, files)) all.push_back(world_file_path(files.picture));
+    for (const std::string& pose : pose_paths(files.picture, {options.kml, options.geopose}))
+        all.push_back(pose);
     if (options.layers)
         for (const char* layer : layer_names) all.push_back(layer_path(files.picture, layer));
     return all;

@@ -74,7 +74,27 @@ Result<LineAlong> line_in_file(const std::string& path, const std::optional<int>
     return line;
 }
 
+// Measures the ways from place to place.
+Result<void> measure(const std::string& option, const std::string& text, LineAlong& line) {
+    line.distances_m.push_back(0.0);
+    for (std::size_t i = 1; i < line.places.size(); ++i) {
+        const LatLon &from = line.places[i - 1], &to = line.places[i];
+        const GeodesicPath path = geodesic_between(from.lat_deg, from.lon_deg, to.lat_deg, to.lon_deg);
+        line.distances_m.push_back(line.distances_m.back() + path.distance_m);
+        line.bearings_deg.push_back(path.bearing_deg);
+    }
+    if (!(line.distances_m.back() > 0.0)) return refused(option, text, "has no length");
+    return {};
+}
+
 }  // namespace
+
+Result<LineAlong> line_of_file(const std::string& option, const std::string& file,
+                               const std::optional<int>& number) {
+    ORO_TRY(LineAlong line, line_in_file(file, number));
+    ORO_CHECK(measure(option, file, line));
+    return line;
+}
 
 Result<LineAlong> line_along(const std::string& text, const std::optional<int>& number) {
     LineAlong line;
@@ -89,14 +109,7 @@ Result<LineAlong> line_along(const std::string& text, const std::optional<int>& 
         if (line.places.size() < 2)
             return refused("--along", text, "is one place: a line has two or more, with ; between them");
     }
-    line.distances_m.push_back(0.0);
-    for (std::size_t i = 1; i < line.places.size(); ++i) {
-        const LatLon &from = line.places[i - 1], &to = line.places[i];
-        const GeodesicPath path = geodesic_between(from.lat_deg, from.lon_deg, to.lat_deg, to.lon_deg);
-        line.distances_m.push_back(line.distances_m.back() + path.distance_m);
-        line.bearings_deg.push_back(path.bearing_deg);
-    }
-    if (!(line.distances_m.back() > 0.0)) return refused("--along", text, "has no length");
+    ORO_CHECK(measure("--along", text, line));
     return line;
 }
 

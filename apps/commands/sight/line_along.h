@@ -23,6 +23,9 @@ struct LineAlong {
 // Errors: text that is neither, places that are none, one place alone (usage); those of read_vectors(), a
 // file without a line, or with several and no number (usage).
 Result<LineAlong> line_along(const std::string& text, const std::optional<int>& number);
+// The same of a file alone; `option` is what errors call it beside its name.
+Result<LineAlong> line_of_file(const std::string& option, const std::string& file,
+                               const std::optional<int>& number);
 
 // The place so far along the line; on_leg: of the way from place `leg` to the next, which it is on.
 LatLon place_on_line(const LineAlong& line, double along_m);
