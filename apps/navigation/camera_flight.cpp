@@ -86,9 +86,13 @@ double Flight::width_m(double pace) const {
     return from_width_m_ * std::cosh(start_r_) / std::cosh(rho * length_ * pace + start_r_);
 }
 
-// The direction of the geodesic at a place of it, so far from its start; north where there is no distance.
+// The direction of the geodesic at a place of it, so far from its start; where there is no distance,
+// north at the start.
 double Flight::bearing_at_deg(const Geodetic& place, double along_m) const {
-    if (distance_m_ == 0.0) return 0.0;
+    if (distance_m_ == 0.0) {
+        const glm::dvec3 north = ecef_from_enu(from_.eye.lat_deg, from_.eye.lon_deg)[1];
+        return attitude_of_direction(place, north).heading_deg;
+    }
     constexpr double beyond_m = 10.0;
     const auto point_m = [&](double at_m) {
         const LatLon at = geodesic_towards(from_.eye.lat_deg, from_.eye.lon_deg, start_bearing_deg_, at_m);
@@ -117,15 +121,13 @@ Camera Flight::camera_at(double time_s) const {
     }
     const double pace = eased(time_s / duration_s_);
     const double share = ground_share(pace), width = width_m(pace);
-    double bearing_deg = 0.0;
+    const double along_m = share * distance_m_;
     if (distance_m_ > 0.0) {
-        const double along_m = share * distance_m_;
         const LatLon at = geodesic_towards(from_.eye.lat_deg, from_.eye.lon_deg, start_bearing_deg_, along_m);
         there.eye.lat_deg = at.lat_deg, there.eye.lon_deg = at.lon_deg;
-        bearing_deg = bearing_at_deg(there.eye, along_m);
     }
     there.eye.h_m = between(from_.eye.h_m - from_width_m_, to_.eye.h_m - to_width_m_, share) + width;
-    const double heading_deg = bearing_deg + from_turn_deg_ + pace * turn_deg_;
+    const double heading_deg = bearing_at_deg(there.eye, along_m) + from_turn_deg_ + pace * turn_deg_;
     there.attitude.heading_deg = std::fmod(std::fmod(heading_deg, 360.0) + 360.0, 360.0);
     constexpr double down_deg = -60.0;
     const double level_deg = between(from_.attitude.pitch_deg, to_.attitude.pitch_deg, pace);
