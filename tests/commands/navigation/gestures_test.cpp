@@ -273,15 +273,15 @@ TEST_F(GesturesTest, WalkingFollowsTheGround) {
     tap(ViewKey::k);
     wait(3.1);
     EXPECT_TRUE(gestures_.is_walking());
-    const auto over_ground_m = [&] {
+    const auto eye_over_m = [&] {
         return camera_.eye.h_m - *hill_h_m(camera_.eye.lat_deg, camera_.eye.lon_deg);
     };
-    EXPECT_NEAR(over_ground_m(), eye_clearance_m, 1e-9);
+    EXPECT_NEAR(eye_over_m(), eye_clearance_m, 1e-9);
     const Camera before = camera_;
     key(Kind::key_down, ViewKey::w);
     for (int i = 0; i < 100; ++i) {
         wait(0.1);
-        ASSERT_NEAR(over_ground_m(), eye_clearance_m, 1e-9);
+        ASSERT_NEAR(eye_over_m(), eye_clearance_m, 1e-9);
     }
     key(Kind::key_up, ViewKey::w);
     EXPECT_NEAR(glm::distance(camera_.eye_ecef().m, before.eye_ecef().m), 50.0, 5.0);  // 5 m/s for 10 s
