@@ -4,7 +4,7 @@
 
 #include "apps/eye/standpoint.h"
 #include "apps/view/place_camera.h"
-#include "apps/window/flight.h"
+#include "apps/navigation/flight_step.h"
 #include "core/terrain/ground.h"
 
 namespace oro {

@@ -1,7 +1,7 @@
 // What a window's user asks of the eye.
 #pragma once
 
-#include "apps/window/flight.h"
+#include "apps/navigation/flight_step.h"
 #include "render/window.h"
 
 namespace oro {

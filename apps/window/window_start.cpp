@@ -7,7 +7,7 @@
 #include "apps/drawing/background_pyramid_build.h"
 #include "apps/eye/standpoint.h"
 #include "apps/report/json_text.h"
-#include "apps/window/flight.h"
+#include "apps/navigation/flight_step.h"
 #include "core/base/files_read.h"
 #include "core/base/parallel.h"
 #include "core/lod/pyramid.h"
