@@ -7,7 +7,7 @@
 
 #include "core/base/result.h"
 #include "geo/files/source_paths.h"
-#include "geo/sources/height_unit.h"
+#include "geo/sources/length_unit.h"
 #include "geo/sources/source.h"
 #include "geo/sources/source_overrides.h"
 
