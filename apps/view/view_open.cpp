@@ -10,6 +10,7 @@
 #include "apps/view/view_option_table.h"
 #include "core/base/file_there.h"
 #include "geo/opening/open_region.h"
+#include "geo/together/covered_grids.h"
 
 namespace oro {
 
@@ -134,8 +135,9 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
         view.own_posts = keeps_own_posts(region);
         view.several_grids = region.grids.size() > 1;
         view.fingerprints = fingerprints_of(region);
-        begin_with_grid_at(view.camera.eye, region);
         ORO_CHECK(check_own_posts(view, region));
+        leave_covered_grids_out(region);
+        begin_with_grid_at(view.camera.eye, region);
         if (!view.has_geoid) leave_geoid_out(region);
         // Those that somebody names instead are others on purpose.
         if (!view_options.drape.empty() && view.recorded->fingerprints)
@@ -152,6 +154,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     view.several_grids = region.grids.size() > 1;
     view.fingerprints = fingerprints_of(region);
     ORO_CHECK(check_own_posts(view, region));
+    leave_covered_grids_out(region);
     ORO_CHECK(open_files(view));
     if (!view.has_geoid) leave_geoid_out(region);
     const Result<void> placed = place_eye(view, view_options, region);
