@@ -97,8 +97,14 @@ std::optional<std::string> wrong_heights(const RegionGrid& grid) {
         lowest_m = std::min(lowest_m, source.lowest_m);
         highest_m = std::max(highest_m, source.highest_m);
     }
-    const bool one = grid.sources.size() == 1;
-    const std::string of = one ? "of " + grid.sources.front().path : std::string("of all its files");
+    // Posts that are one point get one height: those of a pole, and of a meridian's two columns.
+    constexpr double near_pole_deg = 90.0 - 1.0e-9;
+    const PostGrid& posts = grid.field.grid;
+    const bool are_apart =
+        !posts.wraps_longitude() && posts.north_deg() < near_pole_deg && posts.south_deg() > -near_pole_deg;
+    const bool one = grid.sources.size() == 1 && are_apart;
+    const std::string of =
+        grid.sources.size() == 1 ? "of " + grid.sources.front().path : std::string("of all its files");
     const auto found_lowest_m = static_cast<double>(range.lowest_m),
                found_highest_m = static_cast<double>(range.highest_m);
     if (lowest_m > found_lowest_m + same_height_m || (one && lowest_m < found_lowest_m - same_height_m))
