@@ -22,8 +22,8 @@ std::string in_hex(std::uint64_t number) {
     return text;
 }
 
-std::string tells(const std::string& what, const std::string& told, const std::string& found) {
-    return "its description tells " + what + " " + told + ", but the data have " + found;
+std::string tells(const std::string& what, const std::string& recorded, const std::string& found) {
+    return "its description tells " + what + " " + recorded + ", but the data have " + found;
 }
 
 double width_deg(const BoundingBox& box) {
@@ -51,16 +51,16 @@ std::optional<std::string> wrong_counts(const SourceReport& source) {
     const auto differs = [](int posts, double side_deg, double spacing_deg) {
         return !(std::abs(side_deg / spacing_deg - (posts - 1)) <= 1.0);
     };
-    const auto told = [&](const char* what, int posts, double side_deg, double spacing_deg) {
+    const auto wrong_count = [&](const char* what, int posts, double side_deg, double spacing_deg) {
         return tells(what + (" of " + source.path), std::to_string(posts),
                      in_digits(std::round(side_deg / spacing_deg) + 1.0) + " in its box");
     };
     const double height_deg = source.box.north_deg - source.box.south_deg, across_deg = width_deg(source.box);
     if (differs(source.rows, height_deg, source.lat_spacing_deg))
-        return told("the rows", source.rows, height_deg, source.lat_spacing_deg);
+        return wrong_count("the rows", source.rows, height_deg, source.lat_spacing_deg);
     const bool is_round = across_deg > 360.0 - 2.0 * source.lon_spacing_deg || across_deg == 0.0;
     if (!is_round && differs(source.columns, across_deg, source.lon_spacing_deg))
-        return told("the columns", source.columns, across_deg, source.lon_spacing_deg);
+        return wrong_count("the columns", source.columns, across_deg, source.lon_spacing_deg);
     return std::nullopt;
 }
 
@@ -121,7 +121,7 @@ Result<void> check_description(const RegionGrid& grid, bool may_be_feathered, co
         return Error{ErrorKind::failed, grid.file ? grid.file->path() : std::string("region"), name + what};
     };
     const bool is_cut = std::ranges::any_of(
-        grid.notes, [](const std::string& note) { return note.starts_with("cut out of "); });
+        grid.notes, [](const std::string& note) { return note.starts_with(clipped_from); });
     for (const SourceReport& source : grid.sources) {
         if (is_cut) break;
         if (const auto wrong = wrong_source(source, grid.field.grid)) return fault(*wrong);
