@@ -33,15 +33,26 @@ int reported(const oro::Error& error) {
     return static_cast<int>(error.kind);
 }
 
+// Why what was printed has not arrived, where it failed on the way and not in the end: one more line end
+// fails for the same reason.
+int reason_of_broken_output() {
+    std::clearerr(stdout);
+    errno = 0;
+    if (std::fputc('\n', stdout) == '\n' && std::fflush(stdout) == 0) return EIO;
+    return errno != 0 ? errno : EIO;
+}
+
 // What a command printed has arrived, or the command has failed: `orograph info > file` on a full disk.
 int exit_code(const oro::Result<void>& result) {
     if (!result.ok()) return reported(result.error());
-    std::cout.flush();
     errno = 0;
+    std::cout.flush();
     if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout) return 0;
+    const int why = errno;
     oro::end_if_reader_has_gone();
     return reported({oro::ErrorKind::failed, "standard output",
-                     "cannot be written: " + std::generic_category().message(errno != 0 ? errno : EIO)});
+                     "cannot be written: " +
+                         std::generic_category().message(why != 0 ? why : reason_of_broken_output())});
 }
 
 // Where standard streams are closed, the next file opened would be taken for one, and messages written into

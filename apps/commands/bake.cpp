@@ -26,7 +26,6 @@
 #include "core/base/parallel.h"
 #include "geo/files/letter_case.h"
 #include "geo/files/source_paths.h"
-#include "geo/files/whole_file.h"
 #include "geo/opening/open_region.h"
 #include "geo/region/region_description.h"
 #include "geo/region/region_fingerprints.h"
@@ -65,12 +64,8 @@ Result<void> check_out(const BakingOptions& options) {
         ORO_TRY(const std::vector<std::string> inputs, input_files(options.region.paths));
         ORO_CHECK(spare_inputs(written, {{inputs, "which is to be baked"}}));
     }
-    std::error_code ignored;
-    if (!options.overwrite && access(out.c_str(), F_OK) == 0 && !fs::is_directory(out, ignored))
-        return Error{ErrorKind::failed, out, "is there already (--overwrite replaces it)"};
-    ORO_CHECK(RegionFileWriter::check(out, options.overwrite));
-    if (const auto trial = WholeFile::create(out, options.overwrite); !trial.ok()) return trial.error();
-    return {};
+    ORO_CHECK(check_may_write(out, options.overwrite));
+    return RegionFileWriter::check(out, options.overwrite);
 }
 
 // Tells what is baked from all else: heights, their place (the description and the undulation are compared by

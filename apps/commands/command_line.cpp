@@ -439,7 +439,8 @@ void add_info(CLI::App& app, InfoOptions& options) {
     add_region_options(command, options.region);
     OptionGroup(command, "Elevation data")
         .flag("--check", options.check,
-              "Read all of a .oro file, and name the first damaged byte. Other files are always read whole.");
+              "Read all of a .oro file, and name the first damaged byte, or what it says of itself that its "
+              "heights are not. Other files are always read whole.");
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
     set_help(command, {{"info PATH... [OPTIONS]"}, "", "docs/commands/info.md"});

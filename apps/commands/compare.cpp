@@ -22,7 +22,6 @@
 #include "apps/view/style.h"
 #include "apps/view/view_changes.h"
 #include "core/lod/ground_means.h"
-#include "geo/files/whole_file.h"
 #include "geo/pictures/picture.h"
 
 namespace oro {
@@ -60,9 +59,7 @@ Result<void> check_error_picture(const CompareOptions& options) {
     const auto format = picture_format(options.out);
     if (!format.ok() || *format != PictureFormat::png)
         return refused("--out", options.out, "the picture of errors must be a .png");
-    if (const auto trial = WholeFile::create(options.out, options.overwrite); !trial.ok())
-        return trial.error();
-    return {};
+    return check_may_write(options.out, options.overwrite);
 }
 
 // Of a picture: that its pixels are what its view draws. Where its data changed, and that is known, they may

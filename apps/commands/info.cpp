@@ -1,4 +1,5 @@
 // orograph info: what the sources of a region are, and what is missing.
+#include <algorithm>
 #include <cstdio>
 #include <span>
 
@@ -12,10 +13,13 @@
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
 #include "apps/view/view.h"
+#include "core/baked/contents_check.h"
+#include "core/base/parallel.h"
 #include "geo/listing/file_listing.h"
 #include "geo/opening/baked_region.h"
 #include "geo/opening/open_region.h"
 #include "geo/opening/region_sources.h"
+#include "geo/region/description_check.h"
 #include "geo/together/cut_regions.h"
 
 namespace oro {
@@ -79,6 +83,23 @@ std::string checked_words(const RegionGrid& grid) {
     return words + "; so " + counted(grid.clusters->outline().groups, "group", "groups") + " of clusters";
 }
 
+// That each grid which is a whole baked file, or one of its grids, is what was written, and what the file
+// says.
+Result<void> check_grids(const Region& region) {
+    int last_rank = 0;
+    for (const RegionGrid& grid : region.grids) last_rank = std::max(last_rank, grid.rank);
+    for (const RegionGrid& grid : region.grids) {
+        if (!grid.file) continue;
+        const std::string name = region.grids.size() > 1 ? "grid " + std::to_string(grid.rank) + ": " : "";
+        ORO_CHECK(grid.file->verify());
+        ORO_CHECK(check_contents(*grid.file, thread_count(), name));
+        // Heights go over to those of grids below alone.
+        ORO_CHECK(check_description(grid, grid.rank != last_rank, name));
+        if (grid.clusters) ORO_CHECK(check_clusters_of_region(grid));
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<void> run_info(const InfoOptions& options) {
@@ -99,10 +120,7 @@ Result<void> run_info(const InfoOptions& options) {
     std::erase_if(region.grids.front().notes,
                   [](const std::string& note) { return note.starts_with(passed_over); });
     // Of tiles, and of a part of a baked region, all posts are in memory by now.
-    for (const RegionGrid& grid : region.grids) {
-        if (options.check && grid.file) ORO_CHECK(grid.file->verify());
-        if (options.check && grid.clusters) ORO_CHECK(check_clusters_of_region(grid));
-    }
+    if (options.check) ORO_CHECK(check_grids(region));
     const RegionGrid& first = region.grids.front();
     if (options.json) {
         nlohmann::ordered_json json = json_object(

@@ -110,12 +110,8 @@ Result<void> check_options(const TradeOptions& options, const std::string& csv, 
                          "is no folder, nor can be made: " + failed.message()};
     }
     if (!fs::is_directory(options.out, ignored)) return Error{ErrorKind::failed, options.out, "is no folder"};
-    for (const std::string& file : {csv, html}) {
-        if (!options.overwrite && fs::exists(file, ignored))
-            return Error{ErrorKind::failed, file, "is there already (--overwrite replaces it)"};
-        if (const auto trial = WholeFile::create(file, options.overwrite); !trial.ok()) return trial.error();
-    }
-    return {};
+    ORO_CHECK(check_may_write(csv, options.overwrite));
+    return check_may_write(html, options.overwrite);
 }
 
 // They belong together: both, or neither.

@@ -4,6 +4,7 @@
 
 #include "core/base/file_there.h"
 #include "core/base/files_read.h"
+#include "geo/files/whole_file.h"
 
 namespace oro {
 
@@ -37,6 +38,15 @@ FilesToSpare files_of_view(const std::string& view_file) {
     for (const char* ending : {".json", ".png", ".jpg", ".jpeg", ".tif", ".tiff"})
         view.files.push_back(fs::path(view_file).replace_extension(ending).string());
     return view;
+}
+
+Result<void> check_may_write(const std::string& file, bool overwrite) {
+    ORO_TRY(const bool there, is_there(file));
+    std::error_code ignored;
+    if (there && !overwrite && !fs::is_directory(file, ignored))
+        return Error{ErrorKind::failed, file, "is there already (--overwrite replaces it)"};
+    if (const auto trial = WholeFile::create(file, overwrite); !trial.ok()) return trial.error();
+    return {};
 }
 
 Result<void> spare_inputs(const std::vector<std::string>& written, const std::vector<FilesToSpare>& inputs) {

@@ -9,6 +9,7 @@
 #include "apps/view/view_option_table.h"
 #include "core/base/file_there.h"
 #include "geo/opening/open_region.h"
+#include "geo/together/covered_grids.h"
 
 namespace oro {
 
@@ -128,8 +129,9 @@ Result<void> open_region_of(const RegionOptions& region_options, const Progress&
     view.own_posts = keeps_own_posts(region);
     view.several_grids = region.grids.size() > 1;
     view.fingerprints = fingerprints_of(region);
-    begin_with_grid_at(view.camera.eye, view, region);
     ORO_CHECK(check_own_posts(view, region));
+    leave_covered_grids_out(region);
+    begin_with_grid_at(view.camera.eye, view, region);
     if (!view.has_geoid) leave_geoid_out(region);
     return {};
 }
@@ -185,6 +187,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     view.several_grids = region.grids.size() > 1;
     view.fingerprints = fingerprints_of(region);
     ORO_CHECK(check_own_posts(view, region));
+    leave_covered_grids_out(region);
     ORO_CHECK(open_files(view));
     if (!view.has_geoid) leave_geoid_out(region);
     const Result<void> placed = place_eye(view, view_options, region);

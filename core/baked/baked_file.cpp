@@ -24,17 +24,17 @@ Result<std::vector<BakedGrid>> open_baked_file(const std::string& path) {
     // Nobody reads clusters without the outline that says what they are.
     for (const Chunk& chunk : chunks)
         if ((chunk.type == ChunkType::groups || chunk.type == ChunkType::meshes) &&
-            !container->table().find(ChunkType::graph, chunk.grid))
+            !container->find(ChunkType::graph, chunk.grid))
             return file.damaged(chunk.offset, "clusters of grid " + std::to_string(chunk.grid) +
                                                   ", whose outline the file lacks");
     for (BakedGrid& grid : grids) {
-        if (!container->table().find(ChunkType::graph, grid.rank)) continue;
+        if (!container->find(ChunkType::graph, grid.rank)) continue;
         ORO_TRY(ClusterFile clusters, ClusterFile::open(container, grid.rank));
         const ClusterOutline& graph = clusters.outline();
         const PostGrid& posts = grid.region->outline().grid;
         if (graph.fingerprint != grid.region->fingerprint() || graph.posts.rows != posts.rows() ||
             graph.posts.columns != posts.columns())
-            return file.damaged(container->table().find(ChunkType::graph, grid.rank)->offset,
+            return file.damaged(container->find(ChunkType::graph, grid.rank)->offset,
                                 "its clusters are of another region");
         grid.clusters = std::make_shared<const ClusterFile>(std::move(clusters));
     }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <new>
 #include <string>
 
@@ -107,6 +108,10 @@ Result<void> unpack_corrections(std::span<const std::byte> bytes, LatticeGeorefe
                          std::to_string(bytes.size()) + " bytes, of " + std::to_string(patches) + " patches");
     const Table table = table_of(net);
     const std::size_t numbers = count * table.posts() * 3;
+    // Before memory is taken for it.
+    if (ZSTD_getFrameContentSize(bytes.data() + front, bytes.size() - front) != numbers * 2)
+        return wrong_net("its corrections cannot be unpacked: they are no frame of " +
+                         std::to_string(numbers * 2) + " bytes");
     std::vector<std::byte> planes(numbers * 2);
     const std::size_t found =
         ZSTD_decompress(planes.data(), planes.size(), bytes.data() + front, bytes.size() - front);
@@ -114,9 +119,6 @@ Result<void> unpack_corrections(std::span<const std::byte> bytes, LatticeGeorefe
         if (ZSTD_getErrorCode(found) == ZSTD_error_memory_allocation) throw std::bad_alloc();
         return wrong_net("its corrections cannot be unpacked: " + std::string(ZSTD_getErrorName(found)));
     }
-    if (found != planes.size())
-        return wrong_net("its corrections unpack to " + std::to_string(found) + " bytes, expected " +
-                         std::to_string(planes.size()));
     net.corrections.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
         net.corrections[i].patch = from_little_endian<std::int32_t>(&bytes[4 + 4 * i]);
@@ -134,7 +136,37 @@ Result<void> unpack_corrections(std::span<const std::byte> bytes, LatticeGeorefe
     return {};
 }
 
+// The front of a net of rows x columns posts.
+Result<void> read_front(NumberReader& get, int rows, int columns, LatticeGeoreference::Stored& stored) {
+    if (get.rest().size() < net_front_bytes)
+        return wrong_net("it has " + std::to_string(get.rest().size()) + " bytes");
+    exchange_front(get, stored);
+    if (stored.down.posts == rows && stored.across.posts == columns) return {};
+    return wrong_net("it has " + std::to_string(stored.down.posts) + " x " +
+                     std::to_string(stored.across.posts) + " posts, expected " + std::to_string(rows) +
+                     " x " + std::to_string(columns));
+}
+
 }  // namespace
+
+Result<std::uint64_t> most_net_bytes(std::span<const std::byte> front, int rows, int columns) {
+    LatticeGeoreference::Stored stored;
+    NumberReader get(front);
+    ORO_CHECK(read_front(get, rows, columns, stored));
+    if (!stored.down.fits() || !stored.across.fits())
+        return wrong_net("its posts and patches do not fit each other");
+    const std::uint64_t patches =
+        static_cast<std::uint64_t>(stored.down.patches) * static_cast<std::uint64_t>(stored.across.patches);
+    constexpr std::uint64_t most_patches = std::numeric_limits<std::int32_t>::max();
+    if (patches > most_patches)
+        return wrong_net("it has " + std::to_string(patches) + " patches, expected at most " +
+                         std::to_string(most_patches));
+    const std::uint64_t without_corrections = net_front_bytes + patches * patch_bytes;
+    if (std::max(stored.down.patch_posts, stored.across.patch_posts) > patch_posts_max)
+        return without_corrections;
+    const std::uint64_t planes = patches * table_of(stored).posts() * 6;
+    return without_corrections + 4 + 4 * patches + ZSTD_compressBound(planes);
+}
 
 std::vector<std::byte> net_to_bytes(const LatticeGeoreference& net) {
     const LatticeGeoreference::Stored stored = net.stored();
@@ -151,14 +183,9 @@ std::vector<std::byte> net_to_bytes(const LatticeGeoreference& net) {
 
 Result<std::shared_ptr<const LatticeGeoreference>> net_from_bytes(std::span<const std::byte> bytes, int rows,
                                                                   int columns) {
-    if (bytes.size() < net_front_bytes) return wrong_net("it has " + std::to_string(bytes.size()) + " bytes");
     LatticeGeoreference::Stored stored;
     NumberReader get(bytes);
-    exchange_front(get, stored);
-    if (stored.down.posts != rows || stored.across.posts != columns)
-        return wrong_net("it has " + std::to_string(stored.down.posts) + " x " +
-                         std::to_string(stored.across.posts) + " posts, expected " + std::to_string(rows) +
-                         " x " + std::to_string(columns));
+    ORO_CHECK(read_front(get, rows, columns, stored));
     // As many patches as it says that it has; what is left then are corrections.
     const std::uint64_t found = (bytes.size() - net_front_bytes) / patch_bytes;
     const auto said = [](const LatticeGeoreference::Stored::Axis& axis) {

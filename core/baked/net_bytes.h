@@ -19,6 +19,10 @@ namespace oro::region_format {
 inline constexpr std::uint64_t net_front_bytes = 40;
 inline constexpr std::uint64_t patch_bytes = std::uint64_t{LatticeGeoreference::coefficients_a_patch} * 24;
 
+// The largest size that a net of rows x columns posts can have whose bytes begin with `front`,
+// net_front_bytes or all that there are: what memory is taken for. Any bytes may be given. Errors: what makes
+// them no such net.
+[[nodiscard]] Result<std::uint64_t> most_net_bytes(std::span<const std::byte> front, int rows, int columns);
 [[nodiscard]] std::vector<std::byte> net_to_bytes(const LatticeGeoreference& net);
 // Any bytes may be given. Errors: what makes them no net of rows x columns posts.
 [[nodiscard]] Result<std::shared_ptr<const LatticeGeoreference>> net_from_bytes(

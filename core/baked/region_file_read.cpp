@@ -23,7 +23,7 @@ class GridChunks {
         bytes_ += ChunkTable::entry_bytes + chunk.bytes;
         return chunk;
     }
-    [[nodiscard]] bool has(ChunkType type) const { return container_.table().find(type, grid_) != nullptr; }
+    [[nodiscard]] bool has(ChunkType type) const { return container_.find(type, grid_) != nullptr; }
     [[nodiscard]] std::uint64_t bytes() const { return ChunkTable::header_bytes + bytes_; }
 
   private:
@@ -38,7 +38,7 @@ Result<OutlineNumbers> read_numbers(const Container& container, const Chunk& chu
         return container.file().damaged(chunk.offset, "an outline of " + std::to_string(chunk.bytes) +
                                                           " bytes, expected " +
                                                           std::to_string(outline_bytes));
-    ORO_TRY(const std::vector<std::byte> bytes, container.read(chunk));
+    ORO_TRY(const std::vector<std::byte> bytes, container.read(chunk, outline_bytes));
     const OutlineNumbers numbers = numbers_from_bytes(bytes);
     if (const auto wrong = implausible(numbers, undulation.bytes, on_net))
         return container.file().damaged(chunk.offset + wrong->offset, wrong->what);
@@ -46,7 +46,7 @@ Result<OutlineNumbers> read_numbers(const Container& container, const Chunk& chu
 }
 
 Result<std::vector<float>> read_undulation(const Container& container, const Chunk& chunk) {
-    ORO_TRY(const std::vector<std::byte> bytes, container.read(chunk));
+    ORO_TRY(const std::vector<std::byte> bytes, container.read(chunk, most_undulation_nodes * sizeof(float)));
     std::vector<float> N_m(bytes.size() / sizeof(float));
     NumberReader get(bytes);
     for (float& value : N_m) get(value);
@@ -56,21 +56,26 @@ Result<std::vector<float>> read_undulation(const Container& container, const Chu
 }
 
 Result<std::string> read_description(const Container& container, const Chunk& chunk) {
-    if (chunk.bytes > longest_description)
-        return container.file().damaged(chunk.offset, "a description of " + std::to_string(chunk.bytes) +
-                                                          " bytes, expected at most " +
-                                                          std::to_string(longest_description));
-    ORO_TRY(const std::vector<std::byte> bytes, container.read(chunk));
+    ORO_TRY(const std::vector<std::byte> bytes, container.read(chunk, longest_description));
     return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
 Result<PostGrid> read_grid(const Container& container, GridChunks& chunks, const OutlineNumbers& numbers) {
     if (!chunks.has(ChunkType::net)) return PostGrid{numbers.lat, numbers.lon};
     ORO_TRY(const Chunk chunk, chunks.take(ChunkType::net));
-    ORO_TRY(const std::vector<std::byte> bytes, container.read(chunk));
+    const auto no_net = [&](const std::string& what) {
+        return container.file().damaged(chunk.offset, "the net of its posts is none: " + what);
+    };
+    std::vector<std::byte> front(static_cast<std::size_t>(std::min(chunk.bytes, net_front_bytes)));
+    ORO_CHECK(container.file().read(chunk.offset, front));
+    const auto most_bytes = most_net_bytes(front, numbers.lat.count, numbers.lon.count);
+    // A front that lies may be one that is damaged.
+    if (!most_bytes.ok() || chunk.bytes > *most_bytes) ORO_CHECK(container.check(chunk));
+    if (!most_bytes.ok()) return no_net(most_bytes.error().what);
+    ORO_TRY(const std::vector<std::byte> bytes, container.read(chunk, *most_bytes));
     auto net = net_from_bytes(bytes, numbers.lat.count, numbers.lon.count);
     if (net.ok()) return grid_on_net(std::move(*net));
-    return container.file().damaged(chunk.offset, "the net of its posts is none: " + net.error().what);
+    return no_net(net.error().what);
 }
 
 }  // namespace

@@ -96,16 +96,15 @@ struct FoundTable {
     bool same{};
     bool is_finished{};
 };
-FoundTable found_table(std::span<const std::byte> found, const ChunkTable& table) {
-    const auto begins_with = [&](const ChunkTable& expected) {
-        return std::ranges::equal(found.first(static_cast<std::size_t>(table.bytes())), expected.to_bytes());
-    };
-    const std::size_t end = static_cast<std::size_t>(table.bytes());
-    const auto number = [&](std::size_t before_end) {
-        return from_little_endian<std::uint64_t>(&found[end - before_end]);
-    };
-    if (begins_with(table)) return {true, false};
-    return {begins_with(finished(table, number(ChunkTable::entry_bytes + 8), number(16), number(8))), true};
+FoundTable found_table(const OpenFile& file, const ChunkTable& table) {
+    const Result<ChunkTable> found = read_chunk_table(file);
+    if (!found.ok() || found->chunks.size() != table.chunks.size()) return {};
+    const std::vector<std::byte> bytes = found->to_bytes();
+    if (bytes == table.to_bytes()) return {true, false};
+    const auto& records = found->chunks[table.chunks.size() - 2];
+    const auto& heights = found->chunks.back();
+    const ChunkTable whole = finished(table, records.checksum, heights.bytes, heights.checksum);
+    return {bytes == whole.to_bytes(), true};
 }
 
 Result<void> read_stitched(const OpenFile& file, std::uint64_t number, StitchedDeviations* into) {
@@ -222,10 +221,10 @@ Result<void> RegionFileWriter::start_or_resume(const std::vector<std::byte>& chu
     ORO_TRY(const std::uint64_t found_bytes, partial_.size());
     FoundTable front;
     if (found_bytes >= offsets_.records) {
-        std::vector<std::byte> found(offsets_.records);
-        ORO_CHECK(partial_.read(0, found));
-        front = found_table(found, table_);
-        front.same = front.same && std::ranges::equal(std::span(found).subspan(header.size()), chunks);
+        front = found_table(partial_, table_);
+        std::vector<std::byte> found(chunks.size());
+        ORO_CHECK(partial_.read(header.size(), found));
+        front.same = front.same && found == chunks;
     }
     if (front.same) {
         // Broken off in finish(): then all is there, except perhaps the stitched deviations, which nobody

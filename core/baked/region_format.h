@@ -31,6 +31,8 @@ namespace oro::region_format {
 inline constexpr std::size_t outline_bytes = 184;
 inline constexpr std::size_t record_bytes = 444;
 inline constexpr std::uint64_t longest_description = 64U << 20U;
+// A geoid of the whole Earth with a node every two minutes has fewer.
+inline constexpr std::uint64_t most_undulation_nodes = 64U << 20U;
 inline constexpr std::uint64_t largest_file = (std::uint64_t{1} << 63U) - 1;
 
 // These are the numbers of an outline, in the order in which they are stored.

@@ -98,6 +98,8 @@ void check_undulation(Findings& findings, const OutlineNumbers& numbers, std::ui
                                 static_cast<std::uint64_t>(std::max(0, lon.count));
     findings.require(stored_bytes == bytes, at_undulation_lat + 28, "bytes of undulation", stored_bytes,
                      said(bytes));
+    findings.require(bytes / sizeof(float) <= most_undulation_nodes, at_undulation_lat + 28,
+                     "nodes of undulation", bytes / sizeof(float), "at most " + said(most_undulation_nodes));
 }
 
 void check_terrain(Findings& findings, const OutlineNumbers& numbers) {

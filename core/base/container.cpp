@@ -1,6 +1,7 @@
 #include "core/base/container.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -78,10 +79,24 @@ Result<void> check_sum(const OpenFile& file, const Chunk& chunk, std::uint64_t s
                         std::string(name_of(chunk.type)) + " " + other_checksum(sum, chunk.checksum));
 }
 
+// What a chunk is found by.
+std::pair<std::uint32_t, ChunkType> key_of(const Chunk& chunk) {
+    return {chunk.grid, chunk.type};
+}
+
+// The numbers of the chunks in the order of their keys. Errors: two have the same.
+Result<std::vector<std::uint32_t>> numbers_by_key(const OpenFile& file, const std::vector<Chunk>& chunks) {
+    std::vector<std::uint32_t> numbers(chunks.size());
+    std::iota(numbers.begin(), numbers.end(), std::uint32_t{0});
+    const auto key = [&](std::uint32_t number) { return key_of(chunks[number]); };
+    std::ranges::sort(numbers, {}, key);
+    if (std::ranges::adjacent_find(numbers, {}, key) == numbers.end()) return numbers;
+    return file.damaged(ChunkTable::header_bytes, "its table has a chunk twice");
+}
+
 // That the chunks are what they may be, and fill the file.
 Result<void> check_chunks(const OpenFile& file, const ChunkTable& table) {
     std::uint64_t end = table.bytes();
-    std::vector<std::pair<std::uint32_t, ChunkType>> keys;
     for (std::size_t i = 0; i < table.chunks.size(); ++i) {
         const Chunk& chunk = table.chunks[i];
         const std::uint64_t at = ChunkTable::header_bytes + i * ChunkTable::entry_bytes;
@@ -95,14 +110,11 @@ Result<void> check_chunks(const OpenFile& file, const ChunkTable& table) {
                                              " bytes, expected to end within the file's " +
                                              std::to_string(table.file_bytes));
         end += chunk.bytes;
-        keys.emplace_back(chunk.grid, chunk.type);
     }
     if (end != table.file_bytes)
         return file.damaged(16, "a size of " + std::to_string(table.file_bytes) +
                                     " bytes, but its chunks end at byte " + std::to_string(end));
-    std::ranges::sort(keys);
-    if (std::ranges::adjacent_find(keys) == keys.end()) return {};
-    return file.damaged(ChunkTable::header_bytes, "its table has a chunk twice");
+    return {};
 }
 
 }  // namespace
@@ -114,12 +126,6 @@ std::uint64_t ChunkTable::place() {
         end += chunk.bytes;
     }
     return end;
-}
-
-const Chunk* ChunkTable::find(ChunkType type, std::uint32_t grid) const {
-    const auto found = std::ranges::find_if(
-        chunks, [&](const Chunk& chunk) { return chunk.type == type && chunk.grid == grid; });
-    return found == chunks.end() ? nullptr : &*found;
 }
 
 std::vector<std::byte> ChunkTable::to_bytes() const {
@@ -204,8 +210,8 @@ Result<ChunkTable> read_chunk_table(const OpenFile& file) {
     return table;
 }
 
-Container::Container(OpenFile file, ChunkTable table, const Header& header)
-    : file_(std::move(file)), table_(std::move(table)), header_(header) {}
+Container::Container(OpenFile file, ChunkTable table, std::vector<std::uint32_t> by_key, const Header& header)
+    : file_(std::move(file)), table_(std::move(table)), by_key_(std::move(by_key)), header_(header) {}
 
 Result<std::shared_ptr<const Container>> Container::open(const std::string& path) {
     ORO_TRY(OpenFile file, OpenFile::open(path, OpenFile::Use::read));
@@ -221,13 +227,23 @@ Result<std::shared_ptr<const Container>> Container::open(const std::string& path
         return refused(file, "goes on after its end at byte " + std::to_string(table.file_bytes) +
                                  ": it has " + std::to_string(size) + " bytes");
     ORO_CHECK(check_chunks(file, table));
+    ORO_TRY(std::vector<std::uint32_t> by_key, numbers_by_key(file, table.chunks));
     Header header;
     std::ranges::copy_n(table.to_bytes().begin(), header.size(), header.begin());
-    return std::shared_ptr<const Container>(new Container(std::move(file), std::move(table), header));
+    return std::shared_ptr<const Container>(
+        new Container(std::move(file), std::move(table), std::move(by_key), header));
+}
+
+const Chunk* Container::find(ChunkType type, std::uint32_t grid) const {
+    const std::pair key(grid, type);
+    const auto found = std::ranges::lower_bound(
+        by_key_, key, {}, [&](std::uint32_t number) { return key_of(table_.chunks[number]); });
+    if (found == by_key_.end() || key_of(table_.chunks[*found]) != key) return nullptr;
+    return &table_.chunks[*found];
 }
 
 Result<Chunk> Container::chunk(ChunkType type, std::uint32_t grid) const {
-    if (const Chunk* const found = table_.find(type, grid)) return *found;
+    if (const Chunk* const found = find(type, grid)) return *found;
     return file_.damaged(ChunkTable::header_bytes, "its table of chunks lacks " + std::string(name_of(type)) +
                                                        " of grid " + std::to_string(grid));
 }
@@ -238,10 +254,15 @@ Result<void> Container::check(const Chunk& chunk) const {
     return check_sum(file_, chunk, sum);
 }
 
-Result<std::vector<std::byte>> Container::read(const Chunk& chunk) const {
-    ORO_CHECK(check(chunk));
+Result<std::vector<std::byte>> Container::read(const Chunk& chunk, std::uint64_t most_bytes) const {
+    if (chunk.bytes > most_bytes)
+        return file_.damaged(chunk.offset, std::string(name_of(chunk.type)) + " of " +
+                                               std::to_string(chunk.bytes) + " bytes, expected at most " +
+                                               std::to_string(most_bytes));
     std::vector<std::byte> bytes(static_cast<std::size_t>(chunk.bytes));
-    ORO_CHECK(file_.read(chunk.offset, bytes));
+    const Result<void> read = file_.read(chunk.offset, bytes);
+    ORO_CHECK(check_unchanged());
+    ORO_CHECK(read);
     ORO_CHECK(check_sum(file_, chunk, xxh64(bytes)));
     return bytes;
 }

@@ -73,8 +73,6 @@ struct ChunkTable {
     [[nodiscard]] std::uint64_t bytes() const { return header_bytes + entry_bytes * chunks.size(); }
     // It puts the chunks one after another, and gives the byte at which the last one ends.
     std::uint64_t place();
-    // It gives the chunk of that type and grid, owned by the table; null where there is none.
-    [[nodiscard]] const Chunk* find(ChunkType type, std::uint32_t grid) const;
     [[nodiscard]] std::vector<std::byte> to_bytes() const;
 };
 // This reads the table of a file, which may be unfinished. The checksum is right then; whether the table fits
@@ -93,11 +91,15 @@ class Container {
     [[nodiscard]] const OpenFile& file() const { return file_; }
     [[nodiscard]] const std::string& path() const { return file_.path(); }
     [[nodiscard]] const ChunkTable& table() const { return table_; }
+    // This gives the chunk of that type and grid, owned by the container; null where there is none. It costs
+    // a binary search.
+    [[nodiscard]] const Chunk* find(ChunkType type, std::uint32_t grid) const;
     // This gives the chunk of that type and grid. Errors: there is none.
     [[nodiscard]] Result<Chunk> chunk(ChunkType type, std::uint32_t grid) const;
-    // This reads all of a chunk. It takes memory only for what bears its checksum, and reads that once more
-    // then: a table may state any size, and a file with holes has it at no cost.
-    [[nodiscard]] Result<std::vector<std::byte>> read(const Chunk& chunk) const;
+    // This reads all of a chunk and holds it against its checksum. most_bytes: no such chunk of this grid has
+    // more, by what is known of it: a table may state any size, and a file with holes has it at no cost.
+    // Errors: it has more, and no memory is taken; damage; the file was changed meanwhile.
+    [[nodiscard]] Result<std::vector<std::byte>> read(const Chunk& chunk, std::uint64_t most_bytes) const;
     // This reads a chunk and holds it against its checksum.
     [[nodiscard]] Result<void> check(const Chunk& chunk) const;
     // A file that others write into may hold whole parts of another one by now, whose checksums are right.
@@ -106,10 +108,11 @@ class Container {
 
   private:
     using Header = std::array<std::byte, ChunkTable::header_bytes>;
-    Container(OpenFile file, ChunkTable table, const Header& header);
+    Container(OpenFile file, ChunkTable table, std::vector<std::uint32_t> by_key, const Header& header);
     OpenFile file_;
     ChunkTable table_;
-    Header header_;  // as it was when the file was opened
+    std::vector<std::uint32_t> by_key_;  // numbers of the chunks in the order of their grids and types
+    Header header_;                      // as it was when the file was opened
 };
 
 // This says how a file begins, as far as it goes: one of few bytes is what it may become.

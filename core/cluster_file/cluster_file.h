@@ -52,7 +52,8 @@ struct LeavesOneByOne {
 
 // A cluster file that is read. Opening reads what concerns the whole graph, a few KB; a group's record and
 // payload are read when they are asked for, from any number of threads at once. Every damage is an Error with
-// the name of the file, the place, what was found and what was expected.
+// the name of the file, the place, what was found and what was expected; so is a file that another program
+// writes into while it is open.
 //     ORO_TRY(const ClusterFile file, ClusterFile::open("alps.oroc"));
 //     ORO_TRY(const ClusterGraph graph, file.graph(surface, bounds));
 class ClusterFile {
@@ -90,6 +91,9 @@ class ClusterFile {
     ClusterFile(std::shared_ptr<const Container> container, ClusterOutline outline);
     [[nodiscard]] std::uint64_t record_offset(std::uint32_t number) const;
     [[nodiscard]] std::uint32_t level_of(std::uint32_t number) const;
+    // As groups() and part(), of a file that nobody writes into.
+    [[nodiscard]] Result<std::vector<ClusterGroup>> read_groups() const;
+    Result<void> read_part(std::uint32_t number, GroupPart& part) const;
     [[nodiscard]] Result<void> check_chunks() const;
     // graph: without its counts, which are those of the outline.
     [[nodiscard]] Result<void> check_sound(GraphByGroups graph, const OriginalSurface& surface,

@@ -61,7 +61,8 @@ Result<ClusterFile> ClusterFile::open(std::shared_ptr<const Container> container
                                               " bytes, expected " + std::to_string(outline_bytes) + " and " +
                                               std::to_string(level_bytes) + " for each of at most " +
                                               std::to_string(most_levels) + " levels");
-    ORO_TRY(const std::vector<std::byte> bytes, container->read(graph));
+    ORO_TRY(const std::vector<std::byte> bytes,
+            container->read(graph, outline_bytes + most_levels * level_bytes));
     ClusterOutline outline = outline_from_bytes(bytes);
     if (const auto wrong = implausible(outline, groups.bytes))
         return file.damaged(graph.offset, "the outline of clusters " + *wrong);
@@ -76,13 +77,21 @@ Result<ClusterFile> ClusterFile::open(std::shared_ptr<const Container> container
 
 Result<ClusterGroup> ClusterFile::group(std::uint32_t number) const {
     assert(number < outline_.groups);
-    ORO_TRY(StoredGroup stored, read_record(*container_, outline_, groups_, meshes_, number));
-    stored.group.level = level_of(number);
-    return stored.group;
+    Result<StoredGroup> stored = read_record(*container_, outline_, groups_, meshes_, number);
+    ORO_CHECK(container_->check_unchanged());
+    if (!stored.ok()) return stored.error();
+    stored->group.level = level_of(number);
+    return stored->group;
 }
 
 Result<void> ClusterFile::part(std::uint32_t number, GroupPart& part) const {
     assert(number < outline_.groups);
+    const Result<void> read = read_part(number, part);
+    ORO_CHECK(container_->check_unchanged());
+    return read;
+}
+
+Result<void> ClusterFile::read_part(std::uint32_t number, GroupPart& part) const {
     ORO_TRY(const StoredGroup stored, read_record(*container_, outline_, groups_, meshes_, number));
     std::vector<std::byte> payload(stored.payload_bytes);
     const OpenFile& file = container_->file();
@@ -187,6 +196,12 @@ void link_leaves(ClusterGraph& graph, std::uint32_t leaves) {
 }  // namespace
 
 Result<std::vector<ClusterGroup>> ClusterFile::groups() const {
+    Result<std::vector<ClusterGroup>> read = read_groups();
+    ORO_CHECK(container_->check_unchanged());
+    return read;
+}
+
+Result<std::vector<ClusterGroup>> ClusterFile::read_groups() const {
     std::vector<ClusterGroup> groups;
     const OpenFile& file = container_->file();
     std::uint64_t next_payload = 0;

@@ -181,6 +181,10 @@ std::optional<std::string> implausible(const StoredGroup& stored, const ClusterO
         return "has its payload at byte " + std::to_string(stored.payload_offset) + " of the meshes, " +
                std::to_string(stored.payload_bytes) + " bytes long, but these have " +
                std::to_string(meshes_bytes);
+    if (const std::uint64_t most = most_group_bytes(stored.triangles, group.made, group.members);
+        stored.payload_bytes > most)
+        return "says " + std::to_string(stored.triangles) + " triangles in a payload of " +
+               std::to_string(stored.payload_bytes) + " bytes, expected at most " + std::to_string(most);
     return std::nullopt;
 }
 

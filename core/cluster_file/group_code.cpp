@@ -186,7 +186,12 @@ Result<std::vector<std::byte>> encode_group(const GroupPart& part, const PostCou
             return fault("has triangles that are not in the order of a walk");
         if (const auto wrong = code.cluster(cluster, part.number, mesh)) return fault(*wrong);
     }
-    return coder.finish();
+    std::vector<std::byte> bytes = coder.finish();
+    const std::uint64_t most = most_group_bytes(part.triangles.size(), part.made.size(), part.members.size());
+    if (bytes.size() > most)
+        return fault("takes " + std::to_string(bytes.size()) + " bytes, more than the " +
+                     std::to_string(most) + " that a file holds of it");
+    return bytes;
 }
 
 std::optional<std::string> decode_group(std::span<const std::byte> bytes, const PostCounts& posts,

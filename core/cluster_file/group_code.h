@@ -43,6 +43,12 @@ struct GroupPart {
 // No group that is written has more triangles than this, so none that is read asks for more memory.
 inline constexpr std::uint32_t most_group_triangles = 1U << 22U;
 inline constexpr std::uint32_t most_group_members = 1U << 20U;
+// No group of so many triangles, clusters and members takes more bytes than this: what is written takes some
+// 2 a triangle.
+[[nodiscard]] constexpr std::uint64_t most_group_bytes(std::uint64_t triangles, std::uint64_t clusters,
+                                                       std::uint64_t members) {
+    return 64 + 64 * triangles + 64 * clusters + 16 * members;
+}
 
 // A group's triangles, members and links in few bytes, the same for the same group. `group` itself lies in
 // the group's record (core/cluster_file/cluster_format.h). clusters: of the graph. Errors: a group above the

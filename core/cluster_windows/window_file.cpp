@@ -68,12 +68,18 @@ Result<WindowFile> WindowFile::open(const std::string& path) {
     ORO_TRY(std::shared_ptr<const Container> container, Container::open(path));
     ORO_TRY(const Chunk chunk, container->chunk(ChunkType::window, 0));
     ORO_TRY(const Chunk blocks, container->chunk(ChunkType::blocks, 0));
-    ORO_TRY(const std::vector<std::byte> stored, container->read(chunk));
+    ORO_TRY(const std::vector<std::byte> stored, container->read(chunk, chunk.bytes));
     WindowIndex index;
     NumberReader get(stored);
     visit_index(get, index);
     if (get.is_wrong())
         return container->file().damaged(chunk.offset, "the index of a window has other bytes than it says");
+    for (const WindowGroup& group : index.groups)
+        if (group.offset > blocks.bytes || group.bytes > blocks.bytes - group.offset)
+            return container->file().damaged(
+                chunk.offset, "the index of a window has a group of " + std::to_string(group.bytes) +
+                                  " bytes from byte " + std::to_string(group.offset) +
+                                  " of its blocks, which have " + std::to_string(blocks.bytes));
     return WindowFile(std::move(container), std::move(index), blocks.offset);
 }
 

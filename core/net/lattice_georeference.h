@@ -78,6 +78,8 @@ class LatticeGeoreference {
             int posts;        // of the grid
             int patch_posts;  // of each patch
             int patches;
+            // True where these are numbers that fit each other: as many patches as hold the posts.
+            [[nodiscard]] bool fits() const;
         };
         Axis down{}, across{};
         double error_m{};

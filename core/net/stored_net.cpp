@@ -14,14 +14,13 @@ Error no_net(const std::string& what) {
     return {ErrorKind::failed, "grid of posts", what};
 }
 
-bool fit_each_other(const LatticeGeoreference::Stored::Axis& axis) {
-    if (axis.posts < 2 || axis.patch_posts < 2 || axis.first < 0 || axis.first >= axis.patch_posts)
-        return false;
-    const std::int64_t end = std::int64_t{axis.first} + axis.posts;
-    return axis.patches == (end + axis.patch_posts - 1) / axis.patch_posts;
-}
-
 }  // namespace
+
+bool LatticeGeoreference::Stored::Axis::fits() const {
+    if (posts < 2 || patch_posts < 2 || first < 0 || first >= patch_posts) return false;
+    const std::int64_t end = std::int64_t{first} + posts;
+    return patches == (end + patch_posts - 1) / patch_posts;
+}
 
 LatticeGeoreference::Stored LatticeGeoreference::stored() const {
     Stored stored{down_, across_, error_m_, {}, corrections_};
@@ -33,7 +32,7 @@ LatticeGeoreference::Stored LatticeGeoreference::stored() const {
 }
 
 Result<std::shared_ptr<const LatticeGeoreference>> LatticeGeoreference::from(const Stored& stored) {
-    if (!fit_each_other(stored.down) || !fit_each_other(stored.across))
+    if (!stored.down.fits() || !stored.across.fits())
         return no_net("its posts and patches do not fit each other");
     const auto patches =
         static_cast<std::size_t>(stored.down.patches) * static_cast<std::size_t>(stored.across.patches);

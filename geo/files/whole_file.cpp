@@ -36,8 +36,11 @@ Result<WholeFile> WholeFile::create(const std::string& path, bool overwrite, Tem
     ORO_TRY(const unsigned old_mode, check_target(file.path_, overwrite));
     const std::string folder = folder_of(file.path_);
     if (const int why = file.temporary_.make(folder, kind); why != 0) {
-        const std::string reason =
-            why == ENOENT ? "is not there" : "cannot be written in: " + system_reason(why);
+        // A folder of the kernel's (/proc) is there, and says so of each new file.
+        const bool no_folder = why == ENOENT && access(folder.c_str(), F_OK) != 0;
+        const std::string reason = no_folder       ? "is not there"
+                                   : why == ENOENT ? "takes no new files"
+                                                   : "cannot be written in: " + system_reason(why);
         return fault(path, "the folder " + folder + " " + reason);
     }
     // A file that its owner had closed to others stays closed to them when it is replaced.

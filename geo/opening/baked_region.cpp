@@ -217,7 +217,7 @@ Result<void> clip_to_box(RegionGrid& grid, const RegionFile& file, const Boundin
     const bool none_outside = grid.classifies_voids && grid.outside == 0;
     grid.classifies_voids = only_outside || none_outside || grid.voids == uncovered.in_missing;
     grid.outside = only_outside ? uncovered.outside : 0;
-    grid.notes.push_back("cut out of " + file.path() +
+    grid.notes.push_back(clipped_from + file.path() +
                          ": sources, seams and filled posts are told for all of it");
     return {};
 }

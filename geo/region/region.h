@@ -32,6 +32,9 @@ struct PostsCrs {
     std::array<double, 6> crs_from_post{};
 };
 
+// How the note begins of a grid that is a part of a baked one: of what is known of its sources.
+inline constexpr const char* clipped_from = "cut out of ";
+
 // One grid of a region: the height field that some sources make together.
 struct RegionGrid {
     HeightField field;

@@ -1,8 +1,8 @@
 #include "geo/region/region_fingerprints.h"
 
 #include <array>
-#include <cassert>
 #include <cmath>
+#include <vector>
 
 namespace oro {
 namespace {
@@ -51,10 +51,18 @@ std::uint64_t grid_fingerprint(const PostGrid& grid) {
 }
 
 std::uint64_t posts_hash(const HeightField& field) {
-    assert(!field.posts);
     RunningChecksum sum;
     add_grid(sum, field.grid);
-    sum.add(std::as_bytes(std::span(field.H_m)));
+    if (!field.posts) {
+        sum.add(std::as_bytes(std::span(field.H_m)));
+        return sum.sum();
+    }
+    std::vector<float> H_m(static_cast<std::size_t>(field.grid.columns()));
+    for (int row = 0; row < field.grid.rows(); ++row) {
+        for (int column = 0; column < field.grid.columns(); ++column)
+            H_m[static_cast<std::size_t>(column)] = field.H_at_post_m(row, column);
+        sum.add(std::as_bytes(std::span(H_m)));
+    }
     return sum.sum();
 }
 

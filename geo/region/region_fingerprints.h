@@ -26,7 +26,8 @@ class SourceFingerprint {
 // Of a grid alone: where its posts lie, to 1e-7 degree (11 mm), which rounding in a file's georeference does
 // not reach.
 [[nodiscard]] std::uint64_t grid_fingerprint(const PostGrid& grid);
-// Of all posts of a region, as they are in the end. The posts must be in memory.
+// Of all posts of a region, as they are in the end. Where they are not in memory they are read row by row:
+// it is one only if the field is well afterwards (HeightField::health).
 [[nodiscard]] std::uint64_t posts_hash(const HeightField& field);
 // Of N over a region.
 [[nodiscard]] std::uint64_t undulation_fingerprint(const UndulationField& undulation);

@@ -1,5 +1,7 @@
 #include "render/device/gpu.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -32,9 +34,17 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::vector<std::string>* mess
     return info;
 }
 
+// A driver that finds no room for itself says no more than that it failed: whether that may be why.
+std::string words_of_limited_memory() {
+    rlimit limit{};
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return "";
+    return "; it may have found too little memory: this program is allowed " +
+           std::to_string(limit.rlim_cur >> 20U) + " MiB (ulimit -v)";
+}
+
 Error no_driver(const std::string& reason) {
     return {ErrorKind::no_device, "Vulkan",
-            "no driver answers (" + reason +
+            "no driver answers (" + reason + words_of_limited_memory() +
                 "). Install the one for your GPU, or the software driver: scripts/set-up brings it"};
 }
 

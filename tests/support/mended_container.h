@@ -16,7 +16,7 @@ namespace oro::test {
 // The chunk of a whole file; one of no bytes at 0 where it has none.
 inline Chunk chunk_of(const std::filesystem::path& path, ChunkType type, std::uint32_t grid = 0) {
     const auto container = Container::open(path.string());
-    const Chunk* const chunk = container.ok() ? (*container)->table().find(type, grid) : nullptr;
+    const Chunk* const chunk = container.ok() ? (*container)->find(type, grid) : nullptr;
     return chunk ? *chunk : Chunk{};
 }
 

@@ -25,7 +25,6 @@
 #include "apps/view/view_changes.h"
 #include "apps/view/view_option_table.h"
 #include "core/base/elapsed.h"
-#include "core/base/file_there.h"
 #include "core/base/parallel.h"
 #include "core/lod/ground_means.h"
 #include "geo/pictures/picture.h"
@@ -56,16 +55,9 @@ Result<void> check_out(const PanoramaOptions& options) {
     if (!is_svg(options.out) && !picture_format(options.out).ok())
         return refused("--out", options.out,
                        "the file's name must end in .png, .jpg, .jpeg, .tif, .tiff or .svg");
-    ORO_TRY(const bool there, is_there(options.out));
-    if (there && !options.overwrite)
-        return Error{ErrorKind::failed, options.out, "is there already (--overwrite replaces it)"};
-    if (const auto trial = WholeFile::create(options.out, options.overwrite); !trial.ok())
-        return trial.error();
-    for (const std::string& pose : pose_paths(options.out, {false, options.geopose})) {
-        ORO_TRY(const bool pose_there, is_there(pose));
-        if (pose_there && !options.overwrite)
-            return Error{ErrorKind::failed, pose, "is there already (--overwrite replaces it)"};
-    }
+    ORO_CHECK(check_may_write(options.out, options.overwrite));
+    for (const std::string& pose : pose_paths(options.out, {false, options.geopose}))
+        ORO_CHECK(check_may_write(pose, options.overwrite));
     return {};
 }
 

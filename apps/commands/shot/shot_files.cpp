@@ -8,6 +8,7 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/layers/picture_layers.h"
+#include "apps/output/overwrite_guard.h"
 #include "apps/output/pose_files.h"
 #include "core/base/file_there.h"
 #include "core/base/open_file.h"
@@ -76,11 +77,8 @@ std::vector<std::string> written_files(const ShotOptions& options, const Picture
 }
 
 Result<void> check_out(const ShotOptions& options, const PictureFiles& files) {
-    for (const std::string& file : written_files(options, files)) {
-        if (!options.overwrite && access(file.c_str(), F_OK) == 0)
-            return Error{ErrorKind::failed, file, "is there already (--overwrite replaces it)"};
-        if (const auto trial = WholeFile::create(file, options.overwrite); !trial.ok()) return trial.error();
-    }
+    for (const std::string& file : written_files(options, files))
+        ORO_CHECK(check_may_write(file, options.overwrite));
     return {};
 }
 

@@ -11,7 +11,6 @@
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
 #include "apps/view/view.h"
-#include "core/base/file_there.h"
 #include "geo/files/letter_case.h"
 #include "geo/files/whole_file.h"
 
@@ -43,10 +42,7 @@ Result<void> check_words(const ProfileOptions& options) {
     const std::string name = lower_case(options.out);
     if (!name.ends_with(".csv") && !name.ends_with(".svg") && !name.ends_with(".geojson"))
         return refused("--out", options.out, "the file's name must end in .csv, .svg or .geojson");
-    ORO_TRY(const bool there, is_there(options.out));
-    if (there && !options.overwrite)
-        return Error{ErrorKind::failed, options.out, "is there already (--overwrite replaces it)"};
-    return {};
+    return check_may_write(options.out, options.overwrite);
 }
 
 Result<void> check_length(const ProfileOptions& options, const LineAlong& line) {

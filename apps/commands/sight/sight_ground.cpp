@@ -10,6 +10,7 @@
 #include "apps/view/view.h"
 #include "core/sight/observer.h"
 #include "geo/opening/open_region.h"
+#include "geo/together/covered_grids.h"
 
 namespace oro {
 
@@ -28,6 +29,7 @@ Result<std::unique_ptr<const SightGround>> open_sight_ground(const RegionOptions
     ORO_TRY(const RegionRequest request, region_request(options));
     auto ground = std::make_unique<SightGround>();
     ORO_TRY(ground->region, open_region(request, progress));
+    leave_covered_grids_out(ground->region);
     ORO_TRY(ground->grids, RegionGround::of(ground->region, 1.0));
     return std::unique_ptr<const SightGround>(std::move(ground));
 }

@@ -18,7 +18,6 @@
 #include "apps/view/model_names.h"
 #include "apps/view/view.h"
 #include "core/base/elapsed.h"
-#include "core/base/file_there.h"
 #include "core/base/parallel.h"
 #include "core/sight/viewshed.h"
 #include "geo/files/letter_case.h"
@@ -60,10 +59,7 @@ Result<void> check_words(const ViewshedOptions& options) {
     const std::string name = lower_case(options.out);
     if (!name.ends_with(".tif") && !name.ends_with(".tiff"))
         return refused("--out", options.out, "the file's name must end in .tif");
-    ORO_TRY(const bool there, is_there(options.out));
-    if (there && !options.overwrite)
-        return Error{ErrorKind::failed, options.out, "is there already (--overwrite replaces it)"};
-    return {};
+    return check_may_write(options.out, options.overwrite);
 }
 
 // A window moved by whole turns so that its columns are nearest to those of another.

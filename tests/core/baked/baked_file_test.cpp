@@ -183,5 +183,25 @@ TEST_F(BakedFile, DamagedPartsAreNotJoined) {
     EXPECT_NE(joined.error().line().find("the chunk of heights has checksum"), std::string::npos);
 }
 
+// The header alone differs: each part that is read is as whole as before.
+TEST_F(BakedFile, ClustersOfAFileThatIsChangedMeanwhileAreNotRead) {
+    const auto opened = open_baked_file(path_);
+    ASSERT_TRUE(opened.ok()) << opened.error().line();
+    const ClusterFile& clusters = *opened->front().clusters;
+    GroupPart part;
+    ASSERT_TRUE(clusters.part(0, part).ok());
+    std::string bytes = test::bytes_of(path_);
+    test::set_number(bytes, test::chunk_of(path_, ChunkType::outline).offset + 160, -20'000.0F);
+    test::put_bytes(path_, test::mended(bytes));
+    const auto expect_changed = [&](const auto& read) {
+        ASSERT_FALSE(read.ok());
+        EXPECT_NE(read.error().line().find("was changed at byte 0"), std::string::npos)
+            << read.error().line();
+    };
+    expect_changed(clusters.part(0, part));
+    expect_changed(clusters.group(0));
+    expect_changed(clusters.groups());
+}
+
 }  // namespace
 }  // namespace oro

@@ -244,5 +244,23 @@ TEST(NetFile, SurvivesRandomNumbers) {
     EXPECT_GE(refused, 450);
 }
 
+// What memory is taken for follows from the first 40 bytes.
+TEST(NetFile, IsNoLargerThanItsFrontAllows) {
+    const auto whole = region_format::net_to_bytes(*net_of({40, 50, {-33.9, 151.2}, 30.0, 5.0}));
+    const auto most = [&](std::span<const std::byte> bytes) {
+        return region_format::most_net_bytes(bytes.first(std::min<std::size_t>(bytes.size(), 40)), 40, 50);
+    };
+    const auto of_it = most(whole);
+    ASSERT_TRUE(of_it.ok()) << of_it.error().line();
+    EXPECT_GE(*of_it, whole.size());
+    EXPECT_LE(*of_it, whole.size() + 40'000);  // and corrections of one patch
+    EXPECT_FALSE(most(std::span(whole).first(39)).ok());
+    for (const std::size_t count : {0U, 4U, 8U, 12U}) {
+        std::vector<std::byte> bytes = whole;
+        to_little_endian(std::int32_t{1 << 30}, &bytes[count]);
+        EXPECT_FALSE(most(bytes).ok()) << count;
+    }
+}
+
 }  // namespace
 }  // namespace oro

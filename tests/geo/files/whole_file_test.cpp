@@ -118,6 +118,7 @@ TEST(WholeFile, RefusesPlacesThatCannotBeWritten) {
         {folder / "dangling", ErrorKind::failed, "leads nowhere"},
         {folder / std::string(256, 'n'), ErrorKind::failed, "File name too long"},
         {std::string("a\0b", 3), ErrorKind::usage, "zero byte"},
+        {"/proc/a.txt", ErrorKind::failed, "the folder /proc takes no new files"},
         {"/dev/full", ErrorKind::failed, "device"},
         {"/dev/null", ErrorKind::failed, "device"},
     };
