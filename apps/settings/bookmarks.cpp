@@ -8,6 +8,7 @@
 #include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
 #include "apps/settings/user_folders.h"
+#include "apps/settings/user_list.h"
 #include "core/base/one_line.h"
 
 namespace oro {
@@ -15,14 +16,12 @@ namespace {
 
 namespace limits = view_limits;
 using nlohmann::json;
-using nlohmann::ordered_json;
 
-constexpr int bookmarks_format = 1;
 constexpr Limits pitch_deg{-90, 90}, roll_deg{-360, 360};
 
-Result<std::filesystem::path> bookmarks_file() {
+Result<UserList> bookmarks_list() {
     ORO_TRY(const std::filesystem::path folder, user_config_folder());
-    return folder / "bookmarks.json";
+    return UserList{folder / "bookmarks.json", "orograph_bookmarks", "bookmarks"};
 }
 
 Bookmark bookmark_from(const json& entry) {
@@ -41,21 +40,21 @@ Bookmark bookmark_from(const json& entry) {
     return bookmark;
 }
 
-ordered_json json_of(const Bookmark& bookmark) {
-    ordered_json entry =
-        json_object("name", bookmark.name, "lat_deg", bookmark.lat_deg, "lon_deg", bookmark.lon_deg);
+json json_of(const Bookmark& bookmark) {
+    json entry =
+        json_object<json>("name", bookmark.name, "lat_deg", bookmark.lat_deg, "lon_deg", bookmark.lon_deg);
     if (const auto& eye = bookmark.eye)
         entry["eye"] =
-            json_object("h_m", eye->h_m, "heading_deg", eye->heading_deg, "pitch_deg", eye->pitch_deg,
-                        "roll_deg", eye->roll_deg, "vertical_fov_deg", eye->vertical_fov_deg);
+            json_object<json>("h_m", eye->h_m, "heading_deg", eye->heading_deg, "pitch_deg", eye->pitch_deg,
+                              "roll_deg", eye->roll_deg, "vertical_fov_deg", eye->vertical_fov_deg);
     return entry;
 }
 
 Result<void> write_bookmarks(const std::vector<Bookmark>& all) {
-    ORO_TRY(const std::filesystem::path file, bookmarks_file());
-    ordered_json list = ordered_json::array();
-    for (const Bookmark& bookmark : all) list.push_back(json_of(bookmark));
-    return write_user_json(file, json_object("orograph_bookmarks", bookmarks_format, "bookmarks", list));
+    ORO_TRY(const UserList list, bookmarks_list());
+    json entries = json::array();
+    for (const Bookmark& bookmark : all) entries.push_back(json_of(bookmark));
+    return write_user_list(list, entries);
 }
 
 // That it can be read again.
@@ -67,7 +66,7 @@ Result<void> check_bookmark(const Bookmark& bookmark) {
     if (bookmark.name != one_line(bookmark.name, Joiners::kept_in_words))
         return refused("its name is not one line of text");
     try {
-        (void)bookmark_from(json(json_of(bookmark)));
+        (void)bookmark_from(json_of(bookmark));
     } catch (const JsonFault& fault) {
         return refused(fault.what);
     }
@@ -78,20 +77,14 @@ Result<void> check_bookmark(const Bookmark& bookmark) {
 
 Result<Bookmarks> read_bookmarks() {
     Bookmarks bookmarks;
-    ORO_TRY(const std::filesystem::path file, bookmarks_file());
-    ORO_TRY(const UserJson read, read_user_json(file));
-    bookmarks.note = read.note;
-    if (read.json.is_null()) return bookmarks;
-    try {
-        (void)json_whole(read.json, "orograph_bookmarks", bookmarks_format, bookmarks_format);
-        const json& list = json_field(read.json, "bookmarks");
-        if (!list.is_array() || list.size() > most_bookmarks)
-            throw JsonFault{"'bookmarks' must be a list of at most " + std::to_string(most_bookmarks)};
-        for (const json& entry : list) bookmarks.all.push_back(bookmark_from(entry));
-    } catch (const JsonFault& fault) {
-        bookmarks.all.clear();
-        ORO_TRY(bookmarks.note, set_damaged_aside(file, fault.what));
-    }
+    ORO_TRY(const UserList list, bookmarks_list());
+    const auto take = [&](const json& entry) {
+        if (bookmarks.all.size() == most_bookmarks)
+            throw JsonFault{"holds more than " + std::to_string(most_bookmarks) + " bookmarks"};
+        bookmarks.all.push_back(bookmark_from(entry));
+    };
+    ORO_TRY(const bool is_whole, read_user_list(list, take, bookmarks.notes));
+    if (!is_whole) bookmarks.all.clear();
     return bookmarks;
 }
 

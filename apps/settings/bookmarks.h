@@ -29,13 +29,13 @@ struct Bookmark {
 // The list in bookmarks.json of user_config_folder(), in the order in which they were added.
 struct Bookmarks {
     std::vector<Bookmark> all;
-    std::string note;  // what the user must know of the file; or ""
+    std::vector<std::string> notes;  // what the user must know of the file, one line each
 };
 
 // At most so many are kept.
 inline constexpr std::size_t most_bookmarks = 10'000;
 
-// Reads them; none where there is no file. A damaged file is set aside, and the note says so. Errors: a file
+// Reads them; none where there is no file. A damaged file is set aside, and a note says so. Errors: a file
 // that cannot be read; no folder for it.
 Result<Bookmarks> read_bookmarks();
 // Adds one, in the place of that with the same name, if there is one; reads the file first, so that those of

@@ -7,6 +7,7 @@
 #include "apps/report/json_object.h"
 #include "apps/report/path_json.h"
 #include "apps/settings/user_folders.h"
+#include "apps/settings/user_list.h"
 #include "core/base/file_there.h"
 
 namespace oro {
@@ -14,14 +15,12 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using nlohmann::ordered_json;
 
-constexpr int recent_format = 1;
 constexpr std::size_t most_paths = 10'000;  // of one entry
 
-Result<fs::path> recent_file() {
+Result<UserList> recent_list() {
     ORO_TRY(const fs::path folder, user_state_folder());
-    return folder / "recent.json";
+    return UserList{folder / "recent.json", "orograph_recent", "opened"};
 }
 
 std::vector<std::string> entry_from(const json& entry) {
@@ -46,22 +45,13 @@ Result<std::string> absolute_path(const std::string& path) {
 
 Result<RecentFiles> read_recent_files() {
     RecentFiles recent;
-    ORO_TRY(const fs::path file, recent_file());
-    ORO_TRY(const UserJson read, read_user_json(file));
-    recent.note = read.note;
-    if (read.json.is_null()) return recent;
-    try {
-        (void)json_whole(read.json, "orograph_recent", recent_format, recent_format);
-        const json& list = json_field(read.json, "opened");
-        if (!list.is_array()) throw JsonFault{"'opened' must be a list"};
-        for (const json& entry : list) {
-            if (recent.all.size() == most_recent_files) break;
-            recent.all.push_back(entry_from(entry));
-        }
-    } catch (const JsonFault& fault) {
-        recent.all.clear();
-        ORO_TRY(recent.note, set_damaged_aside(file, fault.what));
-    }
+    ORO_TRY(const UserList list, recent_list());
+    const auto take = [&](const json& entry) {
+        std::vector<std::string> paths = entry_from(entry);
+        if (recent.all.size() < most_recent_files) recent.all.push_back(std::move(paths));
+    };
+    ORO_TRY(const bool is_whole, read_user_list(list, take, recent.notes));
+    if (!is_whole) recent.all.clear();
     return recent;
 }
 
@@ -78,14 +68,14 @@ Result<RecentFiles> add_recent_files(const std::vector<std::string>& paths) {
     std::erase(recent.all, entry);
     recent.all.insert(recent.all.begin(), entry);
     recent.all.resize(std::min(recent.all.size(), most_recent_files));
-    ordered_json list = ordered_json::array();
+    json entries = json::array();
     for (const auto& one : recent.all) {
-        ordered_json names = ordered_json::array();
-        for (const std::string& path : one) names.push_back(path_json(path));
-        list.push_back(std::move(names));
+        json names = json::array();
+        for (const std::string& path : one) names.push_back(json(path_json(path)));
+        entries.push_back(std::move(names));
     }
-    ORO_TRY(const fs::path file, recent_file());
-    ORO_CHECK(write_user_json(file, json_object("orograph_recent", recent_format, "opened", list)));
+    ORO_TRY(const UserList list, recent_list());
+    ORO_CHECK(write_user_list(list, entries));
     return recent;
 }
 

@@ -12,12 +12,12 @@ namespace oro {
 // region, or a picture or a view alone. The last opened comes first.
 struct RecentFiles {
     std::vector<std::vector<std::string>> all;
-    std::string note;  // what the user must know of the file; or ""
+    std::vector<std::string> notes;  // what the user must know of the file, one line each
 };
 
 inline constexpr std::size_t most_recent_files = 20;
 
-// Reads the list; none where there is no file. A damaged file is set aside, and the note says so. Errors: a
+// Reads the list; none where there is no file. A damaged file is set aside, and a note says so. Errors: a
 // file that cannot be read; no folder for it.
 Result<RecentFiles> read_recent_files();
 // Puts paths at its head, from where they stood, if they were in it; the oldest beyond most_recent_files go.

@@ -12,7 +12,6 @@
 
 #include "apps/settings/bookmarks.h"
 #include "apps/settings/recent_files.h"
-#include "apps/settings/user_folders.h"
 #include "tests/support/test_data.h"
 
 namespace {
@@ -26,7 +25,7 @@ std::string read_all(const fs::path& file) {
 }
 
 // Folders of its own.
-class UserFiles : public testing::Test {
+class UserLists : public testing::Test {
   protected:
     void SetUp() override {
         folder = oro::test::scratch_folder();
@@ -49,23 +48,7 @@ class UserFiles : public testing::Test {
     fs::path folder;
 };
 
-TEST_F(UserFiles, FoldersAreThoseOfTheSpecification) {
-    EXPECT_EQ(*user_config_folder(), folder / "config" / "orograph");
-    EXPECT_EQ(*user_state_folder(), folder / "state" / "orograph");
-    const char* const home = std::getenv("HOME");
-    const std::string before = home ? home : "";
-    setenv("HOME", "/home/somebody", 1);
-    unsetenv("XDG_CONFIG_HOME");
-    setenv("XDG_STATE_HOME", "relative/is/passed/over", 1);
-    EXPECT_EQ(*user_config_folder(), "/home/somebody/.config/orograph");
-    EXPECT_EQ(*user_state_folder(), "/home/somebody/.local/state/orograph");
-    unsetenv("HOME");
-    EXPECT_FALSE(user_config_folder().ok());
-    EXPECT_FALSE(user_state_folder().ok());
-    if (home) setenv("HOME", before.c_str(), 1);
-}
-
-TEST_F(UserFiles, BookmarksAreKeptToTheLastBit) {
+TEST_F(UserLists, BookmarksAreKeptToTheLastBit) {
     EXPECT_TRUE(read_bookmarks()->all.empty());
     EXPECT_FALSE(fs::exists(folder / "config")) << "reading makes nothing";
     const Bookmark eiger{"Eiger, Ostegg", 46.577621, 8.005393,
@@ -73,7 +56,7 @@ TEST_F(UserFiles, BookmarksAreKeptToTheLastBit) {
     ASSERT_TRUE(add_bookmark(eiger).ok());
     ASSERT_TRUE(add_bookmark({"Zürich", 47.37, 8.54, {}}).ok());
     Bookmarks read = read_bookmarks().value();
-    EXPECT_EQ(read.note, "");
+    EXPECT_TRUE(read.notes.empty());
     ASSERT_EQ(read.all.size(), 2U);
     EXPECT_EQ(read.all[0].name, "Eiger, Ostegg");
     EXPECT_EQ(read.all[0].lat_deg, eiger.lat_deg);
@@ -97,7 +80,7 @@ TEST_F(UserFiles, BookmarksAreKeptToTheLastBit) {
         EXPECT_EQ(entry.path().filename(), "bookmarks.json") << "nothing is left beside it";
 }
 
-TEST_F(UserFiles, WhatIsNoBookmarkIsRefused) {
+TEST_F(UserLists, WhatIsNoBookmarkIsRefused) {
     const std::string whole = R"({"orograph_bookmarks": 1, "bookmarks": []})";
     write(bookmarks_file(), whole);
     for (const Bookmark& wrong : {Bookmark{"", 46.0, 8.0, {}}, Bookmark{"two\nlines", 46.0, 8.0, {}},
@@ -111,7 +94,7 @@ TEST_F(UserFiles, WhatIsNoBookmarkIsRefused) {
     }
 }
 
-TEST_F(UserFiles, ADamagedFileIsSetAsideAndSaid) {
+TEST_F(UserLists, ADamagedFileIsSetAsideAndSaid) {
     const std::vector<std::string> damaged{
         "",
         "{",
@@ -127,19 +110,22 @@ TEST_F(UserFiles, ADamagedFileIsSetAsideAndSaid) {
         const auto read = read_bookmarks();
         ASSERT_TRUE(read.ok()) << read.error().line();
         EXPECT_TRUE(read->all.empty());
-        EXPECT_NE(read->note.find("bookmarks.json is damaged ("), std::string::npos) << read->note;
-        EXPECT_NE(read->note.find("set aside as"), std::string::npos) << read->note;
+        ASSERT_EQ(read->notes.size(), 1U);
+        EXPECT_NE(read->notes[0].find("bookmarks.json: "), std::string::npos) << read->notes[0];
+        EXPECT_NE(read->notes[0].find("; it is now "), std::string::npos) << read->notes[0];
         EXPECT_FALSE(fs::exists(bookmarks_file()));
-        EXPECT_EQ(read_all(bookmarks_file().string() + ".damaged"), text);
-        EXPECT_EQ(read_bookmarks()->note, "") << "said once";
+        const fs::path aside = bookmarks_file().string() + ".damaged";
+        EXPECT_EQ(read_all(aside), text);
+        EXPECT_TRUE(read_bookmarks()->notes.empty()) << "said once";
+        fs::remove(aside);
     }
     write(recent_file(), R"({"orograph_recent": 1, "opened": [[]]})");
-    EXPECT_NE(read_recent_files()->note.find("recent.json is damaged"), std::string::npos);
+    EXPECT_NE(read_recent_files()->notes.at(0).find("recent.json: "), std::string::npos);
     ASSERT_TRUE(add_recent_files({"/data/alps"}).ok()) << "and one begins anew";
     EXPECT_EQ(read_recent_files()->all.size(), 1U);
 }
 
-TEST_F(UserFiles, TheLastOpenedComesFirst) {
+TEST_F(UserLists, TheLastOpenedComesFirst) {
     using List = std::vector<std::vector<std::string>>;
     EXPECT_TRUE(read_recent_files()->all.empty());
     const std::string no_text = "/data/\xff\xfe.hgt";
@@ -157,7 +143,7 @@ TEST_F(UserFiles, TheLastOpenedComesFirst) {
     EXPECT_FALSE(add_recent_files({}).ok());
 }
 
-TEST_F(UserFiles, AFolderThatCannotBeMadeIsAnError) {
+TEST_F(UserLists, AFolderThatCannotBeMadeIsAnError) {
     write(folder / "config", "a file");
     const auto added = add_bookmark({"a", 46.0, 8.0, {}});
     ASSERT_FALSE(added.ok());
