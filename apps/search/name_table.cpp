@@ -37,6 +37,26 @@ class SmallestNumbers {
     std::vector<std::uint32_t> all_;
 };
 
+void put_important_first(std::vector<SearchPlace>& places) {
+    struct Ranked {
+        double importance;
+        SearchPlace place;
+    };
+    std::vector<Ranked> all;
+    all.reserve(places.size());
+    for (SearchPlace& place : places) {
+        const double importance = importance_of(place);
+        all.push_back({importance, std::move(place)});
+    }
+    std::ranges::sort(all, [](const Ranked& one, const Ranked& other) {
+        if (one.importance != other.importance) return one.importance > other.importance;
+        if (one.place.name != other.place.name) return one.place.name < other.place.name;
+        return std::pair(one.place.lat_deg, one.place.lon_deg) <
+               std::pair(other.place.lat_deg, other.place.lon_deg);
+    });
+    for (std::size_t i = 0; i < places.size(); ++i) places[i] = std::move(all[i].place);
+}
+
 bool has_number(const std::vector<NameTable::Found>& found, std::uint32_t number) {
     return std::ranges::find(found, number, &NameTable::Found::number) != found.end();
 }
@@ -44,12 +64,7 @@ bool has_number(const std::vector<NameTable::Found>& found, std::uint32_t number
 }  // namespace
 
 NameTable::NameTable(std::vector<SearchPlace> places) : places_(std::move(places)) {
-    std::ranges::sort(places_, [](const SearchPlace& one, const SearchPlace& other) {
-        const double first = importance_of(one), second = importance_of(other);
-        if (first != second) return first > second;
-        if (one.name != other.name) return one.name < other.name;
-        return std::pair(one.lat_deg, one.lon_deg) < std::pair(other.lat_deg, other.lon_deg);
-    });
+    put_important_first(places_);
     for (std::uint32_t number = 0; number < places_.size(); ++number) {
         const std::string name = folded(places_[number].name);
         const auto begin = static_cast<std::uint32_t>(names_.size());

@@ -44,20 +44,24 @@ class ExifBlock {
     bool little_{false};
 };
 
-// TIFF 6.0, section 2: BYTE, ASCII, SHORT, LONG, RATIONAL, SBYTE, UNDEFINED, SSHORT, SLONG, SRATIONAL.
+constexpr std::uint64_t ascii_type = 2, fraction_type = 5, signed_long_type = 9, signed_fraction_type = 10;
+
+// TIFF 6.0, section 2: BYTE, ASCII, SHORT, LONG, RATIONAL, SBYTE, UNDEFINED, SSHORT, SLONG, SRATIONAL; then
+// FLOAT and DOUBLE, which EXIF has not, and IFD, the place of a directory.
 std::size_t bytes_of_type(std::uint64_t type) {
-    constexpr std::array<std::size_t, 11> sizes{0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8};
+    constexpr std::array<std::size_t, 14> sizes{0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 0, 0, 4};
     return type < sizes.size() ? sizes[type] : 0;
 }
 
 std::optional<double> ExifBlock::value(std::uint64_t at, std::uint64_t type) {
-    const bool is_fraction = type == 5 || type == 10, is_signed = type >= 8;
+    const bool is_fraction = type == fraction_type || type == signed_fraction_type,
+               is_signed = type == signed_long_type || type == signed_fraction_type;
     const std::size_t count = is_fraction ? 4 : bytes_of_type(type);
     const auto number = [&](std::uint64_t from) -> std::optional<double> {
         const auto read = whole(from, count);
         if (!read) return std::nullopt;
         const auto size = static_cast<double>(*read);
-        return is_signed && count == 4 && *read >= std::uint64_t{1} << 31U ? size - 4294967296.0 : size;
+        return is_signed && *read >= std::uint64_t{1} << 31U ? size - 4294967296.0 : size;
     };
     const auto numerator = number(at);
     if (!is_fraction || !numerator) return numerator;
@@ -84,12 +88,12 @@ ExifDirectory ExifBlock::directory(std::uint64_t at) {
         for (std::uint64_t j = 0; j < *count && is_whole; ++j) {
             const auto one = value(*place + j * size, *type);
             is_whole = one.has_value();
-            if (is_whole && *type == 2) text += static_cast<char>(static_cast<unsigned char>(*one));
-            if (is_whole && *type != 2) numbers.push_back(*one);
+            if (is_whole && *type == ascii_type) text += static_cast<char>(static_cast<unsigned char>(*one));
+            if (is_whole && *type != ascii_type) numbers.push_back(*one);
         }
         const auto key = static_cast<std::uint16_t>(*tag);
-        if (is_whole && *type == 2) directory.texts[key] = text.substr(0, text.find('\0'));
-        if (is_whole && *type != 2) directory.numbers[key] = std::move(numbers);
+        if (is_whole && *type == ascii_type) directory.texts[key] = text.substr(0, text.find('\0'));
+        if (is_whole && *type != ascii_type) directory.numbers[key] = std::move(numbers);
     }
     return directory;
 }
