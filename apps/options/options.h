@@ -189,7 +189,8 @@ struct WindowOptions {
     ViewOptions view;
     MemoryOptions memory;
     std::string view_file;
-    bool no_paths{false};     // its pictures tell no paths
+    bool no_paths{false};                 // its pictures tell no paths
+    std::vector<std::string> gazetteers;  // files with names that places are found by
     std::string coordinates;  // not an option: the CRS that --coordinates names, for places typed later
     bool quiet{false};
 };
