@@ -124,7 +124,8 @@ TEST(Gazetteer, OnlyWithinABox) {
         written("t.csv", "name,lat,lon\nA,46.5,8.5\nB,47.5,8.5\nC,46.5,179.5\nD,46.5,-179.5\n");
     const auto names = [&](const BoundingBox& box) {
         std::string all;
-        for (const SearchPlace& place : read_gazetteer(file, box)->places) all += place.name;
+        const auto read = read_gazetteer(file, box);
+        for (const SearchPlace& place : read->places) all += place.name;
         return all;
     };
     EXPECT_EQ(names({8.0, 46.0, 9.0, 47.0}), "A");
