@@ -22,7 +22,7 @@ class NameTable {
     };
 
     NameTable() = default;
-    // Takes some 0.2 s for 200,000 names, and some 60 bytes each beside the places.
+    // Takes half a second for 200,000 names, and some 60 bytes each beside the places.
     explicit NameTable(std::vector<SearchPlace> places);
 
     // The places, the most important first (importance_of()), then by name.
