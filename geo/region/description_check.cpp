@@ -130,11 +130,10 @@ Result<void> check_description(const RegionGrid& grid, bool may_be_feathered, co
     if (!is_cut) {
         if (const auto wrong = wrong_heights(grid)) return fault(*wrong);
     }
-    if (!grid.posts_hash) return {};
     const std::uint64_t found = posts_hash(grid.field);
     ORO_CHECK(grid.field.health());
-    if (found != *grid.posts_hash)
-        return fault(tells("the fingerprint of its posts", in_hex(*grid.posts_hash), in_hex(found)));
+    if (found != grid.posts_hash)
+        return fault(tells("the fingerprint of its posts", in_hex(grid.posts_hash), in_hex(found)));
     return {};
 }
 

@@ -85,7 +85,7 @@ void leave_covered_grids_out(Region& region) {
     std::vector<GridToCover> seen;
     std::vector<char> covered(grids.size());
     for (const std::size_t number : by_rank) {
-        const GridToCover one{&grids[number], grid_print(grids[number].field.grid)};
+        const GridToCover one{&grids[number], grid_fingerprint(grids[number].field.grid)};
         // Grids of one rank have no order, and do not cover each other.
         const bool is_covered = std::ranges::any_of(seen, [&](const GridToCover& above) {
             return above.grid->rank < one.grid->rank && is_under(one, above);
