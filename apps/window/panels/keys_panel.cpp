@@ -1,0 +1,54 @@
+#include <array>
+
+#include "apps/window/panels/panel_parts.h"
+#include "apps/window/panels/panels.h"
+
+namespace oro {
+namespace {
+
+struct KeyWords {
+    const char* keys;  // "": a heading
+    const char* what;
+};
+constexpr KeyWords key_words[] = {{"", "Moving"},
+                                  {"W A S D", "forward, left, back, right; Shift: five times as fast"},
+                                  {"Space, C", "up, down (also Page Up, Page Down)"},
+                                  {"Left drag", "looks around"},
+                                  {"Q E R F", "look left, right, up, down"},
+                                  {"N, compass", "north up"},
+                                  {"", "Places"},
+                                  {"G, Ctrl-L, /", "go to a place: 46.57,7.99  N46E008  32TMS2258"},
+                                  {"Enter", "stands on it; once more: on the summit near"},
+                                  {"Backspace", "goes back to where you were"},
+                                  {"Right click", "tells all about a place"},
+                                  {"", "Pictures and panels"},
+                                  {"P, Shift-P", "writes a picture into the working folder; asks what kind"},
+                                  {"Ctrl-O, drop", "opens elevation, tracks (GPX, KML, GeoJSON), pictures"},
+                                  {"?, H, F1", "these keys"},
+                                  {"Tab", "hides and shows all that lies over the picture"},
+                                  {"F11", "full screen"},
+                                  {"Esc", "closes what is open; it never quits"},
+                                  {"Ctrl-Q", "quits"}};
+
+}  // namespace
+
+void build_keys_panel(Viewer& viewer) {
+    bool& is_open = viewer.panels.keys;
+    if (!is_open) return;
+    if (begin_panel("Keys", is_open, PanelCorner::middle, 470.0F)) {
+        for (const KeyWords& words : key_words) {
+            if (*words.keys == '\0') {
+                heading(words.what);
+                continue;
+            }
+            ImGui::TextUnformatted(words.keys);
+            ImGui::SameLine(scaled_px(120.0F));
+            ImGui::PushStyleColor(ImGuiCol_Text, interface_colour::quiet);
+            ImGui::TextWrapped("%s", words.what);
+            ImGui::PopStyleColor();
+        }
+    }
+    ImGui::End();
+}
+
+}  // namespace oro
