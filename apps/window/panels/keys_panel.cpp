@@ -1,5 +1,3 @@
-#include <array>
-
 #include "apps/window/panels/panel_parts.h"
 #include "apps/window/panels/panels.h"
 
@@ -10,25 +8,31 @@ struct KeyWords {
     const char* keys;  // "": a heading
     const char* what;
 };
-constexpr KeyWords key_words[] = {{"", "Moving"},
-                                  {"W A S D", "forward, left, back, right; Shift: five times as fast"},
-                                  {"Space, C", "up, down (also Page Up, Page Down)"},
-                                  {"Left drag", "looks around"},
-                                  {"Q E R F", "look left, right, up, down"},
-                                  {"N, compass", "north up"},
-                                  {"", "Places"},
-                                  {"G, Ctrl-L, /", "go to a place: 46.57,7.99  N46E008  32TMS2258"},
-                                  {"Enter", "stands on it; once more: on the summit near"},
-                                  {"Backspace", "goes back to where you were"},
-                                  {"Right click", "tells all about a place"},
-                                  {"", "Pictures and panels"},
-                                  {"P, Shift-P", "writes a picture into the working folder; asks what kind"},
-                                  {"Ctrl-O, drop", "opens elevation, tracks (GPX, KML, GeoJSON), pictures"},
-                                  {"?, H, F1", "these keys"},
-                                  {"Tab", "hides and shows all that lies over the picture"},
-                                  {"F11", "full screen"},
-                                  {"Esc", "closes what is open; it never quits"},
-                                  {"Ctrl-Q", "quits"}};
+constexpr KeyWords key_words[] = {
+    {"", "Moving"},
+    {"Left drag", "takes hold of the ground"},
+    {"Wheel", "nearer to what is under the pointer, and farther"},
+    {"Right drag", "goes round the place that was held, and tilts"},
+    {"Two clicks", "flies to a place"},
+    {"W A S D, arrows", "forward, left, back, right; with Shift faster"},
+    {"E, Q", "up, down (also Space, Page Up, Page Down)"},
+    {"R F, Ctrl-arrows", "look up, down, left, right"},
+    {"K", "walks over the ground; once more: flies"},
+    {"N, compass", "north up"},
+    {"Home", "all of the region"},
+    {"U, Backspace", "the view from before; Shift-U: again"},
+    {"", "Places"},
+    {"G, Ctrl-L, /", "go to a place: 46.57,7.99  N46E008  32TMS2258"},
+    {"Enter", "stands on it; once more: on the summit near"},
+    {"Right click", "tells all about a place"},
+    {"", "Pictures and panels"},
+    {"P, Shift-P", "writes a picture into the working folder; asks what kind"},
+    {"Ctrl-O, drop", "opens elevation, tracks (GPX, KML, GeoJSON), pictures"},
+    {"?, H, F1", "these keys"},
+    {"Tab", "hides and shows all that lies over the picture"},
+    {"F11", "full screen"},
+    {"Esc", "closes what is open; it never quits"},
+    {"Ctrl-Q", "quits"}};
 
 }  // namespace
 
@@ -42,7 +46,7 @@ void build_keys_panel(Viewer& viewer) {
                 continue;
             }
             ImGui::TextUnformatted(words.keys);
-            ImGui::SameLine(scaled_px(120.0F));
+            ImGui::SameLine(scaled_px(140.0F));
             ImGui::PushStyleColor(ImGuiCol_Text, interface_colour::quiet);
             ImGui::TextWrapped("%s", words.what);
             ImGui::PopStyleColor();

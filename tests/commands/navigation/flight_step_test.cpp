@@ -1,5 +1,5 @@
 // The viewer's eye: where it goes, and that it stays above the ground.
-#include "apps/window/flight.h"
+#include "apps/navigation/flight_step.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ Camera eye_at(double lat_deg, double lon_deg, double h_m, double heading_deg) {
     return camera;
 }
 
-TEST(Flight, SpeedFollowsTheHeightOverTheGround) {
+TEST(FlightStepping, SpeedFollowsTheHeightOverTheGround) {
     EXPECT_DOUBLE_EQ(flight_speed_m_s(2.0), 5.0);
     EXPECT_DOUBLE_EQ(flight_speed_m_s(300.0), 300.0);
     EXPECT_DOUBLE_EQ(flight_speed_m_s(1e9), 5e6);
@@ -27,7 +27,7 @@ TEST(Flight, SpeedFollowsTheHeightOverTheGround) {
 
 // 1,000 m over flat ground at 0 m, one second forward: 1,000 m to the north is 1000 / 111,320 degree at 60 N
 // within 1 %.
-TEST(Flight, GoesForwardAlongTheHeading) {
+TEST(FlightStepping, GoesForwardAlongTheHeading) {
     const HeightField flat =
         test::made_field(61.0, 10.0, 100.0, 201, 201, [](double, double) { return 0.0F; });
     FlightStep step;
@@ -44,7 +44,7 @@ TEST(Flight, GoesForwardAlongTheHeading) {
     EXPECT_NEAR(far.eye.lat_deg, 60.0 + 5000.0 / 111412.0, 5e-5);
 }
 
-TEST(Flight, CrossesAPoleAndGoesOn) {
+TEST(FlightStepping, CrossesAPoleAndGoesOn) {
     const HeightField none = test::made_field(10.0, 10.0, 1.0, 3, 3, [](double, double) { return 0.0F; });
     FlightStep step;
     step.forward = 1.0;
@@ -56,7 +56,7 @@ TEST(Flight, CrossesAPoleAndGoesOn) {
     EXPECT_LT(camera.eye.lat_deg, 89.995);
 }
 
-TEST(Flight, PitchStopsAtTheVertical) {
+TEST(FlightStepping, PitchStopsAtTheVertical) {
     const HeightField none = test::made_field(10.0, 10.0, 1.0, 3, 3, [](double, double) { return 0.0F; });
     FlightStep step;
     step.turn_up_deg = 300.0;
@@ -66,7 +66,7 @@ TEST(Flight, PitchStopsAtTheVertical) {
     EXPECT_DOUBLE_EQ(camera.attitude.heading_deg, 340.0);
 }
 
-TEST(Flight, NeverGoesBelowTheGround) {
+TEST(FlightStepping, NeverGoesBelowTheGround) {
     constexpr unsigned seed = 5;
     std::printf("seed %u\n", seed);
     std::mt19937 random(seed);
