@@ -76,7 +76,6 @@ Result<void> renew_renderer(Viewer& viewer) {
     if (viewer.has_picture) viewer.kept = viewer.renderer.release_picture();
     viewer.renderer = std::move(renderer);
     viewer.has_picture = false;
-    viewer.legend = {};
     return {};
 }
 

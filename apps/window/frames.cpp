@@ -130,7 +130,7 @@ Result<FrameReport> draw_planned(Viewer& viewer, FramePlan plan, const DetailSte
     if (step.scale < 1.0) return drawn;
     ORO_CHECK(write_over(viewer, drawn));
     const int every = is_coarse(viewer) ? coarse_step(viewer.region.grids.front().field) : 1;
-    ORO_CHECK(viewer.legend.lay_over(viewer.view, viewer.region, viewer.style, every, viewer.renderer));
+    if (viewer.view.show) viewer.legend = colour_key(viewer.view, viewer.region, viewer.style, every);
     return drawn;
 }
 

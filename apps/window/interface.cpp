@@ -67,10 +67,10 @@ void choose_looks(float scale) {
     };
     colours[ImGuiCol_Text] = colour(235, 238, 240, 1.0F);
     colours[ImGuiCol_TextDisabled] = colour(235, 238, 240, 0.58F);
-    colours[ImGuiCol_WindowBg] = colours[ImGuiCol_PopupBg] = colour(22, 26, 30, 0.86F);
+    colours[ImGuiCol_WindowBg] = colours[ImGuiCol_PopupBg] = colour(22, 26, 30, 0.9F);
     colours[ImGuiCol_Border] = colour(255, 255, 255, 0.12F);
     colours[ImGuiCol_TitleBg] = colours[ImGuiCol_TitleBgActive] = colours[ImGuiCol_TitleBgCollapsed] =
-        colour(22, 26, 30, 0.0F);
+        colour(22, 26, 30, 0.9F);
     colours[ImGuiCol_FrameBg] = colour(255, 255, 255, 0.09F);
     colours[ImGuiCol_FrameBgHovered] = colour(255, 255, 255, 0.15F);
     colours[ImGuiCol_FrameBgActive] = colour(255, 255, 255, 0.20F);
@@ -89,7 +89,7 @@ void choose_looks(float scale) {
 }
 
 // Latin, Greek, Cyrillic letters of names, and the signs that panels write.
-constexpr std::array<ImWchar, 17> letters{0x0020, 0x024F, 0x0370, 0x052F, 0x1E00, 0x1EFF,
+constexpr std::array<ImWchar, 17> letter_ranges{0x0020, 0x024F, 0x0370, 0x052F, 0x1E00, 0x1EFF,
                                           0x2010, 0x2044, 0x2070, 0x209F, 0x2190, 0x21FF,
                                           0x2200, 0x22FF, 0x25A0, 0x26FF, 0};
 
@@ -197,7 +197,7 @@ Result<void> Interface::take_scale(double scale) {
     config.OversampleH = 2;
     // The atlas reads the file and never writes it.
     fonts.AddFontFromMemoryTTF(const_cast<unsigned char*>(font_file), static_cast<int>(font_file_bytes),
-                               std::round(letters_px * factor), &config, letters.data());
+                               std::round(letters_px * factor), &config, letter_ranges.data());
     return window_->take_fonts(fonts);
 }
 

@@ -1,6 +1,7 @@
 #include "apps/window/motion.h"
 
 #include <array>
+#include <glm/common.hpp>
 #include <utility>
 
 #include "apps/eye/standpoint.h"
@@ -36,6 +37,11 @@ constexpr std::array<std::pair<int, ViewKey>, 24> view_keys{{{'W', ViewKey::w},
                                                              {key::right_shift, ViewKey::shift},
                                                              {key::left_control, ViewKey::control},
                                                              {key::right_control, ViewKey::control}}};
+
+// The centre of the pixel under the pointer.
+glm::dvec2 pixel_middle(glm::dvec2 at_px) {
+    return glm::floor(at_px) + 0.5;
+}
 
 PointerButton pointer_button(MouseButton button) {
     if (button == MouseButton::left) return PointerButton::left;
@@ -100,7 +106,7 @@ std::optional<ViewEvent> view_event_of(const WindowEvent& event, double time_s) 
     if (const auto* const changed = std::get_if<KeyChanged>(&event)) return key_event(*changed, view);
     if (const auto* const moved = std::get_if<PointerMoved>(&event)) {
         view.kind = ViewEvent::Kind::cursor;
-        view.point_px = moved->at_px;
+        view.point_px = pixel_middle(moved->at_px);
         view.shift = moved->shift;
         view.control = moved->control;
         return view;
@@ -108,15 +114,14 @@ std::optional<ViewEvent> view_event_of(const WindowEvent& event, double time_s) 
     if (const auto* const button = std::get_if<ButtonChanged>(&event)) {
         view.kind = button->down ? ViewEvent::Kind::press : ViewEvent::Kind::release;
         view.button = pointer_button(button->button);
-        // Centre of the pixel under the pointer.
-        view.point_px = glm::floor(button->at_px) + 0.5;
+        view.point_px = pixel_middle(button->at_px);
         view.shift = button->shift;
         view.control = button->control;
         return view;
     }
     if (const auto* const wheel = std::get_if<WheelTurned>(&event)) {
         view.kind = ViewEvent::Kind::wheel;
-        view.point_px = wheel->at_px;
+        view.point_px = pixel_middle(wheel->at_px);
         view.notches = wheel->steps.y;
         view.shift = wheel->shift;
         view.control = wheel->control;

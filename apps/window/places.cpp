@@ -22,7 +22,7 @@ std::string message_of_jump(const Place& place, const Camera& there) {
 
 // The text stays, to be mended.
 void refuse(Viewer& viewer, const Error& why) {
-    viewer.search.error = why.what;
+    viewer.search.error = why.line();
     viewer.search.takes_focus = true;
     viewer.message = why.line();
     say(false, viewer.message);
@@ -60,7 +60,7 @@ void search(Viewer& viewer) {
 
 Result<void> pick(Viewer& viewer, glm::dvec2 point_px) {
     ORO_TRY(viewer.picked, picked_at(viewer, point_px));
-    viewer.panels.place = true;
+    viewer.panels.open(&Panels::place);
     viewer.message = line_of(viewer.picked->seen);
     std::printf("%s\n", viewer.message.c_str());
     std::fflush(stdout);  // whoever reads along has it now

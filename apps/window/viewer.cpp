@@ -1,5 +1,6 @@
 #include "apps/window/viewer.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -8,6 +9,25 @@
 #include "apps/report/progress_bar.h"
 
 namespace oro {
+
+void Panels::open(bool Panels::*panel) {
+    constexpr std::array<std::array<bool Panels::*, 3>, 3> sides{
+        {{&Panels::layers, &Panels::measure, &Panels::messages},
+         {&Panels::sun, &Panels::statistics, &Panels::place},
+         {&Panels::keys, &Panels::files, &Panels::picture}}};
+    for (const auto& side : sides) {
+        if (std::ranges::find(side, panel) == side.end()) continue;
+        for (bool Panels::*const other : side) this->*other = false;
+    }
+    this->*panel = true;
+}
+
+void Panels::toggle(bool Panels::*panel) {
+    if (this->*panel)
+        this->*panel = false;
+    else
+        open(panel);
+}
 
 const HeightField& field_below(const Viewer& viewer) {
     const Geodetic& eye = viewer.view.camera.eye;

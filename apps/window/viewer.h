@@ -14,13 +14,14 @@
 #include "apps/drawing/picking.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
+#include "apps/legend/colour_key.h"
 #include "apps/navigation/gestures.h"
 #include "apps/view/style.h"
 #include "apps/window/detail.h"
 #include "apps/window/jump.h"
 #include "apps/window/measure.h"
-#include "apps/window/show_legend.h"
 #include "core/base/elapsed.h"
+#include "render/frame/frame_renderer.h"
 #include "render/window.h"
 
 namespace oro {
@@ -77,6 +78,10 @@ struct Panels {
     bool keys{false}, layers{false}, sun{false}, statistics{false}, messages{false}, measure{false},
         files{false}, picture{false};
     bool place{false};  // about what was picked
+
+    // Opens one, or closes it; others that would lie over it are closed.
+    void toggle(bool Panels::*panel);
+    void open(bool Panels::*panel);
 };
 
 struct Viewer {
@@ -126,7 +131,7 @@ struct Viewer {
     std::string arrival{};               // what is said there
     Clock::time_point moved{};           // when the eye last did
     bool follows_eye{};  // what is fitted to a view is that of an eye that moved, until it rests
-    ShowLegend legend{};
+    ColourKey legend{};         // of a frame that explains itself (--show)
     MovingDetail detail{};
     DetailStep drawn_at{};      // of the last frame
     FrameReport report{};       // of the last frame

@@ -39,6 +39,32 @@ VkPipelineColorBlendAttachmentState laid_over() {
     return blend;
 }
 
+// What of a pipeline is the same whatever it draws over.
+struct FixedStates {
+    VkPipelineVertexInputStateCreateInfo input{};
+    VkPipelineInputAssemblyStateCreateInfo assembly{};
+    VkPipelineViewportStateCreateInfo viewport{};
+    VkPipelineRasterizationStateCreateInfo raster{};
+    VkPipelineMultisampleStateCreateInfo samples{};
+
+    FixedStates() {
+        input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
+        input.vertexBindingDescriptionCount = 1;
+        input.pVertexBindingDescriptions = &corner_binding;
+        input.vertexAttributeDescriptionCount = corner_parts.size();
+        input.pVertexAttributeDescriptions = corner_parts.data();
+        assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
+        assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+        viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
+        viewport.viewportCount = viewport.scissorCount = 1;
+        raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+        raster.cullMode = VK_CULL_MODE_NONE;
+        raster.lineWidth = 1.0F;
+        samples.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
+        samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    }
+};
+
 // A buffer for so many bytes, with room for more to come.
 Result<void> grow(const Gpu& gpu, std::size_t bytes, VkBufferUsageFlags usage, const char* name,
                   Buffer& buffer) {
@@ -111,25 +137,7 @@ Result<void> InterfaceRenderer::create_pipeline(const Gpu& gpu, VkFormat format)
     const std::array<VkPipelineShaderStageCreateInfo, 2> stages{
         stage(VK_SHADER_STAGE_VERTEX_BIT, corners, nullptr),
         stage(VK_SHADER_STAGE_FRAGMENT_BIT, pixels, nullptr)};
-    VkPipelineVertexInputStateCreateInfo input{};
-    input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
-    input.vertexBindingDescriptionCount = 1;
-    input.pVertexBindingDescriptions = &corner_binding;
-    input.vertexAttributeDescriptionCount = corner_parts.size();
-    input.pVertexAttributeDescriptions = corner_parts.data();
-    VkPipelineInputAssemblyStateCreateInfo assembly{};
-    assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
-    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    VkPipelineViewportStateCreateInfo viewport{};
-    viewport.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
-    viewport.viewportCount = viewport.scissorCount = 1;
-    VkPipelineRasterizationStateCreateInfo raster{};
-    raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
-    raster.cullMode = VK_CULL_MODE_NONE;
-    raster.lineWidth = 1.0F;
-    VkPipelineMultisampleStateCreateInfo samples{};
-    samples.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
-    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    const FixedStates fixed;
     const VkPipelineColorBlendAttachmentState over = laid_over();
     VkPipelineColorBlendStateCreateInfo blend{};
     blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
@@ -149,11 +157,11 @@ Result<void> InterfaceRenderer::create_pipeline(const Gpu& gpu, VkFormat format)
     info.pNext = &rendering;
     info.stageCount = stages.size();
     info.pStages = stages.data();
-    info.pVertexInputState = &input;
-    info.pInputAssemblyState = &assembly;
-    info.pViewportState = &viewport;
-    info.pRasterizationState = &raster;
-    info.pMultisampleState = &samples;
+    info.pVertexInputState = &fixed.input;
+    info.pInputAssemblyState = &fixed.assembly;
+    info.pViewportState = &fixed.viewport;
+    info.pRasterizationState = &fixed.raster;
+    info.pMultisampleState = &fixed.samples;
     info.pColorBlendState = &blend;
     info.pDynamicState = &dynamic;
     info.layout = layout_handle;

@@ -23,10 +23,9 @@ constexpr std::array<PanelButton, 8> panel_buttons{
      {"Keys", "All keys and buttons of the mouse (?)", &Panels::keys}}};
 
 void panel_button(Viewer& viewer, const PanelButton& button) {
-    bool& is_open = viewer.panels.*button.is_open;
-    if (is_open) ImGui::PushStyleColor(ImGuiCol_Text, interface_colour::accent);
-    const bool was_open = is_open;
-    if (ImGui::Button(button.words)) is_open = !is_open;
+    const bool was_open = viewer.panels.*button.is_open;
+    if (was_open) ImGui::PushStyleColor(ImGuiCol_Text, interface_colour::accent);
+    if (ImGui::Button(button.words)) viewer.panels.toggle(button.is_open);
     if (was_open) ImGui::PopStyleColor();
     tip(button.tip);
 }
@@ -53,7 +52,8 @@ void build_buttons(Viewer& viewer) {
         tip("Panels");
         if (ImGui::BeginPopup("##menu")) {
             for (const PanelButton& button : panel_buttons)
-                ImGui::MenuItem(button.words, nullptr, &(viewer.panels.*button.is_open));
+                if (ImGui::MenuItem(button.words, nullptr, viewer.panels.*button.is_open))
+                    viewer.panels.toggle(button.is_open);
             ImGui::EndPopup();
         }
     }

@@ -11,6 +11,7 @@ void build_panels(Viewer& viewer) {
     build_status_bar(viewer);
     build_buttons(viewer);
     build_compass(viewer);
+    build_legend(viewer);
     build_toasts(viewer);
     build_messages_panel(viewer);
     build_layers_panel(viewer);

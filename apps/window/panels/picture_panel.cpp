@@ -9,7 +9,7 @@ namespace oro {
 namespace {
 
 constexpr std::array<const char*, 3> picture_endings{".png", ".jpg", ".tif"};
-constexpr int most_px = 16384;
+constexpr int most_side_px = 16384;
 
 void ending_choice(PictureChoice& choice) {
     for (const char* const ending : picture_endings) {
@@ -45,8 +45,8 @@ void build_picture_panel(Viewer& viewer) {
         std::array<int, 2> size{choice.width_px, choice.height_px};
         ImGui::SetNextItemWidth(scaled_px(160.0F));
         if (ImGui::InputInt2("pixels", size.data())) {
-            choice.width_px = std::clamp(size[0], 1, most_px);
-            choice.height_px = std::clamp(size[1], 1, most_px);
+            choice.width_px = std::clamp(size[0], 1, most_side_px);
+            choice.height_px = std::clamp(size[1], 1, most_side_px);
         }
         for (const int factor : {1, 2, 4}) {
             if (factor > 1) ImGui::SameLine();

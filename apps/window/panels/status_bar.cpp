@@ -26,7 +26,7 @@ void place_words(const Viewer& viewer) {
     }
     const SeenPlace& seen = *place->seen;
     char text[160];
-    std::snprintf(text, sizeof text, "%.5f, %.5f   %s m", seen.lat_deg, seen.lon_deg,
+    std::snprintf(text, sizeof text, "%.5f, %.5f   %s m above sea", seen.lat_deg, seen.lon_deg,
                   metres(seen.H_m).c_str());
     ImGui::TextUnformatted(text);
     if (ImGui::IsItemHovered()) {
@@ -103,7 +103,7 @@ std::string certificate_words(const Viewer& viewer) {
     const double within_px = viewer.view.tau_px * step.tau_factor / step.scale;
     char text[80];
     if (within_px <= 0.0) return "full resolution";
-    std::snprintf(text, sizeof text, "within %s px", figure(within_px).c_str());
+    std::snprintf(text, sizeof text, "detail within %s px", figure(within_px).c_str());
     return text;
 }
 
@@ -144,11 +144,11 @@ void build_status_bar(Viewer& viewer) {
         return ImGui::GetItemRectMax().x + scaled_px(24.0F) + scaled_px(width) < display.x - right;
     };
     if (fits(160.0F)) {
-        ImGui::SameLine(std::max(scaled_px(350.0F), ImGui::GetItemRectMax().x + scaled_px(24.0F)));
+        ImGui::SameLine(std::max(scaled_px(400.0F), ImGui::GetItemRectMax().x + scaled_px(24.0F)));
         height_words(viewer);
     }
     if (fits(170.0F)) {
-        ImGui::SameLine(std::max(scaled_px(550.0F), ImGui::GetItemRectMax().x + scaled_px(24.0F)));
+        ImGui::SameLine(std::max(scaled_px(580.0F), ImGui::GetItemRectMax().x + scaled_px(24.0F)));
         scale_bar(viewer);
     }
     if (ImGui::GetItemRectMax().x < display.x - right) {

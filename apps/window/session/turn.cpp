@@ -35,7 +35,7 @@ void dismiss(Viewer& viewer) {
 void take_chord(Viewer& viewer, int code) {
     if (code == 'Q') viewer.leaves = true;
     if (code == 'L') open_search(viewer);
-    if (code == 'O') viewer.panels.files = !viewer.panels.files;
+    if (code == 'O') viewer.panels.toggle(&Panels::files);
 }
 
 Result<void> take_key(Session& session, const KeyChanged& event) {
@@ -59,14 +59,14 @@ Result<void> take_key(Session& session, const KeyChanged& event) {
             break;
         case key::f1:
         case 'H':
-            viewer.panels.keys = !viewer.panels.keys;
+            viewer.panels.toggle(&Panels::keys);
             break;
         case key::f11:
             viewer.window.toggle_full_screen();
             break;
         case 'P':
             if (event.shift) {
-                viewer.panels.picture = !viewer.panels.picture;
+                viewer.panels.toggle(&Panels::picture);
                 break;
             }
             viewer.wants_picture = true;  // it may bring finer detail
@@ -79,7 +79,7 @@ Result<void> take_key(Session& session, const KeyChanged& event) {
 
 void take_character(Viewer& viewer, char32_t code) {
     if (code == U'g' || code == U'G' || code == U'/') open_search(viewer);
-    if (code == U'?') viewer.panels.keys = !viewer.panels.keys;
+    if (code == U'?') viewer.panels.toggle(&Panels::keys);
 }
 
 // What was clicked at, and not dragged.
@@ -168,7 +168,7 @@ Result<bool> turn(Session& session) {
     const WindowInput input = viewer.window.poll(wait_s(session));
     if (input.closed) return false;
     viewer.is_exposed = viewer.is_exposed || input.exposed;
-    if (!input.events.empty()) session.frames_due = 2;
+    if (!input.events.empty()) session.frames_due = 4;
     const auto build = [&] { build_panels(viewer); };
     const auto take = [&](const WindowEvent& event) -> Result<void> {
         ORO_CHECK(grant_wishes(viewer));
