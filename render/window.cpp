@@ -7,38 +7,36 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
-#include <glm/common.hpp>
 #include <utility>
 
 namespace oro {
 namespace {
 
-constexpr std::array<std::pair<int, Key>, 13> held_keys{{{GLFW_KEY_W, Key::forward},
-                                                         {GLFW_KEY_S, Key::back},
-                                                         {GLFW_KEY_A, Key::left},
-                                                         {GLFW_KEY_D, Key::right},
-                                                         {GLFW_KEY_SPACE, Key::up},
-                                                         {GLFW_KEY_LEFT_CONTROL, Key::down},
-                                                         {GLFW_KEY_RIGHT_CONTROL, Key::down},
-                                                         {GLFW_KEY_LEFT_SHIFT, Key::fast},
-                                                         {GLFW_KEY_RIGHT_SHIFT, Key::fast},
-                                                         {GLFW_KEY_Q, Key::look_left},
-                                                         {GLFW_KEY_E, Key::look_right},
-                                                         {GLFW_KEY_R, Key::look_up},
-                                                         {GLFW_KEY_F, Key::look_down}}};
+static_assert(key::space == GLFW_KEY_SPACE && key::slash == GLFW_KEY_SLASH && key::equal == GLFW_KEY_EQUAL);
+static_assert(key::escape == GLFW_KEY_ESCAPE && key::enter == GLFW_KEY_ENTER && key::tab == GLFW_KEY_TAB);
+static_assert(key::backspace == GLFW_KEY_BACKSPACE && key::insert == GLFW_KEY_INSERT);
+static_assert(key::erase == GLFW_KEY_DELETE && key::right == GLFW_KEY_RIGHT && key::left == GLFW_KEY_LEFT);
+static_assert(key::down == GLFW_KEY_DOWN && key::up == GLFW_KEY_UP && key::home == GLFW_KEY_HOME);
+static_assert(key::page_up == GLFW_KEY_PAGE_UP && key::page_down == GLFW_KEY_PAGE_DOWN);
+static_assert(key::end == GLFW_KEY_END && key::f1 == GLFW_KEY_F1 && key::f11 == GLFW_KEY_F11);
+static_assert(key::comma == GLFW_KEY_COMMA && key::minus == GLFW_KEY_MINUS);
+static_assert(key::keypad_subtract == GLFW_KEY_KP_SUBTRACT && key::keypad_add == GLFW_KEY_KP_ADD);
+static_assert(key::keypad_enter == GLFW_KEY_KP_ENTER && key::left_shift == GLFW_KEY_LEFT_SHIFT);
+static_assert(key::left_control == GLFW_KEY_LEFT_CONTROL && key::left_alt == GLFW_KEY_LEFT_ALT);
+static_assert(key::left_super == GLFW_KEY_LEFT_SUPER && key::right_shift == GLFW_KEY_RIGHT_SHIFT);
+static_assert(key::right_control == GLFW_KEY_RIGHT_CONTROL && key::right_alt == GLFW_KEY_RIGHT_ALT);
+static_assert(key::right_super == GLFW_KEY_RIGHT_SUPER && key::count == GLFW_KEY_LAST + 1);
 
 WindowInput& input_of(GLFWwindow* window) {
     return *static_cast<WindowInput*>(glfwGetWindowUserPointer(window));
 }
 
-void on_key(GLFWwindow* window, int key, int, int action, int) {
-    if (action == GLFW_RELEASE) return;
+void on_key(GLFWwindow* window, int key, int, int action, int mods) {
+    if (key < 0 || key >= key::count) return;
     WindowInput& input = input_of(window);
-    if (key == GLFW_KEY_ESCAPE) input.escape = true;
-    if ((key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER) && action == GLFW_PRESS) ++input.enters;
-    if (key == GLFW_KEY_BACKSPACE) input.backspace = true;
-    if (key == GLFW_KEY_P && action == GLFW_PRESS) input.take_picture = true;
-    if (key == GLFW_KEY_G && action == GLFW_PRESS) input.go_to = true;
+    input.events.push_back(KeyChanged{key, action != GLFW_RELEASE, action == GLFW_REPEAT,
+                                      (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0,
+                                      (mods & GLFW_MOD_ALT) != 0, (mods & GLFW_MOD_SUPER) != 0});
 }
 
 // What a window shows is lost where another covered it, and while it is minimised.
@@ -46,35 +44,74 @@ void on_exposed(GLFWwindow* window) {
     input_of(window).exposed = true;
 }
 
-// Kept from events: asked for later, the cursor may have moved on from where the button went down.
-void on_cursor(GLFWwindow* window, double x, double y) {
-    input_of(window).cursor = {x, y};
-}
-
-void on_button(GLFWwindow* window, int button, int action, int) {
-    if (button != GLFW_MOUSE_BUTTON_RIGHT || action != GLFW_PRESS) return;
+// From the window system's own units.
+glm::dvec2 pixels_of(GLFWwindow* window, double x, double y) {
     glm::ivec2 size(0), shown_px(0);
     glfwGetWindowSize(window, &size.x, &size.y);
     glfwGetFramebufferSize(window, &shown_px.x, &shown_px.y);
-    if (size.x <= 0 || size.y <= 0) return;
+    if (size.x <= 0 || size.y <= 0) return {x, y};
+    return glm::dvec2(x, y) * glm::dvec2(shown_px) / glm::dvec2(size);
+}
+
+bool is_down(GLFWwindow* window, int left_key, int right_key) {
+    return glfwGetKey(window, left_key) == GLFW_PRESS || glfwGetKey(window, right_key) == GLFW_PRESS;
+}
+
+bool is_shift_down(GLFWwindow* window) {
+    return is_down(window, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
+}
+
+bool is_control_down(GLFWwindow* window) {
+    return is_down(window, GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
+}
+
+// Kept from events: asked for later, the pointer may have moved on from where the button went down.
+void on_pointer(GLFWwindow* window, double x, double y) {
     WindowInput& input = input_of(window);
-    input.picked_px = glm::floor(input.cursor * glm::dvec2(shown_px) / glm::dvec2(size)) + 0.5;
+    input.pointer_px = pixels_of(window, x, y);
+    input.events.push_back(PointerMoved{input.pointer_px, is_shift_down(window), is_control_down(window)});
+}
+
+void on_pointer_left(GLFWwindow* window, int entered) {
+    if (entered != 0) return;
+    // A drag goes on outside.
+    for (const int button : {GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOUSE_BUTTON_MIDDLE})
+        if (glfwGetMouseButton(window, button) == GLFW_PRESS) return;
+    input_of(window).pointer_px = glm::dvec2(-1.0);
+    input_of(window).events.push_back(PointerMoved{glm::dvec2(-1.0)});
+}
+
+void on_button(GLFWwindow* window, int button, int action, int mods) {
+    if (button < GLFW_MOUSE_BUTTON_LEFT || button > GLFW_MOUSE_BUTTON_MIDDLE) return;
+    WindowInput& input = input_of(window);
+    // A button may go down before the pointer was seen to move.
+    if (input.pointer_px.x < 0.0) {
+        glm::dvec2 at;
+        glfwGetCursorPos(window, &at.x, &at.y);
+        input.pointer_px = pixels_of(window, at.x, at.y);
+    }
+    input.events.push_back(ButtonChanged{static_cast<MouseButton>(button), action == GLFW_PRESS,
+                                         input.pointer_px, (mods & GLFW_MOD_SHIFT) != 0,
+                                         (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_ALT) != 0,
+                                         glfwGetTime()});
+}
+
+void on_wheel(GLFWwindow* window, double right, double away) {
+    WindowInput& input = input_of(window);
+    input.events.push_back(
+        WheelTurned{{right, away}, input.pointer_px, is_shift_down(window), is_control_down(window)});
 }
 
 void on_character(GLFWwindow* window, unsigned int code) {
-    std::string& typed = input_of(window).typed;
-    const auto byte = [&](unsigned int value) { typed += static_cast<char>(value); };
-    // Source: RFC 3629, section 3.
-    if (code < 0x80) {
-        byte(code);
-    } else if (code < 0x800) {
-        byte(0xC0 | code >> 6), byte(0x80 | (code & 0x3F));
-    } else if (code < 0x10000) {
-        byte(0xE0 | code >> 12), byte(0x80 | (code >> 6 & 0x3F)), byte(0x80 | (code & 0x3F));
-    } else {
-        byte(0xF0 | code >> 18), byte(0x80 | (code >> 12 & 0x3F)), byte(0x80 | (code >> 6 & 0x3F)),
-            byte(0x80 | (code & 0x3F));
-    }
+    input_of(window).events.push_back(CharacterTyped{code});
+}
+
+void on_paths(GLFWwindow* window, int count, const char** paths) {
+    input_of(window).events.push_back(PathsDropped{{paths, paths + count}});
+}
+
+void on_focus(GLFWwindow* window, int focused) {
+    input_of(window).events.push_back(FocusChanged{focused != 0});
 }
 
 std::string glfw_reason() {
@@ -90,6 +127,19 @@ Result<OwnedSemaphore> create_semaphore(const Gpu& gpu, const char* name) {
     ORO_VK(vkCreateSemaphore(gpu.device(), &info, nullptr, &handle));
     gpu.name(VK_OBJECT_TYPE_SEMAPHORE, handle, name);
     return OwnedSemaphore(gpu.device(), handle);
+}
+
+Result<OwnedImageView> create_view(const Gpu& gpu, VkImage image, VkFormat format) {
+    VkImageViewCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+    info.image = image;
+    info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    info.format = format;
+    info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    VkImageView handle{};
+    ORO_VK(vkCreateImageView(gpu.device(), &info, nullptr, &handle));
+    gpu.name(VK_OBJECT_TYPE_IMAGE_VIEW, handle, "window");
+    return OwnedImageView(gpu.device(), handle);
 }
 
 // GLFW from 3.4 on looks for Wayland first, whose library prints a line of its own where there is none.
@@ -126,16 +176,20 @@ Result<std::unique_ptr<Window>> Window::create(const Gpu& gpu, int width_px, int
     window->window_ = glfwCreateWindow(width_px, height_px, title.c_str(), nullptr, nullptr);
     if (!window->window_) return Error{ErrorKind::failed, "window", "cannot be opened: " + glfw_reason()};
     glfwSetWindowUserPointer(window->window_, &window->input_);
-    glfwSetInputMode(window->window_, GLFW_STICKY_KEYS,
-                     GLFW_TRUE);  // a key tapped during a slow frame counts
     glfwSetKeyCallback(window->window_, on_key);
     glfwSetCharCallback(window->window_, on_character);
-    glfwSetCursorPosCallback(window->window_, on_cursor);
+    glfwSetCursorPosCallback(window->window_, on_pointer);
+    glfwSetCursorEnterCallback(window->window_, on_pointer_left);
     glfwSetMouseButtonCallback(window->window_, on_button);
+    glfwSetScrollCallback(window->window_, on_wheel);
+    glfwSetDropCallback(window->window_, on_paths);
+    glfwSetWindowFocusCallback(window->window_, on_focus);
     glfwSetWindowRefreshCallback(window->window_, on_exposed);
     ORO_CHECK(window->create_surface());
     ORO_TRY(window->commands_, Commands::create(gpu, "present"));
     ORO_TRY(window->acquired_, create_semaphore(gpu, "image acquired"));
+    ORO_CHECK(window->choose_format());
+    ORO_TRY(window->interface_, InterfaceRenderer::create(gpu, window->format_.format));
     ORO_CHECK(window->create_swapchain());
     window->last_poll_s_ = glfwGetTime();
     return window;
@@ -150,10 +204,7 @@ Result<void> Window::create_surface() {
     return {};
 }
 
-Result<void> Window::create_swapchain() {
-    destroy_swapchain();
-    VkSurfaceCapabilitiesKHR capabilities{};
-    ORO_VK(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu_->physical(), surface_, &capabilities));
+Result<void> Window::choose_format() {
     std::uint32_t count = 0;
     ORO_VK(vkGetPhysicalDeviceSurfaceFormatsKHR(gpu_->physical(), surface_, &count, nullptr));
     std::vector<VkSurfaceFormatKHR> formats(count);
@@ -164,6 +215,14 @@ Result<void> Window::create_swapchain() {
     });
     if (plain == formats.end())
         return Error{ErrorKind::no_device, gpu_->report().name, "has no 8-bit format for windows"};
+    format_ = *plain;
+    return {};
+}
+
+Result<void> Window::create_swapchain() {
+    destroy_swapchain();
+    VkSurfaceCapabilitiesKHR capabilities{};
+    ORO_VK(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu_->physical(), surface_, &capabilities));
     swapchain_extent_ =
         capabilities.currentExtent.width == UINT32_MAX ? extent() : capabilities.currentExtent;
     if (swapchain_extent_.width == 0 || swapchain_extent_.height == 0) return {};
@@ -173,11 +232,11 @@ Result<void> Window::create_swapchain() {
     info.minImageCount = capabilities.maxImageCount == 0
                              ? capabilities.minImageCount + 1
                              : std::min(capabilities.minImageCount + 1, capabilities.maxImageCount);
-    info.imageFormat = plain->format;
-    info.imageColorSpace = plain->colorSpace;
+    info.imageFormat = format_.format;
+    info.imageColorSpace = format_.colorSpace;
     info.imageExtent = swapchain_extent_;
     info.imageArrayLayers = 1;
-    info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     info.preTransform = capabilities.currentTransform;
     info.compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
     info.presentMode = VK_PRESENT_MODE_FIFO_KHR;
@@ -185,12 +244,15 @@ Result<void> Window::create_swapchain() {
     ORO_VK(vkCreateSwapchainKHR(gpu_->device(), &info, nullptr, &swapchain_));
     gpu_->name(VK_OBJECT_TYPE_SWAPCHAIN_KHR, swapchain_, "window");
     fresh_ = true;
+    std::uint32_t count = 0;
     ORO_VK(vkGetSwapchainImagesKHR(gpu_->device(), swapchain_, &count, nullptr));
     images_.resize(count);
     ORO_VK(vkGetSwapchainImagesKHR(gpu_->device(), swapchain_, &count, images_.data()));
     for (std::uint32_t i = 0; i < count; ++i) {
         ORO_TRY(OwnedSemaphore drawn, create_semaphore(*gpu_, "image drawn"));
         drawn_.push_back(std::move(drawn));
+        ORO_TRY(OwnedImageView view, create_view(*gpu_, images_[i], format_.format));
+        views_.push_back(std::move(view));
     }
     return {};
 }
@@ -198,6 +260,7 @@ Result<void> Window::create_swapchain() {
 void Window::destroy_swapchain() {
     if (swapchain_) {
         vkQueueWaitIdle(gpu_->queue());
+        views_.clear();
         vkDestroySwapchainKHR(gpu_->device(), swapchain_, nullptr);
     }
     swapchain_ = VK_NULL_HANDLE;
@@ -208,6 +271,8 @@ void Window::destroy_swapchain() {
 Window::~Window() {
     destroy_swapchain();
     if (surface_) vkDestroySurfaceKHR(gpu_->instance(), surface_, nullptr);
+    for (GLFWcursor* const pointer : pointers_)
+        if (pointer != nullptr) glfwDestroyCursor(pointer);
     if (window_) glfwDestroyWindow(window_);
     glfwTerminate();
 }
@@ -222,25 +287,62 @@ void Window::set_title(const std::string& title) {
     glfwSetWindowTitle(window_, title.c_str());
 }
 
+double Window::content_scale() const {
+    float x = 1.0F, y = 1.0F;
+    glfwGetWindowContentScale(window_, &x, &y);
+    return std::max(1.0, 0.5 * static_cast<double>(x + y));
+}
+
+void Window::set_pointer(PointerShape shape) {
+    if (shape == std::exchange(pointer_, shape)) return;
+    constexpr std::array<int, 3> shapes{GLFW_ARROW_CURSOR, GLFW_IBEAM_CURSOR, GLFW_HAND_CURSOR};
+    const auto number = static_cast<std::size_t>(shape);
+    if (pointers_[number] == nullptr) pointers_[number] = glfwCreateStandardCursor(shapes[number]);
+    glfwSetCursor(window_, pointers_[number]);
+}
+
+void Window::set_clipboard(const std::string& text) {
+    glfwSetClipboardString(window_, text.c_str());
+}
+
+std::string Window::clipboard() const {
+    const char* const text = glfwGetClipboardString(window_);
+    return text != nullptr ? text : "";
+}
+
+// On the screen that has the window's middle.
+void Window::toggle_full_screen() {
+    if (glfwGetWindowMonitor(window_) != nullptr) {
+        glfwSetWindowMonitor(window_, nullptr, windowed_[0], windowed_[1], windowed_[2], windowed_[3], 0);
+        return;
+    }
+    glfwGetWindowPos(window_, &windowed_[0], &windowed_[1]);
+    glfwGetWindowSize(window_, &windowed_[2], &windowed_[3]);
+    const int x = windowed_[0] + windowed_[2] / 2, y = windowed_[1] + windowed_[3] / 2;
+    int count = 0;
+    GLFWmonitor** const monitors = glfwGetMonitors(&count);
+    if (count == 0) return;
+    GLFWmonitor* chosen = monitors[0];
+    for (int i = 0; i < count; ++i) {
+        int left = 0, top = 0;
+        glfwGetMonitorPos(monitors[i], &left, &top);
+        const GLFWvidmode* const mode = glfwGetVideoMode(monitors[i]);
+        if (mode != nullptr && x >= left && x < left + mode->width && y >= top && y < top + mode->height)
+            chosen = monitors[i];
+    }
+    if (const GLFWvidmode* const mode = glfwGetVideoMode(chosen); mode != nullptr)
+        glfwSetWindowMonitor(window_, chosen, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
 WindowInput Window::poll(double wait_s) {
     WindowInput next;
-    next.cursor = input_.cursor;
+    next.pointer_px = input_.pointer_px;
     input_ = std::move(next);
     if (wait_s > 0.0) {
         glfwWaitEventsTimeout(wait_s);
     } else {
         glfwPollEvents();
     }
-    for (const auto& [code, key] : held_keys) {
-        if (glfwGetKey(window_, code) == GLFW_PRESS) input_.held[static_cast<std::size_t>(key)] = true;
-    }
-    glm::dvec2 cursor;
-    glfwGetCursorPos(window_, &cursor.x, &cursor.y);
-    // A drag begins where the button went down, not where the cursor was before.
-    const bool pressed = glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
-    if (pressed && dragging_) input_.dragged_px = cursor - cursor_;
-    dragging_ = pressed;
-    cursor_ = cursor;
     input_.closed = glfwWindowShouldClose(window_) != 0;
     const double now = glfwGetTime();
     input_.elapsed_s = now - last_poll_s_;
@@ -280,7 +382,8 @@ Result<VkResult> Window::submit_and_present(VkCommandBuffer commands, std::uint3
     return presented;
 }
 
-Result<void> Window::take_pixels(std::span<const std::uint8_t> rgba, VkExtent2D extent) {
+Result<const Image*> Window::picture_of(std::span<const std::uint8_t> rgba, VkExtent2D extent) {
+    assert(rgba.size() == std::size_t{4} * extent.width * extent.height);
     ORO_TRY(pixels_, create_image(*gpu_, VK_FORMAT_R8G8B8A8_UNORM, extent,
                                   VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                                       VK_IMAGE_USAGE_SAMPLED_BIT,
@@ -288,7 +391,7 @@ Result<void> Window::take_pixels(std::span<const std::uint8_t> rgba, VkExtent2D 
     ORO_TRY(const Buffer buffer, create_buffer(*gpu_, rgba.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                                MemoryKind::upload, "pixels for a window"));
     std::memcpy(buffer.mapped, rgba.data(), rgba.size());
-    return commands_.run(*gpu_, [&](VkCommandBuffer commands) {
+    ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
         const ImageUse fresh{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
         const ImageUse target{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
                               VK_ACCESS_2_TRANSFER_WRITE_BIT};
@@ -300,16 +403,44 @@ Result<void> Window::take_pixels(std::span<const std::uint8_t> rgba, VkExtent2D 
         copy.imageExtent = {extent.width, extent.height, 1};
         vkCmdCopyBufferToImage(commands, buffer.handle.get(), pixels_.handle.get(), target.layout, 1, &copy);
         image_barrier(commands, pixels_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, target, written);
-    });
+    }));
+    return &pixels_;
 }
 
-Result<bool> Window::show_pixels(std::span<const std::uint8_t> rgba, VkExtent2D extent) {
-    assert(rgba.size() == std::size_t{4} * extent.width * extent.height);
-    ORO_CHECK(take_pixels(rgba, extent));
-    return show(pixels_);
+// The picture, as large as the window or scaled to it, and what lies over it.
+void Window::record(VkCommandBuffer commands, const WindowPicture& shown, std::uint32_t index) const {
+    const ImageUse written{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                           VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
+    const ImageUse source{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_BLIT_BIT,
+                          VK_ACCESS_2_TRANSFER_READ_BIT};
+    const ImageUse fresh{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
+    const ImageUse target{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_BLIT_BIT,
+                          VK_ACCESS_2_TRANSFER_WRITE_BIT};
+    const ImageUse drawn_over{VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                              VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                              VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+    const ImageUse presented{VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
+    const VkImage picture = shown.picture.handle.get();
+    image_barrier(commands, picture, VK_IMAGE_ASPECT_COLOR_BIT, written, source);
+    image_barrier(commands, images_[index], VK_IMAGE_ASPECT_COLOR_BIT, fresh, target);
+    const bool scaled =
+        shown.part.width != swapchain_extent_.width || shown.part.height != swapchain_extent_.height;
+    VkImageBlit blit{};
+    blit.srcSubresource = blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    blit.srcOffsets[1] = {static_cast<std::int32_t>(shown.part.width),
+                          static_cast<std::int32_t>(shown.part.height), 1};
+    blit.dstOffsets[1] = {static_cast<std::int32_t>(swapchain_extent_.width),
+                          static_cast<std::int32_t>(swapchain_extent_.height), 1};
+    vkCmdBlitImage(commands, picture, source.layout, images_[index], target.layout, 1, &blit,
+                   scaled ? VK_FILTER_LINEAR : VK_FILTER_NEAREST);
+    image_barrier(commands, images_[index], VK_IMAGE_ASPECT_COLOR_BIT, target, drawn_over);
+    if (shown.over != nullptr)
+        interface_.record(commands, *shown.over, views_[index].get(), swapchain_extent_);
+    image_barrier(commands, images_[index], VK_IMAGE_ASPECT_COLOR_BIT, drawn_over, presented);
+    image_barrier(commands, picture, VK_IMAGE_ASPECT_COLOR_BIT, source, written);
 }
 
-Result<bool> Window::show(const Image& picture) {
+Result<bool> Window::show(const WindowPicture& shown) {
     const VkExtent2D now = extent();
     if (!swapchain_ || now.width != swapchain_extent_.width || now.height != swapchain_extent_.height) {
         ORO_CHECK(create_swapchain());
@@ -323,34 +454,15 @@ Result<bool> Window::show(const Image& picture) {
         return false;
     }
     if (acquired != VK_SUBOPTIMAL_KHR) ORO_CHECK(vulkan_checked(acquired, "vkAcquireNextImageKHR("));
-
+    if (shown.over != nullptr) ORO_CHECK(interface_.prepare(*gpu_, *shown.over));
     ORO_TRY(VkCommandBuffer commands, commands_.begin());
-    const ImageUse written{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                           VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
-    const ImageUse source{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_BLIT_BIT,
-                          VK_ACCESS_2_TRANSFER_READ_BIT};
-    const ImageUse fresh{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
-    const ImageUse target{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_BLIT_BIT,
-                          VK_ACCESS_2_TRANSFER_WRITE_BIT};
-    const ImageUse presented{VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
-    image_barrier(commands, picture.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, written, source);
-    image_barrier(commands, images_[index], VK_IMAGE_ASPECT_COLOR_BIT, fresh, target);
-    VkImageBlit blit{};
-    blit.srcSubresource = blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    blit.srcOffsets[1] = {static_cast<std::int32_t>(picture.extent.width),
-                          static_cast<std::int32_t>(picture.extent.height), 1};
-    blit.dstOffsets[1] = {static_cast<std::int32_t>(swapchain_extent_.width),
-                          static_cast<std::int32_t>(swapchain_extent_.height), 1};
-    vkCmdBlitImage(commands, picture.handle.get(), source.layout, images_[index], target.layout, 1, &blit,
-                   VK_FILTER_NEAREST);
-    image_barrier(commands, images_[index], VK_IMAGE_ASPECT_COLOR_BIT, target, presented);
-    image_barrier(commands, picture.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, source, written);
+    record(commands, shown, index);
     ORO_VK(vkEndCommandBuffer(commands));
-    ORO_TRY(const VkResult shown, submit_and_present(commands, index));
+    ORO_TRY(const VkResult presented, submit_and_present(commands, index));
     // What is suboptimal from its first image on is the best that this window system has.
     const bool first = std::exchange(fresh_, false);
-    const bool suboptimal = acquired == VK_SUBOPTIMAL_KHR || shown == VK_SUBOPTIMAL_KHR;
-    if (shown != VK_ERROR_OUT_OF_DATE_KHR && (first || !suboptimal)) return true;
+    const bool suboptimal = acquired == VK_SUBOPTIMAL_KHR || presented == VK_SUBOPTIMAL_KHR;
+    if (presented != VK_ERROR_OUT_OF_DATE_KHR && (first || !suboptimal)) return true;
     ORO_CHECK(create_swapchain());
     return false;
 }

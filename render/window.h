@@ -8,47 +8,23 @@
 #include <string>
 #include <vector>
 
-#include "render/frame/frame_renderer.h"
+#include "render/interface/interface_renderer.h"
+#include "render/window_input.h"
 
 struct GLFWwindow;
+struct GLFWcursor;
 
 namespace oro {
 
-// The keys that the viewer knows, as they are held down.
-enum class Key {
-    forward,
-    back,
-    left,
-    right,
-    up,
-    down,
-    fast,
-    look_left,
-    look_right,
-    look_up,
-    look_down,
-    count
+// What a window shows: the top left part of a picture, as large as the window or scaled to it, and what lies
+// over it (null: nothing).
+struct WindowPicture {
+    const Image& picture;
+    VkExtent2D part{};
+    const ImDrawData* over{};
 };
 
-// What happened since the last poll.
-struct WindowInput {
-    std::array<bool, static_cast<std::size_t>(Key::count)> held{};
-    glm::dvec2 dragged_px{0.0};  // with the left mouse button held
-    glm::dvec2 cursor{0.0};      // in the window system's own units, from the top left corner
-    // Centre of the pixel under the cursor when the right mouse button went down, from the top left corner.
-    std::optional<glm::dvec2> picked_px;
-    std::string typed;  // characters, UTF-8
-    int enters{};       // how often Enter was pressed
-    bool backspace{false};
-    bool escape{false};
-    bool take_picture{false};  // P was pressed
-    bool go_to{false};         // G was pressed
-    bool exposed{false};       // what the window shows was lost: it is to be shown again
-    bool closed{false};
-    double elapsed_s{};  // since the last poll
-
-    [[nodiscard]] bool is_held(Key key) const { return held[static_cast<std::size_t>(key)]; }
-};
+enum class PointerShape { arrow, text, hand };
 
 class Window {
   public:
@@ -65,19 +41,28 @@ class Window {
     WindowInput poll(double wait_s);
     // Shows a picture that is in GENERAL layout with its writes done. Returns false when the window changed
     // its size meanwhile.
-    Result<bool> show(const Image& picture);
-    // Shows pixels from the host: rows of four bytes each, RGBA, sRGB. They fill the window, whatever
-    // their number is beside its own.
-    Result<bool> show_pixels(std::span<const std::uint8_t> rgba, VkExtent2D extent);
+    Result<bool> show(const WindowPicture& shown);
+    // Pixels from the host as a picture: rows of four bytes each, RGBA, sRGB. It belongs to the window, until
+    // the next one.
+    Result<const Image*> picture_of(std::span<const std::uint8_t> rgba, VkExtent2D extent);
+    // From now on what lies over pictures is drawn with these letters.
+    Result<void> take_fonts(ImFontAtlas& fonts) { return interface_.take_fonts(*gpu_, fonts); }
     void set_title(const std::string& title);
+    void set_pointer(PointerShape shape);
+    void toggle_full_screen();
+    void set_clipboard(const std::string& text);
+    [[nodiscard]] std::string clipboard() const;
     // Size of what is shown, in pixels; 0 x 0 while minimised.
     [[nodiscard]] VkExtent2D extent() const;
+    // How many times larger than on a screen of usual fineness letters are to be; 1 or more.
+    [[nodiscard]] double content_scale() const;
 
   private:
     explicit Window(const Gpu& gpu) : gpu_(&gpu) {}
     Result<void> create_surface();
-    Result<void> take_pixels(std::span<const std::uint8_t> rgba, VkExtent2D extent);
+    Result<void> choose_format();
     Result<void> create_swapchain();
+    void record(VkCommandBuffer commands, const WindowPicture& shown, std::uint32_t index) const;
     void destroy_swapchain();
     // What presenting gave: success, suboptimal or out of date.
     Result<VkResult> submit_and_present(VkCommandBuffer commands, std::uint32_t index);
@@ -89,13 +74,17 @@ class Window {
     VkExtent2D swapchain_extent_{};
     bool fresh_{true};  // nothing was shown by it yet
     std::vector<VkImage> images_;
+    std::vector<OwnedImageView> views_;  // of them
+    VkSurfaceFormatKHR format_{};
+    InterfaceRenderer interface_;
     Commands commands_;
     OwnedSemaphore acquired_;
     std::vector<OwnedSemaphore> drawn_;  // one for each image: presenting may still wait for the last one
-    Image pixels_;                       // of show_pixels()
+    Image pixels_;                       // of picture_of()
     WindowInput input_;
-    glm::dvec2 cursor_{0.0};
-    bool dragging_{false};
+    std::array<GLFWcursor*, 3> pointers_{};  // by PointerShape, made when they are first asked for
+    PointerShape pointer_{};
+    std::array<int, 4> windowed_{};  // place and size before full screen
     double last_poll_s_{};
 };
 

@@ -4,7 +4,7 @@ build_packages=(
   cmake g++ ninja-build pkg-config
   glslang-tools libvulkan-dev
   libgdal-dev libgeographiclib-dev libproj-dev proj-data libgeos-dev libsqlite3-dev
-  libglm-dev libglfw3-dev libcli11-dev nlohmann-json3-dev
+  libglm-dev libglfw3-dev libimgui-dev libcli11-dev nlohmann-json3-dev
   libpng-dev libjpeg-dev libtiff-dev libexif-dev libfreetype-dev libharfbuzz-dev fonts-dejavu-core
   libzstd-dev libxxhash-dev liberfa-dev libpugixml-dev libutfcpp-dev
 )

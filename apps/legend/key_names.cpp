@@ -77,18 +77,4 @@ Result<void> draw_names(Strip& strip, const TextFace& face, const ColourKey& key
     return {};
 }
 
-Result<KeyPanel> names_panel(const ColourKey& key, int most_px) {
-    ORO_TRY(const TextFace face, TextFace::open());
-    const double em = std::clamp(most_px / 92.0, 11.0, 16.0), rim = 0.7 * em;
-    const double right = std::min(static_cast<double>(most_px), 40.0 * em) - rim;
-    ORO_TRY(const PlacedNames placed, place_names(face, key, glm::dvec2(rim), right, em));
-    KeyPanel panel;
-    panel.width_px = std::min(most_px, static_cast<int>(std::ceil(placed.right_px + rim)));
-    panel.height_px = static_cast<int>(std::ceil(placed.bottom_px + rim));
-    Strip strip(panel.width_px, panel.height_px, legend_paper);
-    ORO_CHECK(draw_names(strip, face, key, placed));
-    panel.rgb = strip.rgb();
-    return panel;
-}
-
 }  // namespace oro

@@ -1,8 +1,7 @@
 // What colours stand for, in words: squares of the colours, each with its name, below a title. A legend below
-// a picture has them, and a window in its corner.
+// a picture has them.
 #pragma once
 
-#include <cstdint>
 #include <glm/vec2.hpp>
 #include <string>
 #include <vector>
@@ -31,12 +30,5 @@ struct PlacedNames {
 Result<PlacedNames> place_names(const TextFace& face, const ColourKey& key, glm::dvec2 at_px, double right_px,
                                 double em_px);
 Result<void> draw_names(Strip& strip, const TextFace& face, const ColourKey& key, const PlacedNames& placed);
-
-// Such a key by itself, on paper as large as it needs; what is wider than `most_px` is cut off.
-struct KeyPanel {
-    int width_px{}, height_px{};
-    std::vector<std::uint8_t> rgb;  // rows from the top, sRGB
-};
-Result<KeyPanel> names_panel(const ColourKey& key, int most_px);
 
 }  // namespace oro

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "apps/eye/standpoint.h"
-#include "apps/view/place_camera.h"
 #include "apps/navigation/flight_step.h"
+#include "apps/view/place_camera.h"
 #include "core/terrain/ground.h"
 
 namespace oro {

@@ -5,11 +5,14 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/drawing/background_pyramid_build.h"
+#include "apps/drawing/drape.h"
+#include "apps/drawing/mesh_choice.h"
 #include "apps/eye/standpoint.h"
-#include "apps/report/json_text.h"
 #include "apps/navigation/flight_step.h"
+#include "apps/report/json_text.h"
 #include "core/base/files_read.h"
 #include "core/base/parallel.h"
+#include "core/lod/ground_means.h"
 #include "core/lod/pyramid.h"
 
 namespace oro {
@@ -33,12 +36,12 @@ Result<void> open_flight(const WindowOptions& options, const Progress& progress,
     return {};
 }
 
-std::string free_picture_name(std::int64_t time_utc_s) {
+std::string free_picture_name(std::int64_t time_utc_s, const std::string& ending) {
     std::string stem = "orograph-" + time_text(time_utc_s);
     std::erase_if(stem, [](char c) { return c == ':'; });
     std::error_code ignored;
     for (int i = 1;; ++i) {
-        const std::string name = stem + (i > 1 ? "-" + std::to_string(i) : "") + ".png";
+        const std::string name = stem + (i > 1 ? "-" + std::to_string(i) : "") + ending;
         if (!std::filesystem::exists(name, ignored)) return name;
     }
 }
@@ -50,6 +53,27 @@ Result<GridPages> first_pages(const Region& region, const RegionCuts& cuts, cons
     coarse.push_back(
         pages_in_memory(coarse_field(region.grids.front().field), view.exaggeration, thread_count()));
     return coarse;
+}
+
+Result<OpenedScene> open_scene(const Gpu& gpu, const Region& region, const RegionCuts& cuts, View& view,
+                               const Style& style, const MemoryOptions& memory, bool quiet,
+                               const RenderProgress& progress) {
+    ORO_TRY(GridPages pages, first_pages(region, cuts, view, progress));
+    ORO_TRY(const bool clusters, draws_clusters(region, view));
+    ORO_TRY(RegionScene whole,
+            scene_of_region(gpu, region, cuts, std::move(pages),
+                            {view.exaggeration, memory_of_pages(view, memory), view.heights,
+                             asks_for_means(style.frame), clusters, view.mesh_level}));
+    ORO_CHECK(lay_images(view, memory, gpu, whole.scene, quiet));
+    return OpenedScene{std::move(whole.scene), measures_long(region)};
+}
+
+std::string name_of_paths(const std::vector<std::string>& paths) {
+    namespace fs = std::filesystem;
+    if (paths.empty()) return "";
+    const fs::path first(paths.front());
+    const fs::path name = first.has_filename() ? first.filename() : first.parent_path().filename();
+    return name.string() + (paths.size() > 1 ? " and " + std::to_string(paths.size() - 1) + " more" : "");
 }
 
 Result<void> check_window_size(const Camera& camera, const DeviceReport& device) {

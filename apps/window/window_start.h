@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "apps/drawing/region_scene.h"
+#include "apps/styles/style.h"
 #include "apps/view/view.h"
 #include "core/base/progress.h"
 #include "render/device/device_report.h"
@@ -18,11 +20,24 @@ Result<void> open_flight(const WindowOptions& options, const Progress& progress,
 Result<GridPages> first_pages(const Region& region, const RegionCuts& cuts, const View& view,
                               const RenderProgress& progress);
 
+// What a window draws first of a region: all of it, or every n-th post (first_pages()). Images lie over it.
+// quiet: what a user must know of these is not said. Errors: the device, posts.
+struct OpenedScene {
+    Scene scene;
+    bool is_coarse{};
+};
+Result<OpenedScene> open_scene(const Gpu& gpu, const Region& region, const RegionCuts& cuts, View& view,
+                               const Style& style, const MemoryOptions& memory, bool quiet,
+                               const RenderProgress& progress);
+
+// What paths are called in a title: the file or the folder that is named first.
+std::string name_of_paths(const std::vector<std::string>& paths);
+
 // A window is drawn in one piece, where a picture has tiles. Errors (usage): it is too large for that.
 Result<void> check_window_size(const Camera& camera, const DeviceReport& device);
 
 // The next free name for a picture of the window, from the time: orograph-20261121T090000Z.png, then -2, -3
 // ...
-std::string free_picture_name(std::int64_t time_utc_s);
+std::string free_picture_name(std::int64_t time_utc_s, const std::string& ending = ".png");
 
 }  // namespace oro

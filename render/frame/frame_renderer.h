@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/frame/frame_plan.h"
@@ -107,6 +108,8 @@ class FrameRenderer {
 
     [[nodiscard]] bool needs_depths() const { return options_.keep_depths || options_.smooth_edges; }
     [[nodiscard]] const Image& picture() const { return picture_; }
+    // Gives the picture away; resize() makes another, and nothing may be drawn before.
+    [[nodiscard]] Image release_picture() { return std::exchange(picture_, Image{}); }
     [[nodiscard]] VkExtent2D extent() const { return options_.extent; }
 
   private:

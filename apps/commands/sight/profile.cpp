@@ -4,6 +4,7 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
+#include "apps/commands/sight/look_along.h"
 #include "apps/commands/sight/profile_text.h"
 #include "apps/commands/sight/sight_ground.h"
 #include "apps/output/overwrite_guard.h"
@@ -53,34 +54,6 @@ Result<void> check_length(const ProfileOptions& options, const LineAlong& line) 
         return refused("--step", std::to_string(*options.step_m),
                        "makes more than 10,000,000 places of this line: give a longer one");
     return {};
-}
-
-std::vector<ProfilePoint> points_of(const LineAlong& line, const std::optional<double>& step_m,
-                                    const TrueGround& ground) {
-    std::vector<ProfilePoint> points;
-    const double length_m = line.distances_m.back();
-    if (step_m) {
-        const auto steps = static_cast<std::size_t>(std::ceil(length_m / *step_m - 1e-9));
-        for (std::size_t i = 0; i <= steps; ++i) {
-            const double along_m = i == steps ? length_m : static_cast<double>(i) * *step_m;
-            const LatLon place = place_on_line(line, along_m);
-            points.push_back(profile_point(ground, {place.lat_deg, place.lon_deg, 0.0}, along_m));
-        }
-        return points;
-    }
-    for (std::size_t leg = 0; leg + 1 < line.places.size(); ++leg) {
-        const LatLon &from = line.places[leg], &to = line.places[leg + 1];
-        const double from_m = line.distances_m[leg], to_m = line.distances_m[leg + 1];
-        const auto way = [&](double along_m) {
-            // Exactly the line's own places, where it has them.
-            if (along_m == from_m) return Geodetic{from.lat_deg, from.lon_deg, 0.0};
-            if (along_m == to_m) return Geodetic{to.lat_deg, to.lon_deg, 0.0};
-            const LatLon place = place_on_leg(line, leg, along_m);
-            return Geodetic{place.lat_deg, place.lon_deg, 0.0};
-        };
-        if (to_m > from_m) add_profile(ground, way, from_m, to_m, points);
-    }
-    return points;
 }
 
 // Longitude counted from the 180th meridian, east of it positive.
@@ -137,7 +110,7 @@ Result<void> run_profile(const ProfileOptions& options) {
         ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, ground->region),
                                                {{profile.line.file}, "which the line is read from"}}));
     bar.show(1.0, "following the line");
-    profile.points = points_of(profile.line, options.step_m, ground->ground());
+    profile.points = profile_points(profile.line, options.step_m, ground->ground());
     if (lower_case(options.out).ends_with(".geojson"))
         profile.crossings = crossings_of(profile, ground->ground());
     ORO_CHECK(ground->region.health());

@@ -1,12 +1,10 @@
 // orograph sight: whether one place is seen from another, by how much, and what stands in the way.
-#include <cmath>
 #include <cstdio>
-#include <glm/geometric.hpp>
 #include <utility>
 
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
-#include "apps/commands/sight/sight_text.h"
+#include "apps/commands/sight/look_along.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
@@ -15,29 +13,6 @@
 
 namespace oro {
 namespace {
-
-SightReport look(const Geodetic& from, const Geodetic& to, const Air& air, const SightGround& ground) {
-    SightReport report;
-    report.from = from;
-    report.to = to;
-    report.air = air;
-    report.path = geodesic_between(from.lat_deg, from.lon_deg, to.lat_deg, to.lon_deg);
-    const Observer observer(ground.ground(), from, air);
-    const glm::dvec3 offset_m = ecef_from_geodetic(to).m - observer.sight().eye.m;
-    report.slant_m = glm::length(offset_m);
-    const glm::dvec3 seen_m = observer.sight().refraction.apparent_m(offset_m);
-    const glm::dvec3 enu_m = seen_m * ecef_from_enu(from.lat_deg, from.lon_deg);
-    report.elevation_deg = deg_from_radians(Radians{std::atan2(enu_m.z, std::hypot(enu_m.x, enu_m.y))});
-    report.line = observer.line_to(to);
-    report.obstacle = observer.obstacle(to);
-    if (!report.obstacle) return report;
-    const Geodetic& at = report.obstacle->point;
-    report.obstacle_distance_m =
-        geodesic_between(from.lat_deg, from.lon_deg, at.lat_deg, at.lon_deg).distance_m;
-    report.target_clearance_deficit_m = observer.clearance_deficit_m(to);
-    report.eye_clearance_deficit_m = eye_clearance_deficit_m(ground.ground(), from, air, to);
-    return report;
-}
 
 // What stands before the eye, or is the summit that the target is not: nobody moves that.
 void say_walls(const Standpoint& from, const Standpoint& target, const SightOptions& options) {
@@ -70,7 +45,7 @@ Result<void> run_sight(const SightOptions& options) {
                                                        *ground));
     const Geodetic& to = target.eye;
     bar.show(1.0, "looking");
-    SightReport report = look(from.eye, to, air, *ground);
+    SightReport report = look_along(from.eye, to, air, ground->ground());
     report.moved = from.moved;
     ORO_CHECK(ground->region.health());
     bar.clear();

@@ -1,0 +1,213 @@
+#include "apps/window/frames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "apps/accuracy/beyond_data.h"
+#include "apps/report/progress_bar.h"
+#include "apps/window/loading_picture.h"
+#include "apps/window/pictures.h"
+#include "apps/window/written_frame.h"
+
+namespace oro {
+namespace {
+
+// How long the user has waited for it.
+void say_waited(const Viewer& viewer, const char* what) {
+    char text[100];
+    std::snprintf(text, sizeof text, "%s after %.2f s", what, seconds_since(viewer.started));
+    say(viewer.options.quiet, text);
+}
+
+// Whole pictures.
+Tile whole_of(const Camera& camera) {
+    return {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
+}
+
+// What a coarse picture needs of the scene that comes: with that it takes the place of the one that is shown,
+// and the eye stays. Until then the window goes on. True once it has.
+Result<bool> swap_in_full_pyramid(Viewer& viewer) {
+    constexpr double first_tau_px = 4.0, longest_s = 10.0;
+    Scene& scene = *viewer.coming;
+    const Camera& camera = viewer.view.camera;
+    scene.require_fields(viewer.style.frame);
+    ORO_TRY(const FramePlan plan,
+            scene.plan(
+                {camera, whole_of(camera), std::max(first_tau_px, viewer.view.tau_px), viewer.view.model}));
+    // Where the GPU has no room for all of it, it never is whole.
+    if (!plan.is_settled() && seconds_since(viewer.coming_since) < longest_s) {
+        const Result<bool> advanced = scene.advance();
+        return advanced.ok() ? Result<bool>(false) : advanced;
+    }
+    show_finer_scene(viewer);
+    return true;
+}
+
+// Some time after the eye has moved it rests: contour lines, which stayed, are then those of its view, what
+// is written over pictures is there again, and all detail.
+bool comes_to_rest(Viewer& viewer) {
+    constexpr double rest_s = 0.4, settle_s = 0.15;
+    const double since_s = seconds_since(viewer.moved);
+    if (!viewer.follows_eye) return false;
+    if (since_s < rest_s) return since_s > settle_s && viewer.drawn_at.scale < 1.0;
+    viewer.follows_eye = false;
+    return viewer.style.contours_by_view || has_writing(viewer.view, viewer.style) ||
+           !viewer.drawn_at.is_whole();
+}
+
+// Over a frame that is whole, of an eye that rests. Finding it takes too long for an eye that moves.
+Result<void> write_over(Viewer& viewer, const FrameReport& drawn) {
+    const bool whole = !viewer.is_missing && drawn.images_settled && !is_coarse(viewer);
+    if (viewer.follows_eye || !whole || !has_writing(viewer.view, viewer.style)) return {};
+    ORO_TRY(const RegionGround* const ground, ground_of(viewer));
+    return write_over_frame(viewer.gpu, *viewer.scene, viewer.view, ground->ground(), viewer.style,
+                            viewer.path, viewer.renderer);
+}
+
+bool has_ground(const FramePlan& plan) {
+    return std::ranges::any_of(plan.grids, [](const GridPlan& grid) { return !grid.pages.empty(); });
+}
+
+// Whether ground is in view of which nothing is there yet. A grid beside others that have some is waited for
+// a little while: nothing says then that its ground is not void.
+bool lacks_ground(Viewer& viewer, const FramePlan& plan) {
+    constexpr double longest_s = 2.0;
+    const auto lacks = [](const GridPlan& grid) { return grid.pages_wanted > 0 && grid.pages.empty(); };
+    if (std::ranges::none_of(plan.grids, lacks)) return false;
+    if (!viewer.waits_for_ground) viewer.waiting_since = Clock::now();
+    return !has_ground(plan) || seconds_since(viewer.waiting_since) < longest_s;
+}
+
+// A window's size is its camera's and its renderer's. The picture from before stays until another is drawn.
+Result<void> take_size(Viewer& viewer, const VkExtent2D& extent, bool& changed) {
+    viewer.view.camera.width_px = static_cast<int>(extent.width);
+    viewer.view.camera.height_px = static_cast<int>(extent.height);
+    if (extent.width == viewer.renderer.extent().width && extent.height == viewer.renderer.extent().height)
+        return {};
+    changed = true;
+    if (viewer.has_picture) viewer.kept = viewer.renderer.release_picture();
+    viewer.has_picture = false;
+    return viewer.renderer.resize(extent);
+}
+
+// How much detail the next frame has.
+DetailStep step_now(const Viewer& viewer) {
+    constexpr double settle_s = 0.15;
+    const bool moves = viewer.follows_eye && seconds_since(viewer.moved) < settle_s;
+    if (moves) return viewer.detail.now();
+    return {};
+}
+
+Camera scaled(const Camera& camera, double scale) {
+    Camera smaller = camera;
+    const auto side = [&](int px) { return std::max(1, static_cast<int>(std::lround(px * scale))); };
+    smaller.width_px = side(camera.width_px);
+    smaller.height_px = side(camera.height_px);
+    return smaller;
+}
+
+// What a frame would be drawn from now, and what of it is missing.
+Result<FramePlan> plan_now(Viewer& viewer, const Camera& camera, double tau_px) {
+    viewer.scene->require_fields(viewer.style.frame);
+    ORO_TRY(FramePlan plan, viewer.scene->plan({camera, whole_of(camera), tau_px, viewer.view.model}));
+    viewer.is_missing = !plan.is_settled();
+    viewer.waits_for_ground = lacks_ground(viewer, plan);
+    if (viewer.is_shown || plan.wants_pages()) return plan;
+    // A view of another place: told where messages are.
+    const auto nothing = nothing_in_view(viewer.view, viewer.region, viewer.options.view_file);
+    tell(viewer, nothing.ok() ? *nothing : nothing.error().what);
+    say(viewer.options.quiet, "note: " + viewer.message);
+    return plan;
+}
+
+Result<FrameReport> draw_planned(Viewer& viewer, FramePlan plan, const DetailStep& step) {
+    ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.grids.front().field,
+                          viewer.follows_eye ? Eye::moves : Eye::rests));
+    ORO_TRY(const FrameReport drawn,
+            viewer.renderer.draw(std::move(plan), viewer.style.frame, 0, 1, viewer.scene->drapes()));
+    viewer.scene->apply_feedback(drawn.feedback);
+    if (step.scale < 1.0) return drawn;
+    ORO_CHECK(write_over(viewer, drawn));
+    const int every = is_coarse(viewer) ? coarse_step(viewer.region.grids.front().field) : 1;
+    if (viewer.view.show) viewer.legend = colour_key(viewer.view, viewer.region, viewer.style, every);
+    return drawn;
+}
+
+}  // namespace
+
+Result<void> refine(Viewer& viewer, bool& changed) {
+    if (viewer.finer && viewer.finer->ready()) ORO_CHECK(begin_finer_scene(viewer));
+    if (!viewer.coming || viewer.waits_for_ground) return {};
+    ORO_TRY(const bool is_here, swap_in_full_pyramid(viewer));
+    changed = changed || is_here;
+    return {};
+}
+
+Result<bool> draw_frame(Viewer& viewer, bool& changed) {
+    const VkExtent2D extent = viewer.window.extent();
+    if (extent.width == 0 || extent.height == 0) return false;
+    ORO_CHECK(take_size(viewer, extent, changed));
+    if (viewer.is_missing) {
+        ORO_TRY(const bool better, viewer.scene->advance());
+        changed = changed || better;
+    }
+    changed = comes_to_rest(viewer) || changed;
+    if (!changed) return false;
+    const Clock::time_point since = Clock::now();
+    follow_sun(viewer);
+    const DetailStep step = step_now(viewer);
+    const Camera camera = scaled(viewer.view.camera, step.scale);
+    ORO_TRY(FramePlan plan, plan_now(viewer, camera, viewer.view.tau_px * step.tau_factor));
+    if (viewer.waits_for_ground) {
+        // Asked again with the next page, or soon where some ground is there.
+        changed = has_ground(plan);
+        return false;
+    }
+    const bool is_settled = plan.is_settled();
+    ORO_TRY(viewer.report, draw_planned(viewer, std::move(plan), step));
+    viewer.frame_s = seconds_since(since);
+    if (viewer.follows_eye) viewer.detail.took(step, viewer.frame_s);
+    viewer.has_picture = true;
+    viewer.kept = {};
+    viewer.part = {static_cast<std::uint32_t>(camera.width_px), static_cast<std::uint32_t>(camera.height_px)};
+    viewer.drawn_at = step;
+    viewer.is_settled = is_settled && viewer.report.images_settled && !is_coarse(viewer) && step.is_whole();
+    changed = !viewer.report.images_settled;
+    return true;
+}
+
+Result<std::optional<WindowPicture>> picture_to_show(Viewer& viewer) {
+    using Shown = std::optional<WindowPicture>;
+    const VkExtent2D extent = viewer.window.extent();
+    if (extent.width == 0 || extent.height == 0) return Shown();
+    if (viewer.has_picture) return Shown(WindowPicture{viewer.renderer.picture(), viewer.part});
+    if (viewer.kept.handle) return Shown(WindowPicture{viewer.kept, viewer.part});
+    ORO_TRY(const std::vector<std::uint8_t> pixels,
+            loading_picture(static_cast<int>(extent.width), static_cast<int>(extent.height)));
+    ORO_TRY(const Image* const sheet, viewer.window.picture_of(pixels, extent));
+    return Shown(WindowPicture{*sheet, extent});
+}
+
+void say_what_is_shown(Viewer& viewer) {
+    if (!viewer.has_picture) return;
+    const bool whole = viewer.is_settled;
+    if (!viewer.is_shown) say_waited(viewer, whole ? "first picture" : "first picture, coarse,");
+    if (viewer.is_shown && whole && !viewer.is_whole) say_waited(viewer, "full detail");
+    viewer.is_shown = true;
+    viewer.is_whole = viewer.is_whole || whole;
+}
+
+Result<FrameRenderer> renderer_for(const Gpu& gpu, const View& view, const Style& style, RasterPath path,
+                                   VkExtent2D extent) {
+    FrameRendererOptions options;
+    options.extent = extent;
+    options.path = path;
+    options.waits_for_images = false;
+    options.smooth_edges = style.frame.smooth_edges != 0;
+    if (view.show) options.show = shown_by(*view.show);
+    if (options.extent.width == 0 || options.extent.height == 0) options.extent = {64, 64};
+    return FrameRenderer::create(gpu, options);
+}
+
+}  // namespace oro

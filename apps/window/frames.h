@@ -1,0 +1,22 @@
+// The pictures of the ground that a window shows one after the other.
+#pragma once
+
+#include "apps/window/viewer.h"
+
+namespace oro {
+
+// Measured levels take the place of coarse ones once they are there.
+Result<void> refine(Viewer& viewer, bool& changed);
+// Draws with what is on the GPU; what is missing comes in the background and is drawn when it is there. True
+// where a picture was drawn. `changed`: whether one is wanted, and afterwards, whether another one is.
+Result<bool> draw_frame(Viewer& viewer, bool& changed);
+// What is to be shown now: the picture that was drawn last, whatever its size, or a sheet that says that
+// ground comes. Nothing while the window is minimised.
+Result<std::optional<WindowPicture>> picture_to_show(Viewer& viewer);
+// Told of each time that it was shown.
+void say_what_is_shown(Viewer& viewer);
+// A renderer that draws what the view and its style ask for now.
+Result<FrameRenderer> renderer_for(const Gpu& gpu, const View& view, const Style& style, RasterPath path,
+                                   VkExtent2D extent);
+
+}  // namespace oro

@@ -1,0 +1,16 @@
+// Files that a window's user opens while it is there: by dropping them on it, or from a panel.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/window/viewer.h"
+
+namespace oro {
+
+// Opens what the paths name. Vector files (GPX, KML, GeoJSON, GeoPackage) lie over the ground that is shown;
+// a picture that carries a view moves the eye to where it was taken; all others together are the region that
+// is shown from then on. What cannot be opened is told, and what is shown stays. Errors: the device.
+Result<void> open_paths(Viewer& viewer, const std::vector<std::string>& paths);
+
+}  // namespace oro

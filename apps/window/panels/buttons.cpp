@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <array>
+
+#include "apps/window/panels/panel_parts.h"
+#include "apps/window/panels/panels.h"
+
+namespace oro {
+namespace {
+
+struct PanelButton {
+    const char* words;
+    const char* tip;
+    bool Panels::*is_open;
+};
+constexpr std::array<PanelButton, 8> panel_buttons{
+    {{"Layers", "Colours, names, lines, images, heights", &Panels::layers},
+     {"Sun", "The light of a date and a time", &Panels::sun},
+     {"Measure", "Distance, area, profile, line of sight", &Panels::measure},
+     {"Open", "Elevation, tracks, pictures (Ctrl-O)", &Panels::files},
+     {"Picture", "A picture of any size (Shift-P); P takes one at once", &Panels::picture},
+     {"Statistics", "How this picture was drawn, and how long it took", &Panels::statistics},
+     {"Log", "What was said since the window opened", &Panels::messages},
+     {"Keys", "All keys and buttons of the mouse (?)", &Panels::keys}}};
+
+void panel_button(Viewer& viewer, const PanelButton& button) {
+    const bool was_open = viewer.panels.*button.is_open;
+    if (was_open) ImGui::PushStyleColor(ImGuiCol_Text, interface_colour::accent);
+    if (ImGui::Button(button.words)) viewer.panels.toggle(button.is_open);
+    if (was_open) ImGui::PopStyleColor();
+    tip(button.tip);
+}
+
+}  // namespace
+
+void build_buttons(Viewer& viewer) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float gap = scaled_px(10.0F);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {scaled_px(6.0F), scaled_px(6.0F)});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {scaled_px(4.0F), scaled_px(4.0F)});
+    begin_area("##buttons", {scaled_px(310.0F), gap}, {0.0F, 0.0F});
+    // One beside the other where there is room for all of them.
+    float width = 0.0F;
+    for (const PanelButton& button : panel_buttons)
+        width += ImGui::CalcTextSize(button.words).x + scaled_px(20.0F);
+    if (scaled_px(310.0F) + width < display.x - scaled_px(80.0F)) {
+        for (const PanelButton& button : panel_buttons) {
+            if (&button != panel_buttons.data()) ImGui::SameLine();
+            panel_button(viewer, button);
+        }
+    } else {
+        if (ImGui::Button("≡")) ImGui::OpenPopup("##menu");
+        tip("Panels");
+        if (ImGui::BeginPopup("##menu")) {
+            for (const PanelButton& button : panel_buttons)
+                if (ImGui::MenuItem(button.words, nullptr, viewer.panels.*button.is_open))
+                    viewer.panels.toggle(button.is_open);
+            ImGui::EndPopup();
+        }
+    }
+    ImGui::End();
+    ImGui::PopStyleVar(2);
+}
+
+}  // namespace oro

@@ -1,0 +1,27 @@
+#include "apps/window/panels/panels.h"
+
+namespace oro {
+
+void build_panels(Viewer& viewer) {
+    // Until there is ground a sheet says that it comes; a field that was asked for is there at once.
+    if (!viewer.has_picture && !viewer.is_shown && !viewer.search.is_open) return;
+    if (viewer.panels.hidden && !viewer.search.is_open) return build_toasts(viewer);
+    build_search_field(viewer);
+    if (viewer.panels.hidden) return;
+    build_status_bar(viewer);
+    build_buttons(viewer);
+    build_compass(viewer);
+    build_legend(viewer);
+    build_toasts(viewer);
+    build_messages_panel(viewer);
+    build_layers_panel(viewer);
+    build_sun_panel(viewer);
+    build_statistics_panel(viewer);
+    build_place_panel(viewer);
+    build_measure_panel(viewer);
+    build_files_panel(viewer);
+    build_picture_panel(viewer);
+    build_keys_panel(viewer);
+}
+
+}  // namespace oro

@@ -1,0 +1,65 @@
+#include <cstdio>
+
+#include "apps/report/figures.h"
+#include "apps/window/panels/panel_parts.h"
+#include "apps/window/panels/panels.h"
+#include "apps/window/places.h"
+#include "geo/places/place_forms.h"
+
+namespace oro {
+namespace {
+
+template <class... Values>
+std::string written(const char* form, Values... values) {
+    char text[160];
+    std::snprintf(text, sizeof text, form, values...);
+    return text;
+}
+
+void all_about(const PickedPlace& picked) {
+    const SeenPlace& seen = *picked.seen;
+    value_line("Place", written("%.7f, %.7f", seen.lat_deg, seen.lon_deg), "Latitude, longitude, WGS 84");
+    value_line("DMS", dms_text(seen.lat_deg, seen.lon_deg), "Degrees, minutes, seconds");
+    value_line("UTM", utm_text(seen.lat_deg, seen.lon_deg), "Zone, easting and northing in metres");
+    value_line("MGRS", mgrs_text(seen.lat_deg, seen.lon_deg), "The square of one metre that it is in");
+    ImGui::Separator();
+    value_line("Height H", written("%.2f m", seen.H_m), "Above the geoid, which is about sea level");
+    value_line("Height h", written("%.2f m", seen.h_m),
+               "Above the ellipsoid of WGS 84, as satellites have it");
+    value_line("Geoid N", written("%.2f m", seen.h_m - seen.H_m),
+               "The geoid's height above the ellipsoid: h = H + N");
+    if (picked.slope_deg)
+        value_line("Slope", written("%.1f°", *picked.slope_deg),
+                   "Of the triangle of the data that it lies on");
+    if (picked.aspect_deg)
+        value_line("Falls to",
+                   written("%s, %.0f°", compass_point(static_cast<int>(*picked.aspect_deg / 22.5 + 0.5) % 16),
+                           *picked.aspect_deg),
+                   "Where the ground falls to: its aspect, clockwise from true north");
+    ImGui::Separator();
+    value_line("Distance", written("%.2f m", seen.seen_distance_m), "Along the line of sight");
+    value_line("On the map", written("%.2f m", seen.distance_m), "Along the ellipsoid, from under the eye");
+    value_line("Bearing", written("%.2f°", seen.bearing_deg), "True, from the eye, clockwise from north");
+    value_line("Source", seen.source.empty() ? "unknown" : seen.source.substr(seen.source.rfind('/') + 1),
+               "The file that its height comes from");
+    value_line("Cell", written("row %d, column %d", seen.row, seen.column),
+               "The square between four posts; rows from the north, columns from the west");
+}
+
+}  // namespace
+
+void build_place_panel(Viewer& viewer) {
+    bool& is_open = viewer.panels.place;
+    if (!is_open || !viewer.picked) return;
+    if (begin_panel("Place", is_open, PanelCorner::upper_right, 330.0F)) {
+        if (!viewer.picked->seen) {
+            quiet_text("No ground there: sky, or a place without data.");
+        } else {
+            all_about(*viewer.picked);
+            if (ImGui::Button("Copy all")) ImGui::SetClipboardText(line_of(viewer.picked->seen).c_str());
+        }
+    }
+    ImGui::End();
+}
+
+}  // namespace oro

@@ -1,0 +1,95 @@
+#include "apps/window/pictures.h"
+
+#include "apps/accuracy/beyond_data.h"
+#include "apps/drawing/drape.h"
+#include "apps/legend/legend.h"
+#include "apps/output/picture_file.h"
+#include "apps/report/json_text.h"
+#include "apps/report/progress_bar.h"
+#include "apps/window/window_start.h"
+#include "core/lod/ground_means.h"
+
+namespace oro {
+namespace {
+
+// All of that at once.
+Result<void> wait_for_finer_scene(Viewer& viewer) {
+    if (viewer.finer) ORO_CHECK(begin_finer_scene(viewer));
+    if (viewer.coming) show_finer_scene(viewer);
+    return {};
+}
+
+}  // namespace
+
+void follow_sun(Viewer& viewer) {
+    std::optional<SunDirection>& sun = viewer.view.sun;
+    if (!sun || !sun->time) return;
+    aim_sun(sun, viewer.view.camera.eye);
+    light_by(*sun, viewer.style.frame);
+}
+
+Result<void> begin_finer_scene(Viewer& viewer) {
+    GridPages pages(1);
+    ORO_TRY(pages.front(), viewer.finer->wait());
+    viewer.finer.reset();
+    const View& view = viewer.view;
+    ORO_TRY(RegionScene whole,
+            scene_of_region(viewer.gpu, viewer.region, viewer.cuts, std::move(pages),
+                            {view.exaggeration, memory_of_pages(view, viewer.options.memory), view.heights,
+                             viewer.keeps_means || asks_for_means(viewer.style.frame)}));
+    ORO_CHECK(lay_images(view, viewer.options.memory, viewer.gpu, whole.scene, true));
+    viewer.coming = std::make_unique<Scene>(std::move(whole.scene));
+    viewer.coming_since = Clock::now();
+    return {};
+}
+
+void show_finer_scene(Viewer& viewer) {
+    viewer.scene = std::move(viewer.coming);
+    viewer.is_missing = false;
+}
+
+Result<void> take_picture(Viewer& viewer) {
+    PictureChoice choice;
+    choice.width_px = viewer.view.camera.width_px;
+    choice.height_px = viewer.view.camera.height_px;
+    choice.samples = viewer.view.samples;
+    return take_picture(viewer, choice);
+}
+
+Result<void> take_picture(Viewer& viewer, const PictureChoice& choice) {
+    follow_sun(viewer);
+    if (is_coarse(viewer)) {
+        // A picture is what its view says, and nothing coarser.
+        tell(viewer, "the picture waits for finer detail");
+        trace_state(viewer);
+        ORO_CHECK(wait_for_finer_scene(viewer));
+    }
+    viewer.view.time_utc_s = time_now_s();
+    View view = viewer.view;
+    view.camera.width_px = choice.width_px;
+    view.camera.height_px = choice.height_px;
+    view.samples = choice.samples;
+    const PictureFiles files = picture_files(free_picture_name(view.time_utc_s, choice.ending));
+    ORO_TRY(const RegionGround* const ground, ground_of(viewer));
+    ORO_TRY(const auto middle, place_in_middle(view, *ground));
+    ORO_CHECK(fit_to_view(viewer.style, view, viewer.region.grids.front().field));
+    view.legend = has_own_legend(view);
+    ORO_TRY(const auto strip, strip_of(view, viewer.region, viewer.style, middle));
+    const auto written = write_picture(files, false, view, viewer.region, *ground, middle, viewer.gpu,
+                                       *viewer.scene, viewer.style, strip, {});
+    tell(viewer, written.ok() ? "wrote " + files.picture : written.error().line(), !written.ok());
+    say(viewer.options.quiet && written.ok(), viewer.message);
+    if (!written.ok() || viewer.options.quiet) return {};
+    ORO_TRY(const UnseenGround unseen, unseen_in(view, viewer.region, usual_unseen_ceiling_m));
+    if (const std::string note = unseen_sentence(unseen); !note.empty()) say(false, "note: " + note);
+    return {};
+}
+
+std::string command_line_of(const View& view) {
+    // In single quotes a shell takes everything but these as it is.
+    std::string json;
+    for (const char c : view_to_json(view, false)) json += c == '\'' ? "'\\''" : std::string(1, c);
+    return "printf '%s' '" + json + "' >view.json\norograph shot --view view.json --out picture.png\n";
+}
+
+}  // namespace oro

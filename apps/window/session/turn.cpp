@@ -1,0 +1,193 @@
+#include "apps/window/session/turn.h"
+
+#include <algorithm>
+
+#include "apps/window/frames.h"
+#include "apps/window/measuring.h"
+#include "apps/window/motion.h"
+#include "apps/window/opening.h"
+#include "apps/window/panels/panels.h"
+#include "apps/window/pictures.h"
+#include "apps/window/places.h"
+
+namespace oro {
+namespace {
+
+void open_search(Viewer& viewer) {
+    viewer.search.is_open = viewer.search.takes_focus = true;
+}
+
+// What is open on top is closed; a window is never left so.
+void dismiss(Viewer& viewer) {
+    Panels& panels = viewer.panels;
+    if (viewer.search.is_open || !viewer.search.error.empty()) {
+        viewer.search.is_open = false;
+        viewer.search.error.clear();
+        return;
+    }
+    if (std::exchange(panels.place, false)) return;
+    const bool hidden = panels.hidden;
+    panels = {};
+    panels.hidden = hidden;
+}
+
+// Keys that come with Control.
+void take_chord(Viewer& viewer, int code) {
+    if (code == 'Q') viewer.leaves = true;
+    if (code == 'L') open_search(viewer);
+    if (code == 'O') viewer.panels.toggle(&Panels::files);
+}
+
+Result<void> take_key(Session& session, const KeyChanged& event) {
+    Viewer& viewer = session.viewer;
+    if (!event.down) return {};
+    if (event.control) {
+        if (!event.repeated) take_chord(viewer, event.key);
+        return {};
+    }
+    if (event.repeated) return {};
+    switch (event.key) {
+        case key::escape:
+            dismiss(viewer);
+            break;
+        case key::enter:
+        case key::keypad_enter:
+            stand(viewer);
+            break;
+        case key::tab:
+            viewer.panels.hidden = !viewer.panels.hidden;
+            break;
+        case key::f1:
+        case 'H':
+            viewer.panels.toggle(&Panels::keys);
+            break;
+        case key::f11:
+            viewer.window.toggle_full_screen();
+            break;
+        case 'P':
+            if (event.shift) {
+                viewer.panels.toggle(&Panels::picture);
+                break;
+            }
+            viewer.wants_picture = true;  // it may bring finer detail
+            return take_picture(viewer);
+        default:
+            break;
+    }
+    return {};
+}
+
+void take_character(Viewer& viewer, char32_t code) {
+    if (code == U'g' || code == U'G' || code == U'/') open_search(viewer);
+    if (code == U'?') viewer.panels.toggle(&Panels::keys);
+}
+
+// What was clicked at, and not dragged.
+Result<void> take_click(Viewer& viewer, const PictureClick& click) {
+    if (click.button == PointerButton::right) return pick(viewer, click.point_px);
+    if (click.button == PointerButton::left && viewer.panels.measure && !viewer.panels.hidden)
+        return add_place(viewer, click.point_px);
+    return {};
+}
+
+Result<void> take_event(Session& session, const WindowEvent& event) {
+    Viewer& viewer = session.viewer;
+    if (const auto* const pressed = std::get_if<KeyChanged>(&event)) ORO_CHECK(take_key(session, *pressed));
+    if (const auto* const typed = std::get_if<CharacterTyped>(&event)) take_character(viewer, typed->code);
+    if (const auto* const dropped = std::get_if<PathsDropped>(&event))
+        return open_paths(viewer, dropped->paths);
+    const auto of_view = view_event_of(event, motion_clock_s());
+    if (!of_view) return {};
+    const auto click = take_view_event(viewer, *of_view);
+    return click ? take_click(viewer, *click) : Result<void>();
+}
+
+// What is asked of the ground for what is always there. Not while the eye moves: it would take a part of each
+// frame's time.
+Result<void> look_around(Session& session, const WindowInput& input, bool is_new) {
+    Viewer& viewer = session.viewer;
+    if (!viewer.has_picture || viewer.panels.hidden) return {};
+    const Camera& camera = viewer.view.camera;
+    if (is_new) {
+        ORO_TRY(viewer.in_middle, picked_at(viewer, {0.5 * camera.width_px, 0.5 * camera.height_px}));
+    }
+    const glm::dvec2 at = input.pointer_px;
+    const bool is_over = at.x >= 0.0 && at.y >= 0.0 && at.x < camera.width_px && at.y < camera.height_px &&
+                         !session.interface.has_pointer();
+    if (!is_over) {
+        viewer.under_pointer.reset();
+        return {};
+    }
+    const glm::dvec2 pixel = glm::floor(at) + 0.5;
+    if (!is_new && viewer.under_pointer && viewer.under_pointer->point_px == pixel) return {};
+    ORO_TRY(viewer.under_pointer, picked_at(viewer, pixel));
+    return {};
+}
+
+Result<void> grant_wishes(Viewer& viewer) {
+    // What a wish wishes for comes after the next picture.
+    const auto wishes = std::exchange(viewer.wishes, {});
+    for (const auto& wish : wishes) ORO_CHECK(wish(viewer));
+    return {};
+}
+
+double wait_s(const Session& session) {
+    const Viewer& viewer = session.viewer;
+    if (viewer.window.extent().width == 0) return 0.05;  // minimised
+    if (session.changed || session.frames_due > 0 || viewer.gestures->is_moving()) return 0.0;
+    return viewer.is_missing || viewer.coming ? 0.005 : 0.05;
+}
+
+Result<void> show(Session& session, bool is_new) {
+    Viewer& viewer = session.viewer;
+    // A cursor blinks, and toasts go.
+    const bool lives = session.interface.takes_text() || has_toasts(viewer) || is_coarse(viewer);
+    if (is_new || lives || viewer.is_exposed) session.frames_due = std::max(session.frames_due, 1);
+    if (session.frames_due == 0) return {};
+    ORO_TRY(std::optional<WindowPicture> picture, picture_to_show(viewer));
+    if (!picture) return {};
+    ORO_CHECK(session.interface.follow_scale());
+    const ImDrawData* const over = session.interface.lists([&] { build_panels(viewer); });
+    const WindowPicture whole{picture->picture, picture->part, over};
+    ORO_TRY(const bool shown, viewer.window.show(whole));
+    viewer.is_exposed = !shown;
+    if (!shown) return {};
+    --session.frames_due;
+    say_what_is_shown(viewer);
+    return {};
+}
+
+}  // namespace
+
+Result<bool> turn(Session& session) {
+    Viewer& viewer = session.viewer;
+    ORO_CHECK(refine(viewer, session.changed));
+    ORO_TRY(const bool is_new, draw_frame(viewer, session.changed));
+    if (is_new) session.looks_under_pointer = true;
+    ORO_CHECK(show(session, is_new));
+    const WindowInput input = viewer.window.poll(wait_s(session));
+    if (input.closed) return false;
+    viewer.is_exposed = viewer.is_exposed || input.exposed;
+    if (!input.events.empty()) session.frames_due = 4;
+    const auto build = [&] { build_panels(viewer); };
+    const auto take = [&](const WindowEvent& event) -> Result<void> {
+        ORO_CHECK(grant_wishes(viewer));
+        return take_event(session, event);
+    };
+    ORO_CHECK(session.interface.feed(input, build, take));
+    ORO_CHECK(grant_wishes(viewer));
+    if (viewer.leaves) return false;
+    advance_eye(viewer);
+    const bool moves = viewer.follows_eye && seconds_since(viewer.moved) < 0.15;
+    if (!moves && (session.looks_under_pointer || !input.events.empty())) {
+        ORO_CHECK(look_around(session, input, std::exchange(session.looks_under_pointer, false)));
+        session.frames_due = std::max(session.frames_due, 1);
+    }
+    session.changed = std::exchange(viewer.wants_picture, false) || session.changed;
+    // The eye stands on ground that was asked for: it ends as a page does that cannot be drawn.
+    ORO_CHECK(viewer.region.health());
+    trace_state(viewer);
+    return true;
+}
+
+}  // namespace oro

@@ -1,0 +1,118 @@
+#include "apps/window/viewer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "apps/eye/standpoint.h"
+#include "apps/report/progress_bar.h"
+
+namespace oro {
+
+void Panels::open(bool Panels::*panel) {
+    constexpr std::array<std::array<bool Panels::*, 3>, 3> sides{
+        {{&Panels::layers, &Panels::measure, &Panels::messages},
+         {&Panels::sun, &Panels::statistics, &Panels::place},
+         {&Panels::keys, &Panels::files, &Panels::picture}}};
+    for (const auto& side : sides) {
+        if (std::ranges::find(side, panel) == side.end()) continue;
+        for (bool Panels::*const other : side) this->*other = false;
+    }
+    this->*panel = true;
+}
+
+void Panels::toggle(bool Panels::*panel) {
+    if (this->*panel)
+        this->*panel = false;
+    else
+        open(panel);
+}
+
+const HeightField& field_below(const Viewer& viewer) {
+    const Geodetic& eye = viewer.view.camera.eye;
+    return grid_at(viewer.region, eye.lat_deg, eye.lon_deg).field;
+}
+
+Result<const RegionGround*> ground_of(Viewer& viewer) {
+    if (!viewer.ground) {
+        ORO_TRY(viewer.ground, RegionGround::of(viewer.region, viewer.cuts, viewer.view.exaggeration));
+    }
+    return viewer.ground.get();
+}
+
+Result<std::optional<SeenPlace>> seen_at(Viewer& viewer, glm::dvec2 point_px) {
+    ORO_TRY(const RegionGround* const ground, ground_of(viewer));
+    return place_seen(viewer.view, *ground, point_px);
+}
+
+Result<PickedPlace> picked_at(Viewer& viewer, glm::dvec2 point_px) {
+    PickedPlace picked;
+    picked.point_px = point_px;
+    ORO_TRY(picked.seen, seen_at(viewer, point_px));
+    if (!picked.seen) return picked;
+    ORO_TRY(const RegionGround* const ground, ground_of(viewer));
+    const SeenPlace& seen = *picked.seen;
+    const auto number = ground->ground().grid_at(seen.lat_deg, seen.lon_deg);
+    if (!number) return picked;
+    const auto [row, column] = ground->grid(*number).field.grid.post_at(seen.lat_deg, seen.lon_deg);
+    const auto slope = ground->ground().surface(*number).slope_at(row, column);
+    if (!slope) return picked;
+    picked.slope_deg = deg_from_radians(Radians{std::atan(slope->steepness() / viewer.view.exaggeration)});
+    if (slope->steepness() > 0.0)
+        picked.aspect_deg =
+            std::fmod(deg_from_radians(Radians{std::atan2(-slope->east, -slope->north)}) + 360.0, 360.0);
+    return picked;
+}
+
+bool is_coarse(const Viewer& viewer) {
+    return viewer.finer || viewer.coming;
+}
+
+std::string progress_words(const Viewer& viewer) {
+    if (viewer.waits_for_ground) return "loading";
+    // Done is what is shown, not what is measured: 100 % is never said.
+    if (viewer.finer && viewer.finer->share() < 0.99) {
+        char text[60];
+        std::snprintf(text, sizeof text, "preparing full detail, %.0f %%",
+                      std::floor(100.0 * viewer.finer->share()));
+        return text;
+    }
+    if (is_coarse(viewer)) return "loading full detail";
+    return viewer.is_missing ? "loading" : "";
+}
+
+void tell(Viewer& viewer, const std::string& text, bool is_error) {
+    constexpr std::size_t most = 500;
+    viewer.message = text;
+    if (text.empty()) return;
+    viewer.log.push_back({text, Clock::now(), is_error});
+    if (viewer.log.size() > most) viewer.log.pop_front();
+}
+
+void tell(Viewer& viewer, const Error& why) {
+    tell(viewer, why.line(), true);
+    say(false, viewer.message);
+}
+
+void trace_state(Viewer& viewer) {
+    static const bool traces = std::getenv("OROGRAPH_TRACE_WINDOW") != nullptr;
+    if (!traces) return;
+    const Camera& camera = viewer.view.camera;
+    const double N_m = field_below(viewer).undulation.at_m(camera.eye.lat_deg, camera.eye.lon_deg);
+    char eye[160];
+    std::snprintf(eye, sizeof eye, "%.6f° %.6f°  %.1f m above sea level  heading %.1f°", camera.eye.lat_deg,
+                  camera.eye.lon_deg, camera.eye.h_m - N_m, camera.attitude.heading_deg);
+    const auto part = [](const std::string& text) { return text.empty() ? "" : text + "  |  "; };
+    const std::string moving =
+        viewer.flies || (viewer.gestures && viewer.gestures->is_moving()) ? "moving" : "";
+    std::string line = viewer.search.is_open
+                           ? "Go to: " + viewer.search.text + "_"
+                           : part(progress_words(viewer)) + part(moving) + part(viewer.message) + eye;
+    if (viewer.search.is_open && !viewer.search.error.empty()) line += "  |  " + viewer.search.error;
+    if (line == viewer.traced) return;
+    std::fprintf(stderr, "state: %s\n", one_line(line).c_str());
+    viewer.traced = line;
+}
+
+}  // namespace oro

@@ -1,0 +1,169 @@
+// All that lives while a window is open, and the questions that everybody there asks of it.
+#pragma once
+
+#include <array>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/commands/commands.h"
+#include "apps/drawing/background_pyramid_build.h"
+#include "apps/drawing/picking.h"
+#include "apps/drawing/pipeline_choice.h"
+#include "apps/drawing/region_scene.h"
+#include "apps/legend/colour_key.h"
+#include "apps/navigation/gestures.h"
+#include "apps/view/style.h"
+#include "apps/window/detail.h"
+#include "apps/window/jump.h"
+#include "apps/window/measure.h"
+#include "core/base/elapsed.h"
+#include "render/frame/frame_renderer.h"
+#include "render/window.h"
+
+namespace oro {
+
+// One line of the log, and of the toasts in the window's corner.
+struct Message {
+    std::string text;
+    Clock::time_point since{};
+    bool is_error{false};
+    bool is_toast{true};
+};
+
+// The field that takes a place.
+struct SearchField {
+    bool is_open{false};
+    bool takes_focus{false};  // from the next frame on
+    std::string text;
+    std::string error;  // why it is no place, shown beside it
+};
+
+// What is seen at a point of the picture, and how the ground lies there.
+struct PickedPlace {
+    glm::dvec2 point_px{0.0};
+    std::optional<SeenPlace> seen;
+    std::optional<double> slope_deg;
+    std::optional<double>
+        aspect_deg;  // where the ground falls to, clockwise from true north; none where level
+};
+
+// What the panel of the sun shows: a time by a clock.
+struct SunClock {
+    std::string date;  // "2026-06-21", there
+    int minute{};      // of the day
+    int zone_h{};      // ahead of UTC
+};
+
+// A picture that is asked for in a dialog.
+struct PictureChoice {
+    int width_px{};
+    int height_px{};
+    int samples{1};
+    std::string ending{".png"};
+};
+
+// The line that is measured, and where its picture goes.
+struct Measuring {
+    Measurement found;
+    std::vector<Ecef> line_ecef, corners_ecef;
+};
+
+// Which panels are open.
+struct Panels {
+    bool hidden{false};  // all of them, and what is always there
+    bool keys{false}, layers{false}, sun{false}, statistics{false}, messages{false}, measure{false},
+        files{false}, picture{false};
+    bool place{false};  // about what was picked
+
+    // Opens one, or closes it; others that would lie over it are closed.
+    void toggle(bool Panels::*panel);
+    void open(bool Panels::*panel);
+};
+
+struct Viewer {
+    WindowOptions options;
+    View view;
+    Region region;
+    RegionCuts cuts;  // of all its grids
+    Style style;
+    const Gpu& gpu;
+    std::unique_ptr<Scene> scene;  // of every n-th post while `finer` is being measured
+    Window& window;
+    FrameRenderer& renderer;
+    RasterPath path;
+    std::string name{};     // of what is shown, in the title
+    std::string message{};  // what was said last, until the eye moves
+    std::deque<Message> log{};
+    SearchField search{};
+    Panels panels{};
+    std::optional<PickedPlace> under_pointer{};
+    std::optional<PickedPlace> picked{};
+    std::optional<PickedPlace> in_middle{};
+    Measuring measuring{};
+    std::optional<SunClock> sun_clock{};
+    std::optional<PictureChoice> picture_choice{};  // of the dialog
+    std::string folder{};                           // that the panel of files lists
+    std::optional<VectorChoices> vectors_known{};   // all files of names and lines, shown or not
+    std::vector<std::string> images_known{};        // likewise
+    bool is_missing{};                              // something that the last frame should have had
+    std::unique_ptr<const RegionGround> ground{};   // made when it is first asked, for all questions after
+    // The levels that the view asks for, until they are here.
+    std::unique_ptr<BackgroundPyramidBuild> finer{};
+    std::unique_ptr<Scene> coming{};  // of them, until what a picture needs is on the GPU
+    Clock::time_point coming_since{};
+    Clock::time_point started{};
+    bool is_shown{};          // once ground is, or a view that has none
+    bool is_whole{};          // once all detail is
+    bool is_exposed{};        // what the window shows was lost
+    bool is_settled{};        // the picture that is shown is as fine as the view asks
+    bool waits_for_ground{};  // what is in view is not on the GPU yet
+    Clock::time_point waiting_since{};
+    bool has_picture{};  // the renderer's picture is drawn
+    Image kept{};        // the picture from before the window's size changed, while no other is there
+    VkExtent2D part{};   // of the picture that is shown, or of `kept`
+    Jumps jumps{};
+    std::optional<Gestures> gestures{};  // from the window's start on
+    bool flies{false};                   // to where a jump leads
+    std::string arrival{};               // what is said there
+    Clock::time_point moved{};           // when the eye last did
+    bool follows_eye{};  // what is fitted to a view is that of an eye that moved, until it rests
+    ColourKey legend{};         // of a frame that explains itself (--show)
+    MovingDetail detail{};
+    DetailStep drawn_at{};      // of the last frame
+    FrameReport report{};       // of the last frame
+    double frame_s{};           // that it took, from plan to picture
+    std::string traced{};       // the line that trace_state() printed last
+    bool keeps_means{};         // the scene has means of the ground, whatever the style asks for now
+    bool wants_picture{false};  // something has changed that pictures show
+    bool leaves{false};         // the user wants to
+    // What panels ask for: done once their frame is built.
+    std::vector<std::function<Result<void>(Viewer&)>> wishes{};
+};
+
+// The finest grid below the eye.
+const HeightField& field_below(const Viewer& viewer);
+// Made when it is first asked. Errors: damage in a baked region.
+Result<const RegionGround*> ground_of(Viewer& viewer);
+Result<std::optional<SeenPlace>> seen_at(Viewer& viewer, glm::dvec2 point_px);
+// The same with how the ground lies there.
+Result<PickedPlace> picked_at(Viewer& viewer, glm::dvec2 point_px);
+
+// Whether what is shown is of every n-th post.
+bool is_coarse(const Viewer& viewer);
+// "preparing full detail, 42 %", "loading"; "" where all is there.
+std::string progress_words(const Viewer& viewer);
+
+// Says something to the user: a toast, a line of the log.
+void tell(Viewer& viewer, const std::string& text, bool is_error = false);
+// The same of an error, which is printed, too.
+void tell(Viewer& viewer, const Error& why);
+
+// With OROGRAPH_TRACE_WINDOW set, prints "state: ..." where that has changed: what was said last, and where
+// the eye is. For programs that play a user.
+void trace_state(Viewer& viewer);
+
+}  // namespace oro

@@ -1,0 +1,60 @@
+#include "geo/places/place_forms.h"
+
+#include <GeographicLib/MGRS.hpp>
+#include <GeographicLib/UTMUPS.hpp>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+
+namespace oro {
+namespace {
+
+// 46°34'35.12"N
+std::string dms_of(double angle_deg, const char* letters) {
+    constexpr long long per_degree = 360'000;  // hundredths of a second
+    const long long all = std::llround(std::abs(angle_deg) * per_degree);
+    char text[40];
+    std::snprintf(text, sizeof text, "%lld°%02lld'%05.2f\"%c", all / per_degree, all / 6000 % 60,
+                  static_cast<double>(all % 6000) / 100.0, letters[angle_deg < 0.0 && all > 0 ? 1 : 0]);
+    return text;
+}
+
+}  // namespace
+
+std::string dms_text(double lat_deg, double lon_deg) {
+    return dms_of(lat_deg, "NS") + " " + dms_of(lon_deg, "EW");
+}
+
+std::string utm_text(double lat_deg, double lon_deg) {
+    try {
+        int zone = 0;
+        bool is_north = false;
+        double x_m = 0.0, y_m = 0.0;
+        GeographicLib::UTMUPS::Forward(lat_deg, lon_deg, zone, is_north, x_m, y_m);
+        std::string square;
+        GeographicLib::MGRS::Forward(zone, is_north, x_m, y_m, lat_deg, 0, square);
+        // Its beginning, before two letters of 100 km: 32T, or A of the poles.
+        const std::string grid_zone = square.substr(0, square.size() - 2);
+        char text[80];
+        std::snprintf(text, sizeof text, "%s %.0f %.0f", grid_zone.c_str(), x_m, y_m);
+        return text;
+    } catch (const std::exception&) {
+        return "";
+    }
+}
+
+std::string mgrs_text(double lat_deg, double lon_deg) {
+    try {
+        int zone = 0;
+        bool is_north = false;
+        double x_m = 0.0, y_m = 0.0;
+        GeographicLib::UTMUPS::Forward(lat_deg, lon_deg, zone, is_north, x_m, y_m);
+        std::string square;
+        GeographicLib::MGRS::Forward(zone, is_north, x_m, y_m, lat_deg, 5, square);
+        return square;
+    } catch (const std::exception&) {
+        return "";
+    }
+}
+
+}  // namespace oro
