@@ -18,6 +18,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/command_line.h"
 #include "apps/commands/commands.h"
+#include "apps/commands/coordinates.h"
 #include "apps/output/interruption.h"
 #include "core/base/files_read.h"
 #include "geo/files/library_faults.h"
@@ -82,6 +83,7 @@ oro::Result<void> of_unchanged_files(const oro::Result<void>& result) {
 }
 
 int run_command(const CLI::App& app, oro::CommandLine& line, const std::vector<std::string>& words) {
+    if (const auto taken = oro::take_coordinates(line); !taken.ok()) return reported(taken.error());
     if (app.got_subcommand("shot")) return exit_code(oro::run_shot(line.shot));
     if (app.got_subcommand("panorama")) return exit_code(oro::run_panorama(line.panorama));
     if (app.got_subcommand("compare")) return exit_code(oro::run_compare(line.compare));

@@ -149,6 +149,12 @@ void add_view(CLI::App& app, WindowOptions& options) {
         "--view", options.view_file, "FILE",
         "Begin with data, eye and settings of a picture that orograph wrote, or of its view in a .json file. "
         "Looks, detail and --size may be changed; the eye and the part of the data may not.");
+    window
+        .option(
+            "--gazetteer", options.gazetteers, "FILE",
+            "Find places by the names in this file, too: a dump of GeoNames, a table (CSV) with the columns "
+            "name, lat and lon, or points of GeoJSON, GPX, KML or GeoPackage. May be given several times.")
+        .allow_extra_args(false);  // what follows the file is elevation data
     add_no_paths(command, "The window", options.no_paths);
     add_region_options(command, options.region);
     add_view_options(command, options.view);
@@ -163,7 +169,7 @@ void add_view(CLI::App& app, WindowOptions& options) {
               "F, to look. Right click tells what is there, in the title and on standard output. G goes to a "
               "place that you type. P writes a picture into the working folder. Esc leaves.",
               "docs/commands/view.md"},
-             options_for_later({"--no-paths"}));
+             options_for_later({"--gazetteer", "--no-paths"}));
 }
 
 void add_plan(CLI::App& app, PlanOptions& options) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 #include <system_error>
 #include <utility>
@@ -11,6 +10,7 @@
 #include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
+#include "apps/settings/user_folders.h"
 #include "geo/files/whole_file.h"
 #include "render/device/raster_request.h"
 #include "render/frame/calibration.h"
@@ -100,14 +100,8 @@ Result<PipelineTimes> measure(const Gpu& gpu) {
 }  // namespace
 
 fs::path cache_folder() {
-    const auto named = [](const char* name) {
-        const char* const value = std::getenv(name);
-        return fs::path(value ? value : "");
-    };
-    if (const fs::path own = named("OROGRAPH_CACHE"); !own.empty()) return own;
-    if (const fs::path all = named("XDG_CACHE_HOME"); all.is_absolute()) return all / "orograph";
-    if (const fs::path home = named("HOME"); home.is_absolute()) return home / ".cache" / "orograph";
-    return {};
+    const auto folder = user_cache_folder();
+    return folder.ok() ? *folder : fs::path();
 }
 
 std::optional<PipelineTimes> remembered_times(const DeviceReport& device) {

@@ -14,6 +14,7 @@ struct RegionOptions {
     std::vector<std::string> paths;
     std::string bbox;
     std::string tile;
+    std::string coordinates;  // the CRS of two plain numbers in places, and of bbox; "": degrees
     std::string height_unit;
     std::string source_crs;       // of files that state none
     std::string source_vertical;  // likewise, what heights refer to
@@ -188,7 +189,9 @@ struct WindowOptions {
     ViewOptions view;
     MemoryOptions memory;
     std::string view_file;
-    bool no_paths{false};  // its pictures tell no paths
+    bool no_paths{false};                 // its pictures tell no paths
+    std::vector<std::string> gazetteers;  // files with names that places are found by
+    std::string coordinates;  // not an option: the CRS that --coordinates names, for places typed later
     bool quiet{false};
 };
 

@@ -26,6 +26,11 @@ void add_sources(RegionRows& rows) {
     add(rows, {"--tile CELL", no_trait, "all the data", "", {}, "--bbox"}, &RegionOptions::tile,
         "Take only a cell of one degree, e.g. N46E008, or a range of them, N46E006:N47E010. Not with "
         "--bbox.");
+    add(rows, {"--coordinates CRS", no_trait, "degrees of WGS84"}, &RegionOptions::coordinates,
+        "Two plain numbers that stand for a place are coordinates of this CRS, easting (or longitude) first: "
+        "--coordinates EPSG:2056 --at 2642950,1166825. --bbox is XMIN,YMIN,XMAX,YMAX in it, and the box of "
+        "latitudes and longitudes around that is taken. EPSG:2056, or another that PROJ knows; or source: "
+        "the CRS of the data. Places in other forms stay what they are.");
     add(rows, {"--order", no_trait, "finest"}, &RegionOptions::order,
         "Which file is the ground where several have some: the one with the closest points (finest), or the "
         "one named first (listed; of a folder by the order of names).",

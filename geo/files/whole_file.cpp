@@ -105,6 +105,19 @@ Result<void> WholeFile::commit() {
     return commit_together({this});
 }
 
+Result<void> WholeFile::commit_own() {
+    if (const auto settled = settle(); !settled.ok()) {
+        abandon();
+        return settled.error();
+    }
+    const NamesHeld held;
+    if (const int why = take_name(); why != 0) {
+        abandon();
+        return fault(path_, "cannot be written: " + system_reason(why));
+    }
+    return {};
+}
+
 // A name that was taken is given back to what had it, or was nobody's before.
 void WholeFile::give_back(TemporaryFile& before, bool was_there) {
     const bool given = before.path().empty() ? !was_there && unlink(path_.c_str()) == 0

@@ -37,6 +37,9 @@ class WholeFile {
     // Flushes, syncs, closes and renames over the real name (fails, when overwrite is false and the name was
     // taken since).
     Result<void> commit();
+    // commit() of a file that the program keeps for itself (settings): no matter which files it has read, and
+    // whether they were changed meanwhile.
+    Result<void> commit_own();
 
   private:
     WholeFile() = default;
