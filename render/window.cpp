@@ -34,7 +34,6 @@ WindowInput& input_of(GLFWwindow* window) {
 void on_key(GLFWwindow* window, int key, int, int action, int mods) {
     if (key < 0 || key >= key::count) return;
     WindowInput& input = input_of(window);
-    if (action != GLFW_RELEASE) input.held[static_cast<std::size_t>(key)] = true;
     input.events.push_back(KeyChanged{key, action != GLFW_RELEASE, action == GLFW_REPEAT,
                                       (mods & GLFW_MOD_SHIFT) != 0, (mods & GLFW_MOD_CONTROL) != 0,
                                       (mods & GLFW_MOD_ALT) != 0, (mods & GLFW_MOD_SUPER) != 0});
@@ -75,6 +74,9 @@ void on_pointer(GLFWwindow* window, double x, double y) {
 
 void on_pointer_left(GLFWwindow* window, int entered) {
     if (entered != 0) return;
+    // A drag goes on outside.
+    for (const int button : {GLFW_MOUSE_BUTTON_LEFT, GLFW_MOUSE_BUTTON_RIGHT, GLFW_MOUSE_BUTTON_MIDDLE})
+        if (glfwGetMouseButton(window, button) == GLFW_PRESS) return;
     input_of(window).pointer_px = glm::dvec2(-1.0);
     input_of(window).events.push_back(PointerMoved{glm::dvec2(-1.0)});
 }
@@ -341,8 +343,6 @@ WindowInput Window::poll(double wait_s) {
     } else {
         glfwPollEvents();
     }
-    for (int code = key::space; code < key::count; ++code)
-        if (glfwGetKey(window_, code) == GLFW_PRESS) input_.held[static_cast<std::size_t>(code)] = true;
     input_.closed = glfwWindowShouldClose(window_) != 0;
     const double now = glfwGetTime();
     input_.elapsed_s = now - last_poll_s_;

@@ -1,8 +1,6 @@
 // What a window's user does, as events in their order.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <glm/vec2.hpp>
 #include <string>
 #include <variant>
@@ -61,13 +59,10 @@ using WindowEvent = std::variant<PointerMoved, ButtonChanged, WheelTurned, KeyCh
 // What happened since the last poll.
 struct WindowInput {
     std::vector<WindowEvent> events;
-    std::array<bool, key::count> held{};  // a key tapped since then counts as held, once
     glm::dvec2 pointer_px{-1.0};          // outside of what is shown where it is not over the window
     bool exposed{false};                  // what the window shows was lost: it is to be shown again
     bool closed{false};
     double elapsed_s{};  // since the last poll
-
-    [[nodiscard]] bool is_held(int key) const { return held[static_cast<std::size_t>(key)]; }
 };
 
 }  // namespace oro

@@ -163,13 +163,15 @@ void add_view(CLI::App& app, WindowOptions& options) {
     hide(command, {"--tolerance"});
     add_memory_options(command, options.memory);
     add_quiet(command, options.quiet, "errors");
-    set_help(command,
-             {{"view PATH... [OPTIONS]", "view --view PICTURE [OPTIONS]"},
-              "Keys: W A S D move; Space and Ctrl go up and down; Shift is faster. Drag the mouse, or Q E R "
-              "F, to look. Right click tells what is there, in the title and on standard output. G goes to a "
-              "place that you type. P writes a picture into the working folder. Esc leaves.",
-              "docs/commands/view.md"},
-             options_for_later({"--gazetteer", "--no-paths"}));
+    set_help(
+        command,
+        {{"view PATH... [OPTIONS]", "view --view PICTURE [OPTIONS]"},
+         "Drag takes hold of the ground, the wheel goes nearer, a right drag goes round a place; W A S D "
+         "move, E and Q go up and down. A right click tells what is there, in the window and on standard "
+         "output. G goes to a place that you type. P writes a picture into the working folder. ? shows "
+         "all keys, Ctrl-Q leaves.",
+         "docs/commands/view.md"},
+        options_for_later({"--gazetteer", "--no-paths"}));
 }
 
 void add_plan(CLI::App& app, PlanOptions& options) {

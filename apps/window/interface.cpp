@@ -146,9 +146,13 @@ void turn_wheel(glm::dvec2 steps) {
 #endif
 }
 
-// Whether text is being typed is known from the frame after the one that began it.
+// Dear ImGui says so a frame longer than it is.
+bool is_typing() {
+    return ImGui::GetIO().WantTextInput && ImGui::IsAnyItemActive();
+}
+
 bool is_panels_key(const KeyChanged& event) {
-    return event.down && ImGui::GetIO().WantTextInput && event.key != key::f1 && event.key != key::f11 &&
+    return event.down && is_typing() && event.key != key::f1 && event.key != key::f11 &&
            !(event.control && (event.key == 'Q' || event.key == 'O' || event.key == 'L'));
 }
 
@@ -239,7 +243,7 @@ Result<void> Interface::feed(const WindowInput& input, const Build& build, const
                 frame(build);
             }
         } else if (const auto* const typed = std::get_if<CharacterTyped>(&event)) {
-            is_panels = ImGui::GetIO().WantTextInput;
+            is_panels = is_typing();
             if (is_panels) {
                 ImGui::GetIO().AddInputCharacter(typed->code);
                 frame(build);
@@ -276,7 +280,7 @@ bool Interface::has_pointer() const {
 }
 
 bool Interface::takes_text() const {
-    return ImGui::GetIO().WantTextInput;
+    return is_typing();
 }
 
 }  // namespace oro

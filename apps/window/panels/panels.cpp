@@ -4,7 +4,7 @@ namespace oro {
 
 void build_panels(Viewer& viewer) {
     // Until there is ground a sheet says that it comes; a field that was asked for is there at once.
-    if (!viewer.is_shown && !viewer.search.is_open) return;
+    if (!viewer.has_picture && !viewer.is_shown && !viewer.search.is_open) return;
     if (viewer.panels.hidden && !viewer.search.is_open) return build_toasts(viewer);
     build_search_field(viewer);
     if (viewer.panels.hidden) return;
