@@ -59,8 +59,8 @@ using WindowEvent = std::variant<PointerMoved, ButtonChanged, WheelTurned, KeyCh
 // What happened since the last poll.
 struct WindowInput {
     std::vector<WindowEvent> events;
-    glm::dvec2 pointer_px{-1.0};          // outside of what is shown where it is not over the window
-    bool exposed{false};                  // what the window shows was lost: it is to be shown again
+    glm::dvec2 pointer_px{-1.0};  // outside of what is shown where it is not over the window
+    bool exposed{false};          // what the window shows was lost: it is to be shown again
     bool closed{false};
     double elapsed_s{};  // since the last poll
 };

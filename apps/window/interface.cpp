@@ -90,8 +90,8 @@ void choose_looks(float scale) {
 
 // Latin, Greek, Cyrillic letters of names, and the signs that panels write.
 constexpr std::array<ImWchar, 17> letter_ranges{0x0020, 0x024F, 0x0370, 0x052F, 0x1E00, 0x1EFF,
-                                          0x2010, 0x2044, 0x2070, 0x209F, 0x2190, 0x21FF,
-                                          0x2200, 0x22FF, 0x25A0, 0x26FF, 0};
+                                                0x2010, 0x2044, 0x2070, 0x209F, 0x2190, 0x21FF,
+                                                0x2200, 0x22FF, 0x25A0, 0x26FF, 0};
 
 void set_key(int code, bool down) {
     ImGuiIO& io = ImGui::GetIO();

@@ -43,7 +43,7 @@ const std::map<std::string, Layer>& layers() {
          {{standard_library, "glm/.*", "core/.*", "render/.*", "shaders/.*\\.(glsl|h)", "spirv/.*\\.h",
            "vulkan/.*", "GLFW/.*", "(backends/)?imgui.*\\.h"},
           {"orograph_core", "orograph_render", "orograph_shaders", "Vulkan::Vulkan", "glfw",
-           "(PkgConfig::IMGUI|imgui::imgui)"}}},
+           "(PkgConfig::IMGUI|imgui::imgui)", "Freetype::Freetype"}}},
         {"apps", {{"(?!tests/).*"}, {"(?!orograph_test|GTest).*"}}},
     };
     return table;
