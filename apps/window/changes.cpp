@@ -10,6 +10,7 @@
 #include "apps/styles/data_folder.h"
 #include "apps/window/frames.h"
 #include "apps/window/pictures.h"
+#include "apps/window/search.h"
 #include "core/lod/ground_means.h"
 
 namespace oro {
@@ -135,6 +136,7 @@ Result<bool> choose_vectors(Viewer& viewer, const VectorChoices& choices) {
     viewer.view.vectors = choices;
     viewer.view.vectors_read = *std::move(read);
     if (viewer.view.fingerprints) viewer.view.fingerprints->vectors = std::move(prints);
+    index_points(viewer);
     viewer.wants_picture = true;
     return true;
 }

@@ -4,13 +4,17 @@
 #include <filesystem>
 #include <utility>
 
-#include "apps/report/progress_bar.h"
+#include "apps/eye/standpoint.h"
 #include "apps/report/region_json.h"
+#include "apps/settings/recent_files.h"
 #include "apps/window/changes.h"
 #include "apps/window/motion.h"
+#include "apps/window/search.h"
 #include "apps/window/window_start.h"
 #include "core/lod/ground_means.h"
+#include "core/terrain/ground.h"
 #include "geo/files/letter_case.h"
+#include "geo/pictures/photograph_view.h"
 
 namespace oro {
 namespace {
@@ -41,6 +45,32 @@ Result<void> add_vectors(Viewer& viewer, const std::vector<std::string>& paths) 
         tell(viewer, "shows " + std::filesystem::path(path).filename().string() + " over the ground");
     }
     return {};
+}
+
+// Where a picture was taken: one of this program to the last digit, a photograph as far as it tells.
+std::optional<Camera> camera_of_picture(const Viewer& viewer, const std::string& path) {
+    Camera there = viewer.view.camera;
+    const int width_px = there.width_px, height_px = there.height_px;
+    if (const auto carried = read_view(path); carried.ok()) {
+        there = carried->camera;
+        there.width_px = width_px;
+        there.height_px = height_px;
+        return there;
+    }
+    const auto photograph = photograph_view(path);
+    if (!photograph.ok()) return std::nullopt;
+    constexpr double eye_m = 2.0;  // over the ground, of a photograph that tells no height
+    const RegionGrid& grid = grid_at(viewer.region, photograph->lat_deg, photograph->lon_deg);
+    const double N_m = grid.field.undulation.at_m(photograph->lat_deg, photograph->lon_deg);
+    const auto ground_m =
+        ground_h_m(grid.field, photograph->lat_deg, photograph->lon_deg, viewer.view.exaggeration);
+    double h_m = ground_m.value_or(0.0) + eye_m;
+    if (photograph->height_m) h_m = *photograph->height_m + (photograph->is_height_ellipsoidal ? 0.0 : N_m);
+    there.eye = {photograph->lat_deg, photograph->lon_deg, h_m};
+    there.attitude = {photograph->heading_deg.value_or(there.attitude.heading_deg),
+                      photograph->pitch_deg.value_or(0.0), photograph->roll_deg.value_or(0.0)};
+    if (photograph->vertical_fov_deg) there.vertical_fov_deg = *photograph->vertical_fov_deg;
+    return above_ground(there, grid.field, viewer.view.exaggeration);
 }
 
 // All that is known of the region from before means nothing any more.
@@ -103,10 +133,18 @@ Result<void> open_region_of(Viewer& viewer, const std::vector<std::string>& path
         viewer.log.push_back({one_line(note), Clock::now(), false, false});
     viewer.wants_picture = true;
     tell(viewer, "opened " + viewer.name);
+    fill_search(viewer);
+    remember_opened(viewer, paths);
     return renew_renderer(viewer);
 }
 
 }  // namespace
+
+void remember_opened(Viewer& viewer, const std::vector<std::string>& paths) {
+    const auto recent = add_recent_files(paths);
+    // A user without a folder for it has no list.
+    if (recent.ok()) viewer.recent = recent->all;
+}
 
 Result<void> open_paths(Viewer& viewer, const std::vector<std::string>& paths) {
     std::vector<std::string> vectors, others;
@@ -115,15 +153,11 @@ Result<void> open_paths(Viewer& viewer, const std::vector<std::string>& paths) {
             vectors.push_back(path);
             continue;
         }
-        const auto carried = may_carry_view(path) ? read_view(path) : Result<View>(Error{});
-        if (!carried.ok()) {
+        const auto there = may_carry_view(path) ? camera_of_picture(viewer, path) : std::nullopt;
+        if (there)
+            fly_to(viewer, *there, "where " + std::filesystem::path(path).filename().string() + " was taken");
+        else
             others.push_back(path);
-            continue;
-        }
-        Camera there = carried->camera;
-        there.width_px = viewer.view.camera.width_px;
-        there.height_px = viewer.view.camera.height_px;
-        fly_to(viewer, there, "where " + std::filesystem::path(path).filename().string() + " was taken");
     }
     if (!others.empty()) ORO_CHECK(open_region_of(viewer, others));
     return vectors.empty() ? Result<void>() : add_vectors(viewer, vectors);

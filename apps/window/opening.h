@@ -12,5 +12,7 @@ namespace oro {
 // a picture that carries a view moves the eye to where it was taken; all others together are the region that
 // is shown from then on. What cannot be opened is told, and what is shown stays. Errors: the device.
 Result<void> open_paths(Viewer& viewer, const std::vector<std::string>& paths);
+// Puts paths at the head of what was opened last (apps/settings/recent_files.h), for the panel of files.
+void remember_opened(Viewer& viewer, const std::vector<std::string>& paths);
 
 }  // namespace oro

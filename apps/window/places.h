@@ -9,8 +9,6 @@ namespace oro {
 
 // Enter after a jump: on the place; once more, on what is higher near it.
 void stand(Viewer& viewer);
-// To what the search field says; where that is no place, the field says why and stays.
-void search(Viewer& viewer);
 // Tells what the picture that is shown has at a point: prints a line, and opens the panel about it.
 Result<void> pick(Viewer& viewer, glm::dvec2 point_px);
 

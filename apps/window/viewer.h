@@ -16,6 +16,7 @@
 #include "apps/drawing/region_scene.h"
 #include "apps/legend/colour_key.h"
 #include "apps/navigation/gestures.h"
+#include "apps/search/search_index.h"
 #include "apps/view/style.h"
 #include "apps/window/detail.h"
 #include "apps/window/jump.h"
@@ -39,7 +40,9 @@ struct SearchField {
     bool is_open{false};
     bool takes_focus{false};  // from the next frame on
     std::string text;
-    std::string error;  // why it is no place, shown beside it
+    std::string error;                  // why it is no place, shown beside it
+    std::vector<SearchMatch> matches;   // of the text, as it is typed
+    std::optional<std::size_t> chosen;  // of these, by the arrows
 };
 
 // What is seen at a point of the picture, and how the ground lies there.
@@ -99,18 +102,20 @@ struct Viewer {
     std::string message{};  // what was said last, until the eye moves
     std::deque<Message> log{};
     SearchField search{};
+    SearchIndex index{};
     Panels panels{};
     std::optional<PickedPlace> under_pointer{};
     std::optional<PickedPlace> picked{};
     std::optional<PickedPlace> in_middle{};
     Measuring measuring{};
     std::optional<SunClock> sun_clock{};
-    std::optional<PictureChoice> picture_choice{};  // of the dialog
-    std::string folder{};                           // that the panel of files lists
-    std::optional<VectorChoices> vectors_known{};   // all files of names and lines, shown or not
-    std::vector<std::string> images_known{};        // likewise
-    bool is_missing{};                              // something that the last frame should have had
-    std::unique_ptr<const RegionGround> ground{};   // made when it is first asked, for all questions after
+    std::optional<PictureChoice> picture_choice{};   // of the dialog
+    std::vector<std::vector<std::string>> recent{};  // what was opened last, each together
+    std::string folder{};                            // that the panel of files lists
+    std::optional<VectorChoices> vectors_known{};    // all files of names and lines, shown or not
+    std::vector<std::string> images_known{};         // likewise
+    bool is_missing{};                               // something that the last frame should have had
+    std::unique_ptr<const RegionGround> ground{};    // made when it is first asked, for all questions after
     // The levels that the view asks for, until they are here.
     std::unique_ptr<BackgroundPyramidBuild> finer{};
     std::unique_ptr<Scene> coming{};  // of them, until what a picture needs is on the GPU
@@ -131,7 +136,7 @@ struct Viewer {
     std::string arrival{};               // what is said there
     Clock::time_point moved{};           // when the eye last did
     bool follows_eye{};  // what is fitted to a view is that of an eye that moved, until it rests
-    ColourKey legend{};         // of a frame that explains itself (--show)
+    ColourKey legend{};  // of a frame that explains itself (--show)
     MovingDetail detail{};
     DetailStep drawn_at{};      // of the last frame
     FrameReport report{};       // of the last frame

@@ -7,6 +7,7 @@
 #include "apps/window/opening.h"
 #include "apps/window/panels/panel_parts.h"
 #include "apps/window/panels/panels.h"
+#include "apps/window/window_start.h"
 
 namespace oro {
 namespace {
@@ -37,13 +38,26 @@ Listing listing_of(const std::string& folder) {
     return listing;
 }
 
-void open_now(Viewer& viewer, const std::string& path) {
-    tell(viewer, "opening " + fs::path(path).filename().string());
+void open_now(Viewer& viewer, const std::vector<std::string>& paths) {
+    tell(viewer, "opening " + name_of_paths(paths));
     // After this has been shown.
-    viewer.wishes.push_back([path](Viewer& v) {
-        v.wishes.push_back([path](Viewer& later) { return open_paths(later, {path}); });
+    viewer.wishes.push_back([paths](Viewer& v) {
+        v.wishes.push_back([paths](Viewer& later) { return open_paths(later, paths); });
         return Result<void>();
     });
+}
+
+void list_recent(Viewer& viewer) {
+    constexpr std::size_t most = 5;
+    if (viewer.recent.empty()) return;
+    heading("Opened last");
+    for (std::size_t i = 0; i < std::min(most, viewer.recent.size()); ++i) {
+        const std::vector<std::string> paths = viewer.recent[i];
+        ImGui::PushID(static_cast<int>(i));
+        if (ImGui::Selectable(name_of_paths(paths).c_str())) open_now(viewer, paths);
+        tip(paths.front().c_str());
+        ImGui::PopID();
+    }
 }
 
 void list_folder(Viewer& viewer, const Listing& listing) {
@@ -54,7 +68,7 @@ void list_folder(Viewer& viewer, const Listing& listing) {
     for (const std::string& name : listing.files)
         if (ImGui::Selectable(name.c_str(), false, ImGuiSelectableFlags_AllowDoubleClick) &&
             ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
-            open_now(viewer, (fs::path(viewer.folder) / name).string());
+            open_now(viewer, {(fs::path(viewer.folder) / name).string()});
 }
 
 }  // namespace
@@ -74,13 +88,14 @@ void build_files_panel(Viewer& viewer) {
         const bool is_folder = fs::is_directory(viewer.folder, ignored);
         ImGui::SameLine();
         if (ImGui::Button(is_folder ? "Open all" : "Open") || (entered && !is_folder))
-            open_now(viewer, viewer.folder);
+            open_now(viewer, {viewer.folder});
         tip(is_folder ? "All elevation of this folder, as one region" : "This file");
         if (is_folder && listing.folder != viewer.folder) listing = listing_of(viewer.folder);
         ImGui::BeginChild("##list", {0.0F, scaled_px(240.0F)}, true);
         if (!listing.error.empty()) quiet_text(listing.error.c_str());
         list_folder(viewer, listing);
         ImGui::EndChild();
+        list_recent(viewer);
         quiet_text(
             "Elevation takes the place of what is shown; tracks and places (GPX, KML, GeoJSON) lie over "
             "it; a picture of this program moves the eye to where it was taken. Two clicks open a file. "

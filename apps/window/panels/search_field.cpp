@@ -1,12 +1,52 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <utility>
 
 #include "apps/window/panels/panel_parts.h"
 #include "apps/window/panels/panels.h"
-#include "apps/window/places.h"
+#include "apps/window/search.h"
 
 namespace oro {
+namespace {
+
+// The arrows choose among the matches.
+int on_arrow(ImGuiInputTextCallbackData* data) {
+    SearchField& field = *static_cast<SearchField*>(data->UserData);
+    const std::size_t count = field.matches.size();
+    if (count == 0) return 0;
+    if (data->EventKey == ImGuiKey_DownArrow)
+        field.chosen = field.chosen ? std::min(*field.chosen + 1, count - 1) : 0;
+    else if (field.chosen && *field.chosen > 0)
+        --*field.chosen;
+    else
+        field.chosen.reset();
+    return 0;
+}
+
+// Names that hold what is typed, the best first; a click goes there.
+void list_matches(Viewer& viewer, float width) {
+    SearchField& field = viewer.search;
+    std::optional<SearchTarget> clicked;
+    for (std::size_t i = 0; i < field.matches.size(); ++i) {
+        const SearchPlace& place = field.matches[i].place;
+        ImGui::PushID(static_cast<int>(i));
+        const ImVec2 at = ImGui::GetCursorPos();
+        if (ImGui::Selectable(place.name.c_str(), field.chosen == i, 0, {width, 0.0F}))
+            clicked = target_of(field.matches[i]);
+        if (place.H_m) {
+            char height[30];
+            std::snprintf(height, sizeof height, "%.0f m", *place.H_m);
+            ImGui::SameLine(at.x + width - ImGui::CalcTextSize(height).x);
+            ImGui::TextDisabled("%s", height);
+        }
+        ImGui::PopID();
+    }
+    if (clicked) go_to(viewer, *clicked);
+}
+
+}  // namespace
 
 void build_search_field(Viewer& viewer) {
     SearchField& field = viewer.search;
@@ -17,15 +57,24 @@ void build_search_field(Viewer& viewer) {
     ImGui::PopStyleVar();
     ImGui::SetNextItemWidth(width);
     if (std::exchange(field.takes_focus, false)) ImGui::SetKeyboardFocusHere();
-    const bool entered = ImGui::InputTextWithHint("##place", "Go to a place   (G)", &field.text,
-                                                  ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool entered = ImGui::InputTextWithHint(
+        "##place", "Go to a place   (G)", &field.text,
+        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackHistory, on_arrow, &field);
     if (ImGui::IsItemActivated()) field.is_open = true;
-    if (ImGui::IsItemEdited()) field.error.clear();
+    if (ImGui::IsItemEdited()) {
+        constexpr std::size_t most_matches = 8;
+        field.error.clear();
+        field.chosen.reset();
+        field.matches = viewer.index.matches(field.text, most_matches);
+    }
     // Whoever clicks elsewhere has done with it; what was typed stays.
-    if (ImGui::IsItemDeactivated() && !entered) field.is_open = false;
+    const bool left = ImGui::IsItemDeactivated() && !entered;
     if (!field.is_open)
-        tip("Latitude and longitude, UTM, MGRS, a geohash, or a tile like N46E008. Enter goes there.");
+        tip("A name, latitude and longitude, UTM, MGRS, a geohash, eastings and northings, or a tile like "
+            "N46E008. Enter goes there.");
     if (entered) search(viewer);
+    if (field.is_open && !field.text.empty() && field.error.empty()) list_matches(viewer, width);
+    if (left && !ImGui::IsWindowHovered()) field.is_open = false;
     if (!field.error.empty()) {
         ImGui::PushStyleColor(ImGuiCol_Text, interface_colour::error);
         ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);

@@ -14,6 +14,8 @@
 #include "apps/window/frames.h"
 #include "apps/window/loading_picture.h"
 #include "apps/window/motion.h"
+#include "apps/window/opening.h"
+#include "apps/window/search.h"
 #include "apps/window/session/turn.h"
 #include "apps/window/window_start.h"
 #include "core/lod/ground_means.h"
@@ -114,6 +116,8 @@ Result<void> run_view(const WindowOptions& options) {
     viewer.name = name_of_region(options);
     note_in_log(viewer);
     viewer.gestures.emplace(navigation_of(viewer));
+    fill_search(viewer);
+    if (!options.region.paths.empty()) remember_opened(viewer, options.region.paths);
     viewer.jumps = Jumps(users_roll_deg(viewer.view.camera, options.view.roll_deg));
     if (opened.is_coarse)
         viewer.finer = std::make_unique<BackgroundPyramidBuild>(viewer.region, viewer.view.exaggeration);

@@ -1,0 +1,121 @@
+#include "apps/window/search.h"
+
+#include <cstdio>
+#include <utility>
+
+#include "apps/report/progress_bar.h"
+#include "apps/report/region_json.h"
+#include "apps/search/gazetteer.h"
+#include "apps/window/motion.h"
+
+namespace oro {
+namespace {
+
+// A place with a height in the ground: the eye is over it.
+std::string message_of_jump(const Place& place, const Camera& there) {
+    if (!place.height_m) return "Enter stands on it, Backspace goes back";
+    const double lifted_m = there.eye.h_m - *place.height_m;
+    if (!(lifted_m > 0.0)) return "Backspace goes back";
+    char text[100];
+    std::snprintf(text, sizeof text, "the ground there is higher: the eye is lifted by %.1f m, ", lifted_m);
+    return text + std::string("Backspace goes back");
+}
+
+// The text stays, to be mended.
+void refuse(Viewer& viewer, const Error& why) {
+    viewer.search.is_open = viewer.search.takes_focus = true;
+    viewer.search.error = why.where.empty() ? why.what : why.line();
+    viewer.message = viewer.search.error;
+    say(false, viewer.message);
+}
+
+Camera camera_of_eye(const Camera& shown, const Place& place, const BookmarkedEye& eye) {
+    Camera there = shown;
+    there.eye = {place.lat_deg, place.lon_deg, eye.h_m};
+    there.attitude = {eye.heading_deg, eye.pitch_deg, eye.roll_deg};
+    there.vertical_fov_deg = eye.vertical_fov_deg;
+    return there;
+}
+
+// Where a target is looked at from. Errors: no data there.
+Result<Camera> camera_to(Viewer& viewer, const SearchTarget& target) {
+    const Camera& shown = viewer.view.camera;
+    if (target.action == SearchAction::view && target.eye) {
+        viewer.jumps.moved();
+        return camera_of_eye(shown, target.place, *target.eye);
+    }
+    const std::string name = target.name.empty() ? viewer.search.text : target.name;
+    ORO_TRY(const Camera there,
+            viewer.jumps.to(shown, target.place, viewer.region, viewer.view.exaggeration, name));
+    if (target.action != SearchAction::stand) return there;
+    ORO_TRY(const auto standing, viewer.jumps.stand(there, viewer.region, viewer.view.exaggeration));
+    return standing.value_or(there);
+}
+
+}  // namespace
+
+void index_points(Viewer& viewer) {
+    std::vector<SearchPlace> places;
+    if (const auto& read = viewer.view.vectors_read) {
+        for (const auto* const files : {&read->names, &read->overlay})
+            for (const VectorFile& file : *files)
+                for (SearchPlace& place : places_of(file, viewer.view.vectors.names_field))
+                    places.push_back(std::move(place));
+    }
+    viewer.index.set_points(NameTable(std::move(places)));
+}
+
+void fill_search(Viewer& viewer) {
+    const auto bookmarks = read_bookmarks();
+    if (bookmarks.ok()) {
+        viewer.index.set_bookmarks(bookmarks->all);
+        for (const std::string& note : bookmarks->notes) tell(viewer, note);
+    }
+    index_points(viewer);
+    std::vector<SearchPlace> names;
+    for (const std::string& file : viewer.options.gazetteers) {
+        Result<Gazetteer> read = read_gazetteer(file);
+        if (!read.ok()) {
+            tell(viewer, read.error());
+            continue;
+        }
+        for (const std::string& note : read->notes) say(viewer.options.quiet, "note: " + note);
+        for (SearchPlace& place : read->places) names.push_back(std::move(place));
+    }
+    viewer.index.set_gazetteer(NameTable(std::move(names)));
+    auto crs = search_crs(viewer.options.coordinates, viewer.region);
+    if (crs.ok())
+        viewer.index.set_crs(std::move(*crs));
+    else
+        tell(viewer, crs.error());
+}
+
+void go_to(Viewer& viewer, const SearchTarget& target) {
+    viewer.jumps.stay();
+    const auto there = camera_to(viewer, target);
+    if (!there.ok()) return refuse(viewer, there.error());
+    viewer.search.is_open = false;
+    viewer.search.text.clear();
+    viewer.search.chosen.reset();
+    const bool stands = target.action == SearchAction::stand || target.action == SearchAction::view;
+    fly_to(viewer, *there, stands ? "Backspace goes back" : message_of_jump(target.place, *there));
+}
+
+void search(Viewer& viewer) {
+    SearchField& field = viewer.search;
+    field.error.clear();
+    if (field.text.find_first_not_of(" \t") == std::string::npos) {
+        field.is_open = false;
+        return;
+    }
+    if (field.chosen && *field.chosen < field.matches.size())
+        return go_to(viewer, target_of(field.matches[*field.chosen]));
+    const auto target = viewer.index.resolve(field.text);
+    if (!target.ok()) {
+        viewer.jumps.stay();
+        return refuse(viewer, target.error());
+    }
+    go_to(viewer, *target);
+}
+
+}  // namespace oro
