@@ -50,7 +50,10 @@ WrittenKey read_key(const json& from, double usual_fov_deg) {
     key.time_s = json_number(from, "time_s", -longest_film_s, longest_film_s);
     read_eye(json_field(from, "eye"), written);
     key.attitude.heading_deg = number_or(from, "heading_deg", 0.0, -360.0, 360.0);
-    key.attitude.heading_deg = std::fmod(key.attitude.heading_deg + 360.0, 360.0);
+    // Headings that are whole turns apart are one; one in its circle already keeps its last digit.
+    double& heading_deg = key.attitude.heading_deg;
+    if (heading_deg < 0.0) heading_deg += 360.0;
+    if (heading_deg >= 360.0) heading_deg -= 360.0;
     key.attitude.pitch_deg = number_or(from, "pitch_deg", 0.0, -90.0, 90.0);
     key.attitude.roll_deg = number_or(from, "roll_deg", 0.0, -180.0, 180.0);
     key.vertical_fov_deg =

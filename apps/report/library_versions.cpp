@@ -6,7 +6,7 @@
 #include <vulkan/vulkan_core.h>
 #include <xxhash.h>
 #include <zstd.h>
-#include FT_FREETYPE_H
+#include <freetype/freetype.h>
 
 namespace oro {
 namespace {

@@ -16,6 +16,8 @@ namespace oro {
 
 // So many bytes a file may have that this program writes; nothing where there is no limit.
 [[nodiscard]] std::optional<std::uint64_t> file_size_limit_bytes();
+// How many bytes of addresses this process may have (ulimit -v); nothing where it may have all.
+[[nodiscard]] std::optional<std::uint64_t> memory_limit_bytes();
 
 // Whether a byte of mapped memory is there: the system reads it, and gives an error number where the program
 // itself would end by SIGBUS. True, too, where the system cannot be asked.

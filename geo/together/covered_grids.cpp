@@ -15,21 +15,22 @@
 namespace oro {
 namespace {
 
-// By so many posts of the grid above a rim may lie beyond that grid's own: as rims that count as one.
+// So many posts of the grid above a rim must lie inside that grid's own. Where rims coincide pieces of ground are
+// left along them, so that such grids stay.
 constexpr double same_rim_posts = 1.0e-7;
 // So many posts inside lie the posts of a rim that is straight in another CRS: it bends less between them.
 constexpr double bent_rim_posts = 0.5;
 
 bool box_within(const PostGrid& inner, const PostGrid& outer) {
-    const double lat_slack_deg = outer.net ? 1.0e-9 : same_rim_posts * outer.lat.spacing_deg();
-    const double lon_slack_deg = outer.net ? 1.0e-9 : same_rim_posts * outer.lon.spacing_deg();
-    if (inner.north_deg() > outer.north_deg() + lat_slack_deg ||
-        inner.south_deg() < outer.south_deg() - lat_slack_deg)
+    const double lat_inset_deg = outer.net ? 1.0e-9 : same_rim_posts * outer.lat.spacing_deg();
+    const double lon_inset_deg = outer.net ? 1.0e-9 : same_rim_posts * outer.lon.spacing_deg();
+    if (inner.north_deg() > outer.north_deg() - lat_inset_deg ||
+        inner.south_deg() < outer.south_deg() + lat_inset_deg)
         return false;
     if (outer.wraps_longitude()) return true;
     return std::ranges::any_of(std::array{-360.0, 0.0, 360.0}, [&](double turn_deg) {
-        return inner.west_deg() + turn_deg >= outer.west_deg() - lon_slack_deg &&
-               inner.east_deg() + turn_deg <= outer.east_deg() + lon_slack_deg;
+        return inner.west_deg() + turn_deg >= outer.west_deg() + lon_inset_deg &&
+               inner.east_deg() + turn_deg <= outer.east_deg() - lon_inset_deg;
     });
 }
 

@@ -1,11 +1,10 @@
 #include "render/device/gpu.h"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
 
+#include "core/base/system_room.h"
 #include "render/device/device_report.h"
 #include "render/device/software_driver.h"
 
@@ -36,10 +35,10 @@ VkDebugUtilsMessengerCreateInfoEXT messenger_info(std::vector<std::string>* mess
 
 // A driver that finds no room for itself says no more than that it failed: whether that may be why.
 std::string words_of_limited_memory() {
-    rlimit limit{};
-    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return "";
-    return "; it may have found too little memory: this program is allowed " +
-           std::to_string(limit.rlim_cur >> 20U) + " MiB (ulimit -v)";
+    const std::optional<std::uint64_t> limit = memory_limit_bytes();
+    if (!limit) return "";
+    return "; it may have found too little memory: this program is allowed " + std::to_string(*limit >> 20U) +
+           " MiB (ulimit -v)";
 }
 
 Error no_driver(const std::string& reason) {

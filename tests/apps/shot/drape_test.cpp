@@ -138,7 +138,7 @@ TEST_F(ShotDrape, OfSixteenBitsIsWhatItsProfileOrTheOptionSays) {
 TEST_F(ShotDrape, ThatCannotLieOverGroundIsOneLine) {
     write_bytes(path("text.tif"), "this is no image");
     expect_refusal(shoot({land, "--drape", path("text.tif"), "--out", path("a.png")}), failed,
-                   {"text.tif", "is no raster"});
+                   {"text.tif", "is not an image in an accepted format"});
     const auto vrt = [&](const char* crs, const char* map) {
         write_bytes(path("image.vrt"), std::string("<VRTDataset rasterXSize=\"9\" rasterYSize=\"9\">") + crs +
                                            "<GeoTransform>" + map +

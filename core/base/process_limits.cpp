@@ -14,6 +14,12 @@ std::optional<std::uint64_t> file_size_limit_bytes() {
     return limit.rlim_cur;
 }
 
+std::optional<std::uint64_t> memory_limit_bytes() {
+    struct rlimit limit {};
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return std::nullopt;
+    return limit.rlim_cur;
+}
+
 bool is_memory_there(const std::byte* byte) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) return true;
