@@ -1,5 +1,6 @@
-# Tests of more than some five seconds, but for one of most suites: scripts/test --long runs them, scripts/test leaves them
-# out. Tests that are not in the folder that includes this are passed over.
+# Tests of more than some five seconds, but for one of most suites, and sweeps of faults through commands other than info:
+# scripts/test --long runs them, scripts/test leaves them out. Tests that are not in the folder that includes this are passed
+# over.
 set_tests_properties(
   Bake.AFlippedByteIsTold
   Bake.PicturesAreThoseOfItsSources
@@ -111,26 +112,50 @@ set_tests_properties(
   WorldGrids.GiveOnePictureWhereverTheyBegin
   PROPERTIES LABELS "cli;long")
 set_tests_properties(
+  Commands/FailedAllocations.AllFromOneOn/Bake
   Commands/FailedAllocations.AllFromOneOn/Shot
+  Commands/FailedAllocations.AllFromOneOn/ShotOfBaked
+  Commands/FailedAllocations.AllFromOneOn/Viewshed
   Commands/FailedAllocations.OfAll/Bake
   Commands/FailedAllocations.OfAll/Info
   Commands/FailedAllocations.OfAll/Shot
   Commands/FailedAllocations.OfAll/ShotOfBaked
   Commands/FailedAllocations.OfAll/Viewshed
+  Commands/FailedAllocations.OfTheProgram/Bake
   Commands/FailedAllocations.OfTheProgram/Shot
+  Commands/FailedAllocations.OfTheProgram/ShotOfBaked
   Commands/FailedAllocations.OfTheProgram/Viewshed
+  Commands/FailedAllocations.OneInSix/Bake
   Commands/FailedAllocations.OneInSix/Shot
+  Commands/FailedAllocations.OneInSix/ShotOfBaked
+  Commands/FailedAllocations.OneInSix/Viewshed
+  Commands/FailedAllocationsOfC.ForTheProgram/Bake
   Commands/FailedAllocationsOfC.ForTheProgram/Shot
+  Commands/FailedSystemCalls.AllOfAKindFromOneOn/Bake
+  Commands/FailedSystemCalls.AllOfAKindFromOneOn/BakeAgain
+  Commands/FailedSystemCalls.AllOfAKindFromOneOn/Profile
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Shot
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/ShotOfBaked
+  Commands/FailedSystemCalls.AllOfAKindFromOneOn/Viewshed
+  Commands/FailedSystemCalls.OfAll/Bake
+  Commands/FailedSystemCalls.OfAll/BakeAgain
+  Commands/FailedSystemCalls.OfAll/Profile
   Commands/FailedSystemCalls.OfAll/Shot
   Commands/FailedSystemCalls.OfAll/ShotOfBaked
+  Commands/FailedSystemCalls.OfAll/Viewshed
+  Commands/FailedSystemCalls.OfTheProgram/Bake
+  Commands/FailedSystemCalls.OfTheProgram/BakeAgain
+  Commands/FailedSystemCalls.OfTheProgram/Profile
   Commands/FailedSystemCalls.OfTheProgram/Shot
   Commands/FailedSystemCalls.OfTheProgram/ShotOfBaked
+  Commands/FailedSystemCalls.OfTheProgram/Viewshed
   Commands/FailedSystemCalls.OfWriting/Bake
   Commands/FailedSystemCalls.OfWriting/BakeAgain
+  Commands/FailedSystemCalls.OfWriting/Profile
   Commands/FailedSystemCalls.OfWriting/Shot
   Commands/FailedSystemCalls.OfWriting/ShotOfBaked
+  Commands/FailedSystemCalls.OfWriting/Viewshed
+  Commands/FailedThreads.EachAndAllFromOneOn/Bake
   Commands/FailedThreads.EachAndAllFromOneOn/Shot
   Commands/FailedThreads.EachAndAllFromOneOn/ShotOfBaked
   FailedAllocationsOfFreetype.ForLabels
