@@ -17,7 +17,7 @@ namespace oro {
 namespace {
 
 // The sun of a view for which nobody asks for one.
-std::optional<SunDirection> sun_of_style(const View& view) {
+std::optional<SunDirection> sun_of_style(View& view) {
     if (!has_sun_by_place(view.style)) return std::nullopt;
     std::optional<SunDirection> sun = usual_sun();
     aim_sun(sun, view.camera.eye);
@@ -83,6 +83,7 @@ Result<void> renew_renderer(Viewer& viewer) {
 Result<void> choose_style(Viewer& viewer, const std::string& style) {
     View view = viewer.view;
     view.style = style;
+    view.style_text.reset();
     if (!view.sun || view.sun->is_usual) view.sun = sun_of_style(view);
     return take_look(viewer, std::move(view));
 }
@@ -150,7 +151,7 @@ Result<void> choose_drape(Viewer& viewer, const std::vector<std::string>& files,
             tell(viewer, image.error());
             return {};
         }
-        prints.push_back({std::filesystem::path(file).filename().string(), image->print});
+        prints.push_back({std::filesystem::path(file).filename().string(), image->fingerprint});
         images.push_back(*std::move(image));
     }
     viewer.view.drape = files;

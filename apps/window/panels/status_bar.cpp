@@ -25,7 +25,7 @@ void place_words(const Viewer& viewer) {
         return;
     }
     const SeenPlace& seen = *place->seen;
-    char text[160];
+    char text[320];
     std::snprintf(text, sizeof text, "%.5f, %.5f   %s m above sea", seen.lat_deg, seen.lon_deg,
                   metres(seen.H_m).c_str());
     ImGui::TextUnformatted(text);
