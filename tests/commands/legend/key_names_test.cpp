@@ -25,13 +25,6 @@ std::vector<std::string> words_in(const ColourKey& key) {
     for (const ColourKey::Named& named : key.names) words.push_back(named.name);
     return words;
 }
-std::size_t pixels_like(const KeyPanel& panel, const StripColour& colour) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < panel.rgb.size(); i += 3)
-        count += panel.rgb[i] == colour[0] && panel.rgb[i + 1] == colour[1] && panel.rgb[i + 2] == colour[2];
-    return count;
-}
-
 TEST(KeyNames, SayWhatColoursOfAFrameStandFor) {
     const Region region = flat_region(3, 3);
     const ColourKey overdraw = key_of(Show::overdraw, region);
@@ -48,24 +41,6 @@ TEST(KeyNames, OfLevelsCountPostsOfTheRegion) {
     EXPECT_EQ(words_in(key_of(Show::levels, region)), (std::vector<std::string>{"1", "2", "4"}));
     EXPECT_EQ(words_in(key_of(Show::levels, region, 4)), (std::vector<std::string>{"4", "8", "16"}))
         << "of every fourth post alone";
-}
-
-// Squares of 12.1 px in a window of 320 px, whose em is 11 px: 12 or 13 whole ones a side.
-TEST(KeyNames, OnAPanelHaveTheirColours) {
-    const ColourKey key = key_of(Show::overdraw, flat_region(3, 3));
-    const auto panel = names_panel(key, 320);
-    ASSERT_TRUE(panel.ok()) << panel.error().line();
-    EXPECT_LE(panel->width_px, 320);
-    ASSERT_EQ(panel->rgb.size(), 3U * static_cast<std::size_t>(panel->width_px * panel->height_px));
-    for (const ColourKey::Named& named : key.names)
-        EXPECT_GE(pixels_like(*panel, named.colour), 144U) << named.name;
-    EXPECT_EQ(panel->rgb[0], 250) << "paper in the corner";
-    const auto narrow = names_panel(key, 120);
-    ASSERT_TRUE(narrow.ok());
-    EXPECT_LE(narrow->width_px, 120);
-    EXPECT_GT(narrow->height_px, panel->height_px) << "on more lines";
-    for (const ColourKey::Named& named : key.names)
-        EXPECT_GE(pixels_like(*narrow, named.colour), 144U) << named.name;
 }
 
 // A strip has room for as many lines as names need.
