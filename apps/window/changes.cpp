@@ -18,7 +18,7 @@ namespace {
 
 // The sun of a view for which nobody asks for one.
 std::optional<SunDirection> sun_of_style(View& view) {
-    if (!has_sun_by_place(view.style)) return std::nullopt;
+    if (!has_sun_by_place(view)) return std::nullopt;
     std::optional<SunDirection> sun = usual_sun();
     aim_sun(sun, view.camera.eye);
     return sun;
