@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <optional>
@@ -94,6 +95,8 @@ class Cutting {
     FaceCutter cutter_;
     std::vector<RimLine> rims_;
     std::unordered_map<std::size_t, std::vector<std::uint32_t>> by_cell_;
+    glm::dvec2 rims_low_{1.0e30}, rims_high_{-1.0e30};
+    bool is_somewhere_{true};  // these say where what the others cover may lie
     int first_row_{}, last_row_{-1}, first_column_{}, last_column_{-1};  // posts that may be covered
     GridClip out_;
 };
@@ -139,6 +142,11 @@ void Cutting::add_rim(std::uint32_t grid, const RimEdge& edge) {
     }
     const glm::dvec2 low = glm::min(line.at[0], line.at[1]) - on_rim_posts,
                      high = glm::max(line.at[0], line.at[1]) + on_rim_posts;
+    // What lies between rims is covered wherever they are: beyond this grid, too.
+    rims_low_ = glm::min(rims_low_, low);
+    rims_high_ = glm::max(rims_high_, high);
+    is_somewhere_ = is_somewhere_ && low.x - low.x == 0.0 && low.y - low.y == 0.0 && high.x - high.x == 0.0 &&
+                    high.y - high.y == 0.0;
     const double last_row = field_.grid.rows() - 2, last_column = field_.grid.columns() - 2;
     if (!(high.x >= 0.0 && high.y >= 0.0 && low.x <= last_column + 1.0 && low.y <= last_row + 1.0)) return;
     const auto number = static_cast<std::uint32_t>(rims_.size());
@@ -152,19 +160,20 @@ void Cutting::add_rim(std::uint32_t grid, const RimEdge& edge) {
 }
 
 void Cutting::find_rims() {
-    glm::dvec2 low(1.0e30), high(-1.0e30);
     for (std::size_t i = 0; i < over_.size(); ++i) {
+        const PostGrid& grid = over_[i]->grid;
+        // Rims more than half way round the Earth apart may be taken for those of the other way round.
+        is_somewhere_ = is_somewhere_ && (grid.net || grid.east_deg() - grid.west_deg() < 180.0);
         for (const RimEdge& edge : coverage_rim(*over_[i])) add_rim(static_cast<std::uint32_t>(i + 1), edge);
     }
-    for (const RimLine& line : rims_) {
-        low = glm::min(low, glm::min(line.at[0], line.at[1]));
-        high = glm::max(high, glm::max(line.at[0], line.at[1]));
-    }
-    if (rims_.empty()) return;
-    first_row_ = static_cast<int>(std::clamp(std::floor(low.y), 0.0, field_.grid.rows() - 1.0));
-    last_row_ = static_cast<int>(std::clamp(std::ceil(high.y), 0.0, field_.grid.rows() - 1.0));
-    first_column_ = static_cast<int>(std::clamp(std::floor(low.x), 0.0, field_.grid.columns() - 1.0));
-    last_column_ = static_cast<int>(std::clamp(std::ceil(high.x), 0.0, field_.grid.columns() - 1.0));
+    const glm::dvec2 last(field_.grid.columns() - 1, field_.grid.rows() - 1);
+    const glm::dvec2 low =
+        is_somewhere_ ? glm::clamp(glm::floor(rims_low_), glm::dvec2(0.0), last) : glm::dvec2(0.0);
+    const glm::dvec2 high = is_somewhere_ ? glm::clamp(glm::ceil(rims_high_), glm::dvec2(0.0), last) : last;
+    first_row_ = static_cast<int>(low.y);
+    last_row_ = static_cast<int>(high.y);
+    first_column_ = static_cast<int>(low.x);
+    last_column_ = static_cast<int>(high.x);
 }
 
 void Cutting::leave_covered_out() {
@@ -286,7 +295,6 @@ Result<void> Cutting::for_each_triangle(const Visit& visit) {
 Result<GridClip> Cutting::run() {
     out_.masked_posts.resize(field_.grid.post_count());
     find_rims();
-    if (rims_.empty()) return std::move(out_);
     leave_covered_out();
     ORO_CHECK(for_each_triangle(
         [&](int row, int column, bool south_west) { return mask_covered(row, column, south_west); }));

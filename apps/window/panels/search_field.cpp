@@ -59,7 +59,9 @@ void build_search_field(Viewer& viewer) {
     if (std::exchange(field.takes_focus, false)) ImGui::SetKeyboardFocusHere();
     const bool entered = ImGui::InputTextWithHint(
         "##place", "Go to a place   (G)", &field.text,
-        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackHistory, on_arrow, &field);
+        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackHistory |
+            ImGuiInputTextFlags_AutoSelectAll,
+        on_arrow, &field);
     if (ImGui::IsItemActivated()) field.is_open = true;
     if (ImGui::IsItemEdited()) {
         constexpr std::size_t most_matches = 8;

@@ -305,6 +305,20 @@ TEST(GridClip, AVoidOfTheFinerShowsTheCoarser) {
     EXPECT_FALSE(scene.is_covered(15.0 + 37.5 / 4.0, 10.0 + 25.0 / 4.0));
 }
 
+// Most of its rim lies beyond the grid that is cut, and what is under it is cut all the same.
+TEST(GridClip, AGridThatReachesBeyondTakesAllThatIsUnderIt) {
+    std::mt19937 random(73);
+    const Scene west_half(on_degrees(47.0, 8.0, 100.0, 41, 51, 1000.0),
+                          {on_degrees(47.2, 7.5, 370.0, 300, 278, 1050.0)});
+    EXPECT_EQ(west_half.wrong_places(random, 20'000), 0);
+    west_half.expect_no_gap();
+    const Scene around(on_degrees(47.0, 8.0, 100.0, 41, 51, 1000.0),
+                       {on_degrees(47.2, 7.5, 370.0, 300, 600, 1050.0)});
+    EXPECT_EQ(around.wrong_places(random, 20'000), 0);
+    EXPECT_EQ(std::count(around.cut().masked_posts.begin(), around.cut().masked_posts.end(), 1), 41 * 51);
+    EXPECT_TRUE(around.cut().ground.empty());
+}
+
 TEST(GridClip, GridsThatDoNotMeetLeaveEachOtherAlone) {
     const Scene scene(on_degrees(47.0, 8.0, 100.0, 41, 51, 1000.0),
                       {on_degrees(45.0, 8.15, 400.0, 61, 81, 1050.0)});
