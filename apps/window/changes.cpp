@@ -128,15 +128,15 @@ Result<void> choose_exaggeration(Viewer& viewer, double factor) {
 }
 
 Result<bool> choose_vectors(Viewer& viewer, const VectorChoices& choices) {
-    std::vector<Fingerprints::OfSource> prints;
-    Result<std::shared_ptr<const VectorsRead>> read = open_vectors(choices, prints);
+    std::vector<Fingerprints::OfSource> fingerprints;
+    Result<std::shared_ptr<const VectorsRead>> read = open_vectors(choices, fingerprints);
     if (!read.ok()) {
         tell(viewer, read.error());
         return false;
     }
     viewer.view.vectors = choices;
     viewer.view.vectors_read = *std::move(read);
-    if (viewer.view.fingerprints) viewer.view.fingerprints->vectors = std::move(prints);
+    if (viewer.view.fingerprints) viewer.view.fingerprints->vectors = std::move(fingerprints);
     index_points(viewer);
     viewer.wants_picture = true;
     return true;
@@ -144,20 +144,20 @@ Result<bool> choose_vectors(Viewer& viewer, const VectorChoices& choices) {
 
 Result<void> choose_drape(Viewer& viewer, const std::vector<std::string>& files, double opacity) {
     std::vector<ImageSource> images;
-    std::vector<Fingerprints::OfSource> prints;
+    std::vector<Fingerprints::OfSource> fingerprints;
     for (const std::string& file : files) {
         Result<ImageSource> image = open_image(file, viewer.view.drape_values);
         if (!image.ok()) {
             tell(viewer, image.error());
             return {};
         }
-        prints.push_back({std::filesystem::path(file).filename().string(), image->fingerprint});
+        fingerprints.push_back({std::filesystem::path(file).filename().string(), image->fingerprint});
         images.push_back(*std::move(image));
     }
     viewer.view.drape = files;
     viewer.view.drape_opacity = opacity;
     viewer.view.images = std::move(images);
-    if (viewer.view.fingerprints) viewer.view.fingerprints->images = std::move(prints);
+    if (viewer.view.fingerprints) viewer.view.fingerprints->images = std::move(fingerprints);
     for (std::size_t grid = 0; grid < viewer.scene->grids().size(); ++grid)
         viewer.scene->set_drape(nullptr, grid);
     ORO_CHECK(lay_images(viewer.view, viewer.options.memory, viewer.gpu, *viewer.scene, true));

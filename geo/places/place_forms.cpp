@@ -34,7 +34,10 @@ std::string utm_text(double lat_deg, double lon_deg) {
         std::string square;
         GeographicLib::MGRS::Forward(zone, is_north, x_m, y_m, lat_deg, 0, square);
         // Its beginning, before two letters of 100 km: 32T, or A of the poles.
-        const std::string grid_zone = square.substr(0, square.size() - 2);
+        std::string grid_zone = square.substr(0, square.size() - 2);
+        // S alone may be the band from 32 to 40 degrees north, or the southern hemisphere.
+        if (grid_zone.size() > 1 && grid_zone.back() == 'S')
+            grid_zone.replace(grid_zone.size() - 1, 1, "north");
         char text[80];
         std::snprintf(text, sizeof text, "%s %.0f %.0f", grid_zone.c_str(), x_m, y_m);
         return text;

@@ -116,7 +116,9 @@ std::set<std::string> names_in(const std::string& text) {
                 continue;
             }
             at = end;
-            if (names_of_test == 0 || --names_of_test > 0) names.insert(name);
+            // Names of Dear ImGui are its own.
+            const bool is_own = !name.starts_with("ImGui");
+            if ((names_of_test == 0 || --names_of_test > 0) && is_own) names.insert(name);
             if (name == "TEST" || name == "TEST_F" || name == "TEST_P" || name == "TYPED_TEST")
                 names_of_test = 2;
         } else {
