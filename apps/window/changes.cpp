@@ -7,6 +7,7 @@
 
 #include "apps/drawing/drape.h"
 #include "apps/drawing/mesh_choice.h"
+#include "apps/navigation/flight_step.h"
 #include "apps/styles/data_folder.h"
 #include "apps/window/frames.h"
 #include "apps/window/pictures.h"
@@ -24,6 +25,13 @@ std::optional<SunDirection> sun_of_style(View& view) {
     return sun;
 }
 
+// Whether the view is drawn by clusters: a choice that the window made is made anew. Errors: as
+// draws_clusters().
+Result<bool> choose_clusters_of(const Viewer& viewer, View& view) {
+    if (!viewer.options.view.mesh) view.mesh = "auto";
+    return draws_clusters(viewer.region, view);
+}
+
 // Levels as the view asks for, from the region anew: in the background where that takes long, in the place of
 // the scene that is shown else.
 Result<void> renew_scene(Viewer& viewer) {
@@ -35,7 +43,7 @@ Result<void> renew_scene(Viewer& viewer) {
     }
     View& view = viewer.view;
     ORO_TRY(GridPages pages, make_grid_pages(viewer.region, viewer.cuts, view.exaggeration));
-    ORO_TRY(const bool clusters, draws_clusters(viewer.region, view));
+    ORO_TRY(const bool clusters, choose_clusters_of(viewer, view));
     ORO_TRY(RegionScene whole,
             scene_of_region(
                 viewer.gpu, viewer.region, viewer.cuts, std::move(pages),
@@ -46,6 +54,12 @@ Result<void> renew_scene(Viewer& viewer) {
     return {};
 }
 
+void take_renderer(Viewer& viewer, FrameRenderer renderer) {
+    if (viewer.has_picture) viewer.kept = viewer.renderer.release_picture();
+    viewer.renderer = std::move(renderer);
+    viewer.has_picture = false;
+}
+
 // Takes a view whose style or light differ from what is shown; told and left where it cannot be drawn so.
 Result<void> take_look(Viewer& viewer, View view) {
     const HeightField& field = viewer.region.grids.front().field;
@@ -54,17 +68,31 @@ Result<void> take_look(Viewer& viewer, View view) {
         tell(viewer, style.error());
         return field.health();
     }
+    const Result<bool> clusters = choose_clusters_of(viewer, view);
+    if (!clusters.ok()) {
+        tell(viewer, clusters.error());
+        return {};
+    }
+    const bool other_mesh = view.mesh != viewer.view.mesh;
     const bool other_renderer =
         style->frame.smooth_edges != viewer.style.frame.smooth_edges || view.show != viewer.view.show;
     const bool other_scene = asks_for_means(style->frame) && !asks_for_means(viewer.style.frame);
+    if (other_renderer) {
+        // A device may lack what explains a frame.
+        Result<FrameRenderer> renderer =
+            renderer_for(viewer.gpu, view, *style, viewer.path, viewer.renderer.extent());
+        if (!renderer.ok()) {
+            tell(viewer, renderer.error());
+            return {};
+        }
+        take_renderer(viewer, std::move(renderer).value());
+    }
     viewer.view = std::move(view);
     viewer.style = *std::move(style);
-    if (other_renderer) ORO_CHECK(renew_renderer(viewer));
     // Means are kept for who asks for them: from then on they are there.
-    if (other_scene && !viewer.keeps_means) {
-        viewer.keeps_means = true;
-        ORO_CHECK(renew_scene(viewer));
-    }
+    const bool lacks_means = other_scene && !viewer.keeps_means;
+    viewer.keeps_means = viewer.keeps_means || lacks_means;
+    if (lacks_means || other_mesh) ORO_CHECK(renew_scene(viewer));
     viewer.wants_picture = true;
     return {};
 }
@@ -74,9 +102,7 @@ Result<void> take_look(Viewer& viewer, View view) {
 Result<void> renew_renderer(Viewer& viewer) {
     ORO_TRY(FrameRenderer renderer,
             renderer_for(viewer.gpu, viewer.view, viewer.style, viewer.path, viewer.renderer.extent()));
-    if (viewer.has_picture) viewer.kept = viewer.renderer.release_picture();
-    viewer.renderer = std::move(renderer);
-    viewer.has_picture = false;
+    take_renderer(viewer, std::move(renderer));
     return {};
 }
 
@@ -119,12 +145,21 @@ Result<void> choose_light(Viewer& viewer, std::optional<bool> shadows, std::opti
 
 Result<void> choose_exaggeration(Viewer& viewer, double factor) {
     if (factor == viewer.view.exaggeration) return {};
-    viewer.view.exaggeration = factor;
+    const double before = std::exchange(viewer.view.exaggeration, factor);
     viewer.ground.reset();
     viewer.under_pointer.reset();
     viewer.picked.reset();
     viewer.wants_picture = true;
-    return renew_scene(viewer);
+    const Result<void> renewed = renew_scene(viewer);
+    if (!renewed.ok() && renewed.error().kind == ErrorKind::usage) {
+        tell(viewer, renewed.error());
+        viewer.view.exaggeration = before;
+        return {};
+    }
+    const Geodetic& eye = viewer.view.camera.eye;
+    viewer.view.camera =
+        above_ground(viewer.view.camera, grid_at(viewer.region, eye.lat_deg, eye.lon_deg).field, factor);
+    return renewed;
 }
 
 Result<bool> choose_vectors(Viewer& viewer, const VectorChoices& choices) {
@@ -158,9 +193,11 @@ Result<void> choose_drape(Viewer& viewer, const std::vector<std::string>& files,
     viewer.view.drape_opacity = opacity;
     viewer.view.images = std::move(images);
     if (viewer.view.fingerprints) viewer.view.fingerprints->images = std::move(fingerprints);
-    for (std::size_t grid = 0; grid < viewer.scene->grids().size(); ++grid)
-        viewer.scene->set_drape(nullptr, grid);
-    ORO_CHECK(lay_images(viewer.view, viewer.options.memory, viewer.gpu, *viewer.scene, true));
+    for (Scene* const scene : {viewer.scene.get(), viewer.coming.get()}) {
+        if (scene == nullptr) continue;
+        for (std::size_t grid = 0; grid < scene->grids().size(); ++grid) scene->set_drape(nullptr, grid);
+        ORO_CHECK(lay_images(viewer.view, viewer.options.memory, viewer.gpu, *scene, true));
+    }
     viewer.wants_picture = true;
     return {};
 }

@@ -50,7 +50,7 @@ bool comes_to_rest(Viewer& viewer) {
     constexpr double rest_s = 0.4, settle_s = 0.15;
     const double since_s = seconds_since(viewer.moved);
     if (!viewer.follows_eye) return false;
-    if (since_s < rest_s) return since_s > settle_s && viewer.drawn_at.scale < 1.0;
+    if (since_s < rest_s) return since_s > settle_s && !viewer.drawn_at.is_whole();
     viewer.follows_eye = false;
     return viewer.style.contours_by_view || has_writing(viewer.view, viewer.style) ||
            !viewer.drawn_at.is_whole();

@@ -103,8 +103,12 @@ void set_key(int code, bool down) {
 #endif
 }
 
-void set_modifiers(const KeyChanged& event) {
+// The modifiers that a modifier's own event names are those from before it (X11).
+void set_modifiers(KeyChanged event) {
     ImGuiIO& io = ImGui::GetIO();
+    if (event.key == key::left_control || event.key == key::right_control) event.control = event.down;
+    if (event.key == key::left_shift || event.key == key::right_shift) event.shift = event.down;
+    if (event.key == key::left_alt || event.key == key::right_alt) event.alt = event.down;
 #if IMGUI_VERSION_NUM >= 18900
     io.AddKeyEvent(ImGuiMod_Ctrl, event.control);
     io.AddKeyEvent(ImGuiMod_Shift, event.shift);

@@ -1,6 +1,7 @@
 #include "apps/window/measuring.h"
 
 #include <algorithm>
+#include <memory>
 
 namespace oro {
 namespace {
@@ -10,7 +11,13 @@ Result<void> measure(Viewer& viewer, const std::vector<LatLon>& places) {
     constexpr std::size_t most_points = 400;
     ORO_TRY(const RegionGround* const ground, ground_of(viewer));
     Measuring& measuring = viewer.measuring;
-    Result<Measurement> found = measured(places, viewer.view.model.air, ground->ground());
+    // Figures are those of heights as they are; what is drawn lies on those that are shown.
+    std::unique_ptr<const RegionGround> as_it_is;
+    if (viewer.view.exaggeration != 1.0) {
+        ORO_TRY(as_it_is, RegionGround::of(viewer.region, viewer.cuts, 1.0));
+    }
+    Result<Measurement> found =
+        measured(places, viewer.view.model.air, (as_it_is ? *as_it_is : *ground).ground());
     if (!found.ok()) {
         // Such as a place twice.
         tell(viewer, found.error());

@@ -46,6 +46,7 @@ Result<void> begin_finer_scene(Viewer& viewer) {
 void show_finer_scene(Viewer& viewer) {
     viewer.scene = std::move(viewer.coming);
     viewer.is_missing = false;
+    viewer.wants_picture = true;
 }
 
 Result<void> take_picture(Viewer& viewer) {

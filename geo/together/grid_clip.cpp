@@ -163,7 +163,7 @@ void Cutting::find_rims() {
     for (std::size_t i = 0; i < over_.size(); ++i) {
         const PostGrid& grid = over_[i]->grid;
         // Rims more than half way round the Earth apart may be taken for those of the other way round.
-        is_somewhere_ = is_somewhere_ && (grid.net || grid.east_deg() - grid.west_deg() < 180.0);
+        is_somewhere_ = is_somewhere_ && grid.east_deg() - grid.west_deg() < 180.0;
         for (const RimEdge& edge : coverage_rim(*over_[i])) add_rim(static_cast<std::uint32_t>(i + 1), edge);
     }
     const glm::dvec2 last(field_.grid.columns() - 1, field_.grid.rows() - 1);

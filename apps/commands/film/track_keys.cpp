@@ -66,23 +66,34 @@ LatLon mean_place(const LineAlong& line, double along_m, double half_m) {
     return {mean.lat_deg, mean.lon_deg};
 }
 
+// How many samples away the nearest one with ground is, of each sample; one has ground.
+std::vector<std::size_t> steps_to_ground(const std::vector<double>& ground_m) {
+    const std::size_t count = ground_m.size();
+    std::vector<std::size_t> steps(count, count);
+    for (std::size_t i = 0; i < count; ++i)
+        steps[i] = !std::isnan(ground_m[i]) ? 0 : i > 0 ? std::min(count, steps[i - 1] + 1) : count;
+    for (std::size_t i = count - 1; i-- > 0;) steps[i] = std::min(steps[i], steps[i + 1] + 1);
+    return steps;
+}
+
 void even_out(double smoothing_m, SampledTrack& track) {
     const std::size_t count = track.places.size();
+    // Of all samples before each: the sum of their ground, and how many have some.
+    std::vector<double> sums_m{0.0};
+    std::vector<int> found{0};
+    for (const double ground_m : track.ground_m) {
+        const bool is_there = !std::isnan(ground_m);
+        sums_m.push_back(sums_m.back() + (is_there ? ground_m : 0.0));
+        found.push_back(found.back() + (is_there ? 1 : 0));
+    }
+    const std::vector<std::size_t> to_ground = steps_to_ground(track.ground_m);
     for (std::size_t i = 0; i < count; ++i) {
-        // One sample at least, and more of them until one has ground.
-        auto reach =
-            static_cast<std::size_t>(std::floor(half_mean_m(track, i, smoothing_m) / track.spacing_m));
-        double sum_m = 0.0;
-        int found = 0;
-        for (; found == 0 && reach <= count; ++reach) {
-            const std::size_t last = std::min(count - 1, i + reach);
-            for (std::size_t k = i > reach ? i - reach : 0; k <= last; ++k) {
-                if (std::isnan(track.ground_m[k])) continue;
-                sum_m += track.ground_m[k];
-                ++found;
-            }
-        }
-        track.even_m.push_back(sum_m / found);
+        // One sample at least, and as many as it takes until one has ground.
+        const auto reach = std::max(
+            to_ground[i],
+            static_cast<std::size_t>(std::floor(half_mean_m(track, i, smoothing_m) / track.spacing_m)));
+        const std::size_t first = i > reach ? i - reach : 0, end = std::min(count, i + reach + 1);
+        track.even_m.push_back((sums_m[end] - sums_m[first]) / (found[end] - found[first]));
     }
 }
 

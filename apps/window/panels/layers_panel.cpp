@@ -50,7 +50,8 @@ void height_choice(Viewer& viewer) {
     static float factor = 1.0F;
     if (!ImGui::IsAnyItemActive()) factor = static_cast<float>(viewer.view.exaggeration);
     ImGui::SetNextItemWidth(scaled_px(180.0F));
-    ImGui::SliderFloat("Heights", &factor, 0.5F, 5.0F, "x %.2f", ImGuiSliderFlags_Logarithmic);
+    ImGui::SliderFloat("Heights", &factor, 0.5F, 5.0F, "x %.2f",
+                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     tip("How high heights are drawn. 1: as they are. What is read of places stays what it is.");
     if (ImGui::IsItemDeactivatedAfterEdit())
         viewer.wishes.push_back(
@@ -106,7 +107,7 @@ void image_choice(Viewer& viewer) {
     static float opacity = 1.0F;
     if (!ImGui::IsAnyItemActive()) opacity = static_cast<float>(viewer.view.drape_opacity);
     ImGui::SetNextItemWidth(scaled_px(180.0F));
-    ImGui::SliderFloat("Opacity", &opacity, 0.0F, 1.0F, "%.2f");
+    ImGui::SliderFloat("Opacity", &opacity, 0.0F, 1.0F, "%.2f", ImGuiSliderFlags_AlwaysClamp);
     changed = ImGui::IsItemDeactivatedAfterEdit() || changed;
     if (changed)
         viewer.wishes.push_back([chosen, share = static_cast<double>(opacity)](Viewer& v) {

@@ -57,11 +57,11 @@ void build_search_field(Viewer& viewer) {
     ImGui::PopStyleVar();
     ImGui::SetNextItemWidth(width);
     if (std::exchange(field.takes_focus, false)) ImGui::SetKeyboardFocusHere();
-    const bool entered = ImGui::InputTextWithHint(
-        "##place", "Go to a place   (G)", &field.text,
-        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackHistory |
-            ImGuiInputTextFlags_AutoSelectAll,
-        on_arrow, &field);
+    const bool entered =
+        ImGui::InputTextWithHint("##place", "Go to a place   (G)", &field.text,
+                                 ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackHistory |
+                                     ImGuiInputTextFlags_AutoSelectAll,
+                                 on_arrow, &field);
     if (ImGui::IsItemActivated()) field.is_open = true;
     if (ImGui::IsItemEdited()) {
         constexpr std::size_t most_matches = 8;
@@ -76,7 +76,8 @@ void build_search_field(Viewer& viewer) {
             "N46E008. Enter goes there.");
     if (entered) search(viewer);
     if (field.is_open && !field.text.empty() && field.error.empty()) list_matches(viewer, width);
-    if (left && !ImGui::IsWindowHovered()) field.is_open = false;
+    const bool escaped = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+    if (left && (escaped || !ImGui::IsWindowHovered())) field.is_open = false;
     if (!field.error.empty()) {
         ImGui::PushStyleColor(ImGuiCol_Text, interface_colour::error);
         ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);

@@ -132,7 +132,9 @@ void build_sun_panel(Viewer& viewer) {
         ImGui::SetNextItemWidth(-1.0F);
         char hour[20];
         std::snprintf(hour, sizeof hour, "%02d:%02d", clock.minute / 60, clock.minute % 60);
-        changed = ImGui::SliderInt("##time", &clock.minute, 0, day_min - 1, hour) || changed;
+        changed =
+            ImGui::SliderInt("##time", &clock.minute, 0, day_min - 1, hour, ImGuiSliderFlags_AlwaysClamp) ||
+            changed;
         const auto midnight = utc_time_from(clock.date + "T00:00Z");
         if (midnight.ok()) {
             const std::int64_t midnight_utc_s = *midnight - clock.zone_h * 3600;
