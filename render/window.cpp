@@ -129,19 +129,6 @@ Result<OwnedSemaphore> create_semaphore(const Gpu& gpu, const char* name) {
     return OwnedSemaphore(gpu.device(), handle);
 }
 
-Result<OwnedImageView> create_view(const Gpu& gpu, VkImage image, VkFormat format) {
-    VkImageViewCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
-    info.image = image;
-    info.viewType = VK_IMAGE_VIEW_TYPE_2D;
-    info.format = format;
-    info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    VkImageView handle{};
-    ORO_VK(vkCreateImageView(gpu.device(), &info, nullptr, &handle));
-    gpu.name(VK_OBJECT_TYPE_IMAGE_VIEW, handle, "window");
-    return OwnedImageView(gpu.device(), handle);
-}
-
 // GLFW from 3.4 on looks for Wayland first, whose library prints a line of its own where there is none.
 void choose_display() {
 #ifdef GLFW_PLATFORM
@@ -251,7 +238,8 @@ Result<void> Window::create_swapchain() {
     for (std::uint32_t i = 0; i < count; ++i) {
         ORO_TRY(OwnedSemaphore drawn, create_semaphore(*gpu_, "image drawn"));
         drawn_.push_back(std::move(drawn));
-        ORO_TRY(OwnedImageView view, create_view(*gpu_, images_[i], format_.format));
+        ORO_TRY(OwnedImageView view,
+                create_image_view(*gpu_, images_[i], format_.format, VK_IMAGE_ASPECT_COLOR_BIT, "window"));
         views_.push_back(std::move(view));
     }
     return {};

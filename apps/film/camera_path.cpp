@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <utility>
 
+#include "core/earth/rotation.h"
 #include "geo/places/geodesic.h"
 
 namespace oro {
@@ -16,21 +17,11 @@ constexpr double same_time_s = 1e-9;
 // A shorter way has no direction worth the name.
 constexpr double shortest_way_m = 1e-3;
 
-double turned_to_circle_deg(double angle_deg) {
-    const double turned = std::fmod(angle_deg, 360.0);
-    const double positive = turned < 0.0 ? turned + 360.0 : turned;
-    return positive >= 360.0 ? 0.0 : positive;
-}
-
-glm::dquat about(double angle_deg, const glm::dvec3& axis) {
-    const SineCosine half = sine_cosine_deg(0.5 * angle_deg);
-    return {half.cosine, half.sine * axis.x, half.sine * axis.y, half.sine * axis.z};
-}
-
 // From axes right, ahead, up of the camera to east, north, up.
 glm::dquat quaternion_of(const Attitude& attitude) {
-    return about(-attitude.heading_deg, {0.0, 0.0, 1.0}) * about(attitude.pitch_deg, {1.0, 0.0, 0.0}) *
-           about(attitude.roll_deg, {0.0, 1.0, 0.0});
+    return rotation_about(-attitude.heading_deg, {0.0, 0.0, 1.0}) *
+           rotation_about(attitude.pitch_deg, {1.0, 0.0, 0.0}) *
+           rotation_about(attitude.roll_deg, {0.0, 1.0, 0.0});
 }
 
 Attitude attitude_of(const glm::dquat& turn) {

@@ -11,6 +11,7 @@
 #include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
+#include "core/earth/rotation.h"
 #include "core/light/utc_time.h"
 #include "core/terrain/ground.h"
 
@@ -50,10 +51,7 @@ WrittenKey read_key(const json& from, double usual_fov_deg) {
     key.time_s = json_number(from, "time_s", -longest_film_s, longest_film_s);
     read_eye(json_field(from, "eye"), written);
     key.attitude.heading_deg = number_or(from, "heading_deg", 0.0, -360.0, 360.0);
-    // Headings that are whole turns apart are one; one in its circle already keeps its last digit.
-    double& heading_deg = key.attitude.heading_deg;
-    if (heading_deg < 0.0) heading_deg += 360.0;
-    if (heading_deg >= 360.0) heading_deg -= 360.0;
+    key.attitude.heading_deg = turned_to_circle_deg(key.attitude.heading_deg);
     key.attitude.pitch_deg = number_or(from, "pitch_deg", 0.0, -90.0, 90.0);
     key.attitude.roll_deg = number_or(from, "roll_deg", 0.0, -180.0, 180.0);
     key.vertical_fov_deg =

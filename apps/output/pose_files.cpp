@@ -3,11 +3,12 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <glm/gtc/quaternion.hpp>
 #include <utility>
 
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
+#include "apps/report/xml_escape.h"
+#include "core/earth/rotation.h"
 #include "geo/files/foreign_text.h"
 
 namespace oro {
@@ -16,26 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double photo_distance_m = 10.0;
-
-glm::dquat turn_about(double angle_deg, const glm::dvec3& axis) {
-    const SineCosine half = sine_cosine_deg(0.5 * angle_deg);
-    return {half.cosine, half.sine * axis.x, half.sine * axis.y, half.sine * axis.z};
-}
-
-std::string xml_text(const std::string& text) {
-    std::string escaped;
-    for (const char c : text) {
-        if (c == '<')
-            escaped += "&lt;";
-        else if (c == '>')
-            escaped += "&gt;";
-        else if (c == '&')
-            escaped += "&amp;";
-        else
-            escaped += c;
-    }
-    return escaped;
-}
 
 // A file's name as a relative reference (RFC 3986): what is no letter, digit, '-', '.', '_' or '~' by its hex
 // digits.
@@ -66,9 +47,9 @@ std::string beside(const std::string& picture, const char* ending) {
 }  // namespace
 
 std::array<double, 4> geopose_quaternion(const Attitude& attitude) {
-    glm::dquat turn = turn_about(90.0 - attitude.heading_deg, {0.0, 0.0, 1.0}) *
-                      turn_about(-attitude.pitch_deg, {0.0, 1.0, 0.0}) *
-                      turn_about(attitude.roll_deg, {1.0, 0.0, 0.0});
+    glm::dquat turn = rotation_about(90.0 - attitude.heading_deg, {0.0, 0.0, 1.0}) *
+                      rotation_about(-attitude.pitch_deg, {0.0, 1.0, 0.0}) *
+                      rotation_about(attitude.roll_deg, {1.0, 0.0, 0.0});
     if (turn.w < 0.0) turn = -turn;
     return {turn.x, turn.y, turn.z, turn.w};
 }
@@ -94,7 +75,7 @@ std::string photo_overlay_kml(const View& view, double N_m, const std::string& p
     std::snprintf(place, sizeof place, "%.9f,%.9f,%.6f", lon_deg, camera.eye.lat_deg, H_m);
     return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\">\n"
            "<PhotoOverlay>\n  <name>" +
-           xml_text(foreign_text(picture_name)) + "</name>\n  <Camera>" + element("longitude", lon_deg) +
+           xml_escaped(foreign_text(picture_name)) + "</name>\n  <Camera>" + element("longitude", lon_deg) +
            element("latitude", camera.eye.lat_deg) + element("altitude", H_m) +
            element("heading", camera.attitude.heading_deg) +
            element("tilt", camera.attitude.pitch_deg + 90.0) + element("roll", camera.attitude.roll_deg) +

@@ -1,6 +1,4 @@
 // Sheets as SVG 1.1.
-#include <utf8.h>
-
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -8,6 +6,7 @@
 
 #include "apps/panorama/sheet.h"
 #include "apps/report/base64.h"
+#include "apps/report/xml_escape.h"
 #include "geo/pictures/png_bytes.h"
 
 namespace oro {
@@ -24,25 +23,6 @@ std::string printed(const char* format, Values... values) {
 
 std::string hex(const SheetColour& colour) {
     return printed("#%02x%02x%02x", colour[0], colour[1], colour[2]);
-}
-
-// As XML text. What XML forbids, and what is no UTF-8, becomes U+FFFD.
-std::string escaped(const std::string& text) {
-    std::string valid, xml;
-    utf8::replace_invalid(text.begin(), text.end(), std::back_inserter(valid));
-    for (const char c : valid) {
-        if (c == '&')
-            xml += "&amp;";
-        else if (c == '<')
-            xml += "&lt;";
-        else if (c == '>')
-            xml += "&gt;";
-        else if (static_cast<unsigned char>(c) < 0x20)
-            xml += "\uFFFD";
-        else
-            xml += c;
-    }
-    return xml;
 }
 
 const char* word_of(SheetText::Anchor anchor) {
@@ -72,7 +52,7 @@ std::string text_element(const SheetText& text) {
         xml +=
             printed(" stroke=\"%s\" stroke-width=\"%.3f\" stroke-linejoin=\"round\" paint-order=\"stroke\"",
                     hex(*text.halo).c_str(), 2.0 * sheet_halo_share * text.size_px);
-    return xml + ">" + escaped(text.text) + "</text>\n";
+    return xml + ">" + xml_escaped(text.text) + "</text>\n";
 }
 
 std::string line_element(const SheetLine& line) {
@@ -93,7 +73,7 @@ Result<std::string> sheet_svg(const Sheet& sheet, std::span<const std::uint8_t> 
         "width=\"%d\" height=\"%d\" viewBox=\"0 0 %d %d\" "
         "font-family=\"'DejaVu Sans', Verdana, sans-serif\">\n",
         sheet.width_px, sheet.height_px, sheet.width_px, sheet.height_px);
-    svg += "<title>" + escaped(title) + "</title>\n<desc>" + escaped(description) + "</desc>\n";
+    svg += "<title>" + xml_escaped(title) + "</title>\n<desc>" + xml_escaped(description) + "</desc>\n";
     svg += printed("<rect width=\"%d\" height=\"%d\" fill=\"%s\"/>\n", sheet.width_px, sheet.height_px,
                    hex(sheet.paper).c_str());
     svg += printed("<image x=\"0\" y=\"%d\" width=\"%d\" height=\"%d\" xlink:href=\"data:image/png;base64,",

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_fields.h"
 #include "apps/settings/user_folders.h"

@@ -138,6 +138,11 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
                        const RegionOptions& region_options, const Progress& progress, View& view,
                        Region& region, PictureKind kind = PictureKind::plane);
 
+// Opens the images over the ground that a view names, and adds their fingerprints. Errors: a file that is not
+// there, and those of open_image().
+Result<std::vector<ImageSource>> open_images(const std::vector<std::string>& files, ImageValues values,
+                                             std::vector<Fingerprints::OfSource>& fingerprints);
+
 // Whether two views ask for the same region: the same data, read in the same way, with or without a geoid.
 bool asks_for_same_region(const View& one, const View& other);
 

@@ -59,22 +59,9 @@ Result<void> check_kind(const View& view, const std::string& view_file, PictureK
                              : "is no panorama: orograph shot --view draws it again"};
 }
 
-// Opens a view's images, and puts their fingerprints into it.
-Result<void> open_images(View& view) {
-    for (const std::string& file : view.drape) {
-        ORO_TRY(const bool there, is_there(file));
-        if (!there && !file.starts_with("/vsi")) return Error{ErrorKind::failed, file, "no such image"};
-        ORO_TRY(ImageSource image, open_image(file, view.drape_values));
-        view.fingerprints->images.push_back(
-            {std::filesystem::path(file).filename().string(), image.fingerprint});
-        view.images.push_back(std::move(image));
-    }
-    return {};
-}
-
 // The same for all that a view names beside its elevation data.
 Result<void> open_files(View& view) {
-    ORO_CHECK(open_images(view));
+    ORO_TRY(view.images, open_images(view.drape, view.drape_values, view.fingerprints->images));
     ORO_TRY(view.vectors_read, open_vectors(view.vectors, view.fingerprints->vectors));
     return {};
 }
@@ -102,6 +89,19 @@ Result<void> check_map(const View& view, const ViewOptions& options, const std::
 }
 
 }  // namespace
+
+Result<std::vector<ImageSource>> open_images(const std::vector<std::string>& files, ImageValues values,
+                                             std::vector<Fingerprints::OfSource>& fingerprints) {
+    std::vector<ImageSource> images;
+    for (const std::string& file : files) {
+        ORO_TRY(const bool there, is_there(file));
+        if (!there && !file.starts_with("/vsi")) return Error{ErrorKind::failed, file, "no such image"};
+        ORO_TRY(ImageSource image, open_image(file, values));
+        fingerprints.push_back({std::filesystem::path(file).filename().string(), image.fingerprint});
+        images.push_back(std::move(image));
+    }
+    return images;
+}
 
 void begin_with_grid_at(const Geodetic& eye, View& view, Region& region) {
     swap_first_grid(view.first_grid, region);

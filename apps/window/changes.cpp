@@ -1,14 +1,10 @@
 #include "apps/window/changes.h"
 
-#include <algorithm>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 #include "apps/drawing/drape.h"
 #include "apps/drawing/mesh_choice.h"
 #include "apps/navigation/flight_step.h"
-#include "apps/styles/data_folder.h"
 #include "apps/window/frames.h"
 #include "apps/window/pictures.h"
 #include "apps/window/search.h"
@@ -25,32 +21,17 @@ std::optional<SunDirection> sun_of_style(View& view) {
     return sun;
 }
 
-// Whether the view is drawn by clusters: a choice that the window made is made anew. Errors: as
-// draws_clusters().
-Result<bool> choose_clusters_of(const Viewer& viewer, View& view) {
+// A choice of clusters that the window made is made anew; the user's own stays.
+void forget_mesh(const Viewer& viewer, View& view) {
     if (!viewer.options.view.mesh) view.mesh = "auto";
-    return draws_clusters(viewer.region, view);
 }
 
-// Levels as the view asks for, from the region anew: in the background where that takes long, in the place of
-// the scene that is shown else.
+// Another scene, as the view asks for now: coarse at first where measuring levels takes long.
 Result<void> renew_scene(Viewer& viewer) {
-    viewer.coming.reset();
-    viewer.finer.reset();
-    if (measures_long(viewer.region)) {
-        viewer.finer = std::make_unique<BackgroundPyramidBuild>(viewer.region, viewer.view.exaggeration);
-        return {};
-    }
-    View& view = viewer.view;
-    ORO_TRY(GridPages pages, make_grid_pages(viewer.region, viewer.cuts, view.exaggeration));
-    ORO_TRY(const bool clusters, choose_clusters_of(viewer, view));
-    ORO_TRY(RegionScene whole,
-            scene_of_region(
-                viewer.gpu, viewer.region, viewer.cuts, std::move(pages),
-                {view.exaggeration, memory_of_pages(view, viewer.options.memory), view.heights,
-                 viewer.keeps_means || asks_for_means(viewer.style.frame), clusters, view.mesh_level}));
-    ORO_CHECK(lay_images(view, viewer.options.memory, viewer.gpu, whole.scene, true));
-    viewer.scene = std::make_unique<Scene>(std::move(whole.scene));
+    forget_mesh(viewer, viewer.view);
+    ORO_TRY(OpenedScene opened, open_scene(viewer.gpu, viewer.region, viewer.cuts, viewer.view,
+                                           {viewer.options.memory, true, viewer.keeps_means}, [](double) {}));
+    take_scene(viewer, std::move(opened));
     return {};
 }
 
@@ -68,7 +49,8 @@ Result<void> take_look(Viewer& viewer, View view) {
         tell(viewer, style.error());
         return field.health();
     }
-    const Result<bool> clusters = choose_clusters_of(viewer, view);
+    forget_mesh(viewer, view);
+    const Result<bool> clusters = draws_clusters(viewer.region, view);
     if (!clusters.ok()) {
         tell(viewer, clusters.error());
         return {};
@@ -76,7 +58,8 @@ Result<void> take_look(Viewer& viewer, View view) {
     const bool other_mesh = view.mesh != viewer.view.mesh;
     const bool other_renderer =
         style->frame.smooth_edges != viewer.style.frame.smooth_edges || view.show != viewer.view.show;
-    const bool other_scene = asks_for_means(style->frame) && !asks_for_means(viewer.style.frame);
+    // Means are kept for who asks for them: from then on they are there.
+    const bool lacks_means = asks_for_means(style->frame) && !viewer.keeps_means;
     if (other_renderer) {
         // A device may lack what explains a frame.
         Result<FrameRenderer> renderer =
@@ -85,12 +68,10 @@ Result<void> take_look(Viewer& viewer, View view) {
             tell(viewer, renderer.error());
             return {};
         }
-        take_renderer(viewer, std::move(renderer).value());
+        take_renderer(viewer, std::move(*renderer));
     }
     viewer.view = std::move(view);
-    viewer.style = *std::move(style);
-    // Means are kept for who asks for them: from then on they are there.
-    const bool lacks_means = other_scene && !viewer.keeps_means;
+    viewer.style = std::move(*style);
     viewer.keeps_means = viewer.keeps_means || lacks_means;
     if (lacks_means || other_mesh) ORO_CHECK(renew_scene(viewer));
     viewer.wants_picture = true;
@@ -170,7 +151,7 @@ Result<bool> choose_vectors(Viewer& viewer, const VectorChoices& choices) {
         return false;
     }
     viewer.view.vectors = choices;
-    viewer.view.vectors_read = *std::move(read);
+    viewer.view.vectors_read = std::move(*read);
     if (viewer.view.fingerprints) viewer.view.fingerprints->vectors = std::move(fingerprints);
     index_points(viewer);
     viewer.wants_picture = true;
@@ -178,20 +159,15 @@ Result<bool> choose_vectors(Viewer& viewer, const VectorChoices& choices) {
 }
 
 Result<void> choose_drape(Viewer& viewer, const std::vector<std::string>& files, double opacity) {
-    std::vector<ImageSource> images;
     std::vector<Fingerprints::OfSource> fingerprints;
-    for (const std::string& file : files) {
-        Result<ImageSource> image = open_image(file, viewer.view.drape_values);
-        if (!image.ok()) {
-            tell(viewer, image.error());
-            return {};
-        }
-        fingerprints.push_back({std::filesystem::path(file).filename().string(), image->fingerprint});
-        images.push_back(*std::move(image));
+    Result<std::vector<ImageSource>> images = open_images(files, viewer.view.drape_values, fingerprints);
+    if (!images.ok()) {
+        tell(viewer, images.error());
+        return {};
     }
     viewer.view.drape = files;
     viewer.view.drape_opacity = opacity;
-    viewer.view.images = std::move(images);
+    viewer.view.images = std::move(*images);
     if (viewer.view.fingerprints) viewer.view.fingerprints->images = std::move(fingerprints);
     for (Scene* const scene : {viewer.scene.get(), viewer.coming.get()}) {
         if (scene == nullptr) continue;
@@ -200,16 +176,6 @@ Result<void> choose_drape(Viewer& viewer, const std::vector<std::string>& files,
     }
     viewer.wants_picture = true;
     return {};
-}
-
-std::vector<std::string> names_of_styles() {
-    std::vector<std::string> names;
-    std::error_code failed;
-    std::filesystem::directory_iterator entry(data_folder() / "styles", failed);
-    for (; !failed && entry != std::filesystem::directory_iterator(); entry.increment(failed))
-        if (entry->path().extension() == ".json") names.push_back(entry->path().stem().string());
-    std::ranges::sort(names, {}, [](const std::string& name) { return std::pair(name != "natural", name); });
-    return names;
 }
 
 }  // namespace oro

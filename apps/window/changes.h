@@ -29,7 +29,4 @@ Result<void> choose_drape(Viewer& viewer, const std::vector<std::string>& files,
 // A renderer that smooths edges and explains frames as the view asks for now.
 Result<void> renew_renderer(Viewer& viewer);
 
-// The styles that come with the program, by name; `natural` first.
-std::vector<std::string> names_of_styles();
-
 }  // namespace oro

@@ -23,7 +23,7 @@ Result<void> measure(Viewer& viewer, const std::vector<LatLon>& places) {
         tell(viewer, found.error());
         return ground->ground().health();
     }
-    measuring.found = *std::move(found);
+    measuring.found = std::move(*found);
     measuring.line_ecef.clear();
     measuring.corners_ecef.clear();
     const auto on_ground = [&](double lat_deg, double lon_deg) {

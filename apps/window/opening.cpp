@@ -112,23 +112,22 @@ Result<void> open_region_of(Viewer& viewer, const std::vector<std::string>& path
     if (!cuts.ok()) return refuse(cuts.error());
     Result<Style> style = load_style(view, region.grids.front().field);
     if (!style.ok()) return refuse(style.error());
+    const bool keeps_means = asks_for_means(style->frame);
     Result<OpenedScene> scene =
-        open_scene(viewer.gpu, region, *cuts, view, *style, options.memory, true, [](double) {});
+        open_scene(viewer.gpu, region, *cuts, view, {options.memory, true, keeps_means}, [](double) {});
     if (!scene.ok()) return refuse(scene.error());
     forget_region(viewer);
     viewer.options = options;
     viewer.view = std::move(view);
     viewer.region = std::move(region);
-    viewer.cuts = *std::move(cuts);
-    viewer.style = *std::move(style);
-    viewer.scene = std::make_unique<Scene>(std::move(scene->scene));
+    viewer.cuts = std::move(*cuts);
+    viewer.style = std::move(*style);
+    take_scene(viewer, std::move(*scene));
     viewer.jumps = Jumps(users_roll_deg(viewer.view.camera, std::nullopt));
     viewer.gestures.emplace(navigation_of(viewer));
-    viewer.keeps_means = asks_for_means(viewer.style.frame);
+    viewer.keeps_means = keeps_means;
     viewer.name = name_of_paths(paths);
     viewer.window.set_title(one_line("Orograph - " + viewer.name));
-    if (scene->is_coarse)
-        viewer.finer = std::make_unique<BackgroundPyramidBuild>(viewer.region, viewer.view.exaggeration);
     for (const std::string& note : all_notes(viewer.region))
         viewer.log.push_back({one_line(note), Clock::now(), false, false});
     viewer.wants_picture = true;

@@ -28,17 +28,21 @@ void follow_sun(Viewer& viewer) {
     light_by(*sun, viewer.style.frame);
 }
 
+void take_scene(Viewer& viewer, OpenedScene opened) {
+    viewer.coming.reset();
+    viewer.scene = std::make_unique<Scene>(std::move(opened.scene));
+    viewer.finer = opened.is_coarse
+                       ? std::make_unique<BackgroundPyramidBuild>(viewer.region, viewer.view.exaggeration)
+                       : nullptr;
+}
+
 Result<void> begin_finer_scene(Viewer& viewer) {
     GridPages pages(1);
     ORO_TRY(pages.front(), viewer.finer->wait());
     viewer.finer.reset();
-    const View& view = viewer.view;
-    ORO_TRY(RegionScene whole,
-            scene_of_region(viewer.gpu, viewer.region, viewer.cuts, std::move(pages),
-                            {view.exaggeration, memory_of_pages(view, viewer.options.memory), view.heights,
-                             viewer.keeps_means || asks_for_means(viewer.style.frame)}));
-    ORO_CHECK(lay_images(view, viewer.options.memory, viewer.gpu, whole.scene, true));
-    viewer.coming = std::make_unique<Scene>(std::move(whole.scene));
+    ORO_TRY(Scene scene, scene_with_images(viewer.gpu, viewer.region, viewer.cuts, std::move(pages),
+                                           viewer.view, {viewer.options.memory, true, viewer.keeps_means}));
+    viewer.coming = std::make_unique<Scene>(std::move(scene));
     viewer.coming_since = Clock::now();
     return {};
 }

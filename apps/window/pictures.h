@@ -2,9 +2,12 @@
 #pragma once
 
 #include "apps/window/viewer.h"
+#include "apps/window/window_start.h"
 
 namespace oro {
 
+// Shows a scene of the region that the viewer has. Where it is coarse, finer levels are measured from now on.
+void take_scene(Viewer& viewer, OpenedScene opened);
 // A sun by time stands elsewhere over every place.
 void follow_sun(Viewer& viewer);
 // The measured levels become a scene that is not shown yet; waits for them where they are not ready.

@@ -55,17 +55,22 @@ Result<GridPages> first_pages(const Region& region, const RegionCuts& cuts, cons
     return coarse;
 }
 
-Result<OpenedScene> open_scene(const Gpu& gpu, const Region& region, const RegionCuts& cuts, View& view,
-                               const Style& style, const MemoryOptions& memory, bool quiet,
-                               const RenderProgress& progress) {
-    ORO_TRY(GridPages pages, first_pages(region, cuts, view, progress));
-    ORO_TRY(const bool clusters, draws_clusters(region, view));
+Result<Scene> scene_with_images(const Gpu& gpu, const Region& region, const RegionCuts& cuts, GridPages pages,
+                                const View& view, const SceneChoice& choice) {
     ORO_TRY(RegionScene whole,
             scene_of_region(gpu, region, cuts, std::move(pages),
-                            {view.exaggeration, memory_of_pages(view, memory), view.heights,
-                             asks_for_means(style.frame), clusters, view.mesh_level}));
-    ORO_CHECK(lay_images(view, memory, gpu, whole.scene, quiet));
-    return OpenedScene{std::move(whole.scene), measures_long(region)};
+                            {view.exaggeration, memory_of_pages(view, choice.memory), view.heights,
+                             choice.keeps_means, choice.clusters, view.mesh_level}));
+    ORO_CHECK(lay_images(view, choice.memory, gpu, whole.scene, choice.quiet));
+    return std::move(whole.scene);
+}
+
+Result<OpenedScene> open_scene(const Gpu& gpu, const Region& region, const RegionCuts& cuts, View& view,
+                               SceneChoice choice, const RenderProgress& progress) {
+    ORO_TRY(GridPages pages, first_pages(region, cuts, view, progress));
+    ORO_TRY(choice.clusters, draws_clusters(region, view));
+    ORO_TRY(Scene scene, scene_with_images(gpu, region, cuts, std::move(pages), view, choice));
+    return OpenedScene{std::move(scene), measures_long(region)};
 }
 
 std::string name_of_paths(const std::vector<std::string>& paths) {

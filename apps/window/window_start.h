@@ -20,15 +20,25 @@ Result<void> open_flight(const WindowOptions& options, const Progress& progress,
 Result<GridPages> first_pages(const Region& region, const RegionCuts& cuts, const View& view,
                               const RenderProgress& progress);
 
-// What a window draws first of a region: all of it, or every n-th post (first_pages()). Images lie over it.
-// quiet: what a user must know of these is not said. Errors: the device, posts.
+// What a scene of a window is made with, beside its view.
+struct SceneChoice {
+    MemoryOptions memory;
+    bool quiet{};        // what a user must know of images is not said
+    bool keeps_means{};  // it has means of the ground, which some styles ask for
+    bool clusters{};     // its ground is drawn by clusters
+};
+// A scene of pages with the view's images over it. Errors: the device, posts, images.
+Result<Scene> scene_with_images(const Gpu& gpu, const Region& region, const RegionCuts& cuts, GridPages pages,
+                                const View& view, const SceneChoice& choice);
+
+// What a window draws first of a region: all of it, or every n-th post (first_pages()). choice: clusters are
+// chosen here, as the view asks for. Errors: as scene_with_images() and draws_clusters().
 struct OpenedScene {
     Scene scene;
     bool is_coarse{};
 };
 Result<OpenedScene> open_scene(const Gpu& gpu, const Region& region, const RegionCuts& cuts, View& view,
-                               const Style& style, const MemoryOptions& memory, bool quiet,
-                               const RenderProgress& progress);
+                               SceneChoice choice, const RenderProgress& progress);
 
 // What paths are called in a title: the file or the folder that is named first.
 std::string name_of_paths(const std::vector<std::string>& paths);

@@ -9,6 +9,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/earth/rotation.h"
+
 namespace oro {
 namespace {
 
@@ -18,11 +20,6 @@ constexpr double j2000_jd = 2451545.0;
 constexpr double au_m = 149597870700.0;  // IAU 2012, resolution B2
 constexpr double light_m_s = 299792458.0;
 constexpr double arcsec_deg = 1.0 / 3600.0;
-
-double turned_deg(double angle_deg) {
-    const double turned = std::fmod(angle_deg, 360.0);
-    return turned < 0.0 ? turned + 360.0 : turned;
-}
 
 // Days since J2000.0, on the scale of the time: the second part of a Julian date of two.
 double days_of(double time_s) {
@@ -104,8 +101,8 @@ GeocentricSun geocentric_sun(double time_tt_s) {
     const glm::dvec3& of_date = sun.towards;
     const double tilt_rad = sun.obliquity_rad + sun.tilt_rad;
     const double along = of_date.y * std::cos(tilt_rad) + of_date.z * std::sin(tilt_rad);
-    return {turned_deg(deg_from_radians(Radians{std::atan2(along, of_date.x)})),
-            turned_deg(deg_from_radians(Radians{std::atan2(of_date.y, of_date.x)})),
+    return {turned_to_circle_deg(deg_from_radians(Radians{std::atan2(along, of_date.x)})),
+            turned_to_circle_deg(deg_from_radians(Radians{std::atan2(of_date.y, of_date.x)})),
             deg_from_radians(Radians{std::asin(of_date.z)}), sun.distance_au};
 }
 
@@ -144,7 +141,7 @@ double delta_t_s(double time_utc_s) {
 SunPosition sun_position(double time_utc_s, const Geodetic& place, const Weather& weather) {
     const glm::dvec3 enu_m = sun_enu_m(time_utc_s, place);
     SunPosition sun;
-    sun.azimuth_deg = turned_deg(deg_from_radians(Radians{std::atan2(enu_m.x, enu_m.y)}));
+    sun.azimuth_deg = turned_to_circle_deg(deg_from_radians(Radians{std::atan2(enu_m.x, enu_m.y)}));
     sun.airless_elevation_deg = elevation_of_deg(enu_m);
     sun.elevation_deg = sun.airless_elevation_deg + refraction_deg(sun.airless_elevation_deg, weather);
     sun.radius_deg = 959.63 * arcsec_deg * au_m / glm::length(enu_m);

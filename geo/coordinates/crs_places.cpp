@@ -11,7 +11,6 @@
 
 #include "geo/files/raster_library.h"
 #include "geo/sources/raster_crs.h"
-#include "geo/sources/raster_crs.h"
 
 namespace oro {
 namespace {

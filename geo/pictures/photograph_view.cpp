@@ -31,19 +31,6 @@ constexpr std::uint16_t gps_time = 7, direction_ref = 16, direction = 17, map_da
 
 constexpr double degrees_in_radian = 180.0 / std::numbers::pi;
 
-class PhotographBytes final : public PictureBytes {
-  public:
-    PhotographBytes(const OpenFile& file, std::uint64_t size) : file_(file), size_(size) {}
-    [[nodiscard]] std::uint64_t size() const override { return size_; }
-    bool read(std::uint64_t offset, void* to, std::size_t count) override {
-        return file_.read(offset, std::as_writable_bytes(std::span(static_cast<char*>(to), count))).ok();
-    }
-
-  private:
-    const OpenFile& file_;
-    std::uint64_t size_;
-};
-
 // Degrees, minutes and seconds, of which the last may be left out; negative by the letter `below`.
 std::optional<double> dms_deg(const ExifDirectory& gps, std::uint16_t angle, std::uint16_t ref, char below) {
     const auto parts = gps.numbers.find(angle);
@@ -206,7 +193,7 @@ void take_xmp(PictureBytes& bytes, const std::string& path, PhotographView& view
 Result<PhotographView> photograph_view(const std::string& path) {
     ORO_TRY(const OpenFile file, OpenFile::open(path, OpenFile::Use::read));
     ORO_TRY(const std::uint64_t size, file.size());
-    PhotographBytes bytes(file, size);
+    FileBytes bytes(file, size);
     ORO_TRY(const auto exif, find_exif(bytes, path));
     if (!exif) return Error{ErrorKind::failed, path, "does not tell where it was taken: it has no EXIF"};
     PhotographView view;

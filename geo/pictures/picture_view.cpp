@@ -11,7 +11,6 @@
 #include <optional>
 #include <span>
 
-#include "core/base/open_file.h"
 #include "geo/pictures/geotags_xmp.h"
 #include "geo/pictures/picture.h"
 
@@ -173,19 +172,6 @@ Result<XmpPlace> PictureWalk::tiff_packet(std::uint64_t entry, bool big) {
     if (!packet) return damaged("the TIFF's XMP lies outside the file", entry);
     return XmpPlace{*place, std::move(*packet)};
 }
-
-class FileBytes final : public PictureBytes {
-  public:
-    FileBytes(const OpenFile& file, std::uint64_t size) : file_(file), size_(size) {}
-    [[nodiscard]] std::uint64_t size() const override { return size_; }
-    bool read(std::uint64_t offset, void* to, std::size_t count) override {
-        return file_.read(offset, std::as_writable_bytes(std::span(static_cast<char*>(to), count))).ok();
-    }
-
-  private:
-    const OpenFile& file_;
-    std::uint64_t size_;
-};
 
 // A file that is being written, and can be read already.
 class StreamBytes final : public PictureBytes {

@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 
+#include "core/base/open_file.h"
 #include "core/base/result.h"
 
 namespace oro {
@@ -16,6 +18,20 @@ class PictureBytes {
     [[nodiscard]] virtual std::uint64_t size() const = 0;
     // All `count` bytes from `offset`, or false.
     virtual bool read(std::uint64_t offset, void* to, std::size_t count) = 0;
+};
+
+// Those of a file of so many bytes, which outlives them.
+class FileBytes final : public PictureBytes {
+  public:
+    FileBytes(const OpenFile& file, std::uint64_t size) : file_(file), size_(size) {}
+    [[nodiscard]] std::uint64_t size() const override { return size_; }
+    bool read(std::uint64_t offset, void* to, std::size_t count) override {
+        return file_.read(offset, std::as_writable_bytes(std::span(static_cast<char*>(to), count))).ok();
+    }
+
+  private:
+    const OpenFile& file_;
+    std::uint64_t size_;
 };
 
 // As read_view_json; `path` is named in errors. Never reads outside [0, size()), and takes at most 64 MiB of

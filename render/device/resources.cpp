@@ -82,6 +82,20 @@ Result<Buffer> create_buffer(const Gpu& gpu, VkDeviceSize size, VkBufferUsageFla
     return buffer;
 }
 
+Result<OwnedImageView> create_image_view(const Gpu& gpu, VkImage image, VkFormat format,
+                                         VkImageAspectFlags aspect, const std::string& name) {
+    VkImageViewCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+    info.image = image;
+    info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    info.format = format;
+    info.subresourceRange = {aspect, 0, 1, 0, 1};
+    VkImageView handle{};
+    ORO_VK(vkCreateImageView(gpu.device(), &info, nullptr, &handle));
+    gpu.name(VK_OBJECT_TYPE_IMAGE_VIEW, handle, name);
+    return OwnedImageView(gpu.device(), handle);
+}
+
 Result<Image> create_image(const Gpu& gpu, VkFormat format, VkExtent2D extent, VkImageUsageFlags usage,
                            VkImageAspectFlags aspect, const std::string& name) {
     VkImageCreateInfo info{};
@@ -104,16 +118,7 @@ Result<Image> create_image(const Gpu& gpu, VkFormat format, VkExtent2D extent, V
     vkGetImageMemoryRequirements(gpu.device(), handle, &needs);
     ORO_TRY(image.memory, allocate(gpu, needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, false, name));
     ORO_VK(vkBindImageMemory(gpu.device(), handle, image.memory.get(), 0));
-    VkImageViewCreateInfo view{};
-    view.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
-    view.image = handle;
-    view.viewType = VK_IMAGE_VIEW_TYPE_2D;
-    view.format = format;
-    view.subresourceRange = {aspect, 0, 1, 0, 1};
-    VkImageView view_handle{};
-    ORO_VK(vkCreateImageView(gpu.device(), &view, nullptr, &view_handle));
-    image.view = OwnedImageView(gpu.device(), view_handle);
-    gpu.name(VK_OBJECT_TYPE_IMAGE_VIEW, view_handle, name);
+    ORO_TRY(image.view, create_image_view(gpu, handle, format, aspect, name));
     return image;
 }
 

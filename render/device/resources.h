@@ -37,6 +37,10 @@ struct Image {
     VkFormat format{};
     VkExtent2D extent{};
 };
+
+// A view of all of an image that has one level and one layer. Errors: the device's.
+Result<OwnedImageView> create_image_view(const Gpu& gpu, VkImage image, VkFormat format,
+                                         VkImageAspectFlags aspect, const std::string& name);
 Result<Image> create_image(const Gpu& gpu, VkFormat format, VkExtent2D extent, VkImageUsageFlags usage,
                            VkImageAspectFlags aspect, const std::string& name);
 

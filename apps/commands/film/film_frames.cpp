@@ -54,7 +54,8 @@ Result<bool> FilmFrames::is_drawn(const std::string& file, View& view) {
     wanted.fingerprints->style = style_fingerprint(style);
     wanted.fingerprints->pixels = there->fingerprints->pixels;
     if (view_to_json(wanted, false) != *read) return false;
-    const auto pixels = fingerprint_of_pixels(file, view.camera.width_px, view.camera.height_px + there->legend_px);
+    const auto pixels =
+        fingerprint_of_pixels(file, view.camera.width_px, view.camera.height_px + there->legend_px);
     forget_file_read(file);
     return pixels.ok() && (!*pixels || *pixels == there->fingerprints->pixels);
 }

@@ -15,7 +15,8 @@
 #include <system_error>
 #include <vector>
 
-#include "core/base/file_there.h"
+#include "core/base/file_target.h"
+#include "core/base/open_file.h"
 
 extern char** environ;
 
@@ -25,10 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* unnamed_movie = "film.mp4";
-
-std::string reason_of(int error) {
-    return std::generic_category().message(error);
-}
 
 // What a program says, to its end: the last line of it.
 std::string last_line_from(int descriptor) {
@@ -49,7 +46,7 @@ std::string last_line_from(int descriptor) {
 Result<void> run_in(const std::string& folder, std::vector<std::string> words) {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0)
-        return Error{ErrorKind::failed, words[0], "cannot be started: " + reason_of(errno)};
+        return Error{ErrorKind::failed, words[0], "cannot be started: " + system_reason(errno)};
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -73,32 +70,13 @@ Result<void> run_in(const std::string& folder, std::vector<std::string> words) {
     close(ends[1]);
     const std::string said = failed == 0 ? last_line_from(ends[0]) : "";
     close(ends[0]);
-    if (failed != 0) return Error{ErrorKind::failed, words[0], "cannot be started: " + reason_of(failed)};
+    if (failed != 0) return Error{ErrorKind::failed, words[0], "cannot be started: " + system_reason(failed)};
     int status = 0;
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
     const std::string end = WIFSIGNALED(status) ? "signal " + std::to_string(WTERMSIG(status))
                                                 : "exit code " + std::to_string(WEXITSTATUS(status));
     return Error{ErrorKind::failed, words[0], "ended with " + end + (said.empty() ? "" : ": " + said)};
-}
-
-// The file on the disk, then its name.
-Result<void> give_name(const std::string& file, const std::string& out, bool overwrite) {
-    const auto fault = [&](int error) {
-        return Error{ErrorKind::failed, out, "cannot be written: " + reason_of(error)};
-    };
-    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) return fault(errno);
-    const int synced = fsync(descriptor) == 0 ? 0 : errno;
-    close(descriptor);
-    if (synced != 0) return fault(synced);
-    if (!overwrite) {
-        if (link(file.c_str(), out.c_str()) == 0) return unlink(file.c_str()), Result<void>();
-        if (errno == EEXIST)
-            return Error{ErrorKind::failed, out, "is there already (--overwrite replaces it)"};
-    }
-    if (rename(file.c_str(), out.c_str()) != 0) return fault(errno);
-    return {};
 }
 
 }  // namespace
@@ -147,7 +125,10 @@ Result<void> write_movie(const std::string& ffmpeg, const MovieFrames& frames, c
                                      "-f",
                                      "mp4",
                                      unnamed_movie}));
-    return give_name((fs::path(frames.folder) / unnamed_movie).string(), out, overwrite);
+    const std::string file = (fs::path(frames.folder) / unnamed_movie).string();
+    ORO_TRY(OpenFile movie, OpenFile::open(file, OpenFile::Use::read_own));
+    ORO_CHECK(movie.sync());
+    return give_name(file, out, overwrite);
 }
 
 }  // namespace oro

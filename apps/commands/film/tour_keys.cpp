@@ -4,13 +4,10 @@
 #include <cmath>
 
 #include "apps/film/written_keys.h"
+#include "core/earth/rotation.h"
 
 namespace oro {
 namespace {
-
-double whole_turn_deg(double angle_deg) {
-    return std::fmod(angle_deg + 360.0, 360.0);
-}
 
 Attitude attitude_of_camera(const TourView& view) {
     double pitch_deg = view.tilt_deg - 90.0, heading_deg = view.heading_deg, roll_deg = view.roll_deg;
@@ -20,7 +17,7 @@ Attitude attitude_of_camera(const TourView& view) {
         heading_deg += 180.0;
         roll_deg += roll_deg > 0.0 ? -180.0 : 180.0;
     }
-    return {whole_turn_deg(heading_deg), pitch_deg, roll_deg};
+    return {turned_to_circle_deg(heading_deg), pitch_deg, roll_deg};
 }
 
 // The eye that looks at a place: so far from it, against its heading, as high as the tilt leaves it.
@@ -32,7 +29,8 @@ void look_at(const Geodetic& place, const TourView& view, CameraKey& key) {
         Ecef{ecef_from_geodetic(place).m + ecef_from_enu(place.lat_deg, place.lon_deg) * (back * range_m)});
     key.attitude = attitude_towards(key.eye, place);
     constexpr double straight_down = 1e-6;
-    if (std::abs(tilt.sine) < straight_down) key.attitude.heading_deg = whole_turn_deg(view.heading_deg);
+    if (std::abs(tilt.sine) < straight_down)
+        key.attitude.heading_deg = turned_to_circle_deg(view.heading_deg);
 }
 
 }  // namespace

@@ -383,6 +383,8 @@ Result<void> check_view_of_file(const View& recorded, ShotOptions& options) {
 // One picture of each view, by numbers. All files are looked at before the first is drawn.
 Result<void> take_shots(const ShotOptions& options, const std::vector<ListedView>& views) {
     std::vector<ShotOptions> shots;
+    std::vector<std::string> written;
+    std::vector<FilesToSpare> inputs;
     for (const ListedView& listed : views) {
         ShotOptions& one = shots.emplace_back(options);
         one.view_file = listed.file;
@@ -390,7 +392,11 @@ Result<void> take_shots(const ShotOptions& options, const std::vector<ListedView
         ORO_CHECK(check_view_of_file(listed.view, one));
         ORO_TRY(const PictureFiles files, shot_files(one));
         ORO_CHECK(check_out(one, files));
+        for (std::string& file : written_files(one, files)) written.push_back(std::move(file));
+        inputs.push_back(files_of_picture(listed.view, Region{}));
     }
+    // A picture must not replace what a later view is made from.
+    ORO_CHECK(spare_inputs(written, inputs));
     ShotSeries series;
     for (std::size_t i = 0; i < shots.size(); ++i) {
         ORO_TRY(const PictureFiles files, shot_files(shots[i]));

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "apps/view/model_names.h"
+#include "apps/view/style.h"
 #include "apps/window/changes.h"
 #include "apps/window/panels/panel_parts.h"
 #include "apps/window/panels/panels.h"
@@ -14,7 +15,7 @@ std::string file_name(const std::string& path) {
 }
 
 void style_choice(Viewer& viewer) {
-    static const std::vector<std::string> names = names_of_styles();
+    static const std::vector<std::string> names = style_names();
     ImGui::SetNextItemWidth(scaled_px(180.0F));
     if (ImGui::BeginCombo("Style", viewer.view.style.c_str(), ImGuiComboFlags_HeightLarge)) {
         for (const std::string& name : names)

@@ -92,35 +92,28 @@ Result<void> run_view(const WindowOptions& options) {
     gpu_options.presents = true;
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options));
     ORO_CHECK(check_window_size(view.camera, gpu->report()));
-    ORO_TRY(OpenedScene opened, open_scene(*gpu, region, cuts, view, style, options.memory, options.quiet,
-                                           [&](double share) { bar.show(share, "measuring levels"); }));
-    Scene& scene = opened.scene;
+    const bool keeps_means = asks_for_means(style.frame);
+    ORO_TRY(OpenedScene opened,
+            open_scene(*gpu, region, cuts, view, {options.memory, options.quiet, keeps_means},
+                       [&](double share) { bar.show(share, "measuring levels"); }));
     bar.clear();
-    ORO_CHECK(say_notes_of(options, view, region, note_of_missing_footprints(style.frame, scene.pages())));
+    ORO_CHECK(
+        say_notes_of(options, view, region, note_of_missing_footprints(style.frame, opened.scene.pages())));
     ORO_TRY(const std::unique_ptr<Window> window, open_window(*gpu, view.camera, name_of_region(options)));
     ORO_TRY(const std::unique_ptr<Interface> interface, Interface::create(*window));
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
     ORO_TRY(FrameRenderer renderer, renderer_for(*gpu, view, style, path, window->extent()));
-    Viewer viewer{options,
-                  std::move(view),
-                  std::move(region),
-                  std::move(cuts),
-                  style,
-                  *gpu,
-                  std::make_unique<Scene>(std::move(scene)),
-                  *window,
-                  renderer,
-                  path};
+    Viewer viewer{options, std::move(view), std::move(region), std::move(cuts), style,
+                  *gpu,    nullptr,         *window,           renderer,        path};
+    take_scene(viewer, std::move(opened));
     viewer.started = started;
-    viewer.keeps_means = asks_for_means(viewer.style.frame);
+    viewer.keeps_means = keeps_means;
     viewer.name = name_of_region(options);
     note_in_log(viewer);
     viewer.gestures.emplace(navigation_of(viewer));
     fill_search(viewer);
     if (!options.region.paths.empty()) remember_opened(viewer, options.region.paths);
     viewer.jumps = Jumps(users_roll_deg(viewer.view.camera, options.view.roll_deg));
-    if (opened.is_coarse)
-        viewer.finer = std::make_unique<BackgroundPyramidBuild>(viewer.region, viewer.view.exaggeration);
     return run_loop(viewer, *interface);
 }
 

@@ -70,6 +70,20 @@ TEST_F(SeveralViews, MayBeAListInAFile) {
                    oro::test::failed, {"list.json", "empty list"});
 }
 
+// The first picture would have the name of what the second is made from, which is not read by then.
+TEST_F(SeveralViews, DoNotReplaceWhatALaterOneIsMadeFrom) {
+    const fs::path data = out / "v1.tif";
+    fs::copy_file(bundled(), data);
+    ASSERT_EQ(run_orograph({"shot", data, "--out", out / "of-data.png", "--size", "64x48", "-q"}).exit_code,
+              0);
+    const std::string before = bytes_of(data);
+    expect_refusal(run_orograph({"shot", "--view", folder / names[0], "--view", out / "of-data.png", "--out",
+                                 out / "v%d.tif", "--overwrite"}),
+                   oro::test::usage, {"v1.tif", "which the picture is made from"});
+    EXPECT_TRUE(bytes_of(data) == before);
+    EXPECT_EQ(names_in(out), (Words{"of-data.png", "v1.tif"}));
+}
+
 TEST_F(SeveralViews, NeedNumberedNames) {
     const Words two{"shot", "--view", folder / names[0], "--view", folder / names[1]};
     expect_refusal(run_orograph(joined(two, {"--out", out / "p.png"})), oro::test::usage,
