@@ -17,5 +17,5 @@ driver_packages=(mesa-vulkan-drivers)
 
 test_packages=(
   libgtest-dev vulkan-validationlayers
-  gdal-bin libimage-exiftool-perl xvfb xauth xdotool zip duktape
+  gdal-bin libimage-exiftool-perl xvfb xdotool zip duktape
 )

@@ -4,7 +4,8 @@
 #include <regex>
 #include <utility>
 
-#include "geo/opening/baked_region.h"
+#include "geo/opening/open_region.h"
+#include "geo/opening/region_files.h"
 #include "geo/opening/region_sources.h"
 
 namespace oro {
@@ -41,13 +42,14 @@ Result<std::string> one_source_crs(const RegionRequest& request) {
     whole.allow_multiple_grids = true;
     std::vector<std::string> all, names;
     const std::string where = request.paths.empty() ? "" : request.paths.front();
-    if (const auto baked = baked_path(request.paths)) {
-        ORO_TRY(const Region region, open_baked_region(*baked, whole, {}));
+    ORO_TRY(const RegionFiles files, find_files(whole));
+    if (!files.baked.empty()) {
+        ORO_TRY(const Region region, open_region(whole, {}));
         all = source_crs_of(region);
         for (const RegionGrid& grid : region.grids)
             for (const SourceReport& source : grid.sources) add_once(names, source.crs);
     } else {
-        ORO_TRY(const RegionSources found, probe_sources(whole, {}));
+        ORO_TRY(const RegionSources found, probe_files(files, whole, {}));
         if (found.sources.empty())
             return Error{
                 ErrorKind::no_data, where,

@@ -15,7 +15,7 @@ namespace oro {
 std::vector<std::string> source_crs_of(const Region& region);
 
 // The one CRS of the sources of a region that is not open: of their headers, no post is read. The request's
-// box does not count. Errors: those of probe_sources(); no elevation data (no_data); sources in several CRSs
+// box does not count. Errors: those of probe_files(); no elevation data (no_data); sources in several CRSs
 // or without a known one (usage).
 Result<std::string> one_source_crs(const RegionRequest& request);
 

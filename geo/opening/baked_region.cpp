@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <memory>
 
-#include "core/baked/baked_file.h"
 #include "core/baked/file_pages.h"
 #include "core/base/container.h"
 #include "core/base/parallel.h"
@@ -263,30 +262,17 @@ std::optional<std::string> baked_path(const std::vector<std::string>& paths) {
     return std::nullopt;
 }
 
-Result<Region> open_baked_region(const std::string& path, const RegionRequest& request,
-                                 const Progress& progress) {
+Result<std::vector<BakedGrid>> open_baked_grids(const std::string& path, const RegionRequest& request) {
     ORO_CHECK(check_request(request, path));
-    ORO_TRY(const std::vector<BakedGrid> grids, open_baked_file(path));
-    if (grids.size() > 1 && !request.allow_multiple_grids)
-        return Error{ErrorKind::usage, path,
-                     "holds " + std::to_string(grids.size()) +
-                         " grids of posts, and this takes one: bake the files with --resample"};
-    Region region;
-    std::optional<Error> none;
-    for (const BakedGrid& grid : grids) {
-        Result<RegionGrid> made = grid_in(grid.region, request, progress);
-        if (!made && made.error().kind == ErrorKind::no_data && request.box) {
-            if (!none) none = made.error();
-            continue;
-        }
-        if (!made) return made.error();
-        if (made->file) made->clusters = grid.clusters;
-        made->rank = static_cast<int>(grid.rank);
-        region.grids.push_back(std::move(*made));
-    }
-    if (region.grids.empty()) return *none;
-    if (progress) progress(1.0, "region read");
-    return region;
+    return open_baked_file(path);
+}
+
+Result<RegionGrid> read_baked_grid(const BakedGrid& baked, const RegionRequest& request,
+                                   const Progress& progress) {
+    ORO_TRY(RegionGrid made, grid_in(baked.region, request, progress));
+    if (made.file) made.clusters = baked.clusters;
+    made.rank = static_cast<int>(baked.rank);
+    return made;
 }
 
 }  // namespace oro

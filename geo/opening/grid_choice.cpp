@@ -41,6 +41,19 @@ std::vector<std::size_t> ranks_of(const std::vector<std::vector<Source>>& groups
     return ranks;
 }
 
+Result<std::vector<ChosenGrid>> choose_baked(std::vector<BakedGrid> grids, const RegionRequest& request) {
+    if (grids.size() > 1 && !request.allow_multiple_grids)
+        return Error{ErrorKind::usage, grids.front().region->path(),
+                     "holds " + std::to_string(grids.size()) +
+                         " grids of posts, and this takes one: bake the files with --resample"};
+    std::vector<ChosenGrid> chosen;
+    for (BakedGrid& grid : grids) {
+        const int rank = static_cast<int>(grid.rank);
+        chosen.push_back({{}, {}, rank, std::move(grid)});
+    }
+    return chosen;
+}
+
 }  // namespace
 
 std::string paths_words(const RegionRequest& request) {
@@ -50,6 +63,7 @@ std::string paths_words(const RegionRequest& request) {
 }
 
 Result<std::vector<ChosenGrid>> choose_grids(RegionSources found, const RegionRequest& request) {
+    if (!found.baked.empty()) return choose_baked(std::move(found.baked), request);
     if (found.sources.empty() && !request.box) return no_sources(request, found.first_skipped);
     const auto extent = choose_extent(found.sources, request.box);
     if (!extent && request.box) return no_sources(request, "");
@@ -62,7 +76,7 @@ Result<std::vector<ChosenGrid>> choose_grids(RegionSources found, const RegionRe
     for (std::size_t number = 0; number < groups.size(); ++number) {
         const auto own = groups.size() == 1 ? extent : region_extent(groups[number], request.box);
         if (!own) continue;  // on a line or a point
-        chosen.push_back({std::move(groups[number]), *own, static_cast<int>(rank_of[number])});
+        chosen.push_back({std::move(groups[number]), *own, static_cast<int>(rank_of[number]), {}});
     }
     if (chosen.empty())
         return Error{ErrorKind::no_data, paths_words(request), "no file's posts cover an area"};

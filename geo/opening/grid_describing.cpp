@@ -52,9 +52,10 @@ void put_largest_first(std::vector<RegionGrid>& grids) {
 
 Result<RegionGrid> describe_grid(LaidGrid laid, const RegionRequest& request) {
     RegionGrid& made = laid.grid;
+    if (!laid.surface) return std::move(made);
     std::vector<Source>& sources = laid.sources;
     made.voids = static_cast<std::uint64_t>(std::ranges::count_if(made.field.H_m, is_void));
-    describe_voids(sources, laid.surface, made);
+    describe_voids(sources, *laid.surface, made);
     note_values(sources, made.notes);
     const PostGrid& grid = made.field.grid;
     const BoundingBox posts{grid.west_deg(), grid.south_deg(), grid.east_deg(), grid.north_deg()};
@@ -68,8 +69,9 @@ Result<RegionGrid> describe_grid(LaidGrid laid, const RegionRequest& request) {
     return std::move(made);
 }
 
-Region describe_region(std::vector<RegionGrid> grids, const std::vector<Error>& left_out) {
+Region describe_region(std::vector<RegionGrid> grids, const std::vector<Error>& left_out, bool is_baked) {
     Region region{std::move(grids)};
+    if (is_baked) return region;
     put_largest_first(region.grids);
     std::vector<std::string>& notes = region.grids.front().notes;
     for (const Error& error : left_out) add_note(notes, "left out: " + error.what);

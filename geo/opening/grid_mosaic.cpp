@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geo/datum/vertical_datum.h"
+#include "geo/opening/baked_region.h"
 #include "geo/posts/mosaic.h"
 #include "geo/posts/own_posts.h"
 #include "geo/posts/voids.h"
@@ -67,6 +68,10 @@ Result<void> check_last_rows(std::span<const Source> sources) {
 
 Result<LaidGrid> lay_grid(ChosenGrid chosen, const RegionRequest& request, std::vector<std::string> notes,
                           const Progress& progress) {
+    if (chosen.baked) {
+        ORO_TRY(RegionGrid baked, read_baked_grid(*chosen.baked, request, progress));
+        return LaidGrid{std::move(baked), {}, {}};
+    }
     std::vector<Source>& sources = chosen.sources;
     RegionGrid made;
     made.notes = std::move(notes);

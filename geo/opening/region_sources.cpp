@@ -5,7 +5,7 @@
 #include <numeric>
 #include <set>
 
-#include "geo/files/source_paths.h"
+#include "geo/opening/baked_region.h"
 #include "geo/opening/companions.h"
 #include "geo/posts/value_notes.h"
 #include "geo/region/region_grid.h"
@@ -89,12 +89,17 @@ Source source_of_cell(const TileName& cell) {
     return tile;
 }
 
-Result<RegionSources> probe_sources(const RegionRequest& request, const Progress& progress) {
-    ORO_TRY(const std::vector<SourcePath> paths, find_sources(request.paths));
+Result<RegionSources> probe_files(const RegionFiles& files, const RegionRequest& request,
+                                  const Progress& progress) {
+    RegionSources found;
+    if (!files.baked.empty()) {
+        ORO_TRY(found.baked, open_baked_grids(files.baked, request));
+        return found;
+    }
+    const std::vector<SourcePath>& paths = files.sources;
     std::optional<BoundingBox> box;
     if (request.box) box = unwrapped(*request.box);
     ORO_TRY(const SourceOverrides overrides, source_overrides(request));
-    RegionSources found;
     std::vector<LeftOutFile> left_out;
     std::optional<Error> refused_alone;
     std::size_t skipped = 0;

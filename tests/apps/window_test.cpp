@@ -149,10 +149,9 @@ TEST(Window, FliesJumpsTakesAPictureAndLeaves) {
     const std::string data = (oro::test::bundled_data() / "jacksboro.tif").string();
     oro::test::Circumstances there;
     there.folder = folder;
-    there.environment = {"WAYLAND_DISPLAY", "OROGRAPH_VALIDATION=1", "SOURCE_DATE_EPOCH=1767225600"};
-    const auto session = oro::test::run_program(
-        {"xvfb-run", "-a", "-s", "-screen 0 800x600x24", OROGRAPH_WINDOW_SESSION, OROGRAPH_PROGRAM, data},
-        there);
+    there.environment = {"SCREEN_SIZE=800x600", "OROGRAPH_VALIDATION=1", "SOURCE_DATE_EPOCH=1767225600"};
+    const auto session =
+        oro::test::run_program({OROGRAPH_ON_DISPLAY, OROGRAPH_WINDOW_SESSION, OROGRAPH_PROGRAM, data}, there);
     ASSERT_EQ(session.exit_code, 0) << session.out << session.err;
     auto at = states_of(session.out);
     for (const char* stop : {"start", "sky", "forward", "turned", "dragged", "risen", "nowhere", "shown",
@@ -204,12 +203,9 @@ TEST(Window, FliesJumpsTakesAPictureAndLeaves) {
 
 // No device of today draws a picture so wide in one piece.
 TEST(Window, ASizeThatTheDeviceCannotDrawIsRefused) {
-    oro::test::Circumstances there;
-    there.environment = {"WAYLAND_DISPLAY"};
-    const auto outcome = oro::test::run_program(
-        {"xvfb-run", "-a", "-s", "-screen 0 800x600x24", OROGRAPH_PROGRAM, "view",
-         (oro::test::bundled_data() / "jacksboro.tif").string(), "-q", "--size", "65500x200"},
-        there);
+    const auto outcome = oro::test::run_program({OROGRAPH_ON_DISPLAY, OROGRAPH_PROGRAM, "view",
+                                                 (oro::test::bundled_data() / "jacksboro.tif").string(), "-q",
+                                                 "--size", "65500x200"});
     oro::test::expect_refusal(outcome, 2, {"--size", "65500x200", "pixels a side"});
 }
 
