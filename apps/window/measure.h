@@ -21,8 +21,13 @@ struct Measurement {
     std::optional<GeodesicArea> area;  // of three or more
 };
 
-// Measures a line anew. Errors: posts that could not be read.
+// Measures a line of places anew. Errors: posts that could not be read.
 Result<Measurement> measured(const std::vector<LatLon>& places, const Air& air, const TrueGround& ground);
+
+// Measures a line of a file, as `orograph profile --along FILE --line NUMBER` does. Errors: those of
+// line_along(); posts that could not be read.
+Result<Measurement> measured_line(const std::string& file, int number, const Air& air,
+                                  const TrueGround& ground);
 
 // What `orograph profile` takes for this line: "46.570000000,7.990000000; 46.620000000,8.050000000".
 std::string along_text(const std::vector<LatLon>& places);

@@ -7,7 +7,6 @@
 #include "apps/eye/standpoint.h"
 #include "apps/report/figures.h"
 #include "core/base/file_there.h"
-#include "geo/vectors/vector_file.h"
 
 namespace oro {
 namespace {
@@ -111,6 +110,15 @@ Result<LineAlong> line_along(const std::string& text, const std::optional<int>& 
     }
     ORO_CHECK(measure("--along", text, line));
     return line;
+}
+
+std::vector<std::string> names_of_lines(const VectorFile& file) {
+    std::vector<std::string> names;
+    for (const FileLine& line : lines_of(file)) {
+        const std::string_view name = line.layer->text(*line.shapes.front(), "name");
+        names.push_back(name.empty() ? "line " + std::to_string(names.size() + 1) : std::string(name));
+    }
+    return names;
 }
 
 LatLon place_on_leg(const LineAlong& line, std::size_t leg, double along_m) {

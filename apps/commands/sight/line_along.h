@@ -7,6 +7,7 @@
 
 #include "core/base/result.h"
 #include "geo/places/geodesic.h"
+#include "geo/vectors/vector_file.h"
 
 namespace oro {
 
@@ -26,6 +27,9 @@ Result<LineAlong> line_along(const std::string& text, const std::optional<int>& 
 // The same of a file alone; `option` is what errors call it beside its name.
 Result<LineAlong> line_of_file(const std::string& option, const std::string& file,
                                const std::optional<int>& number);
+
+// The names of a file's lines, in the order of their numbers: what the field "name" says, or "line 3".
+std::vector<std::string> names_of_lines(const VectorFile& file);
 
 // The place so far along the line; on_leg: of the way from place `leg` to the next, which it is on.
 LatLon place_on_line(const LineAlong& line, double along_m);

@@ -4,6 +4,30 @@
 #include <glm/geometric.hpp>
 
 namespace oro {
+namespace {
+
+// Longitude counted from the 180th meridian, east of it positive.
+double past_180_deg(double lon_deg) {
+    return std::remainder(lon_deg - 180.0, 360.0);
+}
+
+// Where the line passes the 180th meridian between two of its points that lie on either side.
+ProfilePoint crossing_between(const LineAlong& line, const ProfilePoint& from, const ProfilePoint& to,
+                              const TrueGround& ground) {
+    if (past_180_deg(from.lon_deg) == 0.0) return from;
+    if (past_180_deg(to.lon_deg) == 0.0) return to;
+    const bool from_east = past_180_deg(from.lon_deg) > 0.0;
+    double before_m = from.along_m, after_m = to.along_m;
+    for (int i = 0; i < 60; ++i) {
+        const double middle_m = 0.5 * (before_m + after_m);
+        const bool is_east = past_180_deg(place_on_line(line, middle_m).lon_deg) > 0.0;
+        const bool is_before = is_east == from_east;
+        (is_before ? before_m : after_m) = middle_m;
+    }
+    return profile_point(ground, {place_on_line(line, before_m).lat_deg, 180.0, 0.0}, before_m);
+}
+
+}  // namespace
 
 SightReport look_along(const Geodetic& from, const Geodetic& to, const Air& air, const TrueGround& ground) {
     SightReport report;
@@ -54,6 +78,17 @@ std::vector<ProfilePoint> profile_points(const LineAlong& line, const std::optio
         if (to_m > from_m) add_profile(ground, way, from_m, to_m, points);
     }
     return points;
+}
+
+std::vector<MeridianCrossing> crossings_of(const LineAlong& line, std::span<const ProfilePoint> points,
+                                           const TrueGround& ground) {
+    std::vector<MeridianCrossing> crossings;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        const ProfilePoint &from = points[i], &to = points[i + 1];
+        if (from.has_ground && to.has_ground && std::abs(from.lon_deg - to.lon_deg) > 180.0)
+            crossings.push_back({i, crossing_between(line, from, to, ground)});
+    }
+    return crossings;
 }
 
 }  // namespace oro

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "apps/commands/sight/line_along.h"
+#include "apps/commands/sight/profile_text.h"
 #include "apps/commands/sight/sight_text.h"
 #include "core/sight/ground_profile.h"
 #include "core/truth/true_ground.h"
@@ -18,5 +20,9 @@ SightReport look_along(const Geodetic& from, const Geodetic& to, const Air& air,
 // (add_profile()).
 std::vector<ProfilePoint> profile_points(const LineAlong& line, const std::optional<double>& step_m,
                                          const TrueGround& ground);
+
+// Where the points of a profile along a line pass the 180th meridian.
+std::vector<MeridianCrossing> crossings_of(const LineAlong& line, std::span<const ProfilePoint> points,
+                                           const TrueGround& ground);
 
 }  // namespace oro

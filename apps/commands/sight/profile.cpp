@@ -56,43 +56,9 @@ Result<void> check_length(const ProfileOptions& options, const LineAlong& line) 
     return {};
 }
 
-// Longitude counted from the 180th meridian, east of it positive.
-double past_180_deg(double lon_deg) {
-    return std::remainder(lon_deg - 180.0, 360.0);
-}
-
-// Where the line passes the 180th meridian between two of its points that lie on either side.
-ProfilePoint crossing_between(const LineAlong& line, const ProfilePoint& from, const ProfilePoint& to,
-                              const TrueGround& ground) {
-    if (past_180_deg(from.lon_deg) == 0.0) return from;
-    if (past_180_deg(to.lon_deg) == 0.0) return to;
-    const bool from_east = past_180_deg(from.lon_deg) > 0.0;
-    double before_m = from.along_m, after_m = to.along_m;
-    for (int i = 0; i < 60; ++i) {
-        const double middle_m = 0.5 * (before_m + after_m);
-        const bool is_east = past_180_deg(place_on_line(line, middle_m).lon_deg) > 0.0;
-        const bool is_before = is_east == from_east;
-        (is_before ? before_m : after_m) = middle_m;
-    }
-    return profile_point(ground, {place_on_line(line, before_m).lat_deg, 180.0, 0.0}, before_m);
-}
-
-std::vector<MeridianCrossing> crossings_of(const Profile& profile, const TrueGround& ground) {
-    std::vector<MeridianCrossing> crossings;
-    for (std::size_t i = 0; i + 1 < profile.points.size(); ++i) {
-        const ProfilePoint &from = profile.points[i], &to = profile.points[i + 1];
-        if (from.has_ground && to.has_ground && std::abs(from.lon_deg - to.lon_deg) > 180.0)
-            crossings.push_back({i, crossing_between(profile.line, from, to, ground)});
-    }
-    return crossings;
-}
-
 Result<void> write(const ProfileOptions& options, const Profile& profile) {
-    const std::string name = lower_case(options.out);
-    const std::string text = name.ends_with(".csv")   ? profile_csv(profile)
-                             : name.ends_with(".svg") ? profile_svg(profile)
-                                                      : profile_geojson(profile);
-    return write_whole_file(options.out, text, options.overwrite);
+    return write_whole_file(options.out, profile_file_text(profile, lower_case(options.out)),
+                            options.overwrite);
 }
 
 }  // namespace
@@ -112,7 +78,7 @@ Result<void> run_profile(const ProfileOptions& options) {
     bar.show(1.0, "following the line");
     profile.points = profile_points(profile.line, options.step_m, ground->ground());
     if (lower_case(options.out).ends_with(".geojson"))
-        profile.crossings = crossings_of(profile, ground->ground());
+        profile.crossings = crossings_of(profile.line, profile.points, ground->ground());
     ORO_CHECK(ground->region.health());
     profile.sums = sums_of(profile.points, options.climb_threshold_m);
     bar.clear();

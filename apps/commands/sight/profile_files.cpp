@@ -100,4 +100,9 @@ std::string profile_geojson(const Profile& profile) {
     return json_text(feature, false) + "\n";
 }
 
+std::string profile_file_text(const Profile& profile, const std::string& name) {
+    if (name.ends_with(".csv")) return profile_csv(profile);
+    return name.ends_with(".svg") ? profile_svg(profile) : profile_geojson(profile);
+}
+
 }  // namespace oro

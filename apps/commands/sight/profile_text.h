@@ -38,5 +38,8 @@ std::string profile_csv(const Profile& profile);
 std::string profile_geojson(const Profile& profile);
 // 1000 x 420 px.
 std::string profile_svg(const Profile& profile);
+// Each of these by the ending of a file's name: .csv, .svg, else GeoJSON, which wants the profile's
+// crossings.
+std::string profile_file_text(const Profile& profile, const std::string& name);
 
 }  // namespace oro

@@ -108,6 +108,34 @@ void sums(const Measurement& measurement) {
                "From eyes 2 m over the first place to the ground of the last, through the view's air.");
 }
 
+// A line of a file that lies over the ground, in the place of one that is drawn.
+void line_choice(Viewer& viewer) {
+    const std::vector<LoadedLine> lines = loaded_lines(viewer.view);
+    if (lines.empty()) return;
+    ImGui::SetNextItemWidth(-1.0F);
+    if (!ImGui::BeginCombo("##line", "a line of a file")) return;
+    int id = 0;
+    for (const LoadedLine& line : lines) {
+        ImGui::PushID(id++);
+        if (ImGui::Selectable(line.name.c_str()))
+            viewer.wishes.push_back([line](Viewer& v) { return measure_loaded(v, line); });
+        tip(line.file.c_str());
+        ImGui::PopID();
+    }
+    ImGui::EndCombo();
+}
+
+void save_choice(Viewer& viewer) {
+    for (const char* const ending : {".csv", ".svg", ".geojson"}) {
+        const std::string words = "Save " + std::string(ending + 1);
+        if (ImGui::Button(words.c_str()))
+            viewer.wishes.push_back([ending](Viewer& v) { return save_profile(v, ending); });
+        tip("Into the working folder, as orograph profile --out writes it");
+        ImGui::SameLine();
+    }
+    ImGui::NewLine();
+}
+
 // The line over the picture, whatever ground lies before it.
 void draw_line(const Viewer& viewer) {
     const Measuring& measuring = viewer.measuring;
@@ -142,6 +170,7 @@ void build_measure_panel(Viewer& viewer) {
         const Measurement& found = viewer.measuring.found;
         if (found.places.empty()) {
             quiet_text("Click at places of the ground, one after the other.");
+            line_choice(viewer);
         } else if (!found.profile) {
             quiet_text("Click at the next place.");
         } else {
@@ -149,9 +178,12 @@ void build_measure_panel(Viewer& viewer) {
             sums(found);
         }
         if (!found.places.empty()) {
-            if (ImGui::Button("Take back")) viewer.wishes.push_back(take_back_place);
-            tip("Removes the last place");
-            ImGui::SameLine();
+            const bool is_drawn = !found.profile || found.profile->line.file.empty();
+            if (is_drawn && ImGui::Button("Take back")) viewer.wishes.push_back(take_back_place);
+            if (is_drawn) {
+                tip("Removes the last place");
+                ImGui::SameLine();
+            }
             if (ImGui::Button("Clear")) viewer.wishes.push_back(clear_places);
         }
         if (found.profile) {
@@ -159,8 +191,10 @@ void build_measure_panel(Viewer& viewer) {
             if (ImGui::Button("Copy as table")) ImGui::SetClipboardText(profile_csv(*found.profile).c_str());
             tip("The profile as orograph profile writes it: CSV");
             ImGui::SameLine();
-            if (ImGui::Button("Copy the line")) ImGui::SetClipboardText(along_text(found.places).c_str());
+            if (found.profile->line.file.empty() && ImGui::Button("Copy the line"))
+                ImGui::SetClipboardText(along_text(found.places).c_str());
             tip("For orograph profile --along");
+            save_choice(viewer);
         }
     }
     ImGui::End();
