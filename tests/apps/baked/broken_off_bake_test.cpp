@@ -118,6 +118,12 @@ TEST_F(BrokenOffBake, InterruptedAgainAndAgain) {
         SCOPED_TRACE(testing::Message() << "seed " << seed_ << ", signal " << broken_off.signal << " after "
                                         << broken_off.signal_after_s << " s");
         const Outcome outcome = run(broken_off);
+        if (outcome.exit_code == 0 && interrupted == 0) {
+            // Faster than it was: it has to be interrupted earlier.
+            duration_s_ *= 0.7;
+            fs::remove(out_);
+            continue;
+        }
         if (outcome.exit_code == 0) break;
         EXPECT_EQ(outcome.exit_code, 128 + broken_off.signal) << outcome.err;
         EXPECT_EQ(outcome.err, "");
