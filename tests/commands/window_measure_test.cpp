@@ -45,9 +45,9 @@ void expect_files_of_command(const Measurement& measurement, ProfileOptions opti
         options.out = (folder / name).string();
         testing::internal::CaptureStdout();
         const Result<void> ran = run_profile(options);
-        const std::string told = testing::internal::GetCapturedStdout();
+        const std::string printed = testing::internal::GetCapturedStdout();
         ASSERT_TRUE(ran.ok()) << ran.error().line();
-        EXPECT_EQ(told, profile_text(*measurement.profile));
+        EXPECT_EQ(printed, profile_text(*measurement.profile));
         EXPECT_TRUE(bytes_of(folder / name) == profile_file_text(*measurement.profile, name)) << name;
     }
 }
@@ -97,10 +97,10 @@ TEST(WindowMeasures, TheLineOfSight) {
         options.json = options.quiet = true;
         testing::internal::CaptureStdout();
         const Result<void> ran = run_sight(options);
-        auto told = nlohmann::json::parse(testing::internal::GetCapturedStdout());
+        auto printed = nlohmann::json::parse(testing::internal::GetCapturedStdout());
         ASSERT_TRUE(ran.ok()) << ran.error().line();
-        told.erase("notes");
-        EXPECT_EQ(nlohmann::json::parse(sight_json(*found.sight, *ground).dump()), told);
+        printed.erase("notes");
+        EXPECT_EQ(nlohmann::json::parse(sight_json(*found.sight, *ground).dump()), printed);
     }
 }
 
