@@ -22,8 +22,8 @@
 namespace oro {
 
 // Loads what one thread, that of the frames, requests:
-//     loader.request(missing);                                   // what a frame lacks, most needed first
-//     ORO_TRY(std::vector<Item> items, loader.take(false));      // what has come since
+//     loader.request(missing);                               // what a frame lacks, most needed first
+//     ORO_TRY(std::vector<Item> items, loader.take(false));  // what has come since
 // Threads begin with the first request. Where fewer are to be had it does with those; without any, take()
 // loads items itself. A key has an order.
 template <class Key, class Item>

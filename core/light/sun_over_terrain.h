@@ -8,8 +8,8 @@ namespace oro {
 
 // An eye that looks for the sun. The sun is seen through all of the atmosphere (core/light/refraction.h), the
 // terrain through the air between it and the eye, as pictures have it (Air).
-//     const SunOverTerrain sun(surface, eye, standard_air, N_m);
-//     if (sun.shows_at(1782012600.0)) ...
+//     const SunOverTerrain sun(ground, eye, standard_air, N_m);
+//     if (sun.shows_at(1782012600.0)) std::puts("the sun is up");
 class SunOverTerrain {
   public:
     // `surface` outlives it. sea_h_m: the sea's height above the ellipsoid at the eye (N). Where the data end

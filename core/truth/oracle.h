@@ -43,7 +43,7 @@ struct SightHit {
 };
 
 // Sight lines from one eye: tells where each truly meets the ground. Safe to ask from several threads.
-//     const TrueSurface surface(region.field, 1.0, thread_count());
+//     const TrueSurface surface(region.grids[0].field, 1.0, thread_count());
 //     const Oracle oracle(surface, sight_from(camera.eye));
 //     const auto hit = oracle.first_hit(camera.ecef_direction_at({160.5, 180.5}), 1.0e6);
 //     if (hit) std::printf("%f %f\n", hit->point.lat_deg, hit->point.lon_deg);

@@ -51,8 +51,8 @@ struct PictureReport {
 using RowSink = std::function<Result<void>(std::span<const std::uint8_t> rgb)>;
 
 // Draws pictures of one size, one after another: what the GPU needs for them is made once.
-//     ORO_TRY(PictureRenderer renderer, PictureRenderer::create(gpu, cameras.front(), style, options));
-//     for (const Camera& camera : cameras) ORO_TRY(report, renderer.draw(scene, camera, style, sink));
+//     ORO_TRY(PictureRenderer renderer, PictureRenderer::create(*gpu, cameras.front(), style, {}));
+//     for (const Camera& camera : cameras) ORO_CHECK(renderer.draw(scene, camera, style, sink));
 class PictureRenderer {
   public:
     // `camera` and `style`: of the size and the kind of all pictures. Errors: those of the device.

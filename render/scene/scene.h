@@ -103,7 +103,7 @@ class GridScene {
 
 // Keeps on the GPU what a camera needs of a region's grids, as fine as tau asks for, within a budget of
 // memory.
-//     ORO_TRY(Scene scene, Scene::create(*gpu, pages_in_memory(region.field, 1.0, thread_count())));
+//     ORO_TRY(Scene scene, Scene::create(*gpu, pages_in_memory(field, 1.0, thread_count())));
 //     ORO_TRY(FramePlan plan, scene.settled_plan({camera, {0, 0, 320, 240, {0.5, 0.5}}, 1.0}));  // tau 1 px
 class Scene {
   public:
