@@ -1,11 +1,15 @@
-# Tests of more than some five seconds, but for one of most suites, and sweeps of faults through commands other than info:
+# Tests of more than some four seconds, but for one of most suites, and sweeps of faults through commands other than info:
 # scripts/test --long runs them, scripts/test leaves them out. Tests that are not in the folder that includes this are passed
 # over.
 set_tests_properties(
+  BadInput.LimitOfFileSizes
+  BadInput.WholeNumbersAreDecimal
   Bake.AFlippedByteIsTold
+  Bake.FilesThatAreNoBakedRegions
   Bake.PicturesAreThoseOfItsSources
   BrokenOffBake.KilledAtAnyMoment
   ClustersBake.DamageIsOneLine
+  ClustersBake.EightAtOnceLeaveOneFile
   ClustersBake.GoesOnWhereItWasBrokenOff
   ClustersBake.IsToldAndDrawn
   ClustersDrawn.OneLevelOfTheGraph
@@ -17,20 +21,34 @@ set_tests_properties(
   ClustersReported.FiguresOfTheGraph
   ClustersReported.PlanRefusesWhatIsNotDrawn
   ClustersReported.TradeHasARowForEachTau
+  ComparedPixels.AnAllRedPictureIsRefused
+  ComparedPixels.AnotherPicturesPixelsInAJpegAreRefused
   ComparedPixels.GoldenPicturesPass
   ComparedPixels.OtherFormatsPass
   ComparedPixels.TheOtherWayOfDrawingPasses
+  ComparedPixels.TheSamePixelsWrittenAnewPass
   DamagedGeoidGrid.EveryCommandRefusesAndDoctorNamesTheFile
   DamagedRegion.AnyMutationThroughEachCommand
   DamagedRegion.EachPageInCoarsePictures
   DefaultStyle.IsNatural
   DeviceChoice.TakesTheBestThatCanDraw
   DeviceChoice.TakesTheOneThatIsNamed
-  ShotDrape.OfSixteenBitsIsWhatItsProfileOrTheOptionSays
+  FilesFarApart.AreDrawnAgainAsTheyWere
   FilesFarApart.AreEachDrawnAsAlone
   FilesFarApart.AreMeasured
   Film.KilledAgainAndAgainItHasTheSameBytes
+  FingerprintsOfViews.AViewThatHoldsNoFingerprintIsRefused
+  FingerprintsOfViews.AnotherGeoidGridIsTold
+  FingerprintsOfViews.AnotherVersionIsANoteUnlessPixelsDiffer
+  FingerprintsOfViews.DataChangedGoesOnAndSaysSo
+  FingerprintsOfViews.EachOfTheFourHasALineOfItsOwn
+  FingerprintsOfViews.NamesOfSourcesAreNotToldWithoutPaths
+  FingerprintsOfViews.SourcesThatCameOrWentAreNamed
+  FingerprintsOfViews.SwappedDataAreTold
+  FingerprintsOfViews.TheSameDataUnderAnotherNameOrBakedAreTheSame
+  FingerprintsOfViews.ViewsWithoutAnyOpenAsTheyDid
   FoundViews.APlaneIsCutOppositeToTheEye
+  FoundViews.AStripBetweenPixels
   FoundViews.AtTheFootOfAWall
   FoundViews.FarGroundOverAPlane
   FoundViews.GroundFromBelowThroughAHole
@@ -55,11 +73,16 @@ set_tests_properties(
   LabelsOfShots.AreLeftOutWhereTheViewSaysSo
   LabelsOfShots.AreTheSameFromABakedRegion
   LabelsOfShots.AreToldAndDrawnAgain
+  Manual.HasEachOptionOfHelp
   ModelOptions.AreSaidAndKeptAndDrawnAgain
   ModelOptions.PackedHeightsDrawTheSamePicture
   NetBake.PicturesAreThoseOfItsSources
+  OnSummit.AWallBeforeWhoStandsOnAFlankIsSaid
   OwnPostsOfShots.AreDrawnAgainByEitherWayFromTheirView
   OwnPostsOfShots.ArePlannedAndTraded
+  OwnPostsOfShots.AreRefusedWhereTheyCannotBe
+  OwnPostsOfShots.BesideOtherFilesAreKeptByWhatPredicts
+  OwnPostsOfShots.OfTheSwissTileHaveItsSummit
   OwnPostsOfShots.ViewsThatSayNothingOfThemAreDrawnResampled
   Panorama.IsTheSameTwiceAndByItsView
   Panorama.RefusesWhatCannotBe
@@ -70,30 +93,32 @@ set_tests_properties(
   Pipeline.ViewsNameTheWayThatDrewThem
   Pipelines/EachCallOfVulkan.FailsWithALineAndNothingLeft/compute
   Pipelines/EachCallOfVulkan.FailsWithALineAndNothingLeft/mesh
-  FingerprintsOfViews.AnotherGeoidGridIsTold
-  FingerprintsOfViews.AnotherVersionIsANoteUnlessPixelsDiffer
-  FingerprintsOfViews.DataChangedGoesOnAndSaysSo
-  FingerprintsOfViews.EachOfTheFourHasALineOfItsOwn
-  FingerprintsOfViews.SwappedDataAreTold
-  FingerprintsOfViews.TheSameDataUnderAnotherNameOrBakedAreTheSame
-  FingerprintsOfViews.ViewsWithoutAnyOpenAsTheyDid
+  RecordedView.LimitsAreTheSameOnBothSides
+  RecordedView.PathsStartFromThePicture
+  RecordedView.PictureAndErrorsAreOneStep
+  RegionWords.AViewOfAnotherPlaceIsRefusedAndTheSkyIsNoted
   RegionWords.VoidsAndMissingTilesAreCountedApart
   ResamplingReported.WithoutBeingAskedForThereIsNone
+  RewrittenFiles.MayBeImagesAndNames
   SameEverywhere.AViewUnderAnImage
   SameEverywhere.AViewWithEveryEffect
   SameEverywhere.EachEffectIsInTheView
   SameEverywhere.EdgesByChoice
+  SeveralViews.AreDrawnOneAfterTheOther
+  SeveralViews.MayBeAListInAFile
   Shot.AntimeridianAndPoles
+  Shot.TagsOfEveryFormatAgreeWithTheView
   Shot.ViewDrawsTheSameBytes
+  ShotDrape.OfSixteenBitsIsWhatItsProfileOrTheOptionSays
+  ShotDrape.ThatChangedIsTold
   ShotLegend.ItsViewDrawsItAgain
   ShotLegend.OfAFileWithALatin1Name
+  ShotOrtho.ItsViewDrawsItAgain
   SkyBands.AreBrokenUpByDither
   SunOfAShot.IsTheUsualOneInTheStyleOfDaylight
   SunOfAShot.OlderPicturesKeepTheirs
   SunOfAShot.OtherStylesKeepTheirOwn
-  RecordedView.LimitsAreTheSameOnBothSides
-  RecordedView.PathsStartFromThePicture
-  RecordedView.PictureAndErrorsAreOneStep
+  TextInput.PipesDevicesAndEndlessFilesAreRefused
   TradeCommand.WritesATableAndAPage
   Unseen.APartThatWasChosenEndsAndMissesNothing
   Unseen.APictureOfAllTheDataSaysNothing
@@ -101,13 +126,16 @@ set_tests_properties(
   Unseen.TheBundledRegionEndsToo
   Unseen.TheTileThatIsMissingIsNamedWithItsBound
   Vectors.AreInTheViewWhichDrawsThemAgain
+  Vectors.ThatChangedAreTold
   Verify.CompareTellsTheSameOfAWrittenPicture
   Verify.QuietLeavesWhatWasAskedFor
   Verify.WhatAModelLeavesOutIsMeasured
   ViewshedCommand.IsAGeoTiffThatSaysWhatSightSays
   ViewshedCommand.OfAProjectedFileLiesOnItsOwnPosts
   Window.FliesJumpsTakesAPictureAndLeaves
+  Window.FramesThatAreExplainedHaveALegend
   Window.IsShownAgainWhereItWasLost
+  Window.SaysWhatChangedSinceThePicture
   WindowFaults.EndItWithALine
   WorldGrids.GiveOnePictureWhereverTheyBegin
   PROPERTIES LABELS "cli;long")
@@ -161,6 +189,7 @@ set_tests_properties(
   FailedAllocationsOfFreetype.ForLabels
   FailedAllocationsOfLibpng.ForAPicture
   Mutated.Rasters
+  Mutated.ViewsAndPictures
   PROPERTIES LABELS "faults;long")
 set_tests_properties(
   AirTables.GroundIsSeenThroughWhatBruteForceGives
@@ -186,6 +215,7 @@ set_tests_properties(
   ErrorsOfPictures.OfRealTerrainIsWithinTau
   ErrorsOfPictures.OnNetsIsWithinTau
   ExtremePlaces.Antimeridian
+  ExtremePlaces.DownFromThePoles
   ExtremePlaces.FlightAcrossThePoles
   ExtremeSize.HundredMillionPosts
   ExtremeSurfaces.WallEdgeOn
@@ -210,25 +240,33 @@ set_tests_properties(
   Memory.OfSixtyFourMegabytesIsEnoughForSixtyEightTiles
   ModelPlacement.PostsAreWhereTheModelPutsThem
   OrthoMaps.LieOverTheirSourceInEveryCrs
+  Paths/Choice.AndThePictureAreTheSameWithLittleMemory/compute
+  Paths/Choice.AndThePictureAreTheSameWithLittleMemory/mesh
+  Paths/Choice.CoarserPagesStandInForMissingOnes/mesh
   Paths/Choice.IsThatOfCore/compute
   Paths/Choice.IsThatOfCore/mesh
   Paths/ClusterCuts.AreTheProcessors/compute
   Paths/ClusterCuts.AreTheProcessors/mesh
   Paths/ClusterCuts.OfLevelsAreTheProcessors/compute
+  Paths/ClustersByPath.WithoutAnErrorAreTheOriginal/compute
+  Paths/ClustersByPath.WithoutAnErrorAreTheOriginal/mesh
   Paths/ClustersShaded.AsAMap/compute
   Paths/ClustersShaded.AsAMap/mesh
   Paths/ClustersShaded.InAir/compute
   Paths/ClustersShaded.InAir/mesh
   Paths/ClustersShaded.InSunlight/compute
   Paths/ClustersShaded.InSunlight/mesh
+  Paths/Cracks.NoneInMadeTerrain/mesh
   Paths/Cracks.NoneInPoland/compute
   Paths/Cracks.NoneInPoland/mesh
   Paths/Cracks.NoneInTheAlps/compute
   Paths/Cracks.NoneInTheAlps/mesh
   Paths/Cracks.NoneInTheHimalaya/compute
   Paths/Cracks.NoneInTheHimalaya/mesh
+  Paths/Cracks.NoneOnNets/compute
   Paths/Cracks.NoneOnNets/mesh
   Paths/Frame.CullingChangesNoPixel/mesh
+  Paths/GridsTogether.AreWhatBruteForceFinds/mesh
   Paths/GridsTogether.AreWithinTauOfTheTruth/compute
   Paths/GridsTogether.AreWithinTauOfTheTruth/mesh
   Paths/GridsTogether.JoinOverGaps/compute
@@ -257,14 +295,19 @@ set_tests_properties(
   Paths/OccludedScene.GridsWithSeamsAreThoseWithout/mesh
   Paths/OccludedScene.TheAlpsAreThoseWithout/compute
   Paths/OccludedScene.TheAlpsAreThoseWithout/mesh
+  Paths/SeveralGrids.AreDrawnAsOneOfAllTheirPosts/compute
+  Paths/SeveralGrids.AreDrawnAsOneOfAllTheirPosts/mesh
   Paths/ShownParts.OverdrawCountsTriangles/compute
   Paths/ShownParts.OverdrawCountsTriangles/mesh
   Paths/StreamedClusters.AreCoarserWithTooLittleMemory/compute
   Paths/StreamedClusters.AreCoarserWithTooLittleMemory/mesh
   Paths/StreamedClusters.BringWhatShowsBeforeWhatIsHidden/compute
   Paths/StreamedClusters.BringWhatShowsBeforeWhatIsHidden/mesh
+  Paths/StreamedClusters.HaveNoCracksAndEndAsThoseThatAreWaitedFor/compute
+  Paths/StreamedClusters.HaveNoCracksAndEndAsThoseThatAreWaitedFor/mesh
   Paths/StreamedClusters.HoldNoMoreGroupsThanTheyMayOrAFrameNeeds/compute
   Paths/StreamedClusters.HoldNoMoreGroupsThanTheyMayOrAFrameNeeds/mesh
+  Programs.AnotherStyleMakesWhatIsMissingAndDrawsTheSame
   RandomViews.BoundsAndTolerancesHold
   ShadowsOfPictures.BetweenGridsAreTheOracles
   ShadowsOfPictures.BetweenGridsAreTheSameEitherWay
@@ -299,39 +342,55 @@ set_tests_properties(
   Triangles/FullLists.WhatCannotBeClippedIsAnError/clusters
   PROPERTIES LABELS "render;long")
 set_tests_properties(
-  Certificate.NothingInViewIsFartherThanTauFromItsPlace
-  ClusterFile.AFlippedBitAnywhereIsFound
-  ClusterFileOfRealGround.N46E008
   BakedFile.DamageIsToldInOneLine
   BakedFile.HasSeveralGridsInTheirOrder
+  BenchTin.IsWithinItsErrorAtEveryPlaceOfRandomFields
+  Certificate.NothingInViewIsFartherThanTauFromItsPlace
+  ClusterFile.AFlippedBitAnywhereIsFound
+  ClusterFile.TakesFewBytes
+  ClusterFileOfRealGround.N46E008
   Culling.NoVisiblePostIsEverCulled
+  DamagedGeoid.AWholeCopyIsTakenAndTellsTheSameNEverywhere
   DamagedGeoid.CutEmptyAndHeaderOnlyGridsAreErrors
+  DamagedGeoid.CutGridsAreErrorsBehindLinksAndInTheUsersOwnFolder
+  DamagedGeoid.ZerosNoValuesAndForeignNumbersAreErrors
+  FrameChoice.HasNoGapsWhateverIsMissing
   FrameChoice.MeetsItselfRoundTheEarth
   GraphInBands.GroundWithHoles
   GraphInBands.RoughGround
   GraphInBands.WindowOfARegion
   GraphWindow.AtTheRegionsOwnRimNothingIsOpen
   GraphWindow.WholeGroupsAreThoseOfTheRegion
+  GridClip.RandomGridsCoverEveryPlaceOnce
   Ground.FromTheMoonOntoTheWholeEarth
   GroundProfile.TenThousandLinesLeaveNothingOut
   HostileVectors.AMillionPlacesAreReadAtOnce
+  Levels.CoverTheRegionOnceInStepsOfOne
   Listing.HeadersOfTenThousandFilesAreReadOnce
-  Observer.TenThousandPairsAreTheMarchedLines
   MeshForecasts.AreTheSameOfPostsReadPageByPage
+  NetFile.RefusesEveryFlippedBitOfTheNet
+  NetFile.SurvivesRandomNumbers
   NetViewshed.IsTheLookoutsTurnedOverTheAntimeridianAndAPole
   NetViewshed.WindowsHoldTheCircle
+  Observer.TenThousandPairsAreTheMarchedLines
+  OwnPosts.OfSeveralLatticesAreResampled
   PackedRegion.OfEveryKindComesBack
   PackedRegion.OfTheAlpsTakesLessThanAThird
+  RegionFile.RefusesEveryFlippedBit
   RegionFile.SurvivesRandomHeaders
   RegionFileWriter.GoesOnAfterAnyBreak
   RegionGround.LookoutsSeeOverSteps
   RegionGround.SightLinesMeetWhatMarchingFinds
   ResamplingError.RotatedInFeetAndAnotherProjection
   ResamplingError.TheHighestPostOfManyIsAlwaysThere
+  SeenPoints.AreThoseThatAWalkAlongTheSightLineSees
   StoredValues.OfAllRealFilesAreThoseOfGdal
   StreamedChoices.CoverEachPlaceOnceWhateverIsHere
   StreamedChoices.WhatIsHiddenComesLast
   SunOverAlps.WithinTenSecondsOfBruteForce
+  TradeScript.ThePageEscapesEverything
+  TradeScript.ThePageHoldsEveryPoint
+  TrustedFormat.MasksAndSourcesTellWhenTheyAreCut
   Viewshed.IsTheLookoutsOverHills
   ViewshedOfGdal.OfARealTileIsGdals
   ViewshedOfGrids.IsWhatMarchedLinesSee
