@@ -45,6 +45,9 @@ class Interface {
     Window* window_;
     double scale_{};
     double elapsed_s_{1.0 / 60.0};  // since the last frame
+    int key_{};                     // that went down last
+    bool repeats_{};                // it is held, and comes again and again
+    int opener_{};  // the key whose letter opened the field that is typed into, while it is held
 };
 
 // How large a length of a usual screen is here: panels are laid out by it.

@@ -48,7 +48,8 @@ void height_words(const Viewer& viewer) {
         ground_h_m(field_below(viewer), camera.eye.lat_deg, camera.eye.lon_deg, viewer.view.exaggeration);
     const HeightField& field = field_below(viewer);
     const double N_m = field.undulation.at_m(camera.eye.lat_deg, camera.eye.lon_deg);
-    const std::string text = ground_m ? "eye " + metres_over(camera.eye.h_m - *ground_m) + " over ground"
+    const std::string who = viewer.gestures && viewer.gestures->is_walking() ? "you walk " : "eye ";
+    const std::string text = ground_m ? who + metres_over(camera.eye.h_m - *ground_m) + " over ground"
                                       : "eye at " + metres_over(camera.eye.h_m - N_m);
     ImGui::TextUnformatted(text.c_str());
     if (!ImGui::IsItemHovered()) return;

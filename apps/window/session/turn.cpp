@@ -38,6 +38,16 @@ void take_chord(Viewer& viewer, int code) {
     if (code == 'O') viewer.panels.toggle(&Panels::files);
 }
 
+// A turn of the wheel over the picture's middle.
+void zoom_by_key(Viewer& viewer, double notches) {
+    ViewEvent event;
+    event.kind = ViewEvent::Kind::wheel;
+    event.point_px = 0.5 * glm::dvec2(viewer.view.camera.width_px, viewer.view.camera.height_px);
+    event.notches = notches;
+    event.time_s = motion_clock_s();
+    take_view_event(viewer, event);
+}
+
 Result<void> take_key(Session& session, const KeyChanged& event) {
     Viewer& viewer = session.viewer;
     if (!event.down) return {};
@@ -45,6 +55,8 @@ Result<void> take_key(Session& session, const KeyChanged& event) {
         if (!event.repeated) take_chord(viewer, event.key);
         return {};
     }
+    if (event.key == key::equal || event.key == key::keypad_add) zoom_by_key(viewer, 1.0);
+    if (event.key == key::minus || event.key == key::keypad_subtract) zoom_by_key(viewer, -1.0);
     if (event.repeated) return {};
     switch (event.key) {
         case key::escape:
