@@ -297,8 +297,12 @@ std::string Window::clipboard() const {
 }
 
 // On the screen that has the window's middle.
+bool Window::is_full_screen() const {
+    return glfwGetWindowMonitor(window_) != nullptr;
+}
+
 void Window::toggle_full_screen() {
-    if (glfwGetWindowMonitor(window_) != nullptr) {
+    if (is_full_screen()) {
         glfwSetWindowMonitor(window_, nullptr, windowed_[0], windowed_[1], windowed_[2], windowed_[3], 0);
         return;
     }

@@ -53,6 +53,7 @@ class SearchIndex {
     void set_gazetteer(NameTable names) { gazetteer_ = std::move(names); }
     // The CRS of two plain numbers that are no degrees, one of them beyond 360.
     void set_crs(std::optional<CrsPlaces> crs) { crs_ = std::move(crs); }
+    [[nodiscard]] const std::optional<CrsPlaces>& crs() const { return crs_; }
 
     // The first `limit` names that hold a text, letter case, accents and what is between words set aside:
     // whole names, then beginnings of names, of words, and parts of words; each by source, then by

@@ -190,7 +190,7 @@ Interface::~Interface() {
 }
 
 Result<void> Interface::follow_scale() {
-    const double scale = window_->content_scale();
+    const double scale = window_->content_scale() * user_scale_;
     return scale == scale_ ? Result<void>() : take_scale(scale);
 }
 
@@ -240,7 +240,8 @@ Result<void> Interface::feed(const WindowInput& input, const Build& build, const
             is_panels = ImGui::GetIO().WantCaptureMouse;
         } else if (const auto* const pressed = std::get_if<KeyChanged>(&event)) {
             is_panels = is_panels_key(*pressed);
-            if (pressed->down) key_ = pressed->key, repeats_ = pressed->repeated;
+            if (pressed->down) key_ = pressed->key;
+            repeats_ = pressed->down && pressed->repeated;
             if (opener_ == pressed->key && !pressed->repeated) opener_ = 0;
             set_modifiers(*pressed);
             set_key(pressed->key, pressed->down);

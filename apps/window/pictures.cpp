@@ -39,6 +39,7 @@ void follow_sun(Viewer& viewer) {
 
 void take_scene(Viewer& viewer, OpenedScene opened) {
     viewer.coming.reset();
+    viewer.certificates.forget();
     viewer.scene = std::make_unique<Scene>(std::move(opened.scene));
     viewer.finer = opened.is_coarse
                        ? std::make_unique<BackgroundPyramidBuild>(viewer.region, viewer.view.exaggeration)
@@ -57,6 +58,7 @@ Result<void> begin_finer_scene(Viewer& viewer) {
 }
 
 void show_finer_scene(Viewer& viewer) {
+    viewer.certificates.forget();
     viewer.scene = std::move(viewer.coming);
     viewer.is_missing = false;
     viewer.wants_picture = true;

@@ -31,6 +31,7 @@ constexpr KeyWords key_words[] = {{"", "Moving"},
                                   {"?, H, F1", "these keys"},
                                   {"Tab", "hides and shows all that lies over the picture"},
                                   {"F11", "full screen"},
+                                  {"Ctrl and +, -, 0", "larger, smaller and usual letters"},
                                   {"Esc", "closes what is open; it never quits"},
                                   {"Ctrl-Q", "quits"}};
 
