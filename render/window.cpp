@@ -12,20 +12,18 @@
 namespace oro {
 namespace {
 
-static_assert(key::space == GLFW_KEY_SPACE && key::slash == GLFW_KEY_SLASH && key::equal == GLFW_KEY_EQUAL);
+static_assert(key::space == GLFW_KEY_SPACE && key::minus == GLFW_KEY_MINUS && key::equal == GLFW_KEY_EQUAL);
 static_assert(key::escape == GLFW_KEY_ESCAPE && key::enter == GLFW_KEY_ENTER && key::tab == GLFW_KEY_TAB);
-static_assert(key::backspace == GLFW_KEY_BACKSPACE && key::insert == GLFW_KEY_INSERT);
+static_assert(key::backspace == GLFW_KEY_BACKSPACE);
 static_assert(key::erase == GLFW_KEY_DELETE && key::right == GLFW_KEY_RIGHT && key::left == GLFW_KEY_LEFT);
 static_assert(key::down == GLFW_KEY_DOWN && key::up == GLFW_KEY_UP && key::home == GLFW_KEY_HOME);
 static_assert(key::page_up == GLFW_KEY_PAGE_UP && key::page_down == GLFW_KEY_PAGE_DOWN);
 static_assert(key::end == GLFW_KEY_END && key::f1 == GLFW_KEY_F1 && key::f11 == GLFW_KEY_F11);
-static_assert(key::comma == GLFW_KEY_COMMA && key::minus == GLFW_KEY_MINUS);
 static_assert(key::keypad_subtract == GLFW_KEY_KP_SUBTRACT && key::keypad_add == GLFW_KEY_KP_ADD);
 static_assert(key::keypad_enter == GLFW_KEY_KP_ENTER && key::left_shift == GLFW_KEY_LEFT_SHIFT);
 static_assert(key::left_control == GLFW_KEY_LEFT_CONTROL && key::left_alt == GLFW_KEY_LEFT_ALT);
-static_assert(key::left_super == GLFW_KEY_LEFT_SUPER && key::right_shift == GLFW_KEY_RIGHT_SHIFT);
+static_assert(key::right_shift == GLFW_KEY_RIGHT_SHIFT && key::count == GLFW_KEY_LAST + 1);
 static_assert(key::right_control == GLFW_KEY_RIGHT_CONTROL && key::right_alt == GLFW_KEY_RIGHT_ALT);
-static_assert(key::right_super == GLFW_KEY_RIGHT_SUPER && key::count == GLFW_KEY_LAST + 1);
 
 WindowInput& input_of(GLFWwindow* window) {
     return *static_cast<WindowInput*>(glfwGetWindowUserPointer(window));
@@ -299,8 +297,12 @@ std::string Window::clipboard() const {
 }
 
 // On the screen that has the window's middle.
+bool Window::is_full_screen() const {
+    return glfwGetWindowMonitor(window_) != nullptr;
+}
+
 void Window::toggle_full_screen() {
-    if (glfwGetWindowMonitor(window_) != nullptr) {
+    if (is_full_screen()) {
         glfwSetWindowMonitor(window_, nullptr, windowed_[0], windowed_[1], windowed_[2], windowed_[3], 0);
         return;
     }

@@ -50,6 +50,7 @@ class Window {
     void set_title(const std::string& title);
     void set_pointer(PointerShape shape);
     void toggle_full_screen();
+    [[nodiscard]] bool is_full_screen() const;
     void set_clipboard(const std::string& text);
     [[nodiscard]] std::string clipboard() const;
     // Size of what is shown, in pixels; 0 x 0 while minimised.

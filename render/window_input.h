@@ -11,12 +11,12 @@ namespace oro {
 // Keys by the number that GLFW gives them: letters and digits by their capital's ASCII code, where a US
 // keyboard has them. The others that are asked for here have names.
 namespace key {
-inline constexpr int space = 32, comma = 44, minus = 45, slash = 47, equal = 61, escape = 256, enter = 257,
-                     tab = 258, backspace = 259, insert = 260, erase = 261, right = 262, left = 263,
-                     down = 264, up = 265, page_up = 266, page_down = 267, home = 268, end = 269, f1 = 290,
-                     f11 = 300, keypad_subtract = 333, keypad_add = 334, keypad_enter = 335, left_shift = 340,
-                     left_control = 341, left_alt = 342, left_super = 343, right_shift = 344,
-                     right_control = 345, right_alt = 346, right_super = 347, count = 349;
+inline constexpr int space = 32, minus = 45, equal = 61, escape = 256, enter = 257, tab = 258,
+                     backspace = 259, erase = 261, right = 262, left = 263, down = 264, up = 265,
+                     page_up = 266, page_down = 267, home = 268, end = 269, f1 = 290, f11 = 300,
+                     keypad_subtract = 333, keypad_add = 334, keypad_enter = 335, left_shift = 340,
+                     left_control = 341, left_alt = 342, right_shift = 344, right_control = 345,
+                     right_alt = 346, count = 349;
 }  // namespace key
 
 enum class MouseButton { left, right, middle };

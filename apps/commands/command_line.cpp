@@ -88,12 +88,11 @@ void add_shot(CLI::App& app, ShotOptions& options) {
     add_memory_options(command, options.memory);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "errors, and the table of --verify");
-    set_help(
-        command,
-        {{"shot PATH... --out FILE [OPTIONS]", "shot --view PICTURE [--out FILE] [OPTIONS]"},
-         "",
-         "docs/commands/shot.md"});
-    list_later(command, {"--time", "--layers", "--kml", "--geopose", "--ortho", "--crs", "--resolution", "--legend", "--no-legend", "--unseen-ceiling", "--no-paths", "--data-changed"});
+    set_help(command, {{"shot PATH... --out FILE [OPTIONS]", "shot --view PICTURE [--out FILE] [OPTIONS]"},
+                       "",
+                       "docs/commands/shot.md"});
+    list_later(command, {"--time", "--layers", "--kml", "--geopose", "--ortho", "--crs", "--resolution",
+                         "--legend", "--no-legend", "--unseen-ceiling", "--no-paths", "--data-changed"});
 }
 
 void add_panorama(CLI::App& app, PanoramaOptions& options) {
@@ -131,15 +130,14 @@ void add_panorama(CLI::App& app, PanoramaOptions& options) {
         "Height of the eye over the ground there (default 2). Needs --at. Not with --altitude.");
     describe_standard_air(command);
     hide(command, {"--heading", "--pitch", "--roll", "--look-at", "--fov", "--size", "--labels", "--show",
-                   "--tolerance"});
+                   "--graticule", "--tolerance"});
     add_memory_options(command, options.memory);
     add_json(command, options.json);
     add_quiet(command, options.quiet, "errors");
-    set_help(
-        command,
-        {{"panorama PATH... --at PLACE --out FILE [OPTIONS]", "panorama --view PICTURE --out FILE [OPTIONS]"},
-         "The Earth's curvature always counts.",
-         "docs/commands/panorama.md"});
+    set_help(command, {{"panorama PATH... --at PLACE --out FILE [OPTIONS]",
+                        "panorama --view PICTURE --out FILE [OPTIONS]"},
+                       "The Earth's curvature always counts.",
+                       "docs/commands/panorama.md"});
     list_later(command, {"--ridges", "--time", "--geopose", "--no-paths", "--data-changed"});
 }
 
@@ -204,7 +202,8 @@ void add_film(CLI::App& app, FilmOptions& options) {
              {{"film FLIGHT PATH... --out FOLDER [OPTIONS]", "film FLIGHT PATH... --out FILE.mp4 [OPTIONS]"},
               "A film that was stopped goes on when the same command is given again.",
               "docs/commands/film.md"});
-    list_later(command, {"--format", "--line", "--time", "--kml", "--geopose", "--legend", "--no-legend", "--no-paths"});
+    list_later(command, {"--format", "--line", "--time", "--kml", "--geopose", "--legend", "--no-legend",
+                         "--no-paths"});
 }
 
 void add_compare(CLI::App& app, CompareOptions& options) {
@@ -308,7 +307,7 @@ void add_trade(CLI::App& app, TradeOptions& options) {
                    "--overlay-fill", "--tau",         "--earth",   "--refraction",     "--air",
                    "--precision",    "--geoid",       "--heights", "--accuracy",       "--tolerance",
                    "--labels",       "--edges",       "--samples", "--show",           "--mesh",
-                   "--mesh-level"});
+                   "--mesh-level",   "--graticule"});
     add_memory_options(command, options.memory);
     add_quiet(command, options.quiet, "the table and errors");
     set_help(command,

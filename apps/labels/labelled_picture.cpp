@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <memory>
 #include <numbers>
 #include <optional>
 
+#include "apps/labels/graticule_in_view.h"
 #include "apps/overlay/area_masks.h"
 #include "apps/text/inked_rows.h"
 #include "apps/text/text_face.h"
@@ -84,6 +86,18 @@ Result<void> find_vectors(const View& view, const TrueGround& ground, const Text
     return ground.health();
 }
 
+// The graticule, below the lines of vector files; its values where no name and no label stands.
+Result<void> find_graticule(const View& view, const TrueGround& ground, const TextFace& face,
+                            ViewWriting& writing) {
+    const PointsInView in_view(ground, view.camera, view.model);
+    ORO_TRY(GraticuleInView graticule, graticule_in_view(view, ground, in_view, face, writing.texts));
+    std::vector<InkedText>& lines = writing.overlay.inked;
+    lines.insert(lines.begin(), std::make_move_iterator(graticule.lines.begin()),
+                 std::make_move_iterator(graticule.lines.end()));
+    for (InkedText& label : graticule.labels) writing.texts.push_back(std::move(label));
+    return ground.health();
+}
+
 }  // namespace
 
 PictureOptions picture_options(const View& view, RasterPath path) {
@@ -97,7 +111,7 @@ PictureOptions picture_options(const View& view, RasterPath path) {
 }
 
 bool has_writing(const View& view, const Style& style) {
-    return style.labels_px > 0.0 || view.vectors_read;
+    return style.labels_px > 0.0 || view.vectors_read || view.graticule;
 }
 
 Result<ViewWriting> find_writing(const Gpu& gpu, Scene& scene, const View& view, const TrueGround& ground,
@@ -115,6 +129,7 @@ Result<ViewWriting> find_writing(const Gpu& gpu, Scene& scene, const View& view,
                 seen_heights(gpu, scene, view.camera, picture_options(view, path), ground));
         ORO_TRY(writing.labels, add_line_labels(face, seen, style, writing.names.labels, writing.texts));
     }
+    if (view.graticule) ORO_CHECK(find_graticule(view, ground, face, writing));
     return writing;
 }
 

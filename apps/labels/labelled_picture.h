@@ -12,7 +12,8 @@
 namespace oro {
 
 // What is written over a view's picture: the heights of its contour lines where the style has them, the lines
-// of its vector files and the names of their points. Where a name stands there is no label.
+// of its vector files and the names of their points, and the graticule. Where a name stands there is no
+// label.
 struct ViewWriting {
     std::vector<LineLabel> labels;  // from the top down
     NamesInView names;

@@ -22,9 +22,10 @@ Result<void> check_map_options(const ShotOptions& options) {
     if (const char* const option = first_given(view_option_table(), view, is_of_eye))
         return refused(option, "",
                        "not together with --ortho: a map is seen from straight above, and has no eye");
-    const char* const of_eye = first_given_of(view_option_table(), view,
-                                              {"--earth", "--refraction", "--air", "--precision",
-                                               "--tolerance", "--edges", "--show", "--names", "--overlay"});
+    const char* const of_eye =
+        first_given_of(view_option_table(), view,
+                       {"--earth", "--refraction", "--air", "--precision", "--tolerance", "--edges", "--show",
+                        "--names", "--overlay", "--graticule"});
     if (of_eye != nullptr || options.verify || options.layers)
         return refused(of_eye != nullptr ? of_eye
                        : options.verify  ? "--verify"

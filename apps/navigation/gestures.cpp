@@ -20,11 +20,11 @@ Ecef point_in_sky(const Camera& camera, glm::dvec2 point_px, const GroundHeightA
     return {camera.eye_ecef().m + camera.ecef_direction_at(point_px) * distance_m};
 }
 
-}  // namespace
-
-std::optional<Ecef> Gestures::held_place() const {
-    return drag_ && drag_->begun ? drag_->start.place : std::nullopt;
+bool is_same_place(const Geodetic& a, const Geodetic& b) {
+    return a.lat_deg == b.lat_deg && a.lon_deg == b.lon_deg && a.h_m == b.h_m;
 }
+
+}  // namespace
 
 bool Gestures::moves(const FlightStep& step) {
     return step.forward != 0.0 || step.right != 0.0 || step.up != 0.0 || step.turn_right_deg != 0.0 ||
@@ -48,7 +48,8 @@ FlightStep Gestures::step_of_keys(const Camera& camera) const {
 }
 
 void Gestures::begin_flight(const Camera& from, const Camera& to, double time_s) {
-    flight_.emplace(from, to, scene_.ground_h_m);
+    // The ground may be higher than where the eye looked from: it was drawn so, or was no part of the data.
+    flight_.emplace(from, above_ground(to, scene_.ground_h_m), scene_.ground_h_m);
     flight_began_s_ = time_s;
     walking_ = false;
 }
@@ -73,7 +74,8 @@ Camera Gestures::dragged(const ViewEvent& event, const Camera& camera) {
     GrabStart& start = drag_->start;
     drag_->begun = drag_->begun || glm::distance(event.point_px, start.pressed_px) >= drag_starts_px;
     if (!drag_->begun) return camera;
-    if (!drag_->picked) start.place = scene_.pick(start.camera, start.pressed_px);
+    // Who walks looks round where they stand.
+    if (!drag_->picked && !walking_) start.place = scene_.pick(start.camera, start.pressed_px);
     drag_->picked = true;
     Camera there;
     if (drag_->orbits && start.place) {
@@ -150,7 +152,10 @@ void Gestures::toggle_walking(const Camera& camera, double time_s) {
 void Gestures::undo(const Camera& camera, bool again, double time_s) {
     const Camera& now = flight_ ? flight_->to() : camera;
     const auto there = again ? history_.again(now) : history_.undone(now);
-    if (there) begin_flight(camera, *there, time_s);
+    if (!there) return;
+    const Camera lifted = above_ground(*there, scene_.ground_h_m);
+    history_.correct(lifted);
+    begin_flight(camera, lifted, time_s);
 }
 
 void Gestures::key_down(const ViewEvent& event, const Camera& camera) {
@@ -218,7 +223,8 @@ GestureOutcome Gestures::take(const ViewEvent& event, const Camera& camera) {
     outcome.moved = !is_same_view(outcome.camera, camera);
     if (outcome.moved) {
         moved_s_ = event.time_s;
-        rests_ = walking_ = false;
+        rests_ = false;
+        walking_ = walking_ && is_same_place(outcome.camera.eye, camera.eye);
         last_ = outcome.camera;
     }
     return outcome;

@@ -102,11 +102,9 @@ class Gestures {
     // Flies to a view, from the one that is shown, which is remembered.
     void fly_to(const Camera& to, const Camera& camera, double time_s);
 
+    [[nodiscard]] bool is_walking() const { return walking_; }
     // Whether the next frame will differ without any event.
     [[nodiscard]] bool is_moving() const { return flight_ || moves(step_of_keys(Camera())); }
-    [[nodiscard]] bool is_walking() const { return walking_; }
-    // What stays under the cursor now: of a drag that has begun; nothing else.
-    [[nodiscard]] std::optional<Ecef> held_place() const;
     static constexpr double rest_s = 0.4;
 
   private:

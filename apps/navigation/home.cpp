@@ -92,6 +92,27 @@ std::optional<Camera> framed_home(const Camera& camera, const GroundPoints& grou
                             {0.0, overview_pitch_deg(ground.radius_m)}, ground.all, overview_margin);
 }
 
+std::optional<GroundBox> ground_box(const GroundPoints& ground) {
+    if (ground.all.empty()) return std::nullopt;
+    GroundBox around;
+    double west_deg = 0.0, east_deg = 0.0;  // from the middle
+    for (const Ecef& point : ground.all) {
+        const Geodetic place = geodetic_from_ecef(point);
+        const double turn_deg = std::remainder(place.lon_deg - ground.middle.lon_deg, 360.0);
+        const bool is_first = &point == ground.all.data();
+        const auto take = [&](double& low, double& high, double value) {
+            low = is_first ? value : std::min(low, value);
+            high = is_first ? value : std::max(high, value);
+        };
+        take(around.box.south_deg, around.box.north_deg, place.lat_deg);
+        take(west_deg, east_deg, turn_deg);
+        take(around.low_h_m, around.high_h_m, place.h_m);
+    }
+    around.box.west_deg = normalised_lon_deg(ground.middle.lon_deg + west_deg);
+    around.box.east_deg = normalised_lon_deg(ground.middle.lon_deg + east_deg);
+    return around;
+}
+
 std::optional<HomeArrow> home_arrow(const Camera& camera, const GroundBox& ground, double inset_px) {
     if (shows_place_of(camera, ground) || has_ray_to(camera, ground)) return std::nullopt;
     const BoundingBox& box = ground.box;

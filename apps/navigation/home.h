@@ -23,6 +23,9 @@ struct GroundBox {
     double high_h_m{};
 };
 
+// That of the points of a region; nothing where there are none.
+std::optional<GroundBox> ground_box(const GroundPoints& ground);
+
 // Where a region is that a picture does not show.
 struct HomeArrow {
     glm::dvec2 point_px{};   // near the picture's border, on the way from its middle to the region's

@@ -25,6 +25,8 @@ class ViewHistory {
     std::optional<Camera> undone(const Camera& camera);
     // The view that was undone last, likewise; nothing where the eye has rested elsewhere since.
     std::optional<Camera> again(const Camera& camera);
+    // The view that undone() or again() gave last is this one from now on: the ground has become higher.
+    void correct(const Camera& camera) { views_[at_] = camera; }
 
     [[nodiscard]] std::size_t size() const { return views_.size(); }
 

@@ -25,6 +25,9 @@ enum class Edges { smooth, steps };
 // it, how coarse, which meshlet, which triangle, how many triangles, which cluster, which group of clusters.
 enum class Show { visible, levels, meshlets, triangles, overdraw, clusters, groups };
 
+// Which lines lie over the ground: of latitude and longitude, or of the CRS of the data.
+enum class Graticule { geographic, projected };
+
 // The type in which a command line gives a value of type T, or does not give it: numbers are optional
 // numbers, lists are lists, and all else is the word that was typed.
 template <class T>
@@ -77,6 +80,7 @@ struct ViewSettings {
     Field<std::optional<bool>> labels;        // likewise: heights on contour lines
     Field<std::optional<Edges>> edges;        // likewise
     Field<std::optional<Show>> show;          // nothing: the ground
+    Field<std::optional<Graticule>> graticule;
     // "auto", "mesh" or "compute": written views name the one that drew them.
     Field<std::string> pipeline = Where::usual("auto");
     // "auto", "clusters" or "grid": what triangles are taken from (apps/drawing).

@@ -209,7 +209,7 @@ struct LinesLeftOut {
 };
 
 Result<Gazetteer> read_table(TextLines& lines, std::string line, const std::string& path,
-                             const std::optional<BoundingBox>& within) {
+                             const std::optional<BoundingBox>& within, const std::stop_token& stop) {
     Gazetteer gazetteer;
     Columns columns = geonames_columns;
     const bool has_heading = !is_geonames_line(line);
@@ -221,7 +221,7 @@ Result<Gazetteer> read_table(TextLines& lines, std::string line, const std::stri
     for (;; is_there = false) {
         if (!is_there) {
             ORO_TRY(const bool more, lines.next(line));
-            if (!more) break;
+            if (!more || stop.stop_requested()) break;
         }
         if (trimmed_field(line).empty()) continue;
         SearchPlace place;
@@ -265,7 +265,8 @@ Result<Gazetteer> read_points(const std::string& path, const std::optional<Bound
 
 }  // namespace
 
-Result<Gazetteer> read_gazetteer(const std::string& path, const std::optional<BoundingBox>& within) {
+Result<Gazetteer> read_gazetteer(const std::string& path, const std::optional<BoundingBox>& within,
+                                 const std::stop_token& stop) {
     ORO_TRY(TextLines lines, TextLines::of(path));
     std::string line;
     for (bool more = true; trimmed_field(line).empty();) {
@@ -275,7 +276,7 @@ Result<Gazetteer> read_gazetteer(const std::string& path, const std::optional<Bo
     const std::string_view start = trimmed_field(line);
     for (const char* const of_vectors : {"{", "<", "PK\x03\x04", "SQLite format 3"})
         if (start.starts_with(of_vectors)) return read_points(path, within);
-    return read_table(lines, line, path, within);
+    return read_table(lines, line, path, within, stop);
 }
 
 std::vector<SearchPlace> places_of(const VectorFile& file, const std::string& name_field) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -32,10 +33,11 @@ inline constexpr std::size_t most_gazetteer_places = 2'000'000;
 // within: places outside this box (of WGS84) are passed over; a dump of the whole Earth can be read so.
 // Tables are read line by line: memory is for the places that are kept. Lines that are none are left out, and
 // notes tell how many, the number of the first and what is wrong with it; beyond most_gazetteer_places
-// nothing more is read, and a note says so. Errors: a file that is not there, that cannot be read, or in
-// which no line has a place; a table without a column for names, latitudes or longitudes (with the file, and
-// the line).
-Result<Gazetteer> read_gazetteer(const std::string& path, const std::optional<BoundingBox>& within = {});
+// nothing more is read, and a note says so. stop: a table is read no further once it is asked for. Errors: a
+// file that is not there, that cannot be read, or in which no line has a place; a table without a column for
+// names, latitudes or longitudes (with the file, and the line).
+Result<Gazetteer> read_gazetteer(const std::string& path, const std::optional<BoundingBox>& within = {},
+                                 const std::stop_token& stop = {});
 
 // The named points of a vector file, in its order. A point is a summit where its field natural, class, type
 // or sym says peak, volcano or summit, or where it has a prominence.

@@ -49,6 +49,8 @@ inline constexpr Names<Show, 7> show_names{{{"visible", Show::visible},
 inline constexpr Names<ImageValues, 3> image_value_names{{{"auto", ImageValues::by_file},
                                                           {"codes", ImageValues::codes},
                                                           {"reflectance", ImageValues::reflectance}}};
+inline constexpr Names<Graticule, 2> graticule_names{
+    {{"geographic", Graticule::geographic}, {"projected", Graticule::projected}}};
 inline constexpr Names<Edges, 2> edge_names{{{"smooth", Edges::smooth}, {"steps", Edges::steps}}};
 
 // What --mesh takes, and view files have.

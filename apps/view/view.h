@@ -67,6 +67,8 @@ struct View : ViewSettings<OfView> {
     std::vector<ImageSource> images;                  // the files of drape, from open_view on
     VectorChoices vectors;                            // names and lines from files
     std::shared_ptr<const VectorsRead> vectors_read;  // what is in them, from open_view on; null: no files
+    // The CRS of a projected graticule, as CrsPlaces::of() takes it, from open_view on.
+    std::string graticule_crs;
     WorldModel model;
     bool has_geoid{true};  // false: N is 0 everywhere, heights are above the ellipsoid
     std::string accuracy;  // the bundle that these come from; empty when they were chosen one by one
@@ -142,6 +144,10 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
 // there, and those of open_image().
 Result<std::vector<ImageSource>> open_images(const std::vector<std::string>& files, ImageValues values,
                                              std::vector<Fingerprints::OfSource>& fingerprints);
+
+// Finds the CRS of a view's graticule, where it has a projected one. Errors (usage): the data are in none, or
+// in several.
+Result<void> find_graticule_crs(View& view, const Region& region);
 
 // Whether two views ask for the same region: the same data, read in the same way, with or without a geoid.
 bool asks_for_same_region(const View& one, const View& other);

@@ -3,11 +3,14 @@
 #include <filesystem>
 #include <utility>
 
+#include "apps/command_line/refusals.h"
 #include "apps/eye/standpoint.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "apps/view/view_option_table.h"
 #include "core/base/file_there.h"
+#include "geo/coordinates/crs_places.h"
+#include "geo/coordinates/source_crs.h"
 #include "geo/opening/open_region.h"
 #include "geo/together/covered_grids.h"
 
@@ -103,6 +106,21 @@ Result<std::vector<ImageSource>> open_images(const std::vector<std::string>& fil
     return images;
 }
 
+Result<void> find_graticule_crs(View& view, const Region& region) {
+    view.graticule_crs.clear();
+    if (view.graticule != Graticule::projected) return {};
+    const std::vector<std::string> all = source_crs_of(region);
+    if (all.size() == 1) {
+        const Result<CrsPlaces> crs = CrsPlaces::of(all.front(), CrsPlaces::Reach::anywhere);
+        if (crs.ok() && crs->is_projected()) {
+            view.graticule_crs = all.front();
+            return {};
+        }
+    }
+    return refused("--graticule", "projected",
+                   "is for data in one projected CRS: these have geographic ones, or several");
+}
+
 void begin_with_grid_at(const Geodetic& eye, View& view, Region& region) {
     swap_first_grid(view.first_grid, region);
     view.first_grid =
@@ -166,6 +184,7 @@ Result<void> open_recorded_view(const std::string& where, const ViewOptions& vie
         view.recorded->fingerprints->images.clear();
     if ((!view_options.names.empty() || !view_options.overlay.empty()) && view.recorded->fingerprints)
         view.recorded->fingerprints->vectors.clear();
+    ORO_CHECK(find_graticule_crs(view, region));
     return open_files(view);
 }
 
@@ -189,6 +208,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     ORO_CHECK(check_own_posts(view, region));
     leave_covered_grids_out(region);
     ORO_CHECK(open_files(view));
+    ORO_CHECK(find_graticule_crs(view, region));
     if (!view.has_geoid) leave_geoid_out(region);
     const Result<void> placed = place_eye(view, view_options, region);
     begin_with_grid_at(view.camera.eye, view, region);

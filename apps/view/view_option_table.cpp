@@ -228,6 +228,11 @@ void add_vectors(Rows looks) {
         [](auto& view) -> auto& { return view.vectors.overlay_fill; },
         "How much of the ground the areas of polygons hide, {}. Features with the fields fill and "
         "fill-opacity are filled as these say. Needs --overlay.");
+    looks.choice({"--graticule", changes_looks, "", "graticule"}, &ViewOptions::graticule, &View::graticule,
+                 graticule_names,
+                 "Lay lines with their values over the ground, as far apart as the view asks for: "
+                 "geographic, of latitude and longitude; projected, of easting and northing in the CRS of "
+                 "the data. A window shows them while the eye rests.");
 }
 
 void add_light(Rows looks) {

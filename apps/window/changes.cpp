@@ -124,10 +124,22 @@ Result<void> choose_light(Viewer& viewer, std::optional<bool> shadows, std::opti
     return take_look(viewer, std::move(view));
 }
 
+Result<void> choose_graticule(Viewer& viewer, std::optional<Graticule> graticule) {
+    const auto before = std::exchange(viewer.view.graticule, graticule);
+    if (const auto found = find_graticule_crs(viewer.view, viewer.region); !found.ok()) {
+        tell(viewer, found.error());
+        viewer.view.graticule = before;
+        return find_graticule_crs(viewer.view, viewer.region);
+    }
+    viewer.wants_picture = true;
+    return {};
+}
+
 Result<void> choose_exaggeration(Viewer& viewer, double factor) {
     if (factor == viewer.view.exaggeration) return {};
     const double before = std::exchange(viewer.view.exaggeration, factor);
     viewer.ground.reset();
+    viewer.way_home = {};
     viewer.under_pointer.reset();
     viewer.picked.reset();
     viewer.wants_picture = true;

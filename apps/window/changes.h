@@ -18,6 +18,8 @@ Result<void> choose_show(Viewer& viewer, std::optional<Show> show);
 Result<void> choose_sun(Viewer& viewer, const std::string& time);
 // The view's own shadows and openness of the sky; nothing: as the style has it.
 Result<void> choose_light(Viewer& viewer, std::optional<bool> shadows, std::optional<bool> sky_openness);
+// The graticule over the ground; nothing: none.
+Result<void> choose_graticule(Viewer& viewer, std::optional<Graticule> graticule);
 // How high heights are drawn, 1: as they are. The levels are measured anew, and the picture is coarse
 // meanwhile where that takes long.
 Result<void> choose_exaggeration(Viewer& viewer, double factor);

@@ -190,7 +190,7 @@ Interface::~Interface() {
 }
 
 Result<void> Interface::follow_scale() {
-    const double scale = window_->content_scale();
+    const double scale = window_->content_scale() * user_scale_;
     return scale == scale_ ? Result<void>() : take_scale(scale);
 }
 
@@ -240,6 +240,9 @@ Result<void> Interface::feed(const WindowInput& input, const Build& build, const
             is_panels = ImGui::GetIO().WantCaptureMouse;
         } else if (const auto* const pressed = std::get_if<KeyChanged>(&event)) {
             is_panels = is_panels_key(*pressed);
+            if (pressed->down) key_ = pressed->key;
+            repeats_ = pressed->down && pressed->repeated;
+            if (opener_ == pressed->key && !pressed->repeated) opener_ = 0;
             set_modifiers(*pressed);
             set_key(pressed->key, pressed->down);
             if (is_panels) {
@@ -247,6 +250,8 @@ Result<void> Interface::feed(const WindowInput& input, const Build& build, const
                 frame(build);
             }
         } else if (const auto* const typed = std::get_if<CharacterTyped>(&event)) {
+            // A letter that is held opens a field once, and is not typed into what it opened.
+            if (repeats_ && (!is_typing() || key_ == opener_)) continue;
             is_panels = is_typing();
             if (is_panels) {
                 ImGui::GetIO().AddInputCharacter(typed->code);
@@ -260,6 +265,7 @@ Result<void> Interface::feed(const WindowInput& input, const Build& build, const
             frame(build);
             frame(build);
         }
+        if (std::holds_alternative<CharacterTyped>(event) && is_typing()) opener_ = key_;
     }
     return {};
 }

@@ -36,6 +36,8 @@ class Interface {
     [[nodiscard]] bool takes_text() const;
     // Takes the letters for another screen, where the window has come to one. Errors: the device.
     Result<void> follow_scale();
+    // How large letters and panels are, beside the screen's own scale: of the user, 0.5 to 4.
+    void set_user_scale(double scale) { user_scale_ = scale; }
 
   private:
     explicit Interface(Window& window) : window_(&window) {}
@@ -43,8 +45,12 @@ class Interface {
     void frame(const Build& build);
 
     Window* window_;
-    double scale_{};
+    double scale_{};  // of both
+    double user_scale_{1.0};
     double elapsed_s_{1.0 / 60.0};  // since the last frame
+    int key_{};                     // that went down last
+    bool repeats_{};                // it is held, and comes again and again
+    int opener_{};  // the key whose letter opened the field that is typed into, while it is held
 };
 
 // How large a length of a usual screen is here: panels are laid out by it.

@@ -44,7 +44,6 @@ Result<Camera> Jumps::to(const Camera& camera, const Place& place, const Region&
             place.cell && !typed.empty() ? typed : place_name(place.lat_deg, place.lon_deg);
         ORO_TRY(there, camera_showing(there, place, asked, region, exaggeration, name));
     }
-    before_.push_back(camera);
     shown_ = place;
     heading_deg_ = heading_deg;
     return there;
@@ -71,20 +70,9 @@ Result<std::optional<Camera>> Jumps::stand(const Camera& camera, const Region& r
     there.eye.h_m += usual_above_m;
     there.attitude = users_attitude(camera.attitude, roll_deg_);
     there.attitude.pitch_deg = 0.0;
-    before_.push_back(camera);
     stay();
     if (higher && higher->moved_m > 0.0) higher_ = higher;
     return std::optional(there);
-}
-
-std::optional<Camera> Jumps::back(const Camera& camera) {
-    if (before_.empty()) return std::nullopt;
-    Camera there = before_.back();
-    before_.pop_back();
-    there.width_px = camera.width_px;
-    there.height_px = camera.height_px;
-    moved();
-    return there;
 }
 
 void Jumps::moved() {

@@ -145,6 +145,16 @@ std::optional<PictureClick> take_view_event(Viewer& viewer, const ViewEvent& eve
     return outcome.click;
 }
 
+void press_key(Viewer& viewer, ViewKey key) {
+    ViewEvent event;
+    event.key = key;
+    event.time_s = motion_clock_s();
+    for (const auto kind : {ViewEvent::Kind::key_down, ViewEvent::Kind::key_up}) {
+        event.kind = kind;
+        take_view_event(viewer, event);
+    }
+}
+
 void advance_eye(Viewer& viewer) {
     const GestureOutcome outcome = viewer.gestures->advance(viewer.view.camera, motion_clock_s());
     if (outcome.moved) take_camera(viewer, outcome.camera);

@@ -12,6 +12,8 @@ NavigationScene navigation_of(Viewer& viewer);
 // An event as gestures take it; nothing of what does not move the eye. time_s: of any clock.
 std::optional<ViewEvent> view_event_of(const WindowEvent& event, double time_s);
 
+// As the user presses a key that moves the eye, and lets it go.
+void press_key(Viewer& viewer, ViewKey key);
 // Gives gestures an event; what was clicked at is returned.
 std::optional<PictureClick> take_view_event(Viewer& viewer, const ViewEvent& event);
 // Flies on, and moves by the keys that are held: once before each frame.

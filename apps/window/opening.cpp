@@ -4,11 +4,14 @@
 #include <filesystem>
 #include <utility>
 
+#include "apps/drawing/mesh_choice.h"
 #include "apps/eye/standpoint.h"
 #include "apps/report/region_json.h"
 #include "apps/settings/recent_files.h"
 #include "apps/window/changes.h"
+#include "apps/window/kept_view.h"
 #include "apps/window/motion.h"
+#include "apps/window/pictures.h"
 #include "apps/window/search.h"
 #include "apps/window/window_start.h"
 #include "core/lod/ground_means.h"
@@ -77,7 +80,9 @@ std::optional<Camera> camera_of_picture(const Viewer& viewer, const std::string&
 void forget_region(Viewer& viewer) {
     viewer.coming.reset();
     viewer.finer.reset();
+    viewer.certificates.forget();
     viewer.scene.reset();
+    viewer.way_home = {};
     viewer.ground.reset();
     viewer.under_pointer.reset();
     viewer.in_middle.reset();
@@ -85,55 +90,50 @@ void forget_region(Viewer& viewer) {
     viewer.measuring = {};
     viewer.flies = false;
     viewer.panels.place = false;
-    viewer.vectors_known.reset();
-    viewer.images_known.clear();
 }
 
-// Another region in the same style and size.
-Result<void> open_region_of(Viewer& viewer, const std::vector<std::string>& paths) {
-    WindowOptions options = viewer.options;
-    options.view_file.clear();
-    options.region = {};
-    options.region.paths = paths;
-    options.view = {};
-    const Camera& shown = viewer.view.camera;
-    options.view.size = std::to_string(shown.width_px) + "x" + std::to_string(shown.height_px);
-    options.view.style = viewer.view.style;
-    View view;
-    Region region;
-    const auto refuse = [&](const Error& why) {
-        tell(viewer, why);
-        return Result<void>();
-    };
-    const Result<void> opened = open_flight(
-        options, [](double, const std::string&) {}, view, region);
-    if (!opened.ok()) return refuse(opened.error());
-    Result<RegionCuts> cuts = cut_regions(region);
-    if (!cuts.ok()) return refuse(cuts.error());
-    Result<Style> style = load_style(view, region.grids.front().field);
-    if (!style.ok()) return refuse(style.error());
-    const bool keeps_means = asks_for_means(style->frame);
-    Result<OpenedScene> scene =
-        open_scene(viewer.gpu, region, *cuts, view, {options.memory, true, keeps_means}, [](double) {});
-    if (!scene.ok()) return refuse(scene.error());
-    forget_region(viewer);
-    viewer.options = options;
-    viewer.view = std::move(view);
-    viewer.region = std::move(region);
-    viewer.cuts = std::move(*cuts);
-    viewer.style = std::move(*style);
-    take_scene(viewer, std::move(*scene));
-    viewer.jumps = Jumps(users_roll_deg(viewer.view.camera, std::nullopt));
-    viewer.gestures.emplace(navigation_of(viewer));
+// Begins to read another region; what is shown stays until it is there.
+void begin_opening(Viewer& viewer, const std::vector<std::string>& paths) {
+    if (viewer.opening) return tell(viewer, viewer.opening->name() + " is still being opened", true);
+    viewer.opening =
+        std::make_unique<RegionOpening>(options_for_other_region(viewer.options, viewer.view, paths));
+    tell(viewer, "opening " + viewer.opening->name());
+}
+
+// A scene of the region that was read, with all that its user chose. Errors: as they are told to the user.
+Result<OpenedScene> scene_of(Viewer& viewer, OpenedRegion& opened, Style& style) {
+    keep_choices(viewer.view, opened.view);
+    // Data in no projected CRS have the other graticule.
+    if (!find_graticule_crs(opened.view, opened.region).ok()) opened.view.graticule = Graticule::geographic;
+    ORO_TRY(style, load_style(opened.view, opened.region.grids.front().field));
+    const bool keeps_means = viewer.keeps_means || asks_for_means(style.frame);
+    ORO_TRY(const bool clusters, draws_clusters(opened.region, opened.view));
+    ORO_TRY(Scene scene,
+            scene_with_images(viewer.gpu, opened.region, opened.cuts, std::move(opened.pages), opened.view,
+                              {viewer.options.memory, true, keeps_means, clusters}));
     viewer.keeps_means = keeps_means;
-    viewer.name = name_of_paths(paths);
+    return OpenedScene{std::move(scene), measures_long(opened.region)};
+}
+
+// Shows it in the place of the one that was shown.
+Result<void> show_region(Viewer& viewer, OpenedRegion opened, OpenedScene scene, Style style) {
+    forget_region(viewer);
+    viewer.options = std::move(opened.options);
+    viewer.view = std::move(opened.view);
+    viewer.region = std::move(opened.region);
+    viewer.cuts = std::move(opened.cuts);
+    viewer.style = std::move(style);
+    take_scene(viewer, std::move(scene));
+    viewer.jumps = Jumps(users_roll_deg(viewer.view.camera, viewer.options.view.roll_deg));
+    viewer.gestures.emplace(navigation_of(viewer));
+    viewer.name = name_of_paths(viewer.options.region.paths);
     viewer.window.set_title(one_line("Orograph - " + viewer.name));
     for (const std::string& note : all_notes(viewer.region))
         viewer.log.push_back({one_line(note), Clock::now(), false, false});
     viewer.wants_picture = true;
     tell(viewer, "opened " + viewer.name);
     fill_search(viewer);
-    remember_opened(viewer, paths);
+    remember_opened(viewer, viewer.options.region.paths);
     return renew_renderer(viewer);
 }
 
@@ -158,8 +158,23 @@ Result<void> open_paths(Viewer& viewer, const std::vector<std::string>& paths) {
         else
             others.push_back(path);
     }
-    if (!others.empty()) ORO_CHECK(open_region_of(viewer, others));
+    if (!others.empty()) begin_opening(viewer, others);
     return vectors.empty() ? Result<void>() : add_vectors(viewer, vectors);
+}
+
+Result<void> take_opened(Viewer& viewer) {
+    if (!viewer.opening || !viewer.opening->ready()) return {};
+    Result<OpenedRegion> opened = viewer.opening->wait();
+    viewer.opening.reset();
+    const auto refuse = [&](const Error& why) {
+        tell(viewer, why);
+        return Result<void>();
+    };
+    if (!opened.ok()) return refuse(opened.error());
+    Style style;
+    Result<OpenedScene> scene = scene_of(viewer, *opened, style);
+    if (!scene.ok()) return refuse(scene.error());
+    return show_region(viewer, std::move(*opened), std::move(*scene), std::move(style));
 }
 
 }  // namespace oro

@@ -19,6 +19,15 @@ Result<void> wait_for_finer_scene(Viewer& viewer) {
     return {};
 }
 
+// The view of the picture that is asked for.
+View pictured(View view, const PictureChoice& choice) {
+    view.camera.width_px = choice.width_px;
+    view.camera.height_px = choice.height_px;
+    view.samples = choice.samples;
+    view.legend = has_own_legend(view);
+    return view;
+}
+
 }  // namespace
 
 void follow_sun(Viewer& viewer) {
@@ -30,6 +39,7 @@ void follow_sun(Viewer& viewer) {
 
 void take_scene(Viewer& viewer, OpenedScene opened) {
     viewer.coming.reset();
+    viewer.certificates.forget();
     viewer.scene = std::make_unique<Scene>(std::move(opened.scene));
     viewer.finer = opened.is_coarse
                        ? std::make_unique<BackgroundPyramidBuild>(viewer.region, viewer.view.exaggeration)
@@ -48,6 +58,7 @@ Result<void> begin_finer_scene(Viewer& viewer) {
 }
 
 void show_finer_scene(Viewer& viewer) {
+    viewer.certificates.forget();
     viewer.scene = std::move(viewer.coming);
     viewer.is_missing = false;
     viewer.wants_picture = true;
@@ -70,15 +81,11 @@ Result<void> take_picture(Viewer& viewer, const PictureChoice& choice) {
         ORO_CHECK(wait_for_finer_scene(viewer));
     }
     viewer.view.time_utc_s = time_now_s();
-    View view = viewer.view;
-    view.camera.width_px = choice.width_px;
-    view.camera.height_px = choice.height_px;
-    view.samples = choice.samples;
+    View view = pictured(viewer.view, choice);
     const PictureFiles files = picture_files(free_picture_name(view.time_utc_s, choice.ending));
     ORO_TRY(const RegionGround* const ground, ground_of(viewer));
     ORO_TRY(const auto middle, place_in_middle(view, *ground));
     ORO_CHECK(fit_to_view(viewer.style, view, viewer.region.grids.front().field));
-    view.legend = has_own_legend(view);
     ORO_TRY(const auto strip, strip_of(view, viewer.region, viewer.style, middle));
     const auto written = write_picture(files, false, view, viewer.region, *ground, middle, viewer.gpu,
                                        *viewer.scene, viewer.style, strip, {});
@@ -90,11 +97,13 @@ Result<void> take_picture(Viewer& viewer, const PictureChoice& choice) {
     return {};
 }
 
-std::string command_line_of(const View& view) {
+std::string command_line_of(const View& shown, const PictureChoice& choice) {
+    const View view = pictured(shown, choice);
     // In single quotes a shell takes everything but these as it is.
     std::string json;
     for (const char c : view_to_json(view, false)) json += c == '\'' ? "'\\''" : std::string(1, c);
-    return "printf '%s' '" + json + "' >view.json\norograph shot --view view.json --out picture.png\n";
+    return "printf '%s' '" + json + "' >view.json\norograph shot --view view.json --out picture" +
+           choice.ending + "\n";
 }
 
 }  // namespace oro

@@ -19,8 +19,8 @@ void show_finer_scene(Viewer& viewer);
 Result<void> take_picture(Viewer& viewer);
 // The same of another size, of more samples, or as another kind of file; the angle of view stays upright.
 Result<void> take_picture(Viewer& viewer, const PictureChoice& choice);
-// Lines for a shell that draw the picture of this view: its view as a file, and shot. The bytes are those of
-// P, but for the time in them.
-std::string command_line_of(const View& view);
+// Lines for a shell that draw the picture that is asked for of this view: its view as a file, and shot. The
+// bytes are those that take_picture() writes, but for the time in them.
+std::string command_line_of(const View& view, const PictureChoice& choice);
 
 }  // namespace oro

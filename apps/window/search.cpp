@@ -52,6 +52,12 @@ Result<Camera> camera_to(Viewer& viewer, const SearchTarget& target) {
     return standing.value_or(there);
 }
 
+void take_bookmarks(Viewer& viewer, const std::vector<Bookmark>& all) {
+    viewer.bookmarks = all;
+    viewer.index.set_bookmarks(all);
+    find_matches(viewer);
+}
+
 }  // namespace
 
 void index_points(Viewer& viewer) {
@@ -68,26 +74,65 @@ void index_points(Viewer& viewer) {
 void fill_search(Viewer& viewer) {
     const auto bookmarks = read_bookmarks();
     if (bookmarks.ok()) {
-        viewer.index.set_bookmarks(bookmarks->all);
+        take_bookmarks(viewer, bookmarks->all);
         for (const std::string& note : bookmarks->notes) tell(viewer, note);
     }
     index_points(viewer);
-    std::vector<SearchPlace> names;
-    for (const std::string& file : viewer.options.gazetteers) {
-        Result<Gazetteer> read = read_gazetteer(file);
-        if (!read.ok()) {
-            tell(viewer, read.error());
-            continue;
-        }
-        for (const std::string& note : read->notes) say(viewer.options.quiet, "note: " + note);
-        for (SearchPlace& place : read->places) names.push_back(std::move(place));
-    }
-    viewer.index.set_gazetteer(NameTable(std::move(names)));
     auto crs = search_crs(viewer.options.coordinates, viewer.region);
     if (crs.ok())
         viewer.index.set_crs(std::move(*crs));
     else
         tell(viewer, crs.error());
+}
+
+void take_gazetteers(Viewer& viewer) {
+    if (!viewer.is_shown) return;
+    if (!viewer.reads_gazetteers && !viewer.options.gazetteers.empty())
+        viewer.gazetteers = std::make_unique<GazetteerReading>(viewer.options.gazetteers);
+    viewer.reads_gazetteers = true;
+    if (!viewer.gazetteers || !viewer.gazetteers->ready()) return;
+    GazetteerNames read = viewer.gazetteers->wait();
+    viewer.gazetteers.reset();
+    for (const Error& why : read.errors) tell(viewer, why);
+    for (const std::string& note : read.notes) say(viewer.options.quiet, "note: " + note);
+    viewer.index.set_gazetteer(std::move(read.names));
+    find_matches(viewer);
+}
+
+void find_matches(Viewer& viewer) {
+    constexpr std::size_t most_matches = 8;
+    viewer.search.chosen.reset();
+    viewer.search.matches = viewer.index.matches(viewer.search.text, most_matches);
+}
+
+void keep_bookmark(Viewer& viewer) {
+    const Camera& camera = viewer.view.camera;
+    Bookmark bookmark;
+    bookmark.name = viewer.bookmark_name;
+    bookmark.lat_deg = camera.eye.lat_deg;
+    bookmark.lon_deg = camera.eye.lon_deg;
+    bookmark.eye = BookmarkedEye{camera.eye.h_m, camera.attitude.heading_deg, camera.attitude.pitch_deg,
+                                 camera.attitude.roll_deg, camera.vertical_fov_deg};
+    const auto kept = add_bookmark(bookmark);
+    if (!kept.ok()) return tell(viewer, kept.error());
+    for (const std::string& note : kept->notes) tell(viewer, note);
+    take_bookmarks(viewer, kept->all);
+    tell(viewer, "kept this view as " + bookmark.name);
+    viewer.bookmark_name.clear();
+}
+
+void drop_bookmark(Viewer& viewer, const std::string& name) {
+    const auto kept = remove_bookmark(name);
+    if (!kept.ok()) return tell(viewer, kept.error());
+    take_bookmarks(viewer, kept->all);
+}
+
+void go_to_bookmark(Viewer& viewer, const Bookmark& bookmark) {
+    SearchMatch match;
+    match.place = {bookmark.name, bookmark.lat_deg, bookmark.lon_deg, {}, PlaceClass::other, 0.0};
+    match.source = NameSource::bookmark;
+    match.eye = bookmark.eye;
+    go_to(viewer, target_of(match));
 }
 
 void go_to(Viewer& viewer, const SearchTarget& target) {

@@ -7,6 +7,7 @@
 
 #include "apps/eye/standpoint.h"
 #include "apps/report/progress_bar.h"
+#include "geo/posts/source_at.h"
 
 namespace oro {
 
@@ -55,7 +56,17 @@ Result<PickedPlace> picked_at(Viewer& viewer, glm::dvec2 point_px) {
     const SeenPlace& seen = *picked.seen;
     const auto number = ground->ground().grid_at(seen.lat_deg, seen.lon_deg);
     if (!number) return picked;
-    const auto [row, column] = ground->grid(*number).field.grid.post_at(seen.lat_deg, seen.lon_deg);
+    const RegionGrid& grid = ground->grid(*number);
+    picked.geoid = grid.geoid;
+    if (const SourceReport* const source = source_at(grid, seen.lat_deg, seen.lon_deg)) {
+        picked.source_crs = source->crs;
+        if (source->spacing_m > 0.0) picked.source_spacing_m = source->spacing_m;
+    }
+    if (!is_coarse(viewer) && viewer.scene) {
+        ORO_TRY(picked.certificate,
+                viewer.certificates.at(*viewer.scene, *number, seen.lat_deg, seen.lon_deg, viewer.view));
+    }
+    const auto [row, column] = grid.field.grid.post_at(seen.lat_deg, seen.lon_deg);
     const auto slope = ground->ground().surface(*number).slope_at(row, column);
     if (!slope) return picked;
     picked.slope_deg = deg_from_radians(Radians{std::atan(slope->steepness() / viewer.view.exaggeration)});
@@ -63,6 +74,20 @@ Result<PickedPlace> picked_at(Viewer& viewer, glm::dvec2 point_px) {
         picked.aspect_deg =
             std::fmod(deg_from_radians(Radians{std::atan2(-slope->east, -slope->north)}) + 360.0, 360.0);
     return picked;
+}
+
+const std::optional<HomeArrow>& way_home(Viewer& viewer, double inset_px) {
+    WayHome& way = viewer.way_home;
+    const Camera& camera = viewer.view.camera;
+    const bool is_known = way.ground && is_same_view(camera, way.of) && camera.width_px == way.of.width_px &&
+                          camera.height_px == way.of.height_px;
+    if (is_known) return way.arrow;
+    // Finding where the ground is takes a moment: not until the eye has rested where the middle shows none.
+    if (!way.ground && (!viewer.in_middle || viewer.in_middle->seen)) return way.arrow;
+    if (!way.ground) way.ground = ground_box(ground_points(viewer.region, viewer.view.exaggeration));
+    way.of = camera;
+    way.arrow = way.ground ? home_arrow(camera, *way.ground, inset_px) : std::nullopt;
+    return way.arrow;
 }
 
 bool is_coarse(const Viewer& viewer) {

@@ -16,11 +16,16 @@
 #include "apps/drawing/region_scene.h"
 #include "apps/legend/colour_key.h"
 #include "apps/navigation/gestures.h"
+#include "apps/navigation/home.h"
+#include "apps/search/gazetteer_reading.h"
 #include "apps/search/search_index.h"
+#include "apps/settings/window_settings.h"
 #include "apps/view/style.h"
 #include "apps/window/detail.h"
 #include "apps/window/jump.h"
 #include "apps/window/measure.h"
+#include "apps/window/place_certificates.h"
+#include "apps/window/region_opening.h"
 #include "core/base/elapsed.h"
 #include "render/frame/frame_renderer.h"
 #include "render/window.h"
@@ -52,6 +57,12 @@ struct PickedPlace {
     std::optional<double> slope_deg;
     std::optional<double>
         aspect_deg;  // where the ground falls to, clockwise from true north; none where level
+    std::optional<double> source_spacing_m;  // from post to post, of the source that its height comes from
+    std::string source_crs;                  // of that: "EPSG:4326 WGS 84"
+    std::string geoid;                       // what N is: "EGM96 (egm96_15.gtx)"
+    // How far what is drawn there may be from the full resolution; nothing while levels are being measured,
+    // and where clusters draw the ground.
+    std::optional<SampledDetail::Bound> certificate;
 };
 
 // What the panel of the sun shows: a time by a clock.
@@ -87,6 +98,13 @@ struct Panels {
     void open(bool Panels::*panel);
 };
 
+// The way back to a region that is out of the picture.
+struct WayHome {
+    std::optional<GroundBox> ground;  // of the region, once it was asked for
+    Camera of;                        // the arrow is this view's
+    std::optional<HomeArrow> arrow;
+};
+
 struct Viewer {
     WindowOptions options;
     View view;
@@ -103,10 +121,18 @@ struct Viewer {
     std::deque<Message> log{};
     SearchField search{};
     SearchIndex index{};
+    std::unique_ptr<GazetteerReading> gazetteers{};  // until they are in the index
+    bool reads_gazetteers{};                         // they were asked for
+    std::vector<Bookmark> bookmarks{};
+    std::string bookmark_name{};  // as it is typed
     Panels panels{};
+    WindowSettings settings{};  // of the user
+    bool keeps_size{};          // no option says how large the window is
     std::optional<PickedPlace> under_pointer{};
     std::optional<PickedPlace> picked{};
     std::optional<PickedPlace> in_middle{};
+    WayHome way_home{};
+    PlaceCertificates certificates{};
     Measuring measuring{};
     std::optional<SunClock> sun_clock{};
     std::optional<PictureChoice> picture_choice{};   // of the dialog
@@ -118,7 +144,8 @@ struct Viewer {
     std::unique_ptr<const RegionGround> ground{};    // made when it is first asked, for all questions after
     // The levels that the view asks for, until they are here.
     std::unique_ptr<BackgroundPyramidBuild> finer{};
-    std::unique_ptr<Scene> coming{};  // of them, until what a picture needs is on the GPU
+    std::unique_ptr<RegionOpening> opening{};  // another region, until it is read
+    std::unique_ptr<Scene> coming{};           // of them, until what a picture needs is on the GPU
     Clock::time_point coming_since{};
     Clock::time_point started{};
     bool is_shown{};          // once ground is, or a view that has none
@@ -156,6 +183,9 @@ Result<const RegionGround*> ground_of(Viewer& viewer);
 Result<std::optional<SeenPlace>> seen_at(Viewer& viewer, glm::dvec2 point_px);
 // The same with how the ground lies there.
 Result<PickedPlace> picked_at(Viewer& viewer, glm::dvec2 point_px);
+
+// Where the region is, from a view that shows nothing of it; inset_px: of the arrow from the window's border.
+const std::optional<HomeArrow>& way_home(Viewer& viewer, double inset_px);
 
 // Whether what is shown is of every n-th post.
 bool is_coarse(const Viewer& viewer);

@@ -83,6 +83,9 @@ Outcome run_program(const std::vector<std::string>& words, const Circumstances& 
         redirect(said / "out", STDOUT_FILENO, O_WRONLY | O_CREAT);
         redirect(said / "err", STDERR_FILENO, O_WRONLY | O_CREAT);
         setenv("OROGRAPH_CACHE", cache.c_str(), 1);
+        // What a window keeps is nobody's but this run's.
+        for (const char* const name : {"XDG_CONFIG_HOME", "XDG_STATE_HOME"})
+            setenv(name, (said / "user").c_str(), 1);
         take_on(circumstances);
         std::vector<char*> arguments;
         for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));

@@ -57,6 +57,7 @@ TEST(RefusedOptions, Choices) {
          {{"plan", file, "--accuracy", "best"}, "--accuracy best: choose draft, balanced or survey"},
          {{"shot", file, "--drape-values", "bright"},
           "--drape-values bright: choose auto, codes or reflectance"},
+         {{"shot", file, "--graticule", "squares"}, "--graticule squares: choose geographic or projected"},
          {{"shot", file, "--pipeline", "cpu"}, "--pipeline cpu: choose auto, mesh or compute"},
          {{"info", file, "--height-unit", "feet"}, "--height-unit feet: choose m, ft, us-ft, cm, dm or mm"},
          {{"info", file, "--source-crs", "EPSG:999999"},

@@ -405,6 +405,30 @@ TEST(Window, FramesThatAreExplainedHaveALegend) {
     EXPECT_GT(view.value("legend_px", 0), 100) << view;
 }
 
+// As large as the last window was, with the panels that were open, where no option says it.
+TEST(Window, IsAsItWasLeft) {
+    const fs::path folder = oro::test::scratch_folder(), settings = folder / "config/orograph/window.json";
+    fs::create_directories(settings.parent_path());
+    std::ofstream(settings) << R"({"width_px": 300, "height_px": 200, "panels": {"statistics": true}})";
+    oro::test::Circumstances there;
+    there.environment = {"WAYLAND_DISPLAY", "XDG_CONFIG_HOME=" + (folder / "config").string()};
+    const std::string session =
+        "\"$1\" view \"$3\" --style default --at 36.53,-84.35 --above 900 2>said.txt & viewer=$!; "
+        "for try in $(seq 600); do grep -q 'first picture' said.txt && break; sleep 0.1; done; "
+        "window=$(xdotool search --onlyvisible --pid $viewer | head -n 1); "
+        "xdotool getwindowgeometry $window; xdotool windowsize --sync $window 310 220; sleep 1; "
+        "xdotool windowfocus --sync $window; xdotool key ctrl+q; wait $viewer; cat said.txt";
+    const auto outcome = oro::test::run_program({OROGRAPH_ON_DISPLAY, "sh", "-c", "cd \"$2\"; " + session,
+                                                 "sh", OROGRAPH_PROGRAM, folder, oro::test::bundled()},
+                                                there);
+    EXPECT_NE(outcome.out.find("Geometry: 300x200"), std::string::npos) << outcome.out << outcome.err;
+    const json kept = json::parse(oro::test::bytes_of(settings), nullptr, false);
+    EXPECT_EQ(kept.value("width_px", 0), 310) << kept;
+    EXPECT_EQ(kept.value("height_px", 0), 220);
+    EXPECT_TRUE(kept.at("panels").value("statistics", false));
+    EXPECT_FALSE(kept.at("panels").value("layers", true));
+}
+
 TEST(Window, SaysWhatChangedSinceThePicture) {
     const fs::path folder = oro::test::scratch_folder();
     const auto write_tile = [&](char height) {

@@ -233,19 +233,12 @@ TEST(MovedToSummit, APlaceWithoutGroundHasNoDifference) {
     }
 }
 
-bool same(const Camera& a, const Camera& b) {
-    return a.eye.lat_deg == b.eye.lat_deg && a.eye.lon_deg == b.eye.lon_deg && a.eye.h_m == b.eye.h_m &&
-           a.attitude.heading_deg == b.attitude.heading_deg && a.attitude.pitch_deg == b.attitude.pitch_deg &&
-           a.attitude.roll_deg == b.attitude.roll_deg && a.vertical_fov_deg == b.vertical_fov_deg;
-}
-
-TEST(Jumps, GoThereStandAndComeBackToTheLastBit) {
+TEST(Jumps, GoThereAndStand) {
     const Region region = two_cells();
     Camera start = wide();
     start.eye = {46.123456789, 7.3, 94'321.0123};
     start.attitude = {205.125, -31.7, 0.0};
     Jumps jumps;
-    EXPECT_FALSE(jumps.back(start)) << "nothing to go back to";
     EXPECT_FALSE(jumps.stand(start, region, 1.0).value()) << "nothing to stand on";
     const Camera framed = jumps.to(start, place_of("N46E008"), region, 1.0).value();
     EXPECT_NEAR(framed.attitude.heading_deg, 205.1, 1.0) << "from the side that it looked from";
@@ -255,14 +248,6 @@ TEST(Jumps, GoThereStandAndComeBackToTheLastBit) {
     EXPECT_EQ(standing->eye.lon_deg, 8.5);
     EXPECT_NEAR(standing->eye.h_m, *ground_h_m(region.grids[0].field, 46.5, 8.5) + 2.0, 1e-9);
     EXPECT_EQ(standing->attitude.pitch_deg, 0.0);
-    Camera resized = *standing;
-    resized.width_px = 333;
-    const auto back = jumps.back(resized);
-    ASSERT_TRUE(back);
-    EXPECT_TRUE(same(*back, framed));
-    EXPECT_EQ(back->width_px, 333) << "the window stays as large as it is";
-    EXPECT_TRUE(same(*jumps.back(*back), start));
-    EXPECT_FALSE(jumps.back(start));
 }
 
 TEST(Jumps, StayWhereThereIsNoData) {
@@ -271,14 +256,12 @@ TEST(Jumps, StayWhereThereIsNoData) {
     start.eye = {46.5, 7.5, 3000.0};
     Jumps jumps;
     EXPECT_FALSE(jumps.to(start, place_of("0,0"), region, 1.0).ok());
-    EXPECT_FALSE(jumps.back(start));
     // A place with a height of its own is where the eye goes.
     const Camera there = jumps.to(start, place_of("geo:46.5,8.5,5000"), region, 1.0).value();
     EXPECT_EQ(there.eye.h_m, 5000.0);
     EXPECT_EQ(there.eye.lon_deg, 8.5);
     jumps.moved();
     EXPECT_FALSE(jumps.stand(there, region, 1.0).value());
-    EXPECT_TRUE(same(*jumps.back(there), start)) << "the way back stays";
 }
 
 // From straight above, where framing turned the picture by its roll.
@@ -348,7 +331,6 @@ TEST(Jumps, StandOnTheHighestPostNearOnceMore) {
     EXPECT_NEAR(summit->eye.lat_deg, 46.9, 1e-9);
     EXPECT_NEAR(summit->eye.h_m, 2002.0, 0.1);
     EXPECT_FALSE(jumps.stand(*summit, cone, 1.0).value()) << "it stands there";
-    EXPECT_TRUE(same(*jumps.back(*summit), *standing));
 }
 
 }  // namespace

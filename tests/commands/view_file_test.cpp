@@ -33,6 +33,7 @@ oro::View unusual_view() {
     view.labels = true;
     view.edges = oro::Edges::steps;
     view.show = oro::Show::levels;
+    view.graticule = oro::Graticule::projected;
     view.mesh_level = 7;
     view.pipeline = "compute";
     view.model = {oro::Earth::sphere, {-0.25}, oro::Precision::naive};
@@ -59,6 +60,7 @@ TEST(ViewFile, EveryFieldComesBack) {
         EXPECT_EQ(read->edges, oro::Edges::steps);
         EXPECT_EQ(read->show, oro::Show::levels);
         EXPECT_EQ(read->mesh_level, 7);
+        EXPECT_EQ(read->graticule, oro::Graticule::projected);
         EXPECT_EQ(read->camera.eye.lat_deg, view.camera.eye.lat_deg);
         EXPECT_EQ(read->model.air, oro::Air{-0.25});
         EXPECT_FALSE(read->has_geoid);
@@ -80,7 +82,7 @@ TEST(ViewFile, KeysStandAsTheyAlwaysDid) {
         "orograph_view sources bbox height_unit source_crs source_vertical fill_voids strict_datum eye "
         "heading_deg pitch_deg roll_deg fov_deg size_px samples exaggeration sun visibility_km style sea "
         "rim drape names overlay names_field shadows sky_openness labels show edges pipeline mesh "
-        "mesh_level tau_px accuracy earth geoid refraction air precision heights time_utc_s time ");
+        "mesh_level tau_px accuracy earth geoid refraction air precision heights graticule time_utc_s time ");
 }
 
 TEST(ViewFile, PanoramasComeBackAndHaveSomethingInThem) {

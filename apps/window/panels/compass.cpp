@@ -9,19 +9,6 @@
 
 namespace oro {
 
-namespace {
-
-// As the key N turns north up.
-ViewEvent north_key() {
-    ViewEvent event;
-    event.kind = ViewEvent::Kind::key_down;
-    event.key = ViewKey::n;
-    event.time_s = motion_clock_s();
-    return event;
-}
-
-}  // namespace
-
 void build_compass(Viewer& viewer) {
     const float radius = scaled_px(26.0F), gap = scaled_px(10.0F);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
@@ -30,8 +17,7 @@ void build_compass(Viewer& viewer) {
     ImGui::PopStyleVar(2);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 middle(corner.x + radius, corner.y + radius);
-    if (ImGui::InvisibleButton("##north", {2.0F * radius, 2.0F * radius}))
-        take_view_event(viewer, north_key());
+    if (ImGui::InvisibleButton("##north", {2.0F * radius, 2.0F * radius})) press_key(viewer, ViewKey::n);
     const bool hovered = ImGui::IsItemHovered();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddCircleFilled(middle, radius, interface_colour::paper, 48);

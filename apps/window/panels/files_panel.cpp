@@ -39,12 +39,7 @@ Listing listing_of(const std::string& folder) {
 }
 
 void open_now(Viewer& viewer, const std::vector<std::string>& paths) {
-    tell(viewer, "opening " + name_of_paths(paths));
-    // After this has been shown.
-    viewer.wishes.push_back([paths](Viewer& v) {
-        v.wishes.push_back([paths](Viewer& later) { return open_paths(later, paths); });
-        return Result<void>();
-    });
+    viewer.wishes.push_back([paths](Viewer& v) { return open_paths(v, paths); });
 }
 
 void list_recent(Viewer& viewer) {

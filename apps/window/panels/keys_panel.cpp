@@ -11,6 +11,7 @@ struct KeyWords {
 constexpr KeyWords key_words[] = {{"", "Moving"},
                                   {"Left drag", "takes hold of the ground"},
                                   {"Wheel", "nearer to what is under the pointer, and farther"},
+                                  {"+, -", "nearer to the picture's middle, and farther"},
                                   {"Right drag", "goes round the place that was held, and tilts"},
                                   {"Two clicks", "flies to a place"},
                                   {"W A S D, arrows", "forward, left, back, right; with Shift faster"},
@@ -30,6 +31,7 @@ constexpr KeyWords key_words[] = {{"", "Moving"},
                                   {"?, H, F1", "these keys"},
                                   {"Tab", "hides and shows all that lies over the picture"},
                                   {"F11", "full screen"},
+                                  {"Ctrl and +, -, 0", "larger, smaller and usual letters"},
                                   {"Esc", "closes what is open; it never quits"},
                                   {"Ctrl-Q", "quits"}};
 

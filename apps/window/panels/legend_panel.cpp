@@ -14,9 +14,9 @@ ImU32 colour_of(const StripColour& colour) {
 // On the paper of the legends of pictures: its colours mean what they are only beside the same paper.
 void build_legend(Viewer& viewer) {
     if (!viewer.view.show || viewer.legend.names.empty()) return;
-    const float top = viewer.panels.hidden ? 10.0F : 52.0F;
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::PushStyleColor(ImGuiCol_WindowBg, colour_of(legend_paper));
-    begin_area("##legend", {scaled_px(10.0F), scaled_px(top)}, {0.0F, 0.0F});
+    begin_area("##legend", {display.x - scaled_px(10.0F), display.y - scaled_px(40.0F)}, {1.0F, 1.0F});
     ImGui::PushStyleColor(ImGuiCol_Text, colour_of(legend_ink));
     ImGui::TextUnformatted(viewer.legend.title.c_str());
     const float side = scaled_px(13.0F);

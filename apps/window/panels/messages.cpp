@@ -58,6 +58,9 @@ void build_messages_panel(Viewer& viewer) {
             for (const Message& message : viewer.log) all += message.text + "\n";
             ImGui::SetClipboardText(all.c_str());
         }
+        // Whoever has not gone back to older lines sees the newest.
+        if (ImGui::IsWindowAppearing() || ImGui::GetScrollY() >= ImGui::GetScrollMaxY())
+            ImGui::SetScrollHereY(1.0F);
     }
     ImGui::End();
 }

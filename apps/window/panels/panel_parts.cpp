@@ -44,7 +44,7 @@ void value_line(const char* name, const std::string& value, const char* tip_text
         ImGui::SetClipboardText(value.c_str());
     if (ImGui::IsItemHovered()) {
         ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
-        ImGui::SetTooltip("Click copies it");
+        tip((std::string(tip_text) + (*tip_text == '\0' ? "" : "\n") + "A click copies it.").c_str());
     }
     ImGui::PopID();
 }

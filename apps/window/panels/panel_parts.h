@@ -18,7 +18,8 @@ bool begin_panel(const char* title, bool& is_open, PanelCorner corner, float wid
 // Begins an area without a frame at a place of the window, by the corner of itself that `pivot` names.
 bool begin_area(const char* name, ImVec2 at_px, ImVec2 pivot, bool with_paper = true);
 
-// A line of two columns, whose value is copied by a click; tip: what the value means, "" for none.
+// A line of two columns, whose value is copied by a click; tip: what the value means, "" for none. Both
+// columns say it.
 void value_line(const char* name, const std::string& value, const char* tip = "");
 // Lets what was built last have a tooltip.
 void tip(const char* text);

@@ -11,8 +11,10 @@ void build_panels(Viewer& viewer) {
     build_status_bar(viewer);
     build_buttons(viewer);
     build_compass(viewer);
+    build_home_arrow(viewer);
     build_legend(viewer);
     build_toasts(viewer);
+    build_opening_bar(viewer);
     build_messages_panel(viewer);
     build_layers_panel(viewer);
     build_sun_panel(viewer);

@@ -14,9 +14,11 @@ void build_status_bar(Viewer& viewer);    // place, height, scale, certificate, 
 void build_search_field(Viewer& viewer);  // in the upper left corner
 void build_buttons(Viewer& viewer);       // of panels, beside it
 void build_compass(Viewer& viewer);       // in the upper right corner: a click turns north up
-void build_legend(Viewer& viewer);       // what the colours of --show stand for
+void build_home_arrow(Viewer& viewer);    // to a region that is out of the picture
+void build_legend(Viewer& viewer);        // what the colours of --show stand for
 void build_toasts(Viewer& viewer);        // what was said just now
 bool has_toasts(const Viewer& viewer);
+void build_opening_bar(const Viewer& viewer);  // how far another region is read
 void build_messages_panel(Viewer& viewer);
 void build_keys_panel(Viewer& viewer);
 void build_layers_panel(Viewer& viewer);      // style, heights, names, lines, images, how frames are made

@@ -16,18 +16,45 @@ std::string written(const char* form, Values... values) {
     return text;
 }
 
-void all_about(const PickedPlace& picked) {
+// In the CRS that the data are in, or that --coordinates names.
+void in_crs_of_data(const Viewer& viewer, const SeenPlace& seen) {
+    const auto& crs = viewer.index.crs();
+    if (!crs) return;
+    const auto numbers = crs->coordinates(seen.lat_deg, seen.lon_deg);
+    if (!numbers) return;
+    value_line(crs->is_projected() ? "E, N" : "x, y",
+               written(crs->is_projected() ? "%.2f, %.2f" : "%.7f, %.7f", (*numbers)[0], (*numbers)[1]),
+               ("Easting and northing in " + crs->name() + ", in its own unit").c_str());
+}
+
+void how_exact(const PickedPlace& picked) {
+    const auto& bound = picked.certificate;
+    if (!bound) return;
+    value_line(
+        "Drawn within", figure(bound->error_px) + " px, " + figure(bound->error_m) + " m",
+        bound->level == 0
+            ? "Every post of the data is drawn there."
+            : written("No point that is drawn there lies farther than this from where all posts of the "
+                      "data would put it: the certificate of its patch, which has one post in %d of a row.",
+                      1 << bound->level)
+                  .c_str());
+}
+
+void all_about(const Viewer& viewer, const PickedPlace& picked) {
     const SeenPlace& seen = *picked.seen;
     value_line("Place", written("%.7f, %.7f", seen.lat_deg, seen.lon_deg), "Latitude, longitude, WGS 84");
     value_line("DMS", dms_text(seen.lat_deg, seen.lon_deg), "Degrees, minutes, seconds");
     value_line("UTM", utm_text(seen.lat_deg, seen.lon_deg), "Zone, easting and northing in metres");
     value_line("MGRS", mgrs_text(seen.lat_deg, seen.lon_deg), "The square of one metre that it is in");
+    in_crs_of_data(viewer, seen);
     ImGui::Separator();
     value_line("Height H", written("%.2f m", seen.H_m), "Above the geoid, which is about sea level");
     value_line("Height h", written("%.2f m", seen.h_m),
                "Above the ellipsoid of WGS 84, as satellites have it");
     value_line("Geoid N", written("%.2f m", seen.h_m - seen.H_m),
                "The geoid's height above the ellipsoid: h = H + N");
+    if (!picked.geoid.empty())
+        value_line("  its model", picked.geoid, "The model of the geoid that N comes from, and its file");
     if (picked.slope_deg)
         value_line("Slope", written("%.1f°", *picked.slope_deg),
                    "Of the triangle of the data that it lies on");
@@ -42,6 +69,12 @@ void all_about(const PickedPlace& picked) {
     value_line("Bearing", written("%.2f°", seen.bearing_deg), "True, from the eye, clockwise from north");
     value_line("Source", seen.source.empty() ? "unknown" : seen.source.substr(seen.source.rfind('/') + 1),
                "The file that its height comes from");
+    if (picked.source_spacing_m)
+        value_line("  its posts", metres(*picked.source_spacing_m) + " m apart",
+                   "From post to post of that file, north to south");
+    if (!picked.source_crs.empty())
+        value_line("  its CRS", picked.source_crs, "The coordinate reference system that the file states");
+    how_exact(picked);
     value_line("Cell", written("row %d, column %d", seen.row, seen.column),
                "The square between four posts; rows from the north, columns from the west");
 }
@@ -55,7 +88,7 @@ void build_place_panel(Viewer& viewer) {
         if (!viewer.picked->seen) {
             quiet_text("No ground there: sky, or a place without data.");
         } else {
-            all_about(*viewer.picked);
+            all_about(viewer, *viewer.picked);
             if (ImGui::Button("Copy all")) ImGui::SetClipboardText(line_of(viewer.picked->seen).c_str());
         }
     }

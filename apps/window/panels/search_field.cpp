@@ -46,6 +46,32 @@ void list_matches(Viewer& viewer, float width) {
     if (clicked) go_to(viewer, *clicked);
 }
 
+// What the user has kept, each with a button that removes it, and a field to keep the view that is shown.
+void list_bookmarks(Viewer& viewer, float width) {
+    constexpr std::size_t most = 12;
+    const float button = ImGui::GetFrameHeight();
+    std::optional<Bookmark> chosen;
+    std::string dropped;
+    for (std::size_t i = 0; i < std::min(most, viewer.bookmarks.size()); ++i) {
+        const Bookmark& bookmark = viewer.bookmarks[viewer.bookmarks.size() - 1 - i];
+        ImGui::PushID(static_cast<int>(i));
+        if (ImGui::Selectable(bookmark.name.c_str(), false, 0, {width - button, 0.0F})) chosen = bookmark;
+        tip(bookmark.eye ? "A view that you have kept" : "A place that you have kept");
+        ImGui::SameLine(width - 0.5F * button);
+        if (ImGui::SmallButton("x")) dropped = bookmark.name;
+        tip("Removes it from what you have kept");
+        ImGui::PopID();
+    }
+    ImGui::SetNextItemWidth(width - scaled_px(64.0F));
+    const bool entered = ImGui::InputTextWithHint("##keep", "Name of this view", &viewer.bookmark_name,
+                                                  ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::SameLine();
+    if (ImGui::Button("Keep") || entered) keep_bookmark(viewer);
+    tip("Keeps the view that is shown by this name: the field above then finds it");
+    if (!dropped.empty()) drop_bookmark(viewer, dropped);
+    if (chosen) go_to_bookmark(viewer, *chosen);
+}
+
 }  // namespace
 
 void build_search_field(Viewer& viewer) {
@@ -64,10 +90,8 @@ void build_search_field(Viewer& viewer) {
                                  on_arrow, &field);
     if (ImGui::IsItemActivated()) field.is_open = true;
     if (ImGui::IsItemEdited()) {
-        constexpr std::size_t most_matches = 8;
         field.error.clear();
-        field.chosen.reset();
-        field.matches = viewer.index.matches(field.text, most_matches);
+        find_matches(viewer);
     }
     // Whoever clicks elsewhere has done with it; what was typed stays.
     const bool left = ImGui::IsItemDeactivated() && !entered;
@@ -76,6 +100,8 @@ void build_search_field(Viewer& viewer) {
             "N46E008. Enter goes there.");
     if (entered) search(viewer);
     if (field.is_open && !field.text.empty() && field.error.empty()) list_matches(viewer, width);
+    if (field.is_open && field.text.empty()) list_bookmarks(viewer, width);
+    if (field.is_open && viewer.gazetteers) quiet_text("Names of places are being read ...");
     const bool escaped = ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
     if (left && (escaped || !ImGui::IsWindowHovered())) field.is_open = false;
     if (!field.error.empty()) {

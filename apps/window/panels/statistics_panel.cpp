@@ -29,7 +29,7 @@ void build_statistics_panel(Viewer& viewer) {
         const FrameReport& report = viewer.report;
         const gpu::FrameCounts& counts = report.counts;
         value_line("Frame", milliseconds(viewer.frame_s), "From the choice of what is drawn to the picture");
-        value_line("GPU", milliseconds(report.gpu_s()));
+        value_line("GPU", milliseconds(report.gpu_s()), "What of that the GPU drew");
         value_line("  choosing", milliseconds(report.choose_s), "Levels of the ground, as fine as tau asks");
         value_line("  triangles", milliseconds(report.raster_s),
                    "From pages of posts to the triangle in each pixel");
@@ -51,7 +51,7 @@ void build_statistics_panel(Viewer& viewer) {
         }
         value_line("GPU memory", megabytes(pages), "That the ground takes");
         if (images > 0) value_line("  images", megabytes(images), "That images over it take");
-        value_line("Device", viewer.gpu.report().name);
+        value_line("Device", viewer.gpu.report().name, "What draws the picture");
     }
     ImGui::End();
 }

@@ -6,19 +6,32 @@
 #include "apps/report/figures.h"
 #include "apps/window/panels/panel_parts.h"
 #include "apps/window/panels/panels.h"
+#include "apps/window/unit_words.h"
 #include "core/terrain/ground.h"
 
 namespace oro {
 namespace {
 
-std::string metres_over(double value_m) {
-    return metres(value_m) + " m";
+// The place that the bar tells of: under the pointer, or in the picture's middle where it is elsewhere.
+const std::optional<PickedPlace>& reported_place(const Viewer& viewer) {
+    return viewer.under_pointer ? viewer.under_pointer : viewer.in_middle;
+}
+
+// A line of the easting and the northing in the CRS of the data; "" where they have none.
+std::string in_crs(const Viewer& viewer, const SeenPlace& seen) {
+    const auto& crs = viewer.index.crs();
+    if (!crs || !crs->is_projected()) return "";
+    const auto numbers = crs->coordinates(seen.lat_deg, seen.lon_deg);
+    if (!numbers) return "";
+    char text[60];
+    std::snprintf(text, sizeof text, "E %.1f, N %.1f", (*numbers)[0], (*numbers)[1]);
+    return text + std::string(" in ") + crs->name() + "\n";
 }
 
 // Where the pointer is, or the picture's middle where it is elsewhere.
 void place_words(const Viewer& viewer) {
     const bool pointed = viewer.under_pointer.has_value();
-    const auto& place = pointed ? viewer.under_pointer : viewer.in_middle;
+    const auto& place = reported_place(viewer);
     if (!place || !place->seen) {
         ImGui::TextDisabled(pointed ? "sky, or no data" : "no ground in the middle");
         tip("There is no ground of the data where the pointer is.");
@@ -26,15 +39,16 @@ void place_words(const Viewer& viewer) {
     }
     const SeenPlace& seen = *place->seen;
     char text[320];
-    std::snprintf(text, sizeof text, "%.5f, %.5f   %s m above sea", seen.lat_deg, seen.lon_deg,
-                  metres(seen.H_m).c_str());
+    std::snprintf(text, sizeof text, "%.5f, %.5f   %s above sea", seen.lat_deg, seen.lon_deg,
+                  height_in_units(seen.H_m, viewer.settings.units).c_str());
     ImGui::TextUnformatted(text);
     if (ImGui::IsItemHovered()) {
         std::snprintf(text, sizeof text,
-                      "Latitude and longitude (WGS 84) %s.\nH %.2f m: height above sea level (the geoid)\n"
+                      "Latitude and longitude (WGS 84) %s.\n%sH %.2f m: height above sea level (the geoid)\n"
                       "h %.2f m: height above the ellipsoid\nA right click tells more.",
-                      pointed ? "under the pointer" : "in the picture's middle", seen.H_m, seen.h_m);
-        ImGui::SetTooltip("%s", text);
+                      pointed ? "under the pointer" : "in the picture's middle", in_crs(viewer, seen).c_str(),
+                      seen.H_m, seen.h_m);
+        tip(text);
     }
     if (!place->slope_deg) return;
     ImGui::SameLine();
@@ -48,23 +62,21 @@ void height_words(const Viewer& viewer) {
         ground_h_m(field_below(viewer), camera.eye.lat_deg, camera.eye.lon_deg, viewer.view.exaggeration);
     const HeightField& field = field_below(viewer);
     const double N_m = field.undulation.at_m(camera.eye.lat_deg, camera.eye.lon_deg);
-    const std::string text = ground_m ? "eye " + metres_over(camera.eye.h_m - *ground_m) + " over ground"
-                                      : "eye at " + metres_over(camera.eye.h_m - N_m);
+    const std::string who = viewer.gestures && viewer.gestures->is_walking() ? "you walk " : "eye ";
+    const auto height = [&](double height_m) { return height_in_units(height_m, viewer.settings.units); };
+    const std::string text = ground_m ? who + height(camera.eye.h_m - *ground_m) + " over ground"
+                                      : "eye at " + height(camera.eye.h_m - N_m);
     ImGui::TextUnformatted(text.c_str());
     if (!ImGui::IsItemHovered()) return;
-    ImGui::SetTooltip(
-        "The eye: %.6f, %.6f\nH %.1f m above sea level\nh %.1f m above the ellipsoid\n"
-        "heading %.1f°, pitch %.1f°",
+    char words[300];
+    std::snprintf(
+        words, sizeof words,
+        "The eye: %.6f, %.6f\nH %.1f m: its height above sea level (the geoid)\nh %.1f m: above the "
+        "ellipsoid of WGS 84\nIt looks to %.1f°, clockwise from true north, and %.1f° %s the horizon.",
         camera.eye.lat_deg, camera.eye.lon_deg, camera.eye.h_m - N_m, camera.eye.h_m,
-        camera.attitude.heading_deg, camera.attitude.pitch_deg);
-}
-
-// 1, 2 or 5 times a power of ten.
-double round_length_m(double most_m) {
-    const double power = std::pow(10.0, std::floor(std::log10(most_m)));
-    for (const double digit : {5.0, 2.0})
-        if (digit * power <= most_m) return digit * power;
-    return power;
+        camera.attitude.heading_deg, std::abs(camera.attitude.pitch_deg),
+        camera.attitude.pitch_deg < 0.0 ? "below" : "above");
+    tip(words);
 }
 
 void scale_bar(const Viewer& viewer) {
@@ -74,13 +86,8 @@ void scale_bar(const Viewer& viewer) {
     const double m_per_px = 2.0 * camera.half_fov_tangent().y * distance_m / camera.height_px;
     const double most_px = static_cast<double>(scaled_px(96.0F));
     if (!(m_per_px > 0.0)) return;
-    const double length_m = round_length_m(m_per_px * most_px);
-    const auto length_px = static_cast<float>(length_m / m_per_px);
-    char text[40];
-    if (length_m >= 1000.0)
-        std::snprintf(text, sizeof text, "%.0f km", length_m / 1000.0);
-    else
-        std::snprintf(text, sizeof text, length_m < 1.0 ? "%.1f m" : "%.0f m", length_m);
+    const RoundLength round = round_length(m_per_px * most_px, viewer.settings.units);
+    const auto length_px = static_cast<float>(round.length_m / m_per_px);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float height = ImGui::GetTextLineHeight(), thick = std::max(1.0F, scaled_px(1.5F));
@@ -91,7 +98,7 @@ void scale_bar(const Viewer& viewer) {
                  thick);
     ImGui::Dummy({length_px, height});
     ImGui::SameLine(0.0F, scaled_px(6.0F));
-    ImGui::TextUnformatted(text);
+    ImGui::TextUnformatted(round.words.c_str());
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("The length of the bar in the picture's middle, %s m away.",
                           metres(distance_m).c_str());
@@ -104,7 +111,19 @@ std::string certificate_words(const Viewer& viewer) {
     char text[80];
     if (within_px <= 0.0) return "full resolution";
     std::snprintf(text, sizeof text, "detail within %s px", figure(within_px).c_str());
-    return text;
+    const bool has_room = ImGui::GetIO().DisplaySize.x >= scaled_px(1000.0F);
+    const auto& place = reported_place(viewer);
+    if (!has_room || !viewer.is_settled || !place || !place->certificate) return text;
+    return text + std::string(", here ") + figure(place->certificate->error_px) + " px";
+}
+
+// What the certificates say of the place that the bar tells of.
+std::string certificate_there(const Viewer& viewer) {
+    const auto& place = reported_place(viewer);
+    if (!viewer.is_settled || !place || !place->certificate) return "";
+    const SampledDetail::Bound& bound = *place->certificate;
+    return std::string(viewer.under_pointer ? "Under the pointer" : "In the picture's middle") +
+           " it lies within " + figure(bound.error_px) + " px, " + figure(bound.error_m) + " m.\n";
 }
 
 void certificate(const Viewer& viewer) {
@@ -114,15 +133,15 @@ void certificate(const Viewer& viewer) {
     ImGui::PopStyleColor();
     if (!ImGui::IsItemHovered()) return;
     const DetailStep& step = viewer.drawn_at;
-    char text[400];
+    char text[600];
     std::snprintf(text, sizeof text,
                   "Nothing that is drawn lies farther than this from where all posts of the data would put "
-                  "it.\ntau %s px (the view asks for %s), of pixels %.0f %% as wide as the window's.\n%s",
-                  figure(viewer.view.tau_px * step.tau_factor).c_str(), figure(viewer.view.tau_px).c_str(),
-                  100.0 / step.scale,
+                  "it.\n%stau %s px (the view asks for %s), of pixels %.0f %% as wide as the window's.\n%s",
+                  certificate_there(viewer).c_str(), figure(viewer.view.tau_px * step.tau_factor).c_str(),
+                  figure(viewer.view.tau_px).c_str(), 100.0 / step.scale,
                   viewer.is_settled ? "The picture is all that the view asks for."
                                     : "It is not yet all that the view asks for.");
-    ImGui::SetTooltip("%s", text);
+    tip(text);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "apps/window/panels/panels.h"
 #include "apps/window/pictures.h"
 #include "apps/window/places.h"
+#include "apps/window/search.h"
 
 namespace oro {
 namespace {
@@ -31,11 +32,31 @@ void dismiss(Viewer& viewer) {
     panels.hidden = hidden;
 }
 
+// Letters and panels a step larger or smaller, or as the screen has them.
+void scale_panels(Viewer& viewer, int code) {
+    constexpr double step = 1.1, least = 0.5, most = 4.0;
+    double& scale = viewer.settings.ui_scale;
+    if (code == '0') scale = 1.0;
+    if (code == key::equal || code == key::keypad_add) scale = std::min(scale * step, most);
+    if (code == key::minus || code == key::keypad_subtract) scale = std::max(scale / step, least);
+}
+
 // Keys that come with Control.
 void take_chord(Viewer& viewer, int code) {
+    scale_panels(viewer, code);
     if (code == 'Q') viewer.leaves = true;
     if (code == 'L') open_search(viewer);
     if (code == 'O') viewer.panels.toggle(&Panels::files);
+}
+
+// A turn of the wheel over the picture's middle.
+void zoom_by_key(Viewer& viewer, double notches) {
+    ViewEvent event;
+    event.kind = ViewEvent::Kind::wheel;
+    event.point_px = 0.5 * glm::dvec2(viewer.view.camera.width_px, viewer.view.camera.height_px);
+    event.notches = notches;
+    event.time_s = motion_clock_s();
+    take_view_event(viewer, event);
 }
 
 Result<void> take_key(Session& session, const KeyChanged& event) {
@@ -45,6 +66,8 @@ Result<void> take_key(Session& session, const KeyChanged& event) {
         if (!event.repeated) take_chord(viewer, event.key);
         return {};
     }
+    if (event.key == key::equal || event.key == key::keypad_add) zoom_by_key(viewer, 1.0);
+    if (event.key == key::minus || event.key == key::keypad_subtract) zoom_by_key(viewer, -1.0);
     if (event.repeated) return {};
     switch (event.key) {
         case key::escape:
@@ -141,11 +164,13 @@ double wait_s(const Session& session) {
 Result<void> show(Session& session, bool is_new) {
     Viewer& viewer = session.viewer;
     // A cursor blinks, and toasts go.
-    const bool lives = session.interface.takes_text() || has_toasts(viewer) || is_coarse(viewer);
+    const bool lives =
+        session.interface.takes_text() || has_toasts(viewer) || is_coarse(viewer) || viewer.opening;
     if (is_new || lives || viewer.is_exposed) session.frames_due = std::max(session.frames_due, 1);
     if (session.frames_due == 0) return {};
     ORO_TRY(std::optional<WindowPicture> picture, picture_to_show(viewer));
     if (!picture) return {};
+    session.interface.set_user_scale(viewer.settings.ui_scale);
     ORO_CHECK(session.interface.follow_scale());
     const ImDrawData* const over = session.interface.lists([&] { build_panels(viewer); });
     const WindowPicture whole{picture->picture, picture->part, over};
@@ -161,6 +186,8 @@ Result<void> show(Session& session, bool is_new) {
 
 Result<bool> turn(Session& session) {
     Viewer& viewer = session.viewer;
+    ORO_CHECK(take_opened(viewer));
+    take_gazetteers(viewer);
     ORO_CHECK(refine(viewer, session.changed));
     ORO_TRY(const bool is_new, draw_frame(viewer, session.changed));
     if (is_new) session.looks_under_pointer = true;

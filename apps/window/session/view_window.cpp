@@ -12,6 +12,7 @@
 #include "apps/report/summit_words.h"
 #include "apps/view/view_changes.h"
 #include "apps/window/frames.h"
+#include "apps/window/kept_settings.h"
 #include "apps/window/loading_picture.h"
 #include "apps/window/motion.h"
 #include "apps/window/opening.h"
@@ -74,10 +75,13 @@ Result<std::unique_ptr<Window>> open_window(const Gpu& gpu, const Camera& camera
 
 }  // namespace
 
-Result<void> run_view(const WindowOptions& options) {
-    if (options.view.tolerance)
+Result<void> run_view(const WindowOptions& asked) {
+    if (asked.view.tolerance)
         return refused("--tolerance", "", "is for single pictures: give --accuracy or --tau to a window");
     const Clock::time_point started = Clock::now();
+    std::vector<std::string> notes_of_settings;
+    const WindowSettings settings = settings_of_user(notes_of_settings);
+    const WindowOptions options = with_kept_size(asked, settings);
     ORO_TRY(const std::vector<const char*> extensions, Window::required_extensions());
     ProgressBar bar(options.quiet);
     View view;
@@ -109,12 +113,18 @@ Result<void> run_view(const WindowOptions& options) {
     viewer.started = started;
     viewer.keeps_means = keeps_means;
     viewer.name = name_of_region(options);
+    viewer.settings = settings;
+    viewer.keeps_size = !asked.view.size && asked.view_file.empty();
+    viewer.panels = panels_of_names(settings.panels);
     note_in_log(viewer);
+    for (const std::string& note : notes_of_settings) tell(viewer, note);
     viewer.gestures.emplace(navigation_of(viewer));
     fill_search(viewer);
     if (!options.region.paths.empty()) remember_opened(viewer, options.region.paths);
     viewer.jumps = Jumps(users_roll_deg(viewer.view.camera, options.view.roll_deg));
-    return run_loop(viewer, *interface);
+    const Result<void> left = run_loop(viewer, *interface);
+    if (left.ok()) keep_settings(viewer);
+    return left;
 }
 
 }  // namespace oro

@@ -50,6 +50,23 @@ TEST(HomeArrow, PointsTheShortestWay) {
     ASSERT_TRUE(behind);
 }
 
+TEST(HomeArrow, AsksTheBoxOfTheRegionsGround) {
+    EXPECT_FALSE(ground_box({}));
+    GroundPoints ground;
+    ground.middle = {10.5, 179.9, 0.0};
+    for (const Geodetic& place :
+         {Geodetic{10.0, 179.0, 20.0}, Geodetic{11.0, 179.5, -30.0}, Geodetic{10.5, -179.2, 900.0}})
+        ground.all.push_back(ecef_from_geodetic(place));
+    const auto around = ground_box(ground);
+    ASSERT_TRUE(around);
+    EXPECT_NEAR(around->box.west_deg, 179.0, 1e-9);
+    EXPECT_NEAR(around->box.east_deg, -179.2, 1e-9) << "over the antimeridian";
+    EXPECT_NEAR(around->box.south_deg, 10.0, 1e-9);
+    EXPECT_NEAR(around->box.north_deg, 11.0, 1e-9);
+    EXPECT_NEAR(around->low_h_m, -30.0, 1e-6);
+    EXPECT_NEAR(around->high_h_m, 900.0, 1e-6);
+}
+
 // From the other side of the Earth, straight down: the region is before the eye, but the Earth hides it.
 TEST(HomeArrow, IsThereWhereTheEarthHidesTheRegion) {
     const auto arrow = home_arrow(looking(-46.5, -171.5, 1e7, 0.0, -90.0), alps);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/search/gazetteer.h"
+#include "apps/search/gazetteer_reading.h"
 #include "tests/support/test_data.h"
 
 namespace {
@@ -131,6 +132,21 @@ TEST(Gazetteer, OnlyWithinABox) {
     EXPECT_EQ(names({8.0, 46.0, 9.0, 47.0}), "A");
     EXPECT_EQ(names({179.0, 46.0, -179.0, 47.0}), "CD");
     EXPECT_EQ(names({0.0, 0.0, 1.0, 1.0}), "");
+}
+
+// In the background: names of all files that can be read, and what is wrong with the others.
+TEST(GazetteerReading, ReadsSeveralFiles) {
+    const std::string one = written("one.csv", "name,lat,lon\nEiger,46.5775,8.005\n"),
+                      two = written("two.csv", "name,lat,lon\nEigergletscher,46.57,7.97\nX,y,z\n");
+    GazetteerReading reading({one, (oro::test::scratch_folder() / "none.txt").string(), two});
+    const GazetteerNames read = reading.wait();
+    EXPECT_EQ(read.names.find("eiger", 8).size(), 2U);
+    ASSERT_EQ(read.errors.size(), 1U);
+    ASSERT_EQ(read.notes.size(), 1U);
+    EXPECT_NE(read.notes.front().find("1 line is left out"), std::string::npos) << read.notes.front();
+    EXPECT_FALSE(reading.ready()) << "it was taken";
+    // Nobody waits for one that is given up.
+    GazetteerReading given_up({one, two});
 }
 
 }  // namespace
