@@ -83,6 +83,8 @@ void forget_region(Viewer& viewer) {
     viewer.in_middle.reset();
     viewer.picked.reset();
     viewer.measuring = {};
+    viewer.looking = {};
+    viewer.panels.viewshed = false;
     viewer.flies = false;
     viewer.panels.place = false;
     viewer.vectors_known.reset();

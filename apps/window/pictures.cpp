@@ -19,49 +19,7 @@ Result<void> wait_for_finer_scene(Viewer& viewer) {
     return {};
 }
 
-}  // namespace
-
-void follow_sun(Viewer& viewer) {
-    std::optional<SunDirection>& sun = viewer.view.sun;
-    if (!sun || !sun->time) return;
-    aim_sun(sun, viewer.view.camera.eye);
-    light_by(*sun, viewer.style.frame);
-}
-
-void take_scene(Viewer& viewer, OpenedScene opened) {
-    viewer.coming.reset();
-    viewer.scene = std::make_unique<Scene>(std::move(opened.scene));
-    viewer.finer = opened.is_coarse
-                       ? std::make_unique<BackgroundPyramidBuild>(viewer.region, viewer.view.exaggeration)
-                       : nullptr;
-}
-
-Result<void> begin_finer_scene(Viewer& viewer) {
-    GridPages pages(1);
-    ORO_TRY(pages.front(), viewer.finer->wait());
-    viewer.finer.reset();
-    ORO_TRY(Scene scene, scene_with_images(viewer.gpu, viewer.region, viewer.cuts, std::move(pages),
-                                           viewer.view, {viewer.options.memory, true, viewer.keeps_means}));
-    viewer.coming = std::make_unique<Scene>(std::move(scene));
-    viewer.coming_since = Clock::now();
-    return {};
-}
-
-void show_finer_scene(Viewer& viewer) {
-    viewer.scene = std::move(viewer.coming);
-    viewer.is_missing = false;
-    viewer.wants_picture = true;
-}
-
-Result<void> take_picture(Viewer& viewer) {
-    PictureChoice choice;
-    choice.width_px = viewer.view.camera.width_px;
-    choice.height_px = viewer.view.camera.height_px;
-    choice.samples = viewer.view.samples;
-    return take_picture(viewer, choice);
-}
-
-Result<void> take_picture(Viewer& viewer, const PictureChoice& choice) {
+Result<void> write_picture_of(Viewer& viewer, const PictureChoice& choice) {
     follow_sun(viewer);
     if (is_coarse(viewer)) {
         // A picture is what its view says, and nothing coarser.
@@ -88,6 +46,57 @@ Result<void> take_picture(Viewer& viewer, const PictureChoice& choice) {
     ORO_TRY(const UnseenGround unseen, unseen_in(view, viewer.region, usual_unseen_ceiling_m));
     if (const std::string note = unseen_sentence(unseen); !note.empty()) say(false, "note: " + note);
     return {};
+}
+
+}  // namespace
+
+void follow_sun(Viewer& viewer) {
+    std::optional<SunDirection>& sun = viewer.view.sun;
+    if (!sun || !sun->time) return;
+    aim_sun(sun, viewer.view.camera.eye);
+    light_by(*sun, viewer.style.frame);
+}
+
+void take_scene(Viewer& viewer, OpenedScene opened) {
+    viewer.coming.reset();
+    viewer.scene = std::make_unique<Scene>(std::move(opened.scene));
+    viewer.finer = opened.is_coarse
+                       ? std::make_unique<BackgroundPyramidBuild>(viewer.region, viewer.view.exaggeration)
+                       : nullptr;
+}
+
+Result<void> begin_finer_scene(Viewer& viewer) {
+    GridPages pages(1);
+    ORO_TRY(pages.front(), viewer.finer->wait());
+    viewer.finer.reset();
+    ORO_TRY(Scene scene, scene_with_images(viewer.gpu, viewer.region, viewer.cuts, std::move(pages),
+                                           viewer.view, {viewer.options.memory, true, viewer.keeps_means}));
+    if (is_tinted(viewer)) ORO_CHECK(lay_over_ground(viewer, scene));
+    viewer.coming = std::make_unique<Scene>(std::move(scene));
+    viewer.coming_since = Clock::now();
+    return {};
+}
+
+void show_finer_scene(Viewer& viewer) {
+    viewer.scene = std::move(viewer.coming);
+    viewer.is_missing = false;
+    viewer.wants_picture = true;
+}
+
+Result<void> take_picture(Viewer& viewer) {
+    PictureChoice choice;
+    choice.width_px = viewer.view.camera.width_px;
+    choice.height_px = viewer.view.camera.height_px;
+    choice.samples = viewer.view.samples;
+    return take_picture(viewer, choice);
+}
+
+Result<void> take_picture(Viewer& viewer, const PictureChoice& choice) {
+    // A picture has what its view tells, which a tint is no part of.
+    const bool tinted = is_tinted(viewer);
+    if (tinted) ORO_CHECK(show_seen_around(viewer, false));
+    ORO_CHECK(write_picture_of(viewer, choice));
+    return tinted ? show_seen_around(viewer, true) : Result<void>();
 }
 
 std::string command_line_of(const View& view) {

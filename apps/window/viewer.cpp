@@ -11,13 +11,15 @@
 namespace oro {
 
 void Panels::open(bool Panels::*panel) {
-    constexpr std::array<std::array<bool Panels::*, 3>, 3> sides{
-        {{&Panels::layers, &Panels::measure, &Panels::messages},
-         {&Panels::sun, &Panels::statistics, &Panels::place},
-         {&Panels::keys, &Panels::files, &Panels::picture}}};
+    // Sides of fewer panels end in nulls.
+    constexpr std::array<std::array<bool Panels::*, 4>, 3> sides{
+        {{&Panels::layers, &Panels::measure, &Panels::messages, nullptr},
+         {&Panels::sun, &Panels::statistics, &Panels::place, &Panels::viewshed},
+         {&Panels::keys, &Panels::files, &Panels::picture, nullptr}}};
     for (const auto& side : sides) {
         if (std::ranges::find(side, panel) == side.end()) continue;
-        for (bool Panels::*const other : side) this->*other = false;
+        for (bool Panels::*const other : side)
+            if (other != nullptr) this->*other = false;
     }
     this->*panel = true;
 }

@@ -20,6 +20,7 @@
 #include "apps/view/style.h"
 #include "apps/window/detail.h"
 #include "apps/window/jump.h"
+#include "apps/window/looking_around.h"
 #include "apps/window/measure.h"
 #include "core/base/elapsed.h"
 #include "render/frame/frame_renderer.h"
@@ -80,7 +81,8 @@ struct Panels {
     bool hidden{false};  // all of them, and what is always there
     bool keys{false}, layers{false}, sun{false}, statistics{false}, messages{false}, measure{false},
         files{false}, picture{false};
-    bool place{false};  // about what was picked
+    bool place{false};     // about what was picked
+    bool viewshed{false};  // what is seen from there
 
     // Opens one, or closes it; others that would lie over it are closed.
     void toggle(bool Panels::*panel);
@@ -108,6 +110,7 @@ struct Viewer {
     std::optional<PickedPlace> picked{};
     std::optional<PickedPlace> in_middle{};
     Measuring measuring{};
+    LookingAround looking{};  // ends before the region that it reads
     std::optional<SunClock> sun_clock{};
     std::optional<PictureChoice> picture_choice{};   // of the dialog
     std::vector<std::vector<std::string>> recent{};  // what was opened last, each together

@@ -14,7 +14,7 @@ void build_status_bar(Viewer& viewer);    // place, height, scale, certificate, 
 void build_search_field(Viewer& viewer);  // in the upper left corner
 void build_buttons(Viewer& viewer);       // of panels, beside it
 void build_compass(Viewer& viewer);       // in the upper right corner: a click turns north up
-void build_legend(Viewer& viewer);       // what the colours of --show stand for
+void build_legend(Viewer& viewer);        // what the colours of --show stand for
 void build_toasts(Viewer& viewer);        // what was said just now
 bool has_toasts(const Viewer& viewer);
 void build_messages_panel(Viewer& viewer);
@@ -23,6 +23,7 @@ void build_layers_panel(Viewer& viewer);      // style, heights, names, lines, i
 void build_sun_panel(Viewer& viewer);         // by date and time
 void build_statistics_panel(Viewer& viewer);  // of the last frame
 void build_place_panel(Viewer& viewer);       // all about what was clicked at
+void build_viewshed_panel(Viewer& viewer);    // what is seen from there
 void build_measure_panel(Viewer& viewer);     // and the line over the picture
 void build_files_panel(Viewer& viewer);       // to open some
 void build_picture_panel(Viewer& viewer);     // a picture of another size, and the command that draws it

@@ -46,6 +46,17 @@ void all_about(const PickedPlace& picked) {
                "The square between four posts; rows from the north, columns from the west");
 }
 
+// What else may be asked of the place.
+void questions_from(Viewer& viewer, const LatLon& place) {
+    if (ImGui::Button("What can be seen from here")) {
+        SeenAroundChoice choice = viewer.looking.choice.value_or(SeenAroundChoice{});
+        choice.place = place;
+        viewer.looking.choice = choice;
+        viewer.panels.open(&Panels::viewshed);
+    }
+    tip("Its viewshed, as a tint over the ground");
+}
+
 }  // namespace
 
 void build_place_panel(Viewer& viewer) {
@@ -57,6 +68,7 @@ void build_place_panel(Viewer& viewer) {
         } else {
             all_about(*viewer.picked);
             if (ImGui::Button("Copy all")) ImGui::SetClipboardText(line_of(viewer.picked->seen).c_str());
+            questions_from(viewer, {viewer.picked->seen->lat_deg, viewer.picked->seen->lon_deg});
         }
     }
     ImGui::End();

@@ -9,6 +9,7 @@
 #include "apps/window/panels/panels.h"
 #include "apps/window/pictures.h"
 #include "apps/window/places.h"
+#include "apps/window/work.h"
 
 namespace oro {
 namespace {
@@ -141,7 +142,8 @@ double wait_s(const Session& session) {
 Result<void> show(Session& session, bool is_new) {
     Viewer& viewer = session.viewer;
     // A cursor blinks, and toasts go.
-    const bool lives = session.interface.takes_text() || has_toasts(viewer) || is_coarse(viewer);
+    const bool lives =
+        session.interface.takes_text() || has_toasts(viewer) || is_coarse(viewer) || has_work(viewer);
     if (is_new || lives || viewer.is_exposed) session.frames_due = std::max(session.frames_due, 1);
     if (session.frames_due == 0) return {};
     ORO_TRY(std::optional<WindowPicture> picture, picture_to_show(viewer));
@@ -162,6 +164,7 @@ Result<void> show(Session& session, bool is_new) {
 Result<bool> turn(Session& session) {
     Viewer& viewer = session.viewer;
     ORO_CHECK(refine(viewer, session.changed));
+    ORO_CHECK(take_finished_work(viewer));
     ORO_TRY(const bool is_new, draw_frame(viewer, session.changed));
     if (is_new) session.looks_under_pointer = true;
     ORO_CHECK(show(session, is_new));

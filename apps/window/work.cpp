@@ -1,0 +1,13 @@
+#include "apps/window/work.h"
+
+namespace oro {
+
+bool has_work(const Viewer& viewer) {
+    return viewer.looking.work != nullptr;
+}
+
+Result<void> take_finished_work(Viewer& viewer) {
+    return take_seen_around(viewer);
+}
+
+}  // namespace oro
