@@ -84,7 +84,8 @@ void forget_region(Viewer& viewer) {
     viewer.picked.reset();
     viewer.measuring = {};
     viewer.looking = {};
-    viewer.panels.viewshed = false;
+    viewer.panorama = {};
+    viewer.panels.viewshed = viewer.panels.panorama = false;
     viewer.flies = false;
     viewer.panels.place = false;
     viewer.vectors_known.reset();

@@ -12,10 +12,10 @@ namespace oro {
 
 void Panels::open(bool Panels::*panel) {
     // Sides of fewer panels end in nulls.
-    constexpr std::array<std::array<bool Panels::*, 4>, 3> sides{
-        {{&Panels::layers, &Panels::measure, &Panels::messages, nullptr},
-         {&Panels::sun, &Panels::statistics, &Panels::place, &Panels::viewshed},
-         {&Panels::keys, &Panels::files, &Panels::picture, nullptr}}};
+    constexpr std::array<std::array<bool Panels::*, 5>, 3> sides{
+        {{&Panels::layers, &Panels::measure, &Panels::messages},
+         {&Panels::sun, &Panels::statistics, &Panels::place, &Panels::viewshed, &Panels::panorama},
+         {&Panels::keys, &Panels::files, &Panels::picture}}};
     for (const auto& side : sides) {
         if (std::ranges::find(side, panel) == side.end()) continue;
         for (bool Panels::*const other : side)

@@ -22,6 +22,7 @@
 #include "apps/window/jump.h"
 #include "apps/window/looking_around.h"
 #include "apps/window/measure.h"
+#include "apps/window/panoramas.h"
 #include "core/base/elapsed.h"
 #include "render/frame/frame_renderer.h"
 #include "render/window.h"
@@ -83,6 +84,7 @@ struct Panels {
         files{false}, picture{false};
     bool place{false};     // about what was picked
     bool viewshed{false};  // what is seen from there
+    bool panorama{false};  // all around from there
 
     // Opens one, or closes it; others that would lie over it are closed.
     void toggle(bool Panels::*panel);
@@ -110,7 +112,8 @@ struct Viewer {
     std::optional<PickedPlace> picked{};
     std::optional<PickedPlace> in_middle{};
     Measuring measuring{};
-    LookingAround looking{};  // ends before the region that it reads
+    LookingAround looking{};    // ends before the region that it reads
+    PanoramaAround panorama{};  // likewise
     std::optional<SunClock> sun_clock{};
     std::optional<PictureChoice> picture_choice{};   // of the dialog
     std::vector<std::vector<std::string>> recent{};  // what was opened last, each together

@@ -8,6 +8,7 @@ void build_panels(Viewer& viewer) {
     if (viewer.panels.hidden && !viewer.search.is_open) return build_toasts(viewer);
     build_search_field(viewer);
     if (viewer.panels.hidden) return;
+    build_panorama_panel(viewer);
     build_status_bar(viewer);
     build_buttons(viewer);
     build_compass(viewer);

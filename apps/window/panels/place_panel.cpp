@@ -55,6 +55,13 @@ void questions_from(Viewer& viewer, const LatLon& place) {
         viewer.panels.open(&Panels::viewshed);
     }
     tip("Its viewshed, as a tint over the ground");
+    if (ImGui::Button("Panorama from here")) {
+        PanoramaChoice choice = viewer.panorama.choice.value_or(PanoramaChoice{});
+        choice.place = place;
+        viewer.panorama.choice = choice;
+        viewer.panels.open(&Panels::panorama);
+    }
+    tip("All around, with rulers and the names of what is seen");
 }
 
 }  // namespace
