@@ -87,6 +87,7 @@ void forget_region(Viewer& viewer) {
     viewer.panorama = {};
     viewer.panels.viewshed = viewer.panels.panorama = false;
     viewer.flies = false;
+    viewer.playing.reset();
     viewer.panels.place = false;
     viewer.vectors_known.reset();
     viewer.images_known.clear();

@@ -13,7 +13,7 @@ namespace oro {
 void Panels::open(bool Panels::*panel) {
     // Sides of fewer panels end in nulls.
     constexpr std::array<std::array<bool Panels::*, 5>, 3> sides{
-        {{&Panels::layers, &Panels::measure, &Panels::messages},
+        {{&Panels::layers, &Panels::measure, &Panels::messages, &Panels::film},
          {&Panels::sun, &Panels::statistics, &Panels::place, &Panels::viewshed, &Panels::panorama},
          {&Panels::keys, &Panels::files, &Panels::picture}}};
     for (const auto& side : sides) {
@@ -107,7 +107,7 @@ void trace_state(Viewer& viewer) {
                   camera.eye.lon_deg, camera.eye.h_m - N_m, camera.attitude.heading_deg);
     const auto part = [](const std::string& text) { return text.empty() ? "" : text + "  |  "; };
     const std::string moving =
-        viewer.flies || (viewer.gestures && viewer.gestures->is_moving()) ? "moving" : "";
+        viewer.flies || viewer.playing || (viewer.gestures && viewer.gestures->is_moving()) ? "moving" : "";
     std::string line = viewer.search.is_open
                            ? "Go to: " + viewer.search.text + "_"
                            : part(progress_words(viewer)) + part(moving) + part(viewer.message) + eye;

@@ -19,10 +19,12 @@
 #include "apps/search/search_index.h"
 #include "apps/view/style.h"
 #include "apps/window/detail.h"
+#include "apps/window/films.h"
 #include "apps/window/jump.h"
 #include "apps/window/looking_around.h"
 #include "apps/window/measure.h"
 #include "apps/window/panoramas.h"
+#include "apps/window/playing.h"
 #include "core/base/elapsed.h"
 #include "render/frame/frame_renderer.h"
 #include "render/window.h"
@@ -85,6 +87,7 @@ struct Panels {
     bool place{false};     // about what was picked
     bool viewshed{false};  // what is seen from there
     bool panorama{false};  // all around from there
+    bool film{false};
 
     // Opens one, or closes it; others that would lie over it are closed.
     void toggle(bool Panels::*panel);
@@ -140,6 +143,8 @@ struct Viewer {
     std::optional<Gestures> gestures{};  // from the window's start on
     bool flies{false};                   // to where a jump leads
     std::string arrival{};               // what is said there
+    std::optional<Playing> playing{};    // a path that the eye goes along
+    Film film{};
     Clock::time_point moved{};           // when the eye last did
     bool follows_eye{};  // what is fitted to a view is that of an eye that moved, until it rests
     ColourKey legend{};  // of a frame that explains itself (--show)

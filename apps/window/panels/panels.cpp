@@ -20,6 +20,7 @@ void build_panels(Viewer& viewer) {
     build_statistics_panel(viewer);
     build_place_panel(viewer);
     build_viewshed_panel(viewer);
+    build_film_panel(viewer);
     build_measure_panel(viewer);
     build_files_panel(viewer);
     build_picture_panel(viewer);

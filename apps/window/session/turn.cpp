@@ -91,8 +91,19 @@ Result<void> take_click(Viewer& viewer, const PictureClick& click) {
     return {};
 }
 
+// Any key, any button and the wheel end what is played.
+bool takes_eye_in_hand(const WindowEvent& event) {
+    if (const auto* const pressed = std::get_if<KeyChanged>(&event)) return pressed->down;
+    if (const auto* const button = std::get_if<ButtonChanged>(&event)) return button->down;
+    return std::holds_alternative<WheelTurned>(event);
+}
+
 Result<void> take_event(Session& session, const WindowEvent& event) {
     Viewer& viewer = session.viewer;
+    if (viewer.playing && takes_eye_in_hand(event)) {
+        stop_playing(viewer);
+        return {};
+    }
     if (const auto* const pressed = std::get_if<KeyChanged>(&event)) ORO_CHECK(take_key(session, *pressed));
     if (const auto* const typed = std::get_if<CharacterTyped>(&event)) take_character(viewer, typed->code);
     if (const auto* const dropped = std::get_if<PathsDropped>(&event))
