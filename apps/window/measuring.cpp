@@ -60,6 +60,10 @@ Result<void> take_back_place(Viewer& viewer) {
     return measure(viewer, places);
 }
 
+Result<void> measure_places(Viewer& viewer, const std::vector<LatLon>& places) {
+    return measure(viewer, places);
+}
+
 Result<void> clear_places(Viewer& viewer) {
     return measure(viewer, {});
 }

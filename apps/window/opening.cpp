@@ -9,6 +9,7 @@
 #include "apps/settings/recent_files.h"
 #include "apps/window/changes.h"
 #include "apps/window/motion.h"
+#include "apps/window/projects.h"
 #include "apps/window/search.h"
 #include "apps/window/window_start.h"
 #include "core/lod/ground_means.h"
@@ -93,22 +94,33 @@ void forget_region(Viewer& viewer) {
     viewer.images_known.clear();
 }
 
-// Another region in the same style and size.
-Result<void> open_region_of(Viewer& viewer, const std::vector<std::string>& paths) {
+// What is opened in the place of what is shown. view: of a project, as it was read.
+struct Opening {
+    WindowOptions options;
+    View view;
+    std::vector<std::string> paths;  // as the user knows it
+};
+
+// Of the size that is shown.
+WindowOptions options_of_opening(const Viewer& viewer) {
     WindowOptions options = viewer.options;
     options.view_file.clear();
     options.region = {};
-    options.region.paths = paths;
     options.view = {};
     const Camera& shown = viewer.view.camera;
     options.view.size = std::to_string(shown.width_px) + "x" + std::to_string(shown.height_px);
-    options.view.style = viewer.view.style;
-    View view;
-    Region region;
+    return options;
+}
+
+// Takes what was opened; false where it cannot be shown, which is told, and what is shown stays.
+Result<bool> show_opened(Viewer& viewer, Opening opening) {
     const auto refuse = [&](const Error& why) {
         tell(viewer, why);
-        return Result<void>();
+        return Result<bool>(false);
     };
+    WindowOptions& options = opening.options;
+    View view = std::move(opening.view);
+    Region region;
     const Result<void> opened = open_flight(
         options, [](double, const std::string&) {}, view, region);
     if (!opened.ok()) return refuse(opened.error());
@@ -130,15 +142,43 @@ Result<void> open_region_of(Viewer& viewer, const std::vector<std::string>& path
     viewer.jumps = Jumps(users_roll_deg(viewer.view.camera, std::nullopt));
     viewer.gestures.emplace(navigation_of(viewer));
     viewer.keeps_means = keeps_means;
-    viewer.name = name_of_paths(paths);
+    viewer.name = name_of_paths(opening.paths);
     viewer.window.set_title(one_line("Orograph - " + viewer.name));
     for (const std::string& note : all_notes(viewer.region))
         viewer.log.push_back({one_line(note), Clock::now(), false, false});
     viewer.wants_picture = true;
     tell(viewer, "opened " + viewer.name);
     fill_search(viewer);
-    remember_opened(viewer, paths);
-    return renew_renderer(viewer);
+    remember_opened(viewer, opening.paths);
+    ORO_CHECK(renew_renderer(viewer));
+    return true;
+}
+
+// Another region in the same style.
+Result<void> open_region_of(Viewer& viewer, const std::vector<std::string>& paths) {
+    Opening opening{options_of_opening(viewer), {}, paths};
+    opening.options.region.paths = paths;
+    opening.options.view.style = viewer.view.style;
+    ORO_TRY(const bool is_shown, show_opened(viewer, std::move(opening)));
+    // It is no part of the project that was shown.
+    if (is_shown) viewer.own_project.clear();
+    return {};
+}
+
+Result<void> open_project(Viewer& viewer, const std::string& file) {
+    Opening opening{options_of_opening(viewer), {}, {file}};
+    opening.options.region.paths = {file};
+    opening.options.gazetteers.clear();
+    opening.options.no_paths = false;
+    const auto project = project_named_by(opening.options);
+    if (!project.ok()) {
+        tell(viewer, project.error());
+        return {};
+    }
+    if (!*project) return {};
+    opening.view = (*project)->view;
+    ORO_TRY(const bool is_shown, show_opened(viewer, std::move(opening)));
+    return is_shown ? take_project(viewer, **project, file) : Result<void>();
 }
 
 }  // namespace
@@ -154,6 +194,16 @@ Result<void> open_paths(Viewer& viewer, const std::vector<std::string>& paths) {
     for (const std::string& path : paths) {
         if (is_vector_path(path)) {
             vectors.push_back(path);
+            continue;
+        }
+        if (is_project(path)) {
+            ORO_CHECK(open_project(viewer, path));
+            continue;
+        }
+        if (is_camera_path(path)) {
+            viewer.film.file = path;
+            open_film(viewer);
+            viewer.panels.open(&Panels::film);
             continue;
         }
         const auto there = may_carry_view(path) ? camera_of_picture(viewer, path) : std::nullopt;

@@ -9,8 +9,9 @@
 namespace oro {
 
 // Opens what the paths name. Vector files (GPX, KML, GeoJSON, GeoPackage) lie over the ground that is shown;
-// a picture that carries a view moves the eye to where it was taken; all others together are the region that
-// is shown from then on. What cannot be opened is told, and what is shown stays. Errors: the device.
+// a picture that carries a view moves the eye to where it was taken; a project is shown as it was saved; the
+// keys of a camera's path are the film; all others together are the region that is shown from then on. What
+// cannot be opened is told, and what is shown stays. Errors: the device.
 Result<void> open_paths(Viewer& viewer, const std::vector<std::string>& paths);
 // Puts paths at the head of what was opened last (apps/settings/recent_files.h), for the panel of files.
 void remember_opened(Viewer& viewer, const std::vector<std::string>& paths);

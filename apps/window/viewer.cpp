@@ -15,7 +15,7 @@ void Panels::open(bool Panels::*panel) {
     constexpr std::array<std::array<bool Panels::*, 5>, 3> sides{
         {{&Panels::layers, &Panels::measure, &Panels::messages, &Panels::film},
          {&Panels::sun, &Panels::statistics, &Panels::place, &Panels::viewshed, &Panels::panorama},
-         {&Panels::keys, &Panels::files, &Panels::picture}}};
+         {&Panels::keys, &Panels::files, &Panels::picture, &Panels::project}}};
     for (const auto& side : sides) {
         if (std::ranges::find(side, panel) == side.end()) continue;
         for (bool Panels::*const other : side)

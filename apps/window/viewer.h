@@ -88,6 +88,7 @@ struct Panels {
     bool viewshed{false};  // what is seen from there
     bool panorama{false};  // all around from there
     bool film{false};
+    bool project{false};
 
     // Opens one, or closes it; others that would lie over it are closed.
     void toggle(bool Panels::*panel);
@@ -145,7 +146,9 @@ struct Viewer {
     std::string arrival{};               // what is said there
     std::optional<Playing> playing{};    // a path that the eye goes along
     Film film{};
-    Clock::time_point moved{};           // when the eye last did
+    std::string project_file{"project.json"};  // that the work is saved to
+    std::string own_project{};                 // that it was opened from or saved to: it may be written anew
+    Clock::time_point moved{};                 // when the eye last did
     bool follows_eye{};  // what is fitted to a view is that of an eye that moved, until it rests
     ColourKey legend{};  // of a frame that explains itself (--show)
     MovingDetail detail{};

@@ -23,6 +23,7 @@ void build_panels(Viewer& viewer) {
     build_film_panel(viewer);
     build_measure_panel(viewer);
     build_files_panel(viewer);
+    build_project_panel(viewer);
     build_picture_panel(viewer);
     build_keys_panel(viewer);
 }

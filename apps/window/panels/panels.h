@@ -28,6 +28,7 @@ void build_panorama_panel(Viewer& viewer);    // all around from there
 void build_film_panel(Viewer& viewer);        // keys of a camera's path, and lines to follow
 void build_measure_panel(Viewer& viewer);     // and the line over the picture
 void build_files_panel(Viewer& viewer);       // to open some
+void build_project_panel(Viewer& viewer);     // where all this is saved to
 void build_picture_panel(Viewer& viewer);     // a picture of another size, and the command that draws it
 
 }  // namespace oro

@@ -9,6 +9,7 @@
 #include "apps/window/panels/panels.h"
 #include "apps/window/pictures.h"
 #include "apps/window/places.h"
+#include "apps/window/projects.h"
 #include "apps/window/work.h"
 
 namespace oro {
@@ -37,6 +38,7 @@ void take_chord(Viewer& viewer, int code) {
     if (code == 'Q') viewer.leaves = true;
     if (code == 'L') open_search(viewer);
     if (code == 'O') viewer.panels.toggle(&Panels::files);
+    if (code == 'S') save_or_ask(viewer);
 }
 
 Result<void> take_key(Session& session, const KeyChanged& event) {
@@ -91,6 +93,12 @@ Result<void> take_click(Viewer& viewer, const PictureClick& click) {
     return {};
 }
 
+// Control and S saves, and does not move.
+bool is_save_chord(const WindowEvent& event) {
+    const auto* const pressed = std::get_if<KeyChanged>(&event);
+    return pressed != nullptr && pressed->down && pressed->control && pressed->key == 'S';
+}
+
 // Any key, any button and the wheel end what is played.
 bool takes_eye_in_hand(const WindowEvent& event) {
     if (const auto* const pressed = std::get_if<KeyChanged>(&event)) return pressed->down;
@@ -108,6 +116,7 @@ Result<void> take_event(Session& session, const WindowEvent& event) {
     if (const auto* const typed = std::get_if<CharacterTyped>(&event)) take_character(viewer, typed->code);
     if (const auto* const dropped = std::get_if<PathsDropped>(&event))
         return open_paths(viewer, dropped->paths);
+    if (is_save_chord(event)) return {};
     const auto of_view = view_event_of(event, motion_clock_s());
     if (!of_view) return {};
     const auto click = take_view_event(viewer, *of_view);

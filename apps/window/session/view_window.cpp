@@ -15,6 +15,7 @@
 #include "apps/window/loading_picture.h"
 #include "apps/window/motion.h"
 #include "apps/window/opening.h"
+#include "apps/window/projects.h"
 #include "apps/window/search.h"
 #include "apps/window/session/turn.h"
 #include "apps/window/window_start.h"
@@ -74,13 +75,15 @@ Result<std::unique_ptr<Window>> open_window(const Gpu& gpu, const Camera& camera
 
 }  // namespace
 
-Result<void> run_view(const WindowOptions& options) {
+Result<void> run_view(const WindowOptions& given) {
+    WindowOptions options = given;
     if (options.view.tolerance)
         return refused("--tolerance", "", "is for single pictures: give --accuracy or --tau to a window");
     const Clock::time_point started = Clock::now();
     ORO_TRY(const std::vector<const char*> extensions, Window::required_extensions());
+    ORO_TRY(const std::optional<Project> project, project_named_by(options));
     ProgressBar bar(options.quiet);
-    View view;
+    View view = project ? project->view : View();
     Region region;
     ORO_CHECK(open_flight(
         options, [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view,
@@ -114,6 +117,10 @@ Result<void> run_view(const WindowOptions& options) {
     fill_search(viewer);
     if (!options.region.paths.empty()) remember_opened(viewer, options.region.paths);
     viewer.jumps = Jumps(users_roll_deg(viewer.view.camera, options.view.roll_deg));
+    if (project) {
+        remember_opened(viewer, {options.view_file});
+        ORO_CHECK(take_project(viewer, *project, options.view_file));
+    }
     return run_loop(viewer, *interface);
 }
 
