@@ -22,7 +22,7 @@ namespace {
 // A view's images over one of a scene's grids; null where none of them lies over it.
 struct OverGrid {
     std::size_t grid;
-    std::unique_ptr<GroundImage> images;
+    std::unique_ptr<const GroundImage> images;
 };
 
 // Over which grids there are some. A file that lies beside all of them is named, unless `quiet`.
@@ -44,11 +44,24 @@ Result<std::vector<OverGrid>> over_grids(const View& view, const Scene& scene, b
     return over;
 }
 
+// Colours over all grids, and over the images that lie there.
+std::vector<OverGrid> with_colours(std::vector<OverGrid> over, const View& view, const Scene& scene,
+                                   const std::shared_ptr<const PostColours>& colours) {
+    std::vector<OverGrid> all;
+    for (std::size_t grid = 0; grid < scene.grids().size(); ++grid) {
+        const auto found = std::ranges::find(over, grid, &OverGrid::grid);
+        all.push_back({grid, colours_over_ground(scene.grids()[grid].pages().facts().grid, grid, colours,
+                                                 found == over.end() ? nullptr : std::move(found->images),
+                                                 view.drape_opacity)});
+    }
+    return all;
+}
+
 }  // namespace
 
 Result<void> lay_images(const View& view, const MemoryOptions& memory, const Gpu& gpu, Scene& scene,
-                        bool quiet) {
-    if (view.images.empty()) return {};
+                        bool quiet, const std::shared_ptr<const PostColours>& colours) {
+    if (view.images.empty() && !colours) return {};
     for (const ImageSource& image : view.images) {
         for (const std::string& note : image.notes) say(quiet, "note: " + note);
     }
@@ -58,7 +71,9 @@ Result<void> lay_images(const View& view, const MemoryOptions& memory, const Gpu
                                     ? static_cast<std::uint64_t>(*memory.gpu_memory_mb) * 500000U
                                     : std::min(gpu.report().memory_bytes / 4, most);
     DrapeLook look;
-    look.opacity = static_cast<float>(view.drape_opacity);
+    // Under colours images have their opacity already.
+    look.opacity = colours ? 1.0F : static_cast<float>(view.drape_opacity);
+    if (colours) over = with_colours(std::move(over), view, scene, colours);
     for (OverGrid& one : over) {
         ORO_TRY(DrapeStore store, DrapeStore::create(gpu, std::move(one.images), look, bytes / over.size()));
         scene.set_drape(std::make_unique<DrapeStore>(std::move(store)), one.grid);

@@ -1,8 +1,11 @@
 // A view's images over the ground, from their files to a scene.
 #pragma once
 
+#include <memory>
+
 #include "apps/options/options.h"
 #include "apps/view/view.h"
+#include "core/drape/post_colours.h"
 #include "render/scene/scene.h"
 
 namespace oro {
@@ -13,8 +16,8 @@ MemoryOptions memory_of_pages(const View& view, const MemoryOptions& memory);
 // Lays a view's images over all grids of a scene of its region, and over what lies between them. Their tiles
 // take the other half of the GPU's memory that was allowed; where nothing was said, a quarter of what the
 // device has, at most 1 GiB. `quiet`: what a user must know of them is not said. Errors: as images_over()'s;
-// the device.
+// the device. colours: laid over all images, where there are some.
 Result<void> lay_images(const View& view, const MemoryOptions& memory, const Gpu& gpu, Scene& scene,
-                        bool quiet);
+                        bool quiet, const std::shared_ptr<const PostColours>& colours = nullptr);
 
 }  // namespace oro

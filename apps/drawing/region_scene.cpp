@@ -67,12 +67,13 @@ Result<std::unique_ptr<RegionPages>> grid_pages(const RegionGrid& grid, const Gr
 }
 
 Result<GridPages> make_grid_pages(const Region& region, const RegionCuts& cuts, double exaggeration,
-                                  const RenderProgress& progress) {
+                                  const RenderProgress& progress, const std::stop_token& stop) {
     GridPages pages;
     for (const RegionGrid& grid : region.grids) {
         const std::size_t number = pages.size();
-        ORO_TRY(std::unique_ptr<RegionPages> more, grid_pages(grid, cuts.grids[number], exaggeration,
-                                                              number == 0 ? progress : RenderProgress{}));
+        ORO_TRY(std::unique_ptr<RegionPages> more,
+                grid_pages(grid, cuts.grids[number], exaggeration, number == 0 ? progress : RenderProgress{},
+                           stop));
         pages.push_back(std::move(more));
     }
     return pages;

@@ -73,23 +73,6 @@ Result<void> draw_overlay(const View& view, const TrueGround& ground, const Cyli
     return {};
 }
 
-// The sheet's rows, one after another.
-Result<void> give_rows(const Sheet& sheet, const CylinderPicture& scene, const RowSink& sink) {
-    ORO_TRY(const TextFace face, TextFace::open());
-    ORO_TRY(std::vector<InkedText> texts, inked_texts(sheet, face));
-    InkedRows written(sheet.width_px, sheet.height_px, std::move(texts), sink);
-    InkedRows lined(sheet.width_px, sheet.height_px, inked_lines(sheet),
-                    [&](std::span<const std::uint8_t> row) { return written.take(row); });
-    std::vector<std::uint8_t> blank;
-    for (int x = 0; x < sheet.width_px; ++x)
-        blank.insert(blank.end(), sheet.paper.begin(), sheet.paper.end());
-    for (int y = 0; y < sheet.scene_top_px; ++y) ORO_CHECK(lined.take(blank));
-    ORO_CHECK(hand_on(scene.rgb, sheet.width_px, lined));
-    for (int y = sheet.scene_top_px + sheet.scene_rows_px; y < sheet.height_px; ++y)
-        ORO_CHECK(lined.take(blank));
-    return {};
-}
-
 Geotags panorama_tags(const View& view, const Region& region, const PanoramaSheet& laid) {
     Geotags tags = geotags_of(view, region, std::nullopt);
     tags.panorama = PanoramaTag{laid.around.sweep_deg, laid.sheet.scene_top_px + laid.around.above_px,
@@ -109,6 +92,22 @@ Result<PanoramaFile> write_svg(const std::string& path, bool overwrite, const Vi
 }
 
 }  // namespace
+
+Result<void> give_rows(const Sheet& sheet, const CylinderPicture& scene, const RowSink& sink) {
+    ORO_TRY(const TextFace face, TextFace::open());
+    ORO_TRY(std::vector<InkedText> texts, inked_texts(sheet, face));
+    InkedRows written(sheet.width_px, sheet.height_px, std::move(texts), sink);
+    InkedRows lined(sheet.width_px, sheet.height_px, inked_lines(sheet),
+                    [&](std::span<const std::uint8_t> row) { return written.take(row); });
+    std::vector<std::uint8_t> blank;
+    for (int x = 0; x < sheet.width_px; ++x)
+        blank.insert(blank.end(), sheet.paper.begin(), sheet.paper.end());
+    for (int y = 0; y < sheet.scene_top_px; ++y) ORO_CHECK(lined.take(blank));
+    ORO_CHECK(hand_on(scene.rgb, sheet.width_px, lined));
+    for (int y = sheet.scene_top_px + sheet.scene_rows_px; y < sheet.height_px; ++y)
+        ORO_CHECK(lined.take(blank));
+    return {};
+}
 
 bool is_svg(const std::string& path) {
     return lower_case(path).ends_with(".svg");
@@ -154,13 +153,15 @@ Result<PanoramaSheet> lay_out(const View& view, const Region& region, const True
 
 Result<CylinderPicture> draw_scene(const View& view, const Region& region, const TrueGround& ground,
                                    const Cylinder& around, const Gpu& gpu, Scene& scene, const Style& style,
-                                   const RenderProgress& progress) {
+                                   const RenderProgress& progress, const std::stop_token& stop) {
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, gpu));
     CylinderExtras extras;
     extras.ridges = view.panorama->ridges;
-    if (view.vectors_read && !view.vectors_read->overlay.empty())
-        extras.over = [&](const CylinderTile& tile, std::vector<std::uint8_t>& rgb) {
-            return draw_overlay(view, ground, tile, rgb);
+    const bool has_overlay = view.vectors_read && !view.vectors_read->overlay.empty();
+    if (has_overlay || stop.stop_possible())
+        extras.over = [&](const CylinderTile& tile, std::vector<std::uint8_t>& rgb) -> Result<void> {
+            if (stop.stop_requested()) return Error{ErrorKind::failed, "", "stopped"};
+            return has_overlay ? draw_overlay(view, ground, tile, rgb) : Result<void>();
         };
     ORO_TRY(CylinderPicture picture,
             render_cylinder(gpu, scene, view.camera.eye, around, usual_cut, style.frame,

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "apps/drawing/region_scene.h"
@@ -38,10 +39,14 @@ struct PanoramaSheet {
 Result<PanoramaSheet> lay_out(const View& view, const Region& region, const TrueGround& ground);
 
 // Draws the scene, lines of --overlay on it. `view` names the way of drawing, or auto. Errors: those of
-// render_cylinder; any message of the validation layer; too little memory for pages.
+// render_cylinder; any message of the validation layer; too little memory for pages; asked to stop.
 Result<CylinderPicture> draw_scene(const View& view, const Region& region, const TrueGround& ground,
                                    const Cylinder& around, const Gpu& gpu, Scene& scene, const Style& style,
-                                   const RenderProgress& progress);
+                                   const RenderProgress& progress, const std::stop_token& stop = {});
+
+// The sheet's rows from the top, 3 bytes a pixel: the scene, and all that stands around it and on it. Errors:
+// those of text, and of `sink`.
+Result<void> give_rows(const Sheet& sheet, const CylinderPicture& scene, const RowSink& sink);
 
 // A file that is whole and has no name yet.
 struct PanoramaFile {

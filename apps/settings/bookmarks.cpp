@@ -24,7 +24,32 @@ Result<UserList> bookmarks_list() {
     return UserList{folder / "bookmarks.json", "orograph_bookmarks", "bookmarks"};
 }
 
-Bookmark bookmark_from(const json& entry) {
+Result<void> write_bookmarks(const std::vector<Bookmark>& all) {
+    ORO_TRY(const UserList list, bookmarks_list());
+    json entries = json::array();
+    for (const Bookmark& bookmark : all) entries.push_back(bookmark_to_json(bookmark));
+    return write_user_list(list, entries);
+}
+
+// That it can be read again.
+Result<void> check_bookmark(const Bookmark& bookmark) {
+    const auto refused = [&](const std::string& what) {
+        return Error{ErrorKind::usage, "bookmark \"" + bookmark.name + "\"", what};
+    };
+    if (bookmark.name.empty()) return refused("needs a name");
+    if (bookmark.name != one_line(bookmark.name, Joiners::kept_in_words))
+        return refused("its name is not one line of text");
+    try {
+        (void)bookmark_from_json(bookmark_to_json(bookmark));
+    } catch (const JsonFault& fault) {
+        return refused(fault.what);
+    }
+    return {};
+}
+
+}  // namespace
+
+Bookmark bookmark_from_json(const json& entry) {
     const auto number = [](const json& object, const char* name, const Limits& within) {
         return json_number(object, name, within.low, within.high);
     };
@@ -40,7 +65,7 @@ Bookmark bookmark_from(const json& entry) {
     return bookmark;
 }
 
-json json_of(const Bookmark& bookmark) {
+json bookmark_to_json(const Bookmark& bookmark) {
     json entry =
         json_object<json>("name", bookmark.name, "lat_deg", bookmark.lat_deg, "lon_deg", bookmark.lon_deg);
     if (const auto& eye = bookmark.eye)
@@ -50,38 +75,13 @@ json json_of(const Bookmark& bookmark) {
     return entry;
 }
 
-Result<void> write_bookmarks(const std::vector<Bookmark>& all) {
-    ORO_TRY(const UserList list, bookmarks_list());
-    json entries = json::array();
-    for (const Bookmark& bookmark : all) entries.push_back(json_of(bookmark));
-    return write_user_list(list, entries);
-}
-
-// That it can be read again.
-Result<void> check_bookmark(const Bookmark& bookmark) {
-    const auto refused = [&](const std::string& what) {
-        return Error{ErrorKind::usage, "bookmark \"" + bookmark.name + "\"", what};
-    };
-    if (bookmark.name.empty()) return refused("needs a name");
-    if (bookmark.name != one_line(bookmark.name, Joiners::kept_in_words))
-        return refused("its name is not one line of text");
-    try {
-        (void)bookmark_from(json_of(bookmark));
-    } catch (const JsonFault& fault) {
-        return refused(fault.what);
-    }
-    return {};
-}
-
-}  // namespace
-
 Result<Bookmarks> read_bookmarks() {
     Bookmarks bookmarks;
     ORO_TRY(const UserList list, bookmarks_list());
     const auto take = [&](const json& entry) {
         if (bookmarks.all.size() == most_bookmarks)
             throw JsonFault{"holds more than " + std::to_string(most_bookmarks) + " bookmarks"};
-        bookmarks.all.push_back(bookmark_from(entry));
+        bookmarks.all.push_back(bookmark_from_json(entry));
     };
     ORO_TRY(const bool is_whole, read_user_list(list, take, bookmarks.notes));
     if (!is_whole) bookmarks.all.clear();

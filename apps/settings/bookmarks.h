@@ -1,6 +1,7 @@
 // Places that the user keeps by a name.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,10 @@ struct Bookmarks {
     std::vector<Bookmark> all;
     std::vector<std::string> notes;  // what the user must know of the file, one line each
 };
+
+// One as JSON, and back; the latter throws JsonFault (apps/report/json_fields.h).
+nlohmann::json bookmark_to_json(const Bookmark& bookmark);
+Bookmark bookmark_from_json(const nlohmann::json& entry);
 
 // At most so many are kept.
 inline constexpr std::size_t most_bookmarks = 10'000;

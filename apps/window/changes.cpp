@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "apps/drawing/drape.h"
 #include "apps/drawing/mesh_choice.h"
 #include "apps/navigation/flight_step.h"
 #include "apps/window/frames.h"
@@ -32,7 +31,7 @@ Result<void> renew_scene(Viewer& viewer) {
     ORO_TRY(OpenedScene opened, open_scene(viewer.gpu, viewer.region, viewer.cuts, viewer.view,
                                            {viewer.options.memory, true, viewer.keeps_means}, [](double) {}));
     take_scene(viewer, std::move(opened));
-    return {};
+    return is_tinted(viewer) ? lay_over_ground(viewer) : Result<void>();
 }
 
 void take_renderer(Viewer& viewer, FrameRenderer renderer) {
@@ -181,13 +180,8 @@ Result<void> choose_drape(Viewer& viewer, const std::vector<std::string>& files,
     viewer.view.drape_opacity = opacity;
     viewer.view.images = std::move(*images);
     if (viewer.view.fingerprints) viewer.view.fingerprints->images = std::move(fingerprints);
-    for (Scene* const scene : {viewer.scene.get(), viewer.coming.get()}) {
-        if (scene == nullptr) continue;
-        for (std::size_t grid = 0; grid < scene->grids().size(); ++grid) scene->set_drape(nullptr, grid);
-        ORO_CHECK(lay_images(viewer.view, viewer.options.memory, viewer.gpu, *scene, true));
-    }
     viewer.wants_picture = true;
-    return {};
+    return lay_over_ground(viewer);
 }
 
 }  // namespace oro

@@ -181,6 +181,7 @@ Result<std::optional<WindowPicture>> picture_to_show(Viewer& viewer) {
     using Shown = std::optional<WindowPicture>;
     const VkExtent2D extent = viewer.window.extent();
     if (extent.width == 0 || extent.height == 0) return Shown();
+    if (shows_panorama(viewer)) return panorama_to_show(viewer);
     if (viewer.has_picture) return Shown(WindowPicture{viewer.renderer.picture(), viewer.part});
     if (viewer.kept.handle) return Shown(WindowPicture{viewer.kept, viewer.part});
     ORO_TRY(const std::vector<std::uint8_t> pixels,

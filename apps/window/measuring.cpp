@@ -52,11 +52,6 @@ Result<void> measure(Viewer& viewer, const Measure& find) {
     return {};
 }
 
-Result<void> measure_places(Viewer& viewer, const std::vector<LatLon>& places) {
-    return measure(viewer,
-                   [&](const Air& air, const TrueGround& ground) { return measured(places, air, ground); });
-}
-
 // The places of a line that was drawn; those of a file stay as they are there.
 std::vector<LatLon> drawn_places(const Viewer& viewer) {
     const Measurement& found = viewer.measuring.found;
@@ -81,6 +76,11 @@ Result<void> take_back_place(Viewer& viewer) {
     std::vector<LatLon> places = drawn_places(viewer);
     if (!places.empty()) places.pop_back();
     return measure_places(viewer, places);
+}
+
+Result<void> measure_places(Viewer& viewer, const std::vector<LatLon>& places) {
+    return measure(viewer,
+                   [&](const Air& air, const TrueGround& ground) { return measured(places, air, ground); });
 }
 
 Result<void> clear_places(Viewer& viewer) {

@@ -6,6 +6,7 @@
 
 #include "apps/eye/standpoint.h"
 #include "apps/navigation/home.h"
+#include "apps/window/playing.h"
 #include "core/terrain/ground.h"
 #include "core/truth/oracle.h"
 
@@ -61,7 +62,8 @@ std::optional<ViewEvent> key_event(const KeyChanged& changed, ViewEvent event) {
     return std::nullopt;
 }
 
-// The eye is elsewhere: detail yields, and what is written over pictures waits until it rests.
+}  // namespace
+
 void take_camera(Viewer& viewer, const Camera& camera) {
     viewer.view.camera = camera;
     viewer.moved = Clock::now();
@@ -70,8 +72,6 @@ void take_camera(Viewer& viewer, const Camera& camera) {
     viewer.message.clear();
     viewer.jumps.moved();
 }
-
-}  // namespace
 
 double motion_clock_s() {
     static const Clock::time_point since = Clock::now();
@@ -156,6 +156,7 @@ void press_key(Viewer& viewer, ViewKey key) {
 }
 
 void advance_eye(Viewer& viewer) {
+    if (advance_playing(viewer)) return;
     const GestureOutcome outcome = viewer.gestures->advance(viewer.view.camera, motion_clock_s());
     if (outcome.moved) take_camera(viewer, outcome.camera);
     if (!viewer.flies || viewer.gestures->is_moving()) return;

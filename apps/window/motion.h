@@ -20,6 +20,8 @@ std::optional<PictureClick> take_view_event(Viewer& viewer, const ViewEvent& eve
 void advance_eye(Viewer& viewer);
 // The eye flies to a camera; once it is there, `message` is said.
 void fly_to(Viewer& viewer, const Camera& camera, const std::string& message);
+// The eye is elsewhere from now on: detail yields, and what is written over pictures waits until it rests.
+void take_camera(Viewer& viewer, const Camera& camera);
 // Seconds of the clock that gestures go by.
 double motion_clock_s();
 

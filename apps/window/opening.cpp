@@ -12,6 +12,7 @@
 #include "apps/window/kept_view.h"
 #include "apps/window/motion.h"
 #include "apps/window/pictures.h"
+#include "apps/window/projects.h"
 #include "apps/window/search.h"
 #include "apps/window/window_start.h"
 #include "core/lod/ground_means.h"
@@ -88,21 +89,40 @@ void forget_region(Viewer& viewer) {
     viewer.in_middle.reset();
     viewer.picked.reset();
     viewer.measuring = {};
+    viewer.looking = {};
+    viewer.panorama = {};
+    viewer.panels.viewshed = viewer.panels.panorama = false;
     viewer.flies = false;
+    viewer.playing.reset();
     viewer.panels.place = false;
 }
 
-// Begins to read another region; what is shown stays until it is there.
-void begin_opening(Viewer& viewer, const std::vector<std::string>& paths) {
+// Begins to read what is shown next; what is shown stays until it is there.
+void begin_opening(Viewer& viewer, WindowOptions options, std::optional<Project> project) {
     if (viewer.opening) return tell(viewer, viewer.opening->name() + " is still being opened", true);
-    viewer.opening =
-        std::make_unique<RegionOpening>(options_for_other_region(viewer.options, viewer.view, paths));
+    viewer.opening = std::make_unique<RegionOpening>(std::move(options), std::move(project));
     tell(viewer, "opening " + viewer.opening->name());
+}
+
+// A project as it was saved: of the window it keeps the size alone.
+void begin_opening_project(Viewer& viewer, const std::string& file) {
+    WindowOptions options = viewer.options;
+    options.view_file.clear();
+    options.region = {};
+    options.region.paths = {file};
+    options.view = {};
+    const Camera& shown = viewer.view.camera;
+    options.view.size = std::to_string(shown.width_px) + "x" + std::to_string(shown.height_px);
+    options.gazetteers.clear();
+    options.no_paths = false;
+    auto project = project_named_by(options);
+    if (!project.ok()) return tell(viewer, project.error());
+    if (*project) begin_opening(viewer, std::move(options), std::move(*project));
 }
 
 // A scene of the region that was read, with all that its user chose. Errors: as they are told to the user.
 Result<OpenedScene> scene_of(Viewer& viewer, OpenedRegion& opened, Style& style) {
-    keep_choices(viewer.view, opened.view);
+    if (!opened.project) keep_choices(viewer.view, opened.view);
     // Data in no projected CRS have the other graticule.
     if (!find_graticule_crs(opened.view, opened.region).ok()) opened.view.graticule = Graticule::geographic;
     ORO_TRY(style, load_style(opened.view, opened.region.grids.front().field));
@@ -117,6 +137,7 @@ Result<OpenedScene> scene_of(Viewer& viewer, OpenedRegion& opened, Style& style)
 
 // Shows it in the place of the one that was shown.
 Result<void> show_region(Viewer& viewer, OpenedRegion opened, OpenedScene scene, Style style) {
+    const std::vector<std::string> paths = opened.paths();
     forget_region(viewer);
     viewer.options = std::move(opened.options);
     viewer.view = std::move(opened.view);
@@ -126,15 +147,18 @@ Result<void> show_region(Viewer& viewer, OpenedRegion opened, OpenedScene scene,
     take_scene(viewer, std::move(scene));
     viewer.jumps = Jumps(users_roll_deg(viewer.view.camera, viewer.options.view.roll_deg));
     viewer.gestures.emplace(navigation_of(viewer));
-    viewer.name = name_of_paths(viewer.options.region.paths);
+    viewer.name = name_of_paths(paths);
     viewer.window.set_title(one_line("Orograph - " + viewer.name));
     for (const std::string& note : all_notes(viewer.region))
         viewer.log.push_back({one_line(note), Clock::now(), false, false});
     viewer.wants_picture = true;
     tell(viewer, "opened " + viewer.name);
     fill_search(viewer);
-    remember_opened(viewer, viewer.options.region.paths);
-    return renew_renderer(viewer);
+    remember_opened(viewer, paths);
+    ORO_CHECK(renew_renderer(viewer));
+    // A region that is opened is no part of the project that was shown.
+    viewer.own_project.clear();
+    return opened.project ? take_project(viewer, *opened.project, paths.front()) : Result<void>();
 }
 
 }  // namespace
@@ -152,13 +176,24 @@ Result<void> open_paths(Viewer& viewer, const std::vector<std::string>& paths) {
             vectors.push_back(path);
             continue;
         }
+        if (is_project(path)) {
+            begin_opening_project(viewer, path);
+            continue;
+        }
+        if (is_camera_path(path)) {
+            viewer.film.file = path;
+            open_film(viewer);
+            viewer.panels.open(&Panels::film);
+            continue;
+        }
         const auto there = may_carry_view(path) ? camera_of_picture(viewer, path) : std::nullopt;
         if (there)
             fly_to(viewer, *there, "where " + std::filesystem::path(path).filename().string() + " was taken");
         else
             others.push_back(path);
     }
-    if (!others.empty()) begin_opening(viewer, others);
+    if (!others.empty())
+        begin_opening(viewer, options_for_other_region(viewer.options, viewer.view, others), {});
     return vectors.empty() ? Result<void>() : add_vectors(viewer, vectors);
 }
 

@@ -28,6 +28,31 @@ View pictured(View view, const PictureChoice& choice) {
     return view;
 }
 
+Result<void> write_picture_of(Viewer& viewer, const PictureChoice& choice) {
+    follow_sun(viewer);
+    if (is_coarse(viewer)) {
+        // A picture is what its view says, and nothing coarser.
+        tell(viewer, "the picture waits for finer detail");
+        trace_state(viewer);
+        ORO_CHECK(wait_for_finer_scene(viewer));
+    }
+    viewer.view.time_utc_s = time_now_s();
+    View view = pictured(viewer.view, choice);
+    const PictureFiles files = picture_files(free_picture_name(view.time_utc_s, choice.ending));
+    ORO_TRY(const RegionGround* const ground, ground_of(viewer));
+    ORO_TRY(const auto middle, place_in_middle(view, *ground));
+    ORO_CHECK(fit_to_view(viewer.style, view, viewer.region.grids.front().field));
+    ORO_TRY(const auto strip, strip_of(view, viewer.region, viewer.style, middle));
+    const auto written = write_picture(files, false, view, viewer.region, *ground, middle, viewer.gpu,
+                                       *viewer.scene, viewer.style, strip, {});
+    tell(viewer, written.ok() ? "wrote " + files.picture : written.error().line(), !written.ok());
+    say(viewer.options.quiet && written.ok(), viewer.message);
+    if (!written.ok() || viewer.options.quiet) return {};
+    ORO_TRY(const UnseenGround unseen, unseen_in(view, viewer.region, usual_unseen_ceiling_m));
+    if (const std::string note = unseen_sentence(unseen); !note.empty()) say(false, "note: " + note);
+    return {};
+}
+
 }  // namespace
 
 void follow_sun(Viewer& viewer) {
@@ -52,6 +77,7 @@ Result<void> begin_finer_scene(Viewer& viewer) {
     viewer.finer.reset();
     ORO_TRY(Scene scene, scene_with_images(viewer.gpu, viewer.region, viewer.cuts, std::move(pages),
                                            viewer.view, {viewer.options.memory, true, viewer.keeps_means}));
+    if (is_tinted(viewer)) ORO_CHECK(lay_over_ground(viewer, scene));
     viewer.coming = std::make_unique<Scene>(std::move(scene));
     viewer.coming_since = Clock::now();
     return {};
@@ -73,28 +99,11 @@ Result<void> take_picture(Viewer& viewer) {
 }
 
 Result<void> take_picture(Viewer& viewer, const PictureChoice& choice) {
-    follow_sun(viewer);
-    if (is_coarse(viewer)) {
-        // A picture is what its view says, and nothing coarser.
-        tell(viewer, "the picture waits for finer detail");
-        trace_state(viewer);
-        ORO_CHECK(wait_for_finer_scene(viewer));
-    }
-    viewer.view.time_utc_s = time_now_s();
-    View view = pictured(viewer.view, choice);
-    const PictureFiles files = picture_files(free_picture_name(view.time_utc_s, choice.ending));
-    ORO_TRY(const RegionGround* const ground, ground_of(viewer));
-    ORO_TRY(const auto middle, place_in_middle(view, *ground));
-    ORO_CHECK(fit_to_view(viewer.style, view, viewer.region.grids.front().field));
-    ORO_TRY(const auto strip, strip_of(view, viewer.region, viewer.style, middle));
-    const auto written = write_picture(files, false, view, viewer.region, *ground, middle, viewer.gpu,
-                                       *viewer.scene, viewer.style, strip, {});
-    tell(viewer, written.ok() ? "wrote " + files.picture : written.error().line(), !written.ok());
-    say(viewer.options.quiet && written.ok(), viewer.message);
-    if (!written.ok() || viewer.options.quiet) return {};
-    ORO_TRY(const UnseenGround unseen, unseen_in(view, viewer.region, usual_unseen_ceiling_m));
-    if (const std::string note = unseen_sentence(unseen); !note.empty()) say(false, "note: " + note);
-    return {};
+    // A picture has what its view tells, which a tint is no part of.
+    const bool tinted = is_tinted(viewer);
+    if (tinted) ORO_CHECK(show_seen_around(viewer, false));
+    ORO_CHECK(write_picture_of(viewer, choice));
+    return tinted ? show_seen_around(viewer, true) : Result<void>();
 }
 
 std::string command_line_of(const View& shown, const PictureChoice& choice) {

@@ -1,6 +1,7 @@
 #include "apps/window/region_opening.h"
 
 #include <chrono>
+#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -8,8 +9,13 @@
 
 namespace oro {
 
-RegionOpening::RegionOpening(WindowOptions options) : name_(name_of_paths(options.region.paths)) {
-    const auto work = [this, options = std::move(options)] { return read(options); };
+RegionOpening::RegionOpening(WindowOptions options, std::optional<Project> project) {
+    OpenedRegion asked;
+    asked.options = std::move(options);
+    asked.project = std::move(project);
+    name_ = name_of_paths(asked.paths());
+    const auto begun = std::make_shared<OpenedRegion>(std::move(asked));
+    const auto work = [this, begun] { return read(std::move(*begun)); };
     try {
         opened_ = std::async(std::launch::async, work);
     } catch (const std::system_error&) {
@@ -36,11 +42,10 @@ Result<OpenedRegion> RegionOpening::wait() {
     return opened_.get();
 }
 
-Result<OpenedRegion> RegionOpening::read(const WindowOptions& options) {
-    OpenedRegion opened;
-    opened.options = options;
+Result<OpenedRegion> RegionOpening::read(OpenedRegion opened) {
+    if (opened.project) opened.view = opened.project->view;
     ORO_CHECK(open_flight(
-        options, [this](double share, const std::string& what) { tell(share, "reading " + what); },
+        opened.options, [this](double share, const std::string& what) { tell(share, "reading " + what); },
         opened.view, opened.region));
     ORO_TRY(opened.cuts, cut_regions(opened.region));
     ORO_TRY(opened.pages, first_pages(opened.region, opened.cuts, opened.view,

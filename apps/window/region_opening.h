@@ -4,10 +4,12 @@
 #include <atomic>
 #include <future>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/drawing/region_scene.h"
+#include "apps/project/project_file.h"
 #include "apps/view/view.h"
 
 namespace oro {
@@ -15,16 +17,23 @@ namespace oro {
 // All of a region that needs no device.
 struct OpenedRegion {
     WindowOptions options;
+    std::optional<Project> project;  // whose view it is
     View view;
     Region region;
     RegionCuts cuts;
     GridPages pages;  // all levels, or of every n-th post (first_pages())
+
+    // The paths as the user knows them.
+    [[nodiscard]] std::vector<std::string> paths() const {
+        return project ? std::vector{options.view_file} : options.region.paths;
+    }
 };
 
 class RegionOpening {
   public:
-    // Begins to read. Where no thread is to be had, wait() reads.
-    explicit RegionOpening(WindowOptions options);
+    // Begins to read: what options name, or a project whose view they name. Where no thread is to be had,
+    // wait() reads.
+    RegionOpening(WindowOptions options, std::optional<Project> project);
     // Waits for the reading.
     ~RegionOpening() = default;
     RegionOpening(const RegionOpening&) = delete;
@@ -40,7 +49,7 @@ class RegionOpening {
     Result<OpenedRegion> wait();
 
   private:
-    Result<OpenedRegion> read(const WindowOptions& options);
+    Result<OpenedRegion> read(OpenedRegion opened);
     void tell(double share, const std::string& step);
 
     std::string name_;

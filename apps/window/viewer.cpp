@@ -12,13 +12,15 @@
 namespace oro {
 
 void Panels::open(bool Panels::*panel) {
-    constexpr std::array<std::array<bool Panels::*, 3>, 3> sides{
-        {{&Panels::layers, &Panels::measure, &Panels::messages},
-         {&Panels::sun, &Panels::statistics, &Panels::place},
-         {&Panels::keys, &Panels::files, &Panels::picture}}};
+    // Sides of fewer panels end in nulls.
+    constexpr std::array<std::array<bool Panels::*, 5>, 3> sides{
+        {{&Panels::layers, &Panels::measure, &Panels::messages, &Panels::film},
+         {&Panels::sun, &Panels::statistics, &Panels::place, &Panels::viewshed, &Panels::panorama},
+         {&Panels::keys, &Panels::files, &Panels::picture, &Panels::project}}};
     for (const auto& side : sides) {
         if (std::ranges::find(side, panel) == side.end()) continue;
-        for (bool Panels::*const other : side) this->*other = false;
+        for (bool Panels::*const other : side)
+            if (other != nullptr) this->*other = false;
     }
     this->*panel = true;
 }
@@ -130,7 +132,7 @@ void trace_state(Viewer& viewer) {
                   camera.eye.lon_deg, camera.eye.h_m - N_m, camera.attitude.heading_deg);
     const auto part = [](const std::string& text) { return text.empty() ? "" : text + "  |  "; };
     const std::string moving =
-        viewer.flies || (viewer.gestures && viewer.gestures->is_moving()) ? "moving" : "";
+        viewer.flies || viewer.playing || (viewer.gestures && viewer.gestures->is_moving()) ? "moving" : "";
     std::string line = viewer.search.is_open
                            ? "Go to: " + viewer.search.text + "_"
                            : part(progress_words(viewer)) + part(moving) + part(viewer.message) + eye;

@@ -22,10 +22,14 @@
 #include "apps/settings/window_settings.h"
 #include "apps/view/style.h"
 #include "apps/window/detail.h"
+#include "apps/window/films.h"
 #include "apps/window/jump.h"
+#include "apps/window/looking_around.h"
 #include "apps/window/measure.h"
 #include "apps/window/place_certificates.h"
 #include "apps/window/region_opening.h"
+#include "apps/window/panoramas.h"
+#include "apps/window/playing.h"
 #include "core/base/elapsed.h"
 #include "render/frame/frame_renderer.h"
 #include "render/window.h"
@@ -91,7 +95,11 @@ struct Panels {
     bool hidden{false};  // all of them, and what is always there
     bool keys{false}, layers{false}, sun{false}, statistics{false}, messages{false}, measure{false},
         files{false}, picture{false};
-    bool place{false};  // about what was picked
+    bool place{false};     // about what was picked
+    bool viewshed{false};  // what is seen from there
+    bool panorama{false};  // all around from there
+    bool film{false};
+    bool project{false};
 
     // Opens one, or closes it; others that would lie over it are closed.
     void toggle(bool Panels::*panel);
@@ -134,6 +142,8 @@ struct Viewer {
     WayHome way_home{};
     PlaceCertificates certificates{};
     Measuring measuring{};
+    LookingAround looking{};    // ends before the region that it reads
+    PanoramaAround panorama{};  // likewise
     std::optional<SunClock> sun_clock{};
     std::optional<PictureChoice> picture_choice{};   // of the dialog
     std::vector<std::vector<std::string>> recent{};  // what was opened last, each together
@@ -161,7 +171,11 @@ struct Viewer {
     std::optional<Gestures> gestures{};  // from the window's start on
     bool flies{false};                   // to where a jump leads
     std::string arrival{};               // what is said there
-    Clock::time_point moved{};           // when the eye last did
+    std::optional<Playing> playing{};    // a path that the eye goes along
+    Film film{};
+    std::string project_file{"project.json"};  // that the work is saved to
+    std::string own_project{};                 // that it was opened from or saved to: it may be written anew
+    Clock::time_point moved{};                 // when the eye last did
     bool follows_eye{};  // what is fitted to a view is that of an eye that moved, until it rests
     ColourKey legend{};  // of a frame that explains itself (--show)
     MovingDetail detail{};

@@ -295,7 +295,7 @@ void Sweep::sweep_sector(int sector, Viewshed& viewshed, std::size_t& asked) con
     HorizonSector horizon(plane_, ranges_, sector * each, each);
     const std::size_t* const begins =
         shells_.begins.data() + static_cast<std::size_t>(sector) * static_cast<std::size_t>(shells_.count);
-    for (int shell = 0; shell < shells_.count; ++shell) {
+    for (int shell = 0; shell < shells_.count && !request_.stop.stop_requested(); ++shell) {
         const Entry* const from = shells_.entries.data() + begins[shell];
         const Entry* const to = shells_.entries.data() + begins[shell + 1];
         for (const Entry* entry = from; entry != to; ++entry) {
@@ -435,6 +435,7 @@ Viewshed viewshed(const TrueGround& ground, std::size_t grid, const ViewshedRequ
     int done = 0;
     in_parallel(window.rows, request.threads, [&](int number) {
         std::size_t asked = 0;
+        if (request.stop.stop_requested()) return;
         const int row = window.first_row + number;
         for (int column = window.first_column; column < window.first_column + window.columns; ++column) {
             Geodetic target = target_over_post(surface, row, column, 0.0);

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "core/sight/observer.h"
@@ -46,6 +47,7 @@ struct ViewshedRequest {
     double target_m{};  // height of targets over the ground of each post, at least least_above_m
     double radius_m{};  // over the ground, 1,000 km at most; of a post that is seen at its edge to 1e-5 of it
     int threads{1};
+    std::stop_token stop{};  // asked to stop, what comes back is not whole, and comes soon
 };
 
 // Told how far it is, 0..1; from any thread, one at a time.

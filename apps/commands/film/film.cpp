@@ -13,13 +13,11 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/film/film_frames.h"
+#include "apps/commands/film/film_path.h"
 #include "apps/commands/film/movie.h"
-#include "apps/commands/film/tour_keys.h"
-#include "apps/commands/film/track_keys.h"
 #include "apps/drawing/mesh_choice.h"
 #include "apps/eye/standpoint.h"
 #include "apps/film/frame_range.h"
-#include "apps/film/written_keys.h"
 #include "apps/legend/legend.h"
 #include "apps/options/option_table.h"
 #include "apps/output/overwrite_guard.h"
@@ -34,7 +32,6 @@
 #include "core/base/file_there.h"
 #include "core/base/files_read.h"
 #include "geo/files/letter_case.h"
-#include "geo/files/text_encoding.h"
 
 namespace oro {
 namespace {
@@ -42,13 +39,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr Limits frames_a_second{0.01, 1000.0};
-
-// What the path's file holds, before the region is open.
-struct WrittenPath {
-    std::vector<WrittenKey> keys;
-    std::vector<TourStop> stops;
-    std::optional<LineAlong> track;
-};
 
 // Where the frames go, and the movie that is made of them.
 struct FilmFiles {
@@ -79,42 +69,6 @@ struct FilmReport {
     double read_s{};
     double draw_s{};
 };
-
-Result<WrittenPath> read_path(const FilmOptions& options) {
-    WrittenPath path;
-    const std::string ending = lower_case(fs::path(options.path).extension().string());
-    const double usual_fov_deg = options.view.vertical_fov_deg.value_or(45.0);
-    if (ending == ".json") {
-        ORO_TRY(std::string bytes, read_text_file(options.path));
-        const auto text = utf8_text(std::move(bytes));
-        if (!text.ok()) return Error{text.error().kind, options.path, text.error().what};
-        const bool is_geojson = text->find("\"coordinates\"") != std::string::npos;
-        if (!is_geojson || text->find("\"orograph_path\"") != std::string::npos) {
-            ORO_TRY(path.keys, keys_from_json(*text, options.path, usual_fov_deg));
-        }
-    } else if (ending == ".kml") {
-        ORO_TRY(path.stops, read_kml_tour(options.path));
-    }
-    const bool is_track = path.keys.empty() && path.stops.empty();
-    if (is_track) {
-        ORO_TRY(path.track, line_of_file("FLIGHT", options.path, options.line));
-    } else if (const char* const option = first_track_option(options)) {
-        return refused(option, "", "is for tracks, and " + options.path + " says itself where the camera is");
-    }
-    return path;
-}
-
-Result<std::vector<CameraKey>> keys_of(const WrittenPath& path, const FilmOptions& options,
-                                       const Region& region, double exaggeration) {
-    if (path.track) {
-        ORO_TRY(const TrackFlight flight, track_flight(options, path.track->distances_m.back()));
-        return keys_along_track(*path.track, flight, region, exaggeration);
-    }
-    if (!path.stops.empty())
-        return keys_of_tour(path.stops, options.view.vertical_fov_deg.value_or(45.0), region, exaggeration,
-                            options.path);
-    return eyes_over_region(path.keys, region, exaggeration, options.path);
-}
 
 // What can be refused before anything is read.
 Result<FilmFiles> film_files(const FilmOptions& options) {

@@ -1,6 +1,5 @@
 // orograph panorama: all around a place, with rulers and the names of what is seen.
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <string_view>
 #include <utility>
@@ -8,15 +7,14 @@
 #include "apps/command_line/refusals.h"
 #include "apps/command_line/whole_text.h"
 #include "apps/commands/commands.h"
+#include "apps/commands/panorama/panorama_drawing.h"
 #include "apps/commands/panorama/panorama_json.h"
-#include "apps/drawing/drape.h"
 #include "apps/drawing/mesh_choice.h"
 #include "apps/eye/asked_summit.h"
 #include "apps/names/names_in_view.h"
 #include "apps/options/view_limits.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/output/pose_files.h"
-#include "apps/panorama/elevations.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
@@ -25,16 +23,10 @@
 #include "apps/view/view_changes.h"
 #include "apps/view/view_option_table.h"
 #include "core/base/elapsed.h"
-#include "core/base/parallel.h"
-#include "core/lod/ground_means.h"
 #include "geo/pictures/picture.h"
 
 namespace oro {
 namespace {
-
-constexpr double usual_px_per_deg = 20.0;
-// Of a scene: it is held as a whole, 3 bytes each.
-constexpr double most_pixels = 2.0e8;
 
 // Options of views that say nothing of a panorama, or something that it says in another way.
 Result<void> refuse_others(const ViewOptions& view) {
@@ -74,15 +66,6 @@ Result<std::pair<double, double>> two_numbers(const char* option, const std::str
         return refused(option, text, "each of the two " + between_words(limits.low, limits.high));
     return numbers;
 }
-
-// What the options say of the frame, before anything is opened. Elevations: nothing where they are to be
-// found.
-struct AskedFrame {
-    std::optional<std::pair<double, double>> sector;  // from, sweep
-    std::optional<std::pair<double, double>> elevation;
-    std::optional<int> width_px;
-    std::optional<bool> ridges;
-};
 
 Result<AskedFrame> asked_frame(const PanoramaOptions& options) {
     AskedFrame asked;
@@ -131,90 +114,11 @@ ViewOptions with_air(const PanoramaOptions& options) {
     return view;
 }
 
-// Data are lower than a summit is, and its place in them is another: an eye may come to stand beside it.
-std::string note_of_skyline(const Elevations& found, bool is_on_summit) {
-    if (!found.leaves_out_near) return "";
-    const std::string note =
-        "ground within 250 m of the eye stands higher than is shown: --elevation shows it, ";
-    if (is_on_summit) return note + "and a larger --above looks over it";
-    return note + "a larger --above looks over it, and --on-summit stands on the highest post nearby";
-}
-
-// Completes the view's frame and its camera, which stands for the scene until the sheet is laid out.
-Result<void> set_frame(const AskedFrame& asked, const TrueGround& ground, bool is_on_summit, View& view,
-                       std::string& note) {
-    PanoramaFrame frame = view.panorama.value_or(PanoramaFrame{});
-    if (asked.sector) {
-        frame.from_deg = asked.sector->first;
-        frame.sweep_deg = asked.sector->second;
-    }
-    if (asked.elevation) {
-        frame.low_deg = asked.elevation->first;
-        frame.high_deg = asked.elevation->second;
-    } else if (!view.panorama) {
-        const Elevations found = elevations_for(ground, view.camera.eye, view.model, frame.from_deg,
-                                                frame.sweep_deg, thread_count());
-        frame.low_deg = found.low_deg;
-        frame.high_deg = found.high_deg;
-        note = note_of_skyline(found, is_on_summit);
-    }
-    frame.ridges = asked.ridges.value_or(frame.ridges);
-    Camera& camera = view.camera;
-    if (asked.width_px)
-        camera.width_px = *asked.width_px;
-    else if (!view.panorama)
-        camera.width_px = std::max(static_cast<int>(view_limits::panorama_width_px.low),
-                                   static_cast<int>(std::lround(frame.sweep_deg * usual_px_per_deg)));
-    camera.attitude = {turned_deg(frame.from_deg + 0.5 * frame.sweep_deg), 0.0, 0.0};
-    camera.vertical_fov_deg =
-        std::clamp(frame.high_deg - frame.low_deg, view_limits::fov_deg.low, view_limits::fov_deg.high);
-    view.panorama = frame;
-    const Cylinder around = cylinder_of(view);
-    camera.height_px = around.height_px();
-    const double pixels = static_cast<double>(around.width_px) * around.height_px();
-    if (pixels > most_pixels || !view_limits::side_px.hold(around.height_px()))
-        return refused(
-            "--width", std::to_string(around.width_px),
-            "makes a scene of " + std::to_string(around.width_px) + " x " +
-                std::to_string(around.height_px()) +
-                " pixels, more than 200,000,000 or 65,500 rows: give a smaller one, or fewer --elevation");
-    return {};
-}
-
-// A style is chosen for what a part of the cylinder shows on a plane.
-Result<Style> style_of(const View& view, const Region& region) {
-    const std::vector<CylinderTile> tiles = cylinder_tiles(cylinder_of(view), view.camera.eye, {1.0});
-    View part = view;
-    part.camera = tiles[tiles.size() / 2].camera;
-    return load_style(part, region.grids.front().field);
-}
-
 void say_notes_of(const PanoramaOptions& options, const PanoramaReport& report) {
     say_notes(report.region, options.quiet);
     say_summit(report.on_summit, options.quiet);
     if (const std::string note = note_of_year(report.view.sun); !note.empty()) say(options.quiet, note);
     if (report.view.vectors_read) say_vectors(*report.view.vectors_read, report.view.vectors, options.quiet);
-}
-
-Result<void> draw(const PanoramaOptions& options, const RegionGround& ground, const RegionCuts& cuts,
-                  const Style& style, ProgressBar& bar, PanoramaReport& report) {
-    const View& view = report.view;
-    const auto drawing = Clock::now();
-    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
-    ORO_TRY(GridPages pages, make_grid_pages(report.region, cuts, view.exaggeration,
-                                             [&](double share) { bar.show(share, "measuring levels"); }));
-    ORO_TRY(RegionScene whole,
-            scene_of_region(*gpu, report.region, cuts, std::move(pages),
-                            {view.exaggeration, memory_of_pages(view, options.memory), view.heights,
-                             asks_for_means(style.frame), view.mesh == "clusters", view.mesh_level}));
-    Scene& scene = whole.scene;
-    if (const std::string note = note_of_missing_footprints(style.frame, scene.pages()); !note.empty())
-        say(options.quiet, note);
-    ORO_CHECK(lay_images(view, options.memory, *gpu, scene, options.quiet));
-    ORO_TRY(report.scene, draw_scene(view, report.region, ground.ground(), report.laid.around, *gpu, scene,
-                                     style, [&](double share) { bar.show(share, "drawing"); }));
-    report.draw_s = seconds_since(drawing);
-    return {};
 }
 
 void tell(const PanoramaOptions& options, const Style& style, const PanoramaReport& report) {
@@ -265,13 +169,18 @@ Result<void> run_panorama(const PanoramaOptions& options) {
     ORO_TRY(const auto ground, RegionGround::of(report.region, cuts, view.exaggeration));
     std::string note;
     ORO_CHECK(set_frame(asked, ground->ground(), report.on_summit.has_value(), view, note));
-    ORO_TRY(const Style style, style_of(view, report.region));
+    ORO_TRY(const Style style, style_of_panorama(view, report.region));
     bar.clear();
     say_notes_of(options, report);
     if (!note.empty()) say(options.quiet, "note: " + note);
     ORO_TRY(report.laid, lay_out(view, report.region, ground->ground()));
     report.layout_s = seconds_since(looking);
-    ORO_CHECK(draw(options, *ground, cuts, style, bar, report));
+    const auto drawing = Clock::now();
+    ORO_TRY(report.scene,
+            draw_panorama(view, report.region, cuts, ground->ground(), style, report.laid.around,
+                          {options.memory, options.quiet},
+                          [&](double share, const std::string& what) { bar.show(share, what); }));
+    report.draw_s = seconds_since(drawing);
     if (report.scene.report.ground_px == 0) {
         ORO_TRY(const std::string nothing, nothing_in_view(view, report.region, options.view_file));
         say(options.quiet, "note: " + nothing);

@@ -47,9 +47,14 @@ Result<Geodetic> point_over_ground(const Standing& standing, const SightGround& 
 }
 
 Result<Standpoint> stand_over_ground(const Standing& standing, const SightGround& ground) {
+    return stand_over_ground(standing, ground.region, ground.ground());
+}
+
+Result<Standpoint> stand_over_ground(const Standing& standing, const Region& region,
+                                     const TrueGround& ground) {
     ORO_CHECK(check_above(standing.above_option, standing.above_m));
     ORO_TRY(const Place place, place_at(standing.place_option, standing.place));
-    const RegionGrid& there = grid_at(ground.region, place.lat_deg, place.lon_deg);
+    const RegionGrid& there = grid_at(region, place.lat_deg, place.lon_deg);
     ORO_TRY(Standpoint stood, stand(standing, there.field));
     Geodetic& point = stood.eye;
     if (!view_limits::sight_h_m.hold(point.h_m)) {
@@ -58,7 +63,8 @@ Result<Standpoint> stand_over_ground(const Standing& standing, const SightGround
                       view_limits::sight_h_m.low, view_limits::sight_h_m.high);
         return refused(standing.place_option, standing.place, text);
     }
-    const std::optional<double> above_m = ground.above_m(point);
+    std::optional<double> above_m = ground.h_m(point.lat_deg, point.lon_deg);
+    if (above_m) above_m = point.h_m - *above_m;
     // What was put onto the ground may be rounded below it.
     constexpr double rounded_m = 1.0e-6;
     if (above_m && *above_m < -rounded_m) {

@@ -33,6 +33,9 @@ Result<void> check_above(const char* option, const std::optional<double>& above_
 // Where somebody stands, or what is looked at. On the ground means least_above_m over it. Errors: those of
 // stand(), and a point under the ground (usage).
 Result<Standpoint> stand_over_ground(const Standing& standing, const SightGround& ground);
+// The same over a region whose full resolution `ground` is.
+Result<Standpoint> stand_over_ground(const Standing& standing, const Region& region,
+                                     const TrueGround& ground);
 // The point of stand_over_ground() alone, without how it came there.
 Result<Geodetic> point_over_ground(const Standing& standing, const SightGround& ground);
 

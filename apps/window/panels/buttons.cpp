@@ -12,10 +12,11 @@ struct PanelButton {
     const char* tip;
     bool Panels::*is_open;
 };
-constexpr std::array<PanelButton, 8> panel_buttons{
+constexpr std::array<PanelButton, 9> panel_buttons{
     {{"Layers", "Colours, names, lines, images, heights", &Panels::layers},
      {"Sun", "The light of a date and a time", &Panels::sun},
      {"Measure", "Distance, area, profile, line of sight", &Panels::measure},
+     {"Film", "A camera's path: recorded, or along a track", &Panels::film},
      {"Open", "Elevation, tracks, pictures (Ctrl-O)", &Panels::files},
      {"Picture", "A picture of any size (Shift-P); P takes one at once", &Panels::picture},
      {"Statistics", "How this picture was drawn, and how long it took", &Panels::statistics},

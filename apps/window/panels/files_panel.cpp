@@ -91,6 +91,8 @@ void build_files_panel(Viewer& viewer) {
         list_folder(viewer, listing);
         ImGui::EndChild();
         list_recent(viewer);
+        if (ImGui::Button("Save as a project")) viewer.panels.open(&Panels::project);
+        tip("This view, its layers and its film, to be opened again (Ctrl-S)");
         quiet_text(
             "Elevation takes the place of what is shown; tracks and places (GPX, KML, GeoJSON) lie over "
             "it; a picture of this program moves the eye to where it was taken. Two clicks open a file. "

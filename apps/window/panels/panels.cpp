@@ -8,6 +8,7 @@ void build_panels(Viewer& viewer) {
     if (viewer.panels.hidden && !viewer.search.is_open) return build_toasts(viewer);
     build_search_field(viewer);
     if (viewer.panels.hidden) return;
+    build_panorama_panel(viewer);
     build_status_bar(viewer);
     build_buttons(viewer);
     build_compass(viewer);
@@ -20,8 +21,11 @@ void build_panels(Viewer& viewer) {
     build_sun_panel(viewer);
     build_statistics_panel(viewer);
     build_place_panel(viewer);
+    build_viewshed_panel(viewer);
+    build_film_panel(viewer);
     build_measure_panel(viewer);
     build_files_panel(viewer);
+    build_project_panel(viewer);
     build_picture_panel(viewer);
     build_keys_panel(viewer);
 }

@@ -25,8 +25,12 @@ void build_layers_panel(Viewer& viewer);      // style, heights, names, lines, i
 void build_sun_panel(Viewer& viewer);         // by date and time
 void build_statistics_panel(Viewer& viewer);  // of the last frame
 void build_place_panel(Viewer& viewer);       // all about what was clicked at
+void build_viewshed_panel(Viewer& viewer);    // what is seen from there
+void build_panorama_panel(Viewer& viewer);    // all around from there
+void build_film_panel(Viewer& viewer);        // keys of a camera's path, and lines to follow
 void build_measure_panel(Viewer& viewer);     // and the line over the picture
 void build_files_panel(Viewer& viewer);       // to open some
+void build_project_panel(Viewer& viewer);     // where all this is saved to
 void build_picture_panel(Viewer& viewer);     // a picture of another size, and the command that draws it
 
 }  // namespace oro

@@ -79,6 +79,24 @@ void all_about(const Viewer& viewer, const PickedPlace& picked) {
                "The square between four posts; rows from the north, columns from the west");
 }
 
+// What else may be asked of the place.
+void questions_from(Viewer& viewer, const LatLon& place) {
+    if (ImGui::Button("What can be seen from here")) {
+        SeenAroundChoice choice = viewer.looking.choice.value_or(SeenAroundChoice{});
+        choice.place = place;
+        viewer.looking.choice = choice;
+        viewer.panels.open(&Panels::viewshed);
+    }
+    tip("Its viewshed, as a tint over the ground");
+    if (ImGui::Button("Panorama from here")) {
+        PanoramaChoice choice = viewer.panorama.choice.value_or(PanoramaChoice{});
+        choice.place = place;
+        viewer.panorama.choice = choice;
+        viewer.panels.open(&Panels::panorama);
+    }
+    tip("All around, with rulers and the names of what is seen");
+}
+
 }  // namespace
 
 void build_place_panel(Viewer& viewer) {
@@ -90,6 +108,7 @@ void build_place_panel(Viewer& viewer) {
         } else {
             all_about(viewer, *viewer.picked);
             if (ImGui::Button("Copy all")) ImGui::SetClipboardText(line_of(viewer.picked->seen).c_str());
+            questions_from(viewer, {viewer.picked->seen->lat_deg, viewer.picked->seen->lon_deg});
         }
     }
     ImGui::End();

@@ -9,7 +9,9 @@
 #include "apps/window/panels/panels.h"
 #include "apps/window/pictures.h"
 #include "apps/window/places.h"
+#include "apps/window/projects.h"
 #include "apps/window/search.h"
+#include "apps/window/work.h"
 
 namespace oro {
 namespace {
@@ -47,6 +49,7 @@ void take_chord(Viewer& viewer, int code) {
     if (code == 'Q') viewer.leaves = true;
     if (code == 'L') open_search(viewer);
     if (code == 'O') viewer.panels.toggle(&Panels::files);
+    if (code == 'S') save_or_ask(viewer);
 }
 
 // A turn of the wheel over the picture's middle.
@@ -113,12 +116,30 @@ Result<void> take_click(Viewer& viewer, const PictureClick& click) {
     return {};
 }
 
+// Control and S saves, and does not move.
+bool is_save_chord(const WindowEvent& event) {
+    const auto* const pressed = std::get_if<KeyChanged>(&event);
+    return pressed != nullptr && pressed->down && pressed->control && pressed->key == 'S';
+}
+
+// Any key, any button and the wheel end what is played.
+bool takes_eye_in_hand(const WindowEvent& event) {
+    if (const auto* const pressed = std::get_if<KeyChanged>(&event)) return pressed->down;
+    if (const auto* const button = std::get_if<ButtonChanged>(&event)) return button->down;
+    return std::holds_alternative<WheelTurned>(event);
+}
+
 Result<void> take_event(Session& session, const WindowEvent& event) {
     Viewer& viewer = session.viewer;
+    if (viewer.playing && takes_eye_in_hand(event)) {
+        stop_playing(viewer);
+        return {};
+    }
     if (const auto* const pressed = std::get_if<KeyChanged>(&event)) ORO_CHECK(take_key(session, *pressed));
     if (const auto* const typed = std::get_if<CharacterTyped>(&event)) take_character(viewer, typed->code);
     if (const auto* const dropped = std::get_if<PathsDropped>(&event))
         return open_paths(viewer, dropped->paths);
+    if (is_save_chord(event)) return {};
     const auto of_view = view_event_of(event, motion_clock_s());
     if (!of_view) return {};
     const auto click = take_view_event(viewer, *of_view);
@@ -164,8 +185,8 @@ double wait_s(const Session& session) {
 Result<void> show(Session& session, bool is_new) {
     Viewer& viewer = session.viewer;
     // A cursor blinks, and toasts go.
-    const bool lives =
-        session.interface.takes_text() || has_toasts(viewer) || is_coarse(viewer) || viewer.opening;
+    const bool lives = session.interface.takes_text() || has_toasts(viewer) || is_coarse(viewer) ||
+                       viewer.opening || has_work(viewer);
     if (is_new || lives || viewer.is_exposed) session.frames_due = std::max(session.frames_due, 1);
     if (session.frames_due == 0) return {};
     ORO_TRY(std::optional<WindowPicture> picture, picture_to_show(viewer));
@@ -189,6 +210,7 @@ Result<bool> turn(Session& session) {
     ORO_CHECK(take_opened(viewer));
     take_gazetteers(viewer);
     ORO_CHECK(refine(viewer, session.changed));
+    ORO_CHECK(take_finished_work(viewer));
     ORO_TRY(const bool is_new, draw_frame(viewer, session.changed));
     if (is_new) session.looks_under_pointer = true;
     ORO_CHECK(show(session, is_new));

@@ -16,6 +16,7 @@
 #include "apps/window/loading_picture.h"
 #include "apps/window/motion.h"
 #include "apps/window/opening.h"
+#include "apps/window/projects.h"
 #include "apps/window/search.h"
 #include "apps/window/session/turn.h"
 #include "apps/window/window_start.h"
@@ -81,10 +82,11 @@ Result<void> run_view(const WindowOptions& asked) {
     const Clock::time_point started = Clock::now();
     std::vector<std::string> notes_of_settings;
     const WindowSettings settings = settings_of_user(notes_of_settings);
-    const WindowOptions options = with_kept_size(asked, settings);
+    WindowOptions options = with_kept_size(asked, settings);
     ORO_TRY(const std::vector<const char*> extensions, Window::required_extensions());
+    ORO_TRY(const std::optional<Project> project, project_named_by(options));
     ProgressBar bar(options.quiet);
-    View view;
+    View view = project ? project->view : View();
     Region region;
     ORO_CHECK(open_flight(
         options, [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view,
@@ -122,6 +124,10 @@ Result<void> run_view(const WindowOptions& asked) {
     fill_search(viewer);
     if (!options.region.paths.empty()) remember_opened(viewer, options.region.paths);
     viewer.jumps = Jumps(users_roll_deg(viewer.view.camera, options.view.roll_deg));
+    if (project) {
+        remember_opened(viewer, {options.view_file});
+        ORO_CHECK(take_project(viewer, *project, options.view_file));
+    }
     const Result<void> left = run_loop(viewer, *interface);
     if (left.ok()) keep_settings(viewer);
     return left;

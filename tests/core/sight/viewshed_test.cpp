@@ -95,6 +95,17 @@ TEST(Viewshed, HasNoAnswerForVoidsAndLooksOverThem) {
     }
 }
 
+TEST(Viewshed, GivesUpWhenItIsAskedTo) {
+    const HeightField field = test::made_field(46.6, 8.3, 1200.0, 120, 130, hills_H_m);
+    const TrueSurface surface(field, 1.0, thread_count());
+    ViewshedRequest request{eye_over(surface, 46.55, 8.35, 2.0), standard_air, 0.0, 4.0e3, 2};
+    std::stop_source stop;
+    stop.request_stop();
+    request.stop = stop.get_token();
+    for (const float missed_m : viewshed(surface, 0, request).clearance_deficit_m)
+        ASSERT_EQ(missed_m, Viewshed::unknown);
+}
+
 TEST(Viewshed, IsTheSameForAnyNumberOfThreads) {
     const HeightField field = test::made_field(46.6, 8.3, 1200.0, 200, 200, hills_H_m);
     const TrueSurface surface(field, 1.0, 1);

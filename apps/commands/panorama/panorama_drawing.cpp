@@ -1,0 +1,101 @@
+#include "apps/commands/panorama/panorama_drawing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "apps/command_line/refusals.h"
+#include "apps/drawing/drape.h"
+#include "apps/options/view_limits.h"
+#include "apps/panorama/elevations.h"
+#include "apps/report/progress_bar.h"
+#include "core/base/parallel.h"
+#include "core/lod/ground_means.h"
+
+namespace oro {
+namespace {
+
+constexpr double usual_px_per_deg = 20.0;
+// Of a scene: it is held as a whole, 3 bytes each.
+constexpr double most_scene_pixels = 2.0e8;
+
+// Data are lower than a summit is, and its place in them is another: an eye may come to stand beside it.
+std::string note_of_skyline(const Elevations& found, bool is_on_summit) {
+    if (!found.leaves_out_near) return "";
+    const std::string note =
+        "ground within 250 m of the eye stands higher than is shown: --elevation shows it, ";
+    if (is_on_summit) return note + "and a larger --above looks over it";
+    return note + "a larger --above looks over it, and --on-summit stands on the highest post nearby";
+}
+
+}  // namespace
+
+Result<void> set_frame(const AskedFrame& asked, const TrueGround& ground, bool is_on_summit, View& view,
+                       std::string& note) {
+    PanoramaFrame frame = view.panorama.value_or(PanoramaFrame{});
+    if (asked.sector) {
+        frame.from_deg = asked.sector->first;
+        frame.sweep_deg = asked.sector->second;
+    }
+    if (asked.elevation) {
+        frame.low_deg = asked.elevation->first;
+        frame.high_deg = asked.elevation->second;
+    } else if (!view.panorama) {
+        const Elevations found = elevations_for(ground, view.camera.eye, view.model, frame.from_deg,
+                                                frame.sweep_deg, thread_count());
+        frame.low_deg = found.low_deg;
+        frame.high_deg = found.high_deg;
+        note = note_of_skyline(found, is_on_summit);
+    }
+    frame.ridges = asked.ridges.value_or(frame.ridges);
+    Camera& camera = view.camera;
+    if (asked.width_px)
+        camera.width_px = *asked.width_px;
+    else if (!view.panorama)
+        camera.width_px = std::max(static_cast<int>(view_limits::panorama_width_px.low),
+                                   static_cast<int>(std::lround(frame.sweep_deg * usual_px_per_deg)));
+    camera.attitude = {turned_deg(frame.from_deg + 0.5 * frame.sweep_deg), 0.0, 0.0};
+    camera.vertical_fov_deg =
+        std::clamp(frame.high_deg - frame.low_deg, view_limits::fov_deg.low, view_limits::fov_deg.high);
+    view.panorama = frame;
+    const Cylinder around = cylinder_of(view);
+    camera.height_px = around.height_px();
+    const double pixels = static_cast<double>(around.width_px) * around.height_px();
+    if (pixels > most_scene_pixels || !view_limits::side_px.hold(around.height_px()))
+        return refused(
+            "--width", std::to_string(around.width_px),
+            "makes a scene of " + std::to_string(around.width_px) + " x " +
+                std::to_string(around.height_px()) +
+                " pixels, more than 200,000,000 or 65,500 rows: give a smaller one, or fewer --elevation");
+    return {};
+}
+
+Result<Style> style_of_panorama(const View& view, const Region& region) {
+    const std::vector<CylinderTile> tiles = cylinder_tiles(cylinder_of(view), view.camera.eye, {1.0});
+    View part = view;
+    part.camera = tiles[tiles.size() / 2].camera;
+    return load_style(part, region.grids.front().field);
+}
+
+Result<CylinderPicture> draw_panorama(const View& view, const Region& region, const RegionCuts& cuts,
+                                      const TrueGround& ground, const Style& style, const Cylinder& around,
+                                      const PanoramaDrawing& drawing, const Progress& progress) {
+    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
+    ORO_TRY(GridPages pages, make_grid_pages(
+                                 region, cuts, view.exaggeration,
+                                 [&](double share) { progress(share, "measuring levels"); }, drawing.stop));
+    ORO_TRY(RegionScene whole,
+            scene_of_region(*gpu, region, cuts, std::move(pages),
+                            {view.exaggeration, memory_of_pages(view, drawing.memory), view.heights,
+                             asks_for_means(style.frame), view.mesh == "clusters", view.mesh_level}));
+    Scene& scene = whole.scene;
+    if (const std::string note = note_of_missing_footprints(style.frame, scene.pages()); !note.empty())
+        say(drawing.quiet, note);
+    ORO_CHECK(lay_images(view, drawing.memory, *gpu, scene, drawing.quiet));
+    return draw_scene(
+        view, region, ground, around, *gpu, scene, style, [&](double share) { progress(share, "drawing"); },
+        drawing.stop);
+}
+
+}  // namespace oro

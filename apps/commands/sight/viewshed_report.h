@@ -1,0 +1,59 @@
+// What is seen from one place or several: as the command viewshed reckons it, tells it and writes it.
+#pragma once
+
+#include <cstddef>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/drape/post_colours.h"
+#include "core/sight/viewshed.h"
+#include "geo/rasters/post_raster.h"
+#include "geo/together/region_ground.h"
+
+namespace oro {
+
+inline constexpr double usual_radius_km = 20.0, least_radius_km = 0.01, most_radius_km = 1000.0;
+
+struct ViewshedQuestion {
+    std::vector<Geodetic> eyes;  // one or more, over the ground
+    std::string at;              // how errors call the first of them: "46.67,8.06"
+    Air air;
+    double target_m{};  // height of targets over the ground
+    double radius_km{usual_radius_km};
+};
+
+struct ViewshedReport {
+    ViewshedQuestion question;
+    std::size_t grid{};  // whose posts `window` has
+    ViewshedWindow window;
+    std::vector<float> clearance_deficit_m;  // of the eye that misses it least
+    std::vector<float> count;                // of eyes that see it
+    std::size_t cells{}, seen{};             // posts within the radius, and those of them that are seen
+    std::size_t asked{};                     // of the oracle
+    double looking_s{};
+};
+
+// Looks around, on as many threads as are worth it. Asked to stop, it ends soon, with an error that nobody
+// need be told. Errors: no data within the radius (no_data); too many posts (usage); posts that cannot be
+// read.
+Result<ViewshedReport> viewshed_report(const ViewshedQuestion& question, const RegionGround& ground,
+                                       const ViewshedProgress& progress = {},
+                                       const std::stop_token& stop = {});
+
+// "Seen: 1,234 of 5,678 posts within 20 km, 21.73 %"
+std::string seen_words(const ViewshedReport& report);
+// "46.670000000,8.060000000 H 2000.000 m h 2050.000 m"
+std::string eye_text(const Geodetic& eye, const TrueGround& ground);
+// The file whose posts a report has.
+std::string source_of_posts(const ViewshedReport& report, const RegionGround& ground);
+
+// What the command's GeoTIFF holds (write_post_raster() writes it). The report's values of posts move into it;
+// all else of the report stays.
+PostRaster raster_of(ViewshedReport& report, const RegionGround& ground);
+// Its posts as colours over the ground: those that are seen bright, those that are hidden dark, all others
+// none.
+PostColours colours_of(const ViewshedReport& report, const RegionGround& ground);
+
+}  // namespace oro

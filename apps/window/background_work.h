@@ -1,0 +1,56 @@
+// Work that a window's user waits for, and that the window goes on beside.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <future>
+#include <stop_token>
+#include <system_error>
+#include <utility>
+
+#include "core/base/result.h"
+
+namespace oro {
+
+// One piece of work on a thread of its own. What it reads outlives this.
+//     BackgroundWork<Answer> work([&](const auto& tell_share, const std::stop_token& stop) { ... });
+//     if (work.ready()) answer = work.take();
+template <class T>
+class BackgroundWork {
+  public:
+    using TellShare = std::function<void(double share)>;  // 0 to 1; from any thread
+    using Work = std::function<Result<T>(const TellShare& tell_share, const std::stop_token& stop)>;
+
+    // Begins. Where no thread is to be had, take() does it.
+    explicit BackgroundWork(Work work) {
+        const auto all = [this, work = std::move(work)] {
+            return work([this](double share) { share_ = share; }, stop_.get_token());
+        };
+        try {
+            done_ = std::async(std::launch::async, all);
+        } catch (const std::system_error&) {
+            done_ = std::async(std::launch::deferred, all);
+        }
+    }
+    // Asks it to stop, and waits until it has.
+    ~BackgroundWork() { stop(); }
+    BackgroundWork(const BackgroundWork&) = delete;
+    BackgroundWork& operator=(const BackgroundWork&) = delete;
+
+    void stop() { stop_.request_stop(); }
+    [[nodiscard]] bool is_stopped() const { return stop_.stop_requested(); }
+    [[nodiscard]] bool ready() const {
+        return done_.wait_for(std::chrono::seconds(0)) != std::future_status::timeout;
+    }
+    [[nodiscard]] double share() const { return share_; }
+    // What came of it, once; waits for it.
+    Result<T> take() { return done_.get(); }
+
+  private:
+    std::stop_source stop_;
+    std::atomic<double> share_{0.0};
+    std::future<Result<T>> done_;  // last: it ends before what its thread uses
+};
+
+}  // namespace oro

@@ -1,0 +1,78 @@
+#include "apps/window/looking_around.h"
+
+#include <utility>
+
+#include "apps/drawing/drape.h"
+#include "apps/report/json_text.h"
+#include "apps/window/viewer.h"
+#include "apps/window/window_start.h"
+
+namespace oro {
+
+void look_around(Viewer& viewer) {
+    LookingAround& looking = viewer.looking;
+    if (!looking.choice) return;
+    const SeenAroundChoice choice = *looking.choice;
+    const Air air = air_around(choice, viewer.view.model.air);
+    looking.work = std::make_unique<BackgroundWork<SeenAround>>(
+        [choice, air, &region = std::as_const(viewer.region), &cuts = std::as_const(viewer.cuts)](
+            const auto& tell_share, const std::stop_token& stop) {
+            return seen_around(choice, air, region, cuts, tell_share, stop);
+        });
+}
+
+void stop_looking_around(Viewer& viewer) {
+    if (viewer.looking.work) viewer.looking.work->stop();
+}
+
+Result<void> take_seen_around(Viewer& viewer) {
+    LookingAround& looking = viewer.looking;
+    if (!looking.work || !looking.work->ready()) return {};
+    const bool is_stopped = looking.work->is_stopped();
+    Result<SeenAround> around = looking.work->take();
+    looking.work.reset();
+    if (is_stopped) return {};
+    if (!around.ok()) {
+        tell(viewer, around.error());
+        return {};
+    }
+    looking.found = std::move(*around);
+    tell(viewer, looking.found->seen);
+    return show_seen_around(viewer, true);
+}
+
+Result<void> show_seen_around(Viewer& viewer, bool is_shown) {
+    viewer.looking.is_shown = is_shown;
+    viewer.wants_picture = true;
+    return lay_over_ground(viewer);
+}
+
+Result<void> forget_seen_around(Viewer& viewer) {
+    viewer.looking.found.reset();
+    return show_seen_around(viewer, true);
+}
+
+void save_seen_around(Viewer& viewer) {
+    if (!viewer.looking.found) return;
+    const std::string file = free_picture_name(time_now_s(), "-viewshed.tif");
+    const Result<void> written = write_post_raster(file, false, viewer.looking.found->raster);
+    tell(viewer, written.ok() ? "wrote " + file : written.error().line(), !written.ok());
+}
+
+bool is_tinted(const Viewer& viewer) {
+    return viewer.looking.found && viewer.looking.is_shown;
+}
+
+Result<void> lay_over_ground(Viewer& viewer, Scene& scene) {
+    for (std::size_t grid = 0; grid < scene.grids().size(); ++grid) scene.set_drape(nullptr, grid);
+    return lay_images(viewer.view, viewer.options.memory, viewer.gpu, scene, true,
+                      is_tinted(viewer) ? viewer.looking.found->colours : nullptr);
+}
+
+Result<void> lay_over_ground(Viewer& viewer) {
+    for (Scene* const scene : {viewer.scene.get(), viewer.coming.get()})
+        if (scene != nullptr) ORO_CHECK(lay_over_ground(viewer, *scene));
+    return {};
+}
+
+}  // namespace oro

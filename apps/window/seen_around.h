@@ -1,0 +1,42 @@
+// What is seen from a place that a window's user has picked, by the code of the command viewshed.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include "apps/commands/sight/viewshed_report.h"
+#include "geo/places/geodesic.h"
+#include "geo/region/region.h"
+
+namespace oro {
+
+// What its user chooses.
+struct SeenAroundChoice {
+    LatLon place;
+    double above_m{2.0};   // the eye over the ground
+    double target_m{0.0};  // what is looked at over the ground
+    double radius_km{usual_radius_km};
+    bool bends{true};  // light bends as in standard air where the view's goes straight
+};
+
+// What came of it: the lines that the command prints, and what its file holds.
+struct SeenAround {
+    std::string seen, from, light;
+    PostRaster raster;
+    std::shared_ptr<const PostColours> colours;
+};
+
+// "46.670000000,8.060000000": the place as --at takes it, and as it is looked from.
+std::string at_text(const LatLon& place);
+// Through which air it is looked: the view's, or standard air where that bends no light and is to.
+Air air_around(const SeenAroundChoice& choice, const Air& of_view);
+
+// Looks around over a region, whatever its exaggeration in the view. From any thread; the region and its cuts
+// stay as they are meanwhile. Errors: no ground to stand on (no_data); those of viewshed_report().
+Result<SeenAround> seen_around(const SeenAroundChoice& choice, const Air& air, const Region& region,
+                               const RegionCuts& cuts, const std::function<void(double share)>& tell_share,
+                               const std::stop_token& stop);
+
+}  // namespace oro
