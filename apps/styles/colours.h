@@ -14,6 +14,7 @@ struct ColourCodes {
     int red{};
     int green{};
     int blue{};
+    bool operator==(const ColourCodes&) const = default;
 };
 
 // Codes from 0 to 1.

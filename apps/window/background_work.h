@@ -14,8 +14,11 @@
 namespace oro {
 
 // One piece of work on a thread of its own. What it reads outlives this.
-//     BackgroundWork<Answer> work([&](const auto& tell_share, const std::stop_token& stop) { ... });
-//     if (work.ready()) answer = work.take();
+//     BackgroundWork<int> work([](const auto& tell_share, const std::stop_token&) {
+//         tell_share(0.5);
+//         return Result<int>(42);
+//     });
+//     if (work.ready()) std::printf("%d\n", work.take().value());
 template <class T>
 class BackgroundWork {
   public:

@@ -24,7 +24,7 @@ std::vector<Bookmark> bookmarks_in_region(const Region& region) {
     return found;
 }
 
-void take_bookmarks(Viewer& viewer, const std::vector<Bookmark>& bookmarks) {
+void add_bookmarks(Viewer& viewer, const std::vector<Bookmark>& bookmarks) {
     if (bookmarks.empty()) return;
     const auto known = read_bookmarks();
     if (!known.ok()) return tell(viewer, known.error());
@@ -89,7 +89,7 @@ Result<void> take_project(Viewer& viewer, const Project& project, const std::str
     if (const auto& asked = project.viewshed)
         viewer.looking.choice =
             SeenAroundChoice{asked->place, asked->above_m, asked->target_m, asked->radius_km, asked->bends};
-    take_bookmarks(viewer, project.bookmarks);
+    add_bookmarks(viewer, project.bookmarks);
     fill_search(viewer);
     return project.measured.empty() ? Result<void>() : measure_places(viewer, project.measured);
 }

@@ -11,7 +11,7 @@ namespace {
 
 template <class... Values>
 std::string written(const char* form, Values... values) {
-    char text[160];
+    char text[240];
     std::snprintf(text, sizeof text, form, values...);
     return text;
 }
