@@ -157,7 +157,8 @@ Result<std::string> project_to_json(const Project& project, const std::string& f
     ORO_TRY(all["layers"], layers_json(project, file));
     all["tells_paths"] = project.tells_paths;
     all["bookmarks"] = ordered_json::array();
-    for (const Bookmark& bookmark : project.bookmarks) all["bookmarks"].push_back(bookmark_to_json(bookmark));
+    for (const Bookmark& bookmark : project.bookmarks)
+        all["bookmarks"].push_back(ordered_json(bookmark_to_json(bookmark)));
     if (!project.film.empty()) {
         std::vector<CameraKey> keys;
         for (const WrittenKey& written : project.film) keys.push_back(written.key);

@@ -81,8 +81,8 @@ void give_vectors(const VectorChoices& vectors, ViewOptions& options) {
     options.overlay = vectors.overlay;
     if (vectors.any()) give(vectors.names_field, usual.names_field, options.names_field);
     if (vectors.overlay.empty()) return;
-    if (vectors.overlay_colour != usual.overlay_colour)
-        options.overlay_colour = colour_text(vectors.overlay_colour);
+    const std::string colour = colour_text(vectors.overlay_colour);
+    if (colour != colour_text(usual.overlay_colour)) options.overlay_colour = colour;
     give(vectors.overlay_width_px, usual.overlay_width_px, options.overlay_width_px);
     give(vectors.overlay_fill, usual.overlay_fill, options.overlay_fill);
 }

@@ -9,6 +9,7 @@
 #include "apps/settings/recent_files.h"
 #include "apps/window/changes.h"
 #include "apps/window/motion.h"
+#include "apps/window/pictures.h"
 #include "apps/window/projects.h"
 #include "apps/window/search.h"
 #include "apps/window/window_start.h"
