@@ -13,7 +13,7 @@ namespace {
 using namespace oro::test;
 namespace fs = std::filesystem;
 
-Outcome shoot(const fs::path& out, const Words& more) {
+Outcome shoot_with(const fs::path& out, const Words& more) {
     return run_orograph(joined({"shot", bundled(), "--at", "36.5,-84.3", "--above", "3000", "--heading", "30",
                                 "--pitch", "-40", "--size", "480x320", "--out", out, "-q"},
                                more));
@@ -32,8 +32,8 @@ double share_of_others(const Pixels& one, const Pixels& other) {
 
 TEST(ShotGraticule, LiesOverTheGroundAndComesBackWithTheView) {
     const fs::path folder = scratch_folder(), plain = folder / "plain.png", lined = folder / "lined.png";
-    ASSERT_EQ(shoot(plain, {}).exit_code, 0);
-    const Outcome drawn = shoot(lined, {"--graticule", "geographic"});
+    ASSERT_EQ(shoot_with(plain, {}).exit_code, 0);
+    const Outcome drawn = shoot_with(lined, {"--graticule", "geographic"});
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
     const Pixels without = pixels_of(plain), with = pixels_of(lined);
     ASSERT_EQ(with.rgb.size(), without.rgb.size());
