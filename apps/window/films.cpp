@@ -72,6 +72,9 @@ void open_film(Viewer& viewer) {
     FilmOptions options;
     options.path = film.file;
     options.view.vertical_fov_deg = viewer.view.camera.vertical_fov_deg;
+    // Of a track.
+    const std::string name = lower_case(film.file);
+    if (!name.ends_with(".json") && !name.ends_with(".kml")) options.line = film.line;
     const Result<WrittenPath> path = read_path(options);
     // It may be saved again.
     forget_file_read(film.file);

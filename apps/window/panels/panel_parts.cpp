@@ -18,8 +18,9 @@ bool begin_panel(const char* title, bool& is_open, PanelCorner corner, float wid
         pivot = {0.5F, 0.5F};
     }
     ImGui::SetNextWindowPos(at, ImGuiCond_Appearing, pivot);
+    const float above = corner == PanelCorner::middle ? top : at.y;
     ImGui::SetNextWindowSizeConstraints({width, 0.0F},
-                                        {width, std::max(display.y - top - bottom, scaled_px(60.0F))});
+                                        {width, std::max(display.y - above - bottom, scaled_px(60.0F))});
     return ImGui::Begin(title, &is_open,
                         ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize |
                             ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);

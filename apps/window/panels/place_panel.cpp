@@ -81,14 +81,15 @@ void all_about(const Viewer& viewer, const PickedPlace& picked) {
 
 // What else may be asked of the place.
 void questions_from(Viewer& viewer, const LatLon& place) {
-    if (ImGui::Button("What can be seen from here")) {
+    if (ImGui::Button("What can be seen")) {
         SeenAroundChoice choice = viewer.looking.choice.value_or(SeenAroundChoice{});
         choice.place = place;
         viewer.looking.choice = choice;
         viewer.panels.open(&Panels::viewshed);
     }
     tip("Its viewshed, as a tint over the ground");
-    if (ImGui::Button("Panorama from here")) {
+    ImGui::SameLine();
+    if (ImGui::Button("Panorama")) {
         PanoramaChoice choice = viewer.panorama.choice.value_or(PanoramaChoice{});
         choice.place = place;
         viewer.panorama.choice = choice;
@@ -103,12 +104,12 @@ void build_place_panel(Viewer& viewer) {
     bool& is_open = viewer.panels.place;
     if (!is_open || !viewer.picked) return;
     if (begin_panel("Place", is_open, PanelCorner::upper_right, 330.0F)) {
+        if (const auto& seen = viewer.picked->seen) questions_from(viewer, {seen->lat_deg, seen->lon_deg});
         if (!viewer.picked->seen) {
             quiet_text("No ground there: sky, or a place without data.");
         } else {
             all_about(viewer, *viewer.picked);
             if (ImGui::Button("Copy all")) ImGui::SetClipboardText(line_of(viewer.picked->seen).c_str());
-            questions_from(viewer, {viewer.picked->seen->lat_deg, viewer.picked->seen->lon_deg});
         }
     }
     ImGui::End();
