@@ -8,6 +8,7 @@
 #include "apps/report/region_json.h"
 #include "apps/settings/recent_files.h"
 #include "apps/window/changes.h"
+#include "apps/window/frames.h"
 #include "apps/window/motion.h"
 #include "apps/window/search.h"
 #include "apps/window/window_start.h"
@@ -116,6 +117,7 @@ Result<void> open_region_of(Viewer& viewer, const std::vector<std::string>& path
     Result<OpenedScene> scene =
         open_scene(viewer.gpu, region, *cuts, view, {options.memory, true, keeps_means}, [](double) {});
     if (!scene.ok()) return refuse(scene.error());
+    ORO_CHECK(finish_frames(viewer));
     forget_region(viewer);
     viewer.options = options;
     viewer.view = std::move(view);

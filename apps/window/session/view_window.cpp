@@ -1,7 +1,12 @@
 // orograph view: a window to fly over a region.
 #include <algorithm>
+#include <deque>
 #include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "apps/command_line/refusals.h"
 #include "apps/eye/asked_summit.h"
@@ -23,7 +28,14 @@
 namespace oro {
 namespace {
 
+// Nothing that frames use goes before they end.
+struct FramesEnd {
+    const Gpu& gpu;
+    ~FramesEnd() { gpu.wait_idle(); }
+};
+
 Result<void> run_loop(Viewer& viewer, Interface& interface) {
+    const FramesEnd end{viewer.gpu};
     Session session{viewer, interface};
     for (;;) {
         if (!viewer.gpu.validation_messages().empty())
@@ -32,6 +44,26 @@ Result<void> run_loop(Viewer& viewer, Interface& interface) {
         if (!stays) return {};
     }
 }
+
+// What a window shows and what its user has done there: it outlives a device.
+struct ViewerState {
+    WindowOptions options;
+    View view{};
+    Region region{};
+    RegionCuts cuts{};
+    Style style{};
+    std::string name{};  // of what is shown, in a word
+    Clock::time_point started{};
+    bool keeps_means{};
+    bool is_lost{false};  // the device is: the window goes on with another
+    bool is_first{true};  // no device was lost yet
+    // Of the viewer.
+    Panels panels{};
+    std::deque<Message> log{};
+    std::vector<std::vector<std::string>> recent{};
+    std::optional<VectorChoices> vectors_known{};
+    std::vector<std::string> images_known{};
+};
 
 Result<void> say_notes_of(const WindowOptions& options, const View& view, const Region& region,
                           const std::string& note_of_style) {
@@ -68,8 +100,92 @@ Result<std::unique_ptr<Window>> open_window(const Gpu& gpu, const Camera& camera
     ORO_TRY(const std::vector<std::uint8_t> pixels,
             loading_picture(static_cast<int>(extent.width), static_cast<int>(extent.height)));
     ORO_TRY(const Image* const sheet, window->picture_of(pixels, extent));
-    if (const auto shown = window->show({*sheet, extent}); !shown.ok()) return shown.error();
+    ORO_CHECK(window->show({*sheet, extent}));
+    ORO_CHECK(window->present());
     return window;
+}
+
+// What is known without a device, for another one.
+void keep(Viewer& viewer, ViewerState& state) {
+    // What refers to the region goes first.
+    viewer.coming.reset();
+    viewer.finer.reset();
+    viewer.scene.reset();
+    viewer.ground.reset();
+    state.options = viewer.options;
+    state.view = std::move(viewer.view);
+    state.region = std::move(viewer.region);
+    state.cuts = std::move(viewer.cuts);
+    state.style = std::move(viewer.style);
+    state.name = viewer.name;
+    state.keeps_means = viewer.keeps_means;
+    state.panels = viewer.panels;
+    state.log = std::move(viewer.log);
+    state.recent = std::move(viewer.recent);
+    state.vectors_known = std::move(viewer.vectors_known);
+    state.images_known = std::move(viewer.images_known);
+    state.is_lost = true;
+    state.is_first = false;
+}
+
+// What a viewer begins with, or goes on with.
+void set_out(Viewer& viewer, ViewerState& state) {
+    viewer.started = state.started;
+    viewer.keeps_means = state.keeps_means;
+    viewer.name = state.name;
+    viewer.panels = state.panels;
+    viewer.log = std::move(state.log);
+    viewer.recent = std::move(state.recent);
+    viewer.vectors_known = std::move(state.vectors_known);
+    viewer.images_known = std::move(state.images_known);
+    viewer.gestures.emplace(navigation_of(viewer));
+    viewer.jumps = Jumps(users_roll_deg(viewer.view.camera, viewer.options.view.roll_deg));
+    fill_search(viewer);
+    if (!state.is_first) {
+        tell(viewer, "the GPU was lost: this is another start of it");
+        say(viewer.options.quiet, "note: " + viewer.message);
+        return;
+    }
+    note_in_log(viewer);
+    if (!viewer.options.region.paths.empty()) remember_opened(viewer, viewer.options.region.paths);
+}
+
+// As long as the user stays, or the device lasts.
+Result<void> fly(ViewerState& state, ProgressBar& bar) {
+    state.is_lost = false;
+    const WindowOptions& options = state.options;
+    GpuOptions gpu_options = gpu_options_from_environment();
+    ORO_TRY(gpu_options.instance_extensions, Window::required_extensions());
+    gpu_options.presents = true;
+    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options));
+    ORO_CHECK(check_window_size(state.view.camera, gpu->report()));
+    const bool quiet = options.quiet || !state.is_first;
+    ORO_TRY(OpenedScene opened,
+            open_scene(*gpu, state.region, state.cuts, state.view, {options.memory, quiet, state.keeps_means},
+                       [&](double share) { bar.show(share, "measuring levels"); }));
+    bar.clear();
+    if (state.is_first)
+        ORO_CHECK(say_notes_of(options, state.view, state.region,
+                               note_of_missing_footprints(state.style.frame, opened.scene.pages())));
+    ORO_TRY(const std::unique_ptr<Window> window, open_window(*gpu, state.view.camera, state.name));
+    ORO_TRY(const std::unique_ptr<Interface> interface, Interface::create(*window));
+    ORO_TRY(const RasterPath path, choose_path(state.view.pipeline, *gpu));
+    ORO_TRY(FrameRenderer renderer, renderer_for(*gpu, state.view, state.style, path, window->extent()));
+    Viewer viewer{options,
+                  std::move(state.view),
+                  std::move(state.region),
+                  std::move(state.cuts),
+                  std::move(state.style),
+                  *gpu,
+                  nullptr,
+                  *window,
+                  renderer,
+                  path};
+    take_scene(viewer, std::move(opened));
+    set_out(viewer, state);
+    Result<void> ended = run_loop(viewer, *interface);
+    if (!ended.ok() && window->has_lost_device()) keep(viewer, state);
+    return ended;
 }
 
 }  // namespace
@@ -77,44 +193,24 @@ Result<std::unique_ptr<Window>> open_window(const Gpu& gpu, const Camera& camera
 Result<void> run_view(const WindowOptions& options) {
     if (options.view.tolerance)
         return refused("--tolerance", "", "is for single pictures: give --accuracy or --tau to a window");
-    const Clock::time_point started = Clock::now();
-    ORO_TRY(const std::vector<const char*> extensions, Window::required_extensions());
+    ViewerState state{options};
+    state.started = Clock::now();
+    // Said before anything is read.
+    ORO_CHECK(Window::required_extensions());
     ProgressBar bar(options.quiet);
-    View view;
-    Region region;
     ORO_CHECK(open_flight(
-        options, [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view,
-        region));
-    ORO_TRY(RegionCuts cuts, cut_regions(region));
-    ORO_TRY(const Style style, load_style(view, region.grids.front().field));
-    GpuOptions gpu_options = gpu_options_from_environment();
-    gpu_options.instance_extensions = extensions;
-    gpu_options.presents = true;
-    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options));
-    ORO_CHECK(check_window_size(view.camera, gpu->report()));
-    const bool keeps_means = asks_for_means(style.frame);
-    ORO_TRY(OpenedScene opened,
-            open_scene(*gpu, region, cuts, view, {options.memory, options.quiet, keeps_means},
-                       [&](double share) { bar.show(share, "measuring levels"); }));
-    bar.clear();
-    ORO_CHECK(
-        say_notes_of(options, view, region, note_of_missing_footprints(style.frame, opened.scene.pages())));
-    ORO_TRY(const std::unique_ptr<Window> window, open_window(*gpu, view.camera, name_of_region(options)));
-    ORO_TRY(const std::unique_ptr<Interface> interface, Interface::create(*window));
-    ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
-    ORO_TRY(FrameRenderer renderer, renderer_for(*gpu, view, style, path, window->extent()));
-    Viewer viewer{options, std::move(view), std::move(region), std::move(cuts), style,
-                  *gpu,    nullptr,         *window,           renderer,        path};
-    take_scene(viewer, std::move(opened));
-    viewer.started = started;
-    viewer.keeps_means = keeps_means;
-    viewer.name = name_of_region(options);
-    note_in_log(viewer);
-    viewer.gestures.emplace(navigation_of(viewer));
-    fill_search(viewer);
-    if (!options.region.paths.empty()) remember_opened(viewer, options.region.paths);
-    viewer.jumps = Jumps(users_roll_deg(viewer.view.camera, options.view.roll_deg));
-    return run_loop(viewer, *interface);
+        options, [&](double share, const std::string& what) { bar.show(share, "reading " + what); },
+        state.view, state.region));
+    ORO_TRY(state.cuts, cut_regions(state.region));
+    ORO_TRY(state.style, load_style(state.view, state.region.grids.front().field));
+    state.keeps_means = asks_for_means(state.style.frame);
+    state.name = name_of_region(options);
+    // A device that is lost again so soon is of no use.
+    constexpr double soon_s = 60.0;
+    for (std::optional<Clock::time_point> lost;; lost = Clock::now()) {
+        const Result<void> ended = fly(state, bar);
+        if (ended.ok() || !state.is_lost || (lost && seconds_since(*lost) < soon_s)) return ended;
+    }
 }
 
 }  // namespace oro
