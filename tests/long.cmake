@@ -108,6 +108,7 @@ set_tests_properties(
   ViewshedCommand.OfAProjectedFileLiesOnItsOwnPosts
   Window.FliesJumpsTakesAPictureAndLeaves
   Window.IsShownAgainWhereItWasLost
+  WindowFaults.AtAnyCallEndItWithALine
   WindowFaults.EndItWithALine
   WorldGrids.GiveOnePictureWhereverTheyBegin
   PROPERTIES LABELS "cli;long")
