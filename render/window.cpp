@@ -127,6 +127,15 @@ Result<OwnedSemaphore> create_semaphore(const Gpu& gpu, const char* name) {
     return OwnedSemaphore(gpu.device(), handle);
 }
 
+// The window hides what is behind it, where the window system lets it say so.
+VkCompositeAlphaFlagBitsKHR composite_alpha(VkCompositeAlphaFlagsKHR allowed) {
+    for (const VkCompositeAlphaFlagBitsKHR one :
+         {VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR, VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR,
+          VK_COMPOSITE_ALPHA_PRE_MULTIPLIED_BIT_KHR, VK_COMPOSITE_ALPHA_POST_MULTIPLIED_BIT_KHR})
+        if ((allowed & one) != 0) return one;
+    return VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
+}
+
 // GLFW from 3.4 on looks for Wayland first, whose library prints a line of its own where there is none.
 void choose_display() {
 #ifdef GLFW_PLATFORM
@@ -171,8 +180,10 @@ Result<std::unique_ptr<Window>> Window::create(const Gpu& gpu, int width_px, int
     glfwSetWindowFocusCallback(window->window_, on_focus);
     glfwSetWindowRefreshCallback(window->window_, on_exposed);
     ORO_CHECK(window->create_surface());
-    ORO_TRY(window->commands_, Commands::create(gpu, "present"));
-    ORO_TRY(window->acquired_, create_semaphore(gpu, "image acquired"));
+    for (Slot& slot : window->slots_) {
+        ORO_TRY(slot.commands, Commands::create(gpu, "present"));
+        ORO_TRY(slot.acquired, create_semaphore(gpu, "image acquired"));
+    }
     ORO_CHECK(window->choose_format());
     ORO_TRY(window->interface_, InterfaceRenderer::create(gpu, window->format_.format));
     ORO_CHECK(window->create_swapchain());
@@ -204,31 +215,49 @@ Result<void> Window::choose_format() {
     return {};
 }
 
-Result<void> Window::create_swapchain() {
-    destroy_swapchain();
+Result<VkSurfaceCapabilitiesKHR> Window::capabilities() const {
     VkSurfaceCapabilitiesKHR capabilities{};
     ORO_VK(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu_->physical(), surface_, &capabilities));
-    swapchain_extent_ =
-        capabilities.currentExtent.width == UINT32_MAX ? extent() : capabilities.currentExtent;
+    return capabilities;
+}
+
+Result<void> Window::create_swapchain() {
+    destroy_swapchain();
+    is_stale_ = false;
+    ORO_TRY(const VkSurfaceCapabilitiesKHR allowed, capabilities());
+    const bool is_fixed = allowed.currentExtent.width != UINT32_MAX;
+    swapchain_extent_ = is_fixed ? allowed.currentExtent : extent();
     if (swapchain_extent_.width == 0 || swapchain_extent_.height == 0) return {};
+    const VkExtent2D least = allowed.minImageExtent, most = allowed.maxImageExtent;
+    if (!is_fixed && least.width <= most.width && least.height <= most.height)
+        swapchain_extent_ = {std::clamp(swapchain_extent_.width, least.width, most.width),
+                             std::clamp(swapchain_extent_.height, least.height, most.height)};
+    transform_ = allowed.currentTransform;
     VkSwapchainCreateInfoKHR info{};
     info.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR;
     info.surface = surface_;
-    info.minImageCount = capabilities.maxImageCount == 0
-                             ? capabilities.minImageCount + 1
-                             : std::min(capabilities.minImageCount + 1, capabilities.maxImageCount);
+    info.minImageCount = allowed.maxImageCount == 0
+                             ? allowed.minImageCount + 1
+                             : std::min(allowed.minImageCount + 1, allowed.maxImageCount);
     info.imageFormat = format_.format;
     info.imageColorSpace = format_.colorSpace;
     info.imageExtent = swapchain_extent_;
     info.imageArrayLayers = 1;
     info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    info.preTransform = capabilities.currentTransform;
-    info.compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
+    if ((allowed.supportedUsageFlags & info.imageUsage) != info.imageUsage)
+        return Error{ErrorKind::no_device, gpu_->report().name,
+                     "cannot copy and draw into this window system's images"};
+    info.preTransform = transform_;
+    info.compositeAlpha = composite_alpha(allowed.supportedCompositeAlpha);
     info.presentMode = VK_PRESENT_MODE_FIFO_KHR;
     info.clipped = VK_TRUE;
     ORO_VK(vkCreateSwapchainKHR(gpu_->device(), &info, nullptr, &swapchain_));
     gpu_->name(VK_OBJECT_TYPE_SWAPCHAIN_KHR, swapchain_, "window");
-    fresh_ = true;
+    return create_images();
+}
+
+// What the swapchain draws into.
+Result<void> Window::create_images() {
     std::uint32_t count = 0;
     ORO_VK(vkGetSwapchainImagesKHR(gpu_->device(), swapchain_, &count, nullptr));
     images_.resize(count);
@@ -245,16 +274,18 @@ Result<void> Window::create_swapchain() {
 
 void Window::destroy_swapchain() {
     if (swapchain_) {
-        vkQueueWaitIdle(gpu_->queue());
+        gpu_->wait_idle();
         views_.clear();
         vkDestroySwapchainKHR(gpu_->device(), swapchain_, nullptr);
     }
     swapchain_ = VK_NULL_HANDLE;
+    to_present_.reset();
     images_.clear();
     drawn_.clear();
 }
 
 Window::~Window() {
+    gpu_->wait_idle();
     destroy_swapchain();
     if (surface_) vkDestroySurfaceKHR(gpu_->instance(), surface_, nullptr);
     for (GLFWcursor* const pointer : pointers_)
@@ -340,40 +371,9 @@ WindowInput Window::poll(double wait_s) {
     return input_;
 }
 
-Result<VkResult> Window::submit_and_present(VkCommandBuffer commands, std::uint32_t index) {
-    VkSemaphoreSubmitInfo wait{};
-    wait.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO;
-    wait.semaphore = acquired_.get();
-    wait.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    VkSemaphoreSubmitInfo signal = wait;
-    signal.semaphore = drawn_[index].get();
-    VkCommandBufferSubmitInfo submitted{};
-    submitted.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
-    submitted.commandBuffer = commands;
-    VkSubmitInfo2 submit{};
-    submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
-    submit.waitSemaphoreInfoCount = submit.commandBufferInfoCount = submit.signalSemaphoreInfoCount = 1;
-    submit.pWaitSemaphoreInfos = &wait;
-    submit.pCommandBufferInfos = &submitted;
-    submit.pSignalSemaphoreInfos = &signal;
-    VkFence fence = commands_.fence();
-    ORO_VK(vkQueueSubmit2(gpu_->queue(), 1, &submit, fence));
-    VkSemaphore drawn = drawn_[index].get();
-    VkPresentInfoKHR present{};
-    present.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR;
-    present.waitSemaphoreCount = present.swapchainCount = 1;
-    present.pWaitSemaphores = &drawn;
-    present.pSwapchains = &swapchain_;
-    present.pImageIndices = &index;
-    const VkResult presented = vkQueuePresentKHR(gpu_->queue(), &present);
-    ORO_CHECK(wait_for(*gpu_, fence));
-    if (presented != VK_ERROR_OUT_OF_DATE_KHR && presented != VK_SUBOPTIMAL_KHR)
-        ORO_CHECK(vulkan_checked(presented, "vkQueuePresentKHR("));
-    return presented;
-}
-
 Result<const Image*> Window::picture_of(std::span<const std::uint8_t> rgba, VkExtent2D extent) {
     assert(rgba.size() == std::size_t{4} * extent.width * extent.height);
+    gpu_->wait_idle();
     ORO_TRY(pixels_, create_image(*gpu_, VK_FORMAT_R8G8B8A8_UNORM, extent,
                                   VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                                       VK_IMAGE_USAGE_SAMPLED_BIT,
@@ -381,7 +381,7 @@ Result<const Image*> Window::picture_of(std::span<const std::uint8_t> rgba, VkEx
     ORO_TRY(const Buffer buffer, create_buffer(*gpu_, rgba.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                                MemoryKind::upload, "pixels for a window"));
     std::memcpy(buffer.mapped, rgba.data(), rgba.size());
-    ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
+    ORO_CHECK(slots_.front().commands.run(*gpu_, [&](VkCommandBuffer commands) {
         const ImageUse fresh{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
         const ImageUse target{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
                               VK_ACCESS_2_TRANSFER_WRITE_BIT};
@@ -430,31 +430,65 @@ void Window::record(VkCommandBuffer commands, const WindowPicture& shown, std::u
     image_barrier(commands, picture, VK_IMAGE_ASPECT_COLOR_BIT, source, written);
 }
 
+Result<bool> Window::take_result(VkResult result, const char* call) {
+    if (result == VK_SUCCESS) return true;
+    // A window that nobody sees may have no image to draw into.
+    if (result == VK_TIMEOUT || result == VK_NOT_READY) return false;
+    if (result == VK_ERROR_OUT_OF_DATE_KHR) {
+        is_stale_ = true;
+        return false;
+    }
+    if (result != VK_SUBOPTIMAL_KHR) {
+        ORO_CHECK(vulkan_checked(result, call));
+    }
+    ORO_TRY(const VkSurfaceCapabilitiesKHR now, capabilities());
+    const VkExtent2D size = now.currentExtent;
+    const bool is_best = best_for_ && best_for_->first.width == size.width &&
+                         best_for_->first.height == size.height && best_for_->second == now.currentTransform;
+    if (!is_best) is_stale_ = true;
+    best_for_ = {size, now.currentTransform};
+    return true;
+}
+
 Result<bool> Window::show(const WindowPicture& shown) {
+    constexpr std::uint64_t longest_ns = 50'000'000;
+    ORO_CHECK(present());
     const VkExtent2D now = extent();
-    if (!swapchain_ || now.width != swapchain_extent_.width || now.height != swapchain_extent_.height) {
+    if (!swapchain_ || is_stale_ || now.width != swapchain_extent_.width ||
+        now.height != swapchain_extent_.height) {
         ORO_CHECK(create_swapchain());
         if (!swapchain_) return false;
     }
+    Slot& slot = slots_[turn_];
+    ORO_CHECK(slot.commands.wait());
     std::uint32_t index = 0;
-    const VkResult acquired = vkAcquireNextImageKHR(gpu_->device(), swapchain_, UINT64_MAX, acquired_.get(),
-                                                    VK_NULL_HANDLE, &index);
-    if (acquired == VK_ERROR_OUT_OF_DATE_KHR) {
-        ORO_CHECK(create_swapchain());
-        return false;
-    }
-    if (acquired != VK_SUBOPTIMAL_KHR) ORO_CHECK(vulkan_checked(acquired, "vkAcquireNextImageKHR("));
-    if (shown.over != nullptr) ORO_CHECK(interface_.prepare(*gpu_, *shown.over));
-    ORO_TRY(VkCommandBuffer commands, commands_.begin());
-    record(commands, shown, index);
-    ORO_VK(vkEndCommandBuffer(commands));
-    ORO_TRY(const VkResult presented, submit_and_present(commands, index));
-    // What is suboptimal from its first image on is the best that this window system has.
-    const bool first = std::exchange(fresh_, false);
-    const bool suboptimal = acquired == VK_SUBOPTIMAL_KHR || presented == VK_SUBOPTIMAL_KHR;
-    if (presented != VK_ERROR_OUT_OF_DATE_KHR && (first || !suboptimal)) return true;
-    ORO_CHECK(create_swapchain());
-    return false;
+    const VkResult acquired = vkAcquireNextImageKHR(gpu_->device(), swapchain_, longest_ns,
+                                                    slot.acquired.get(), VK_NULL_HANDLE, &index);
+    ORO_TRY(const bool has_image, take_result(acquired, "vkAcquireNextImageKHR("));
+    if (!has_image) return false;
+    if (shown.over != nullptr) ORO_CHECK(interface_.prepare(*gpu_, *shown.over, turn_));
+    ORO_CHECK(slot.commands.submit(*gpu_, [&](VkCommandBuffer commands) { record(commands, shown, index); },
+                                   {slot.acquired.get(), drawn_[index].get()}));
+    turn_ = (turn_ + 1) % slots_.size();
+    to_present_ = index;
+    return gpu_->report().kind == VK_PHYSICAL_DEVICE_TYPE_CPU ? Result<bool>(true) : present();
+}
+
+bool Window::has_lost_device() const {
+    return vkDeviceWaitIdle(gpu_->device()) == VK_ERROR_DEVICE_LOST;
+}
+
+Result<bool> Window::present() {
+    if (!to_present_) return true;
+    const std::uint32_t index = *std::exchange(to_present_, std::nullopt);
+    VkSemaphore drawn = drawn_[index].get();
+    VkPresentInfoKHR info{};
+    info.sType = VK_STRUCTURE_TYPE_PRESENT_INFO_KHR;
+    info.waitSemaphoreCount = info.swapchainCount = 1;
+    info.pWaitSemaphores = &drawn;
+    info.pSwapchains = &swapchain_;
+    info.pImageIndices = &index;
+    return take_result(vkQueuePresentKHR(gpu_->queue(), &info), "vkQueuePresentKHR(");
 }
 
 }  // namespace oro

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/interface/interface_renderer.h"
@@ -39,9 +42,16 @@ class Window {
 
     // Collects input; waits up to wait_s for some.
     WindowInput poll(double wait_s);
-    // Shows a picture that is in GENERAL layout with its writes done. Returns false when the window changed
-    // its size meanwhile.
+    // Shows a picture that is in GENERAL layout, written by what was submitted before. Does not wait for
+    // that, but for the picture that was shown frames_in_flight ago. False where it is to be shown again: the
+    // window changed its size meanwhile, or nobody sees it now. Errors: the device, the window system.
     Result<bool> show(const WindowPicture& shown);
+    // Where a processor draws, presenting a picture waits until that is drawn: show() leaves it to whoever
+    // comes first, the next show() or this, so that a frame can be begun meanwhile. False where the picture
+    // is to be shown again; true where nothing was left. Errors: as show().
+    Result<bool> present();
+    // Whether its device was lost: nothing can be done with that any more. Waits until nothing is under way.
+    [[nodiscard]] bool has_lost_device() const;
     // Pixels from the host as a picture: rows of four bytes each, RGBA, sRGB. It belongs to the window, until
     // the next one.
     Result<const Image*> picture_of(std::span<const std::uint8_t> rgba, VkExtent2D extent);
@@ -62,26 +72,36 @@ class Window {
     explicit Window(const Gpu& gpu) : gpu_(&gpu) {}
     Result<void> create_surface();
     Result<void> choose_format();
+    Result<VkSurfaceCapabilitiesKHR> capabilities() const;
     Result<void> create_swapchain();
+    Result<void> create_images();
     void record(VkCommandBuffer commands, const WindowPicture& shown, std::uint32_t index) const;
     void destroy_swapchain();
-    // What presenting gave: success, suboptimal or out of date.
-    Result<VkResult> submit_and_present(VkCommandBuffer commands, std::uint32_t index);
+    // Told what acquiring or presenting an image gave: whether that is of any use. Errors: others than these.
+    Result<bool> take_result(VkResult result, const char* call);
 
     const Gpu* gpu_;
     GLFWwindow* window_{nullptr};
     VkSurfaceKHR surface_{VK_NULL_HANDLE};
     VkSwapchainKHR swapchain_{VK_NULL_HANDLE};
     VkExtent2D swapchain_extent_{};
-    bool fresh_{true};  // nothing was shown by it yet
+    VkSurfaceTransformFlagBitsKHR transform_{};  // of the swapchain
+    bool is_stale_{false};                       // it is to be made anew
+    // For this size and transform it was made anew and is suboptimal all the same: no better one can be had.
+    std::optional<std::pair<VkExtent2D, VkSurfaceTransformFlagBitsKHR>> best_for_;
     std::vector<VkImage> images_;
     std::vector<OwnedImageView> views_;  // of them
     VkSurfaceFormatKHR format_{};
     InterfaceRenderer interface_;
-    Commands commands_;
-    OwnedSemaphore acquired_;
     std::vector<OwnedSemaphore> drawn_;  // one for each image: presenting may still wait for the last one
     Image pixels_;                       // of picture_of()
+    struct Slot {
+        OwnedSemaphore acquired;
+        Commands commands;
+    };
+    std::array<Slot, frames_in_flight> slots_;  // by turns
+    std::size_t turn_{};
+    std::optional<std::uint32_t> to_present_;  // the image that present() is for
     WindowInput input_;
     std::array<GLFWcursor*, 3> pointers_{};  // by PointerShape, made when they are first asked for
     PointerShape pointer_{};

@@ -136,6 +136,7 @@ set_tests_properties(
   Window.FramesThatAreExplainedHaveALegend
   Window.IsShownAgainWhereItWasLost
   Window.SaysWhatChangedSinceThePicture
+  WindowFaults.AtAnyCallEndItWithALine
   WindowFaults.EndItWithALine
   WorldGrids.GiveOnePictureWhereverTheyBegin
   PROPERTIES LABELS "cli;long")

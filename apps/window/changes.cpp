@@ -27,6 +27,7 @@ void forget_mesh(const Viewer& viewer, View& view) {
 
 // Another scene, as the view asks for now: coarse at first where measuring levels takes long.
 Result<void> renew_scene(Viewer& viewer) {
+    ORO_CHECK(finish_frames(viewer));
     forget_mesh(viewer, viewer.view);
     ORO_TRY(OpenedScene opened, open_scene(viewer.gpu, viewer.region, viewer.cuts, viewer.view,
                                            {viewer.options.memory, true, viewer.keeps_means}, [](double) {}));
@@ -34,10 +35,12 @@ Result<void> renew_scene(Viewer& viewer) {
     return is_tinted(viewer) ? lay_over_ground(viewer) : Result<void>();
 }
 
-void take_renderer(Viewer& viewer, FrameRenderer renderer) {
+Result<void> take_renderer(Viewer& viewer, FrameRenderer renderer) {
+    ORO_CHECK(finish_frames(viewer));
     if (viewer.has_picture) viewer.kept = viewer.renderer.release_picture();
     viewer.renderer = std::move(renderer);
     viewer.has_picture = false;
+    return {};
 }
 
 // Takes a view whose style or light differ from what is shown; told and left where it cannot be drawn so.
@@ -67,7 +70,7 @@ Result<void> take_look(Viewer& viewer, View view) {
             tell(viewer, renderer.error());
             return {};
         }
-        take_renderer(viewer, std::move(*renderer));
+        ORO_CHECK(take_renderer(viewer, std::move(*renderer)));
     }
     viewer.view = std::move(view);
     viewer.style = std::move(*style);
@@ -82,8 +85,7 @@ Result<void> take_look(Viewer& viewer, View view) {
 Result<void> renew_renderer(Viewer& viewer) {
     ORO_TRY(FrameRenderer renderer,
             renderer_for(viewer.gpu, viewer.view, viewer.style, viewer.path, viewer.renderer.extent()));
-    take_renderer(viewer, std::move(renderer));
-    return {};
+    return take_renderer(viewer, std::move(renderer));
 }
 
 Result<void> choose_style(Viewer& viewer, const std::string& style) {

@@ -1,8 +1,10 @@
 #include "apps/window/frames.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "apps/accuracy/beyond_data.h"
 #include "apps/report/progress_bar.h"
@@ -40,6 +42,7 @@ Result<bool> swap_in_full_pyramid(Viewer& viewer) {
         const Result<bool> advanced = scene.advance();
         return advanced.ok() ? Result<bool>(false) : advanced;
     }
+    ORO_CHECK(finish_frames(viewer));
     show_finer_scene(viewer);
     return true;
 }
@@ -86,6 +89,7 @@ Result<void> take_size(Viewer& viewer, const VkExtent2D& extent, bool& changed) 
     if (extent.width == viewer.renderer.extent().width && extent.height == viewer.renderer.extent().height)
         return {};
     changed = true;
+    ORO_CHECK(finish_frames(viewer));
     if (viewer.has_picture) viewer.kept = viewer.renderer.release_picture();
     viewer.has_picture = false;
     return viewer.renderer.resize(extent);
@@ -93,10 +97,7 @@ Result<void> take_size(Viewer& viewer, const VkExtent2D& extent, bool& changed) 
 
 // How much detail the next frame has.
 DetailStep step_now(const Viewer& viewer) {
-    constexpr double settle_s = 0.15;
-    const bool moves = viewer.follows_eye && seconds_since(viewer.moved) < settle_s;
-    if (moves) return viewer.detail.now();
-    return {};
+    return is_moving(viewer) ? viewer.detail.now() : DetailStep();
 }
 
 Camera scaled(const Camera& camera, double scale) {
@@ -121,17 +122,43 @@ Result<FramePlan> plan_now(Viewer& viewer, const Camera& camera, double tau_px) 
     return plan;
 }
 
-Result<FrameReport> draw_planned(Viewer& viewer, FramePlan plan, const DetailStep& step) {
+// What a frame that is done tells. Where several are under way, a frame takes the time since the one before
+// it.
+void take_report(Viewer& viewer, SubmittedFrame frame, FrameReport report) {
+    frame.times.drawn = Clock::now();
+    const auto since = std::max(frame.times.begun, std::exchange(viewer.drawn, frame.times.drawn));
+    viewer.frame_s = std::chrono::duration<double>(frame.times.drawn - since).count();
+    if (viewer.follows_eye) viewer.detail.took(frame.step, viewer.frame_s);
+    viewer.report = std::move(report);
+    viewer.scene->apply_feedback(viewer.report.feedback);
+    viewer.is_settled =
+        frame.is_settled && viewer.report.images_settled && !is_coarse(viewer) && frame.step.is_whole();
+    viewer.to_trace = frame;
+}
+
+// Of an eye that rests: waits for it.
+Result<void> draw_at_rest(Viewer& viewer, FramePlan plan, const SubmittedFrame& frame) {
+    ORO_CHECK(viewer.window.present());
+    ORO_CHECK(take_reports(viewer, 0));
+    ORO_TRY(FrameReport drawn,
+            viewer.renderer.draw(std::move(plan), viewer.style.frame, 0, 1, viewer.scene->drapes()));
+    take_report(viewer, frame, std::move(drawn));
+    return frame.step.scale < 1.0 ? Result<void>() : write_over(viewer, viewer.report);
+}
+
+Result<void> draw_planned(Viewer& viewer, FramePlan plan, const SubmittedFrame& frame) {
     ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.grids.front().field,
                           viewer.follows_eye ? Eye::moves : Eye::rests));
-    ORO_TRY(const FrameReport drawn,
-            viewer.renderer.draw(std::move(plan), viewer.style.frame, 0, 1, viewer.scene->drapes()));
-    viewer.scene->apply_feedback(drawn.feedback);
-    if (step.scale < 1.0) return drawn;
-    ORO_CHECK(write_over(viewer, drawn));
+    if (frame.is_of_moving_eye) {
+        ORO_CHECK(viewer.renderer.submit(std::move(plan), viewer.style.frame, viewer.scene->drapes()));
+        viewer.under_way.push_back(frame);
+    } else {
+        ORO_CHECK(draw_at_rest(viewer, std::move(plan), frame));
+    }
+    if (frame.step.scale < 1.0) return {};
     const int every = is_coarse(viewer) ? coarse_step(viewer.region.grids.front().field) : 1;
     if (viewer.view.show) viewer.legend = colour_key(viewer.view, viewer.region, viewer.style, every);
-    return drawn;
+    return {};
 }
 
 }  // namespace
@@ -148,33 +175,55 @@ Result<bool> draw_frame(Viewer& viewer, bool& changed) {
     const VkExtent2D extent = viewer.window.extent();
     if (extent.width == 0 || extent.height == 0) return false;
     ORO_CHECK(take_size(viewer, extent, changed));
+    ORO_CHECK(take_reports(viewer, frames_in_flight - 1));
     if (viewer.is_missing) {
         ORO_TRY(const bool better, viewer.scene->advance());
         changed = changed || better;
     }
     changed = comes_to_rest(viewer) || changed;
     if (!changed) return false;
-    const Clock::time_point since = Clock::now();
+    SubmittedFrame frame;
+    frame.times.input = viewer.polled;
+    frame.times.begun = Clock::now();
+    frame.is_of_moving_eye = is_moving(viewer);
     follow_sun(viewer);
-    const DetailStep step = step_now(viewer);
-    const Camera camera = scaled(viewer.view.camera, step.scale);
-    ORO_TRY(FramePlan plan, plan_now(viewer, camera, viewer.view.tau_px * step.tau_factor));
+    frame.step = step_now(viewer);
+    const Camera camera = scaled(viewer.view.camera, frame.step.scale);
+    ORO_TRY(FramePlan plan, plan_now(viewer, camera, viewer.view.tau_px * frame.step.tau_factor));
     if (viewer.waits_for_ground) {
         // Asked again with the next page, or soon where some ground is there.
         changed = has_ground(plan);
         return false;
     }
-    const bool is_settled = plan.is_settled();
-    ORO_TRY(viewer.report, draw_planned(viewer, std::move(plan), step));
-    viewer.frame_s = seconds_since(since);
-    if (viewer.follows_eye) viewer.detail.took(step, viewer.frame_s);
+    frame.is_settled = plan.is_settled();
+    frame.times.planned = Clock::now();
+    viewer.is_settled = false;
+    ORO_CHECK(draw_planned(viewer, std::move(plan), frame));
     viewer.has_picture = true;
+    if (viewer.kept.handle) ORO_CHECK(finish_frames(viewer));
     viewer.kept = {};
     viewer.part = {static_cast<std::uint32_t>(camera.width_px), static_cast<std::uint32_t>(camera.height_px)};
-    viewer.drawn_at = step;
-    viewer.is_settled = is_settled && viewer.report.images_settled && !is_coarse(viewer) && step.is_whole();
-    changed = !viewer.report.images_settled;
+    viewer.drawn_at = frame.step;
+    changed = !frame.is_of_moving_eye && !viewer.report.images_settled;
     return true;
+}
+
+Result<void> take_reports(Viewer& viewer, std::size_t left) {
+    while (viewer.under_way.size() > left) {
+        const SubmittedFrame frame = viewer.under_way.front();
+        viewer.under_way.pop_front();
+        ORO_TRY(FrameReport report, viewer.renderer.finish());
+        take_report(viewer, frame, std::move(report));
+        trace_frame(*std::exchange(viewer.to_trace, std::nullopt));
+        if (!viewer.report.images_settled) viewer.wants_picture = true;
+    }
+    return {};
+}
+
+Result<void> finish_frames(Viewer& viewer) {
+    ORO_CHECK(take_reports(viewer, 0));
+    viewer.gpu.wait_idle();
+    return {};
 }
 
 Result<std::optional<WindowPicture>> picture_to_show(Viewer& viewer) {
@@ -192,6 +241,7 @@ Result<std::optional<WindowPicture>> picture_to_show(Viewer& viewer) {
 
 void say_what_is_shown(Viewer& viewer) {
     if (!viewer.has_picture) return;
+    if (viewer.to_trace) trace_frame(*std::exchange(viewer.to_trace, std::nullopt));
     const bool whole = viewer.is_settled;
     if (!viewer.is_shown) say_waited(viewer, whole ? "first picture" : "first picture, coarse,");
     if (viewer.is_shown && whole && !viewer.is_whole) say_waited(viewer, "full detail");

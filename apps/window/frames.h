@@ -8,8 +8,14 @@ namespace oro {
 // Measured levels take the place of coarse ones once they are there.
 Result<void> refine(Viewer& viewer, bool& changed);
 // Draws with what is on the GPU; what is missing comes in the background and is drawn when it is there. True
-// where a picture was drawn. `changed`: whether one is wanted, and afterwards, whether another one is.
+// where a picture was drawn, or while the eye moves, is being drawn: what it tells is taken one frame later.
+// `changed`: whether one is wanted, and afterwards, whether another one is.
 Result<bool> draw_frame(Viewer& viewer, bool& changed);
+// Waits for frames that are under way and takes what they tell, until so many are left.
+Result<void> take_reports(Viewer& viewer, std::size_t left);
+// Waits for all of them, and until nothing at all is under way: before what they use is given up, and before
+// what they tell is to be known.
+Result<void> finish_frames(Viewer& viewer);
 // What is to be shown now: the picture that was drawn last, whatever its size, or a sheet that says that
 // ground comes. Nothing while the window is minimised.
 Result<std::optional<WindowPicture>> picture_to_show(Viewer& viewer);

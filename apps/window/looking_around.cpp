@@ -1,4 +1,5 @@
 #include "apps/window/looking_around.h"
+#include "apps/window/frames.h"
 
 #include <utility>
 
@@ -70,6 +71,7 @@ Result<void> lay_over_ground(Viewer& viewer, Scene& scene) {
 }
 
 Result<void> lay_over_ground(Viewer& viewer) {
+    ORO_CHECK(finish_frames(viewer));
     for (Scene* const scene : {viewer.scene.get(), viewer.coming.get()})
         if (scene != nullptr) ORO_CHECK(lay_over_ground(viewer, *scene));
     return {};

@@ -9,6 +9,7 @@
 #include "apps/report/region_json.h"
 #include "apps/settings/recent_files.h"
 #include "apps/window/changes.h"
+#include "apps/window/frames.h"
 #include "apps/window/kept_view.h"
 #include "apps/window/motion.h"
 #include "apps/window/pictures.h"
@@ -137,6 +138,7 @@ Result<OpenedScene> scene_of(Viewer& viewer, OpenedRegion& opened, Style& style)
 
 // Shows it in the place of the one that was shown.
 Result<void> show_region(Viewer& viewer, OpenedRegion opened, OpenedScene scene, Style style) {
+    ORO_CHECK(finish_frames(viewer));
     const std::vector<std::string> paths = opened.paths();
     forget_region(viewer);
     viewer.options = std::move(opened.options);

@@ -6,6 +6,7 @@
 #include "apps/output/picture_file.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
+#include "apps/window/frames.h"
 #include "apps/window/window_start.h"
 #include "core/lod/ground_means.h"
 
@@ -29,6 +30,7 @@ View pictured(View view, const PictureChoice& choice) {
 }
 
 Result<void> write_picture_of(Viewer& viewer, const PictureChoice& choice) {
+    ORO_CHECK(finish_frames(viewer));
     follow_sun(viewer);
     if (is_coarse(viewer)) {
         // A picture is what its view says, and nothing coarser.

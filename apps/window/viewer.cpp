@@ -10,6 +10,14 @@
 #include "geo/posts/source_at.h"
 
 namespace oro {
+namespace {
+
+bool traces() {
+    static const bool asked = std::getenv("OROGRAPH_TRACE_WINDOW") != nullptr;
+    return asked;
+}
+
+}  // namespace
 
 void Panels::open(bool Panels::*panel) {
     // Sides of fewer panels end in nulls.
@@ -92,6 +100,11 @@ const std::optional<HomeArrow>& way_home(Viewer& viewer, double inset_px) {
     return way.arrow;
 }
 
+bool is_moving(const Viewer& viewer) {
+    constexpr double settle_s = 0.15;
+    return viewer.follows_eye && seconds_since(viewer.moved) < settle_s;
+}
+
 bool is_coarse(const Viewer& viewer) {
     return viewer.finer || viewer.coming;
 }
@@ -123,8 +136,7 @@ void tell(Viewer& viewer, const Error& why) {
 }
 
 void trace_state(Viewer& viewer) {
-    static const bool traces = std::getenv("OROGRAPH_TRACE_WINDOW") != nullptr;
-    if (!traces) return;
+    if (!traces()) return;
     const Camera& camera = viewer.view.camera;
     const double N_m = field_below(viewer).undulation.at_m(camera.eye.lat_deg, camera.eye.lon_deg);
     char eye[160];
@@ -140,6 +152,18 @@ void trace_state(Viewer& viewer) {
     if (line == viewer.traced) return;
     std::fprintf(stderr, "state: %s\n", one_line(line).c_str());
     viewer.traced = line;
+}
+
+void trace_frame(const SubmittedFrame& frame) {
+    if (!traces()) return;
+    const auto at_s = [](Clock::time_point at) {
+        return std::chrono::duration<double>(at.time_since_epoch()).count();
+    };
+    const FrameTimes& times = frame.times;
+    std::fprintf(
+        stderr, "frame: input %.4f begun %.4f planned %.4f drawn %.4f shown %.4f scale %.2f tau %.1f %s\n",
+        at_s(times.input), at_s(times.begun), at_s(times.planned), at_s(times.drawn), at_s(Clock::now()),
+        frame.step.scale, frame.step.tau_factor, frame.is_of_moving_eye ? "moving" : "at rest");
 }
 
 }  // namespace oro

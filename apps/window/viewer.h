@@ -90,6 +90,22 @@ struct Measuring {
     std::vector<Ecef> line_ecef, corners_ecef;
 };
 
+// When a frame came about.
+struct FrameTimes {
+    Clock::time_point input{};    // what the user had done until then is in it
+    Clock::time_point begun{};    // it was begun to be planned
+    Clock::time_point planned{};  // ... and was
+    Clock::time_point drawn{};    // the device was done with it, as far as is known
+};
+
+// A frame that was submitted.
+struct SubmittedFrame {
+    FrameTimes times{};
+    DetailStep step{};
+    bool is_settled{};  // what it was planned from is as fine as the view asks
+    bool is_of_moving_eye{};
+};
+
 // Which panels are open.
 struct Panels {
     bool hidden{false};  // all of them, and what is always there
@@ -179,10 +195,14 @@ struct Viewer {
     bool follows_eye{};  // what is fitted to a view is that of an eye that moved, until it rests
     ColourKey legend{};  // of a frame that explains itself (--show)
     MovingDetail detail{};
-    DetailStep drawn_at{};      // of the last frame
-    FrameReport report{};       // of the last frame
-    double frame_s{};           // that it took, from plan to picture
-    std::string traced{};       // the line that trace_state() printed last
+    DetailStep drawn_at{};                   // of the last frame
+    std::deque<SubmittedFrame> under_way{};  // frames that the renderer draws, in their order
+    Clock::time_point polled{};              // when the user's input was asked for last
+    Clock::time_point drawn{};               // when the last frame was that is done
+    FrameReport report{};                    // of that
+    double frame_s{};  // that it took: since it was begun, or since the one before it was drawn
+    std::optional<SubmittedFrame> to_trace{};  // that was drawn and not shown yet
+    std::string traced{};                      // the line that trace_state() printed last
     bool keeps_means{};         // the scene has means of the ground, whatever the style asks for now
     bool wants_picture{false};  // something has changed that pictures show
     bool leaves{false};         // the user wants to
@@ -201,6 +221,8 @@ Result<PickedPlace> picked_at(Viewer& viewer, glm::dvec2 point_px);
 // Where the region is, from a view that shows nothing of it; inset_px: of the arrow from the window's border.
 const std::optional<HomeArrow>& way_home(Viewer& viewer, double inset_px);
 
+// Whether the eye has just moved: detail yields then, and frames are drawn while the next ones are planned.
+bool is_moving(const Viewer& viewer);
 // Whether what is shown is of every n-th post.
 bool is_coarse(const Viewer& viewer);
 // "preparing full detail, 42 %", "loading"; "" where all is there.
@@ -214,5 +236,8 @@ void tell(Viewer& viewer, const Error& why);
 // With OROGRAPH_TRACE_WINDOW set, prints "state: ..." where that has changed: what was said last, and where
 // the eye is. For programs that play a user.
 void trace_state(Viewer& viewer);
+// Likewise "frame: ..." of a frame that is shown now: when its input was asked for, when it was begun,
+// planned, drawn and shown, in seconds of the steady clock, then its detail and whether its eye moved.
+void trace_frame(const SubmittedFrame& frame);
 
 }  // namespace oro

@@ -73,7 +73,8 @@ class GpuCache {
         completed_ = completed;
         run_bytes_ = 0;
     }
-    // The next frame of a renderer that waits for each.
+    // The next frame of a renderer that waits for each, or whose queue fills bytes after all frames that were
+    // submitted before: these may have in flight what is evicted.
     void begin_frame() { begin_frame(frame_ + 1, frame_); }
     [[nodiscard]] std::uint64_t frame() const { return frame_; }
 

@@ -27,10 +27,10 @@ class ClusterStore {
     // Fills a cluster's block and gives its counts.
     using Fill = std::function<Result<std::uint32_t>(std::uint32_t cluster, gpu::ClusterBlock& block)>;
 
-    // From here on clusters are used by the next frame. All frames before are completed on the GPU.
+    // From here on clusters are used by the next frame. What is sent lands after all frames before.
     void begin_frame() { cache_.items().begin_frame(); }
     // Uploads those of a frame's clusters that are not here: no more than there are slots, with what the
-    // frame uses already. All of them are used by it then. Begins no frame. Waits for the GPU. Errors: those
+    // frame uses already. All of them are used by it then. Begins no frame. Errors: those
     // of `fill`; the device, which may have memory for fewer slots.
     Result<void> hold(std::span<const std::uint32_t> clusters, const Fill& fill);
 
@@ -45,7 +45,7 @@ class ClusterStore {
         std::uint32_t counts;
         const gpu::ClusterBlock* block;
     };
-    // Uploads clusters until there is no slot that the frame does not use. Waits for the GPU. Errors: the
+    // Uploads clusters until there is no slot that the frame does not use. Errors: the
     // device.
     Result<void> send(std::span<const Loaded> clusters);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -65,8 +66,8 @@ class BufferCache {
     }
 
     // An item that is not in the cache, and where its bytes are to be written before anything else is added;
-    // they are there once upload() is done. Items::none: too few bytes may be evicted (GpuCache::evict).
-    // Waits for the GPU. Errors: the device; it has no memory for any item at all. What was added before is
+    // upload() sends them. Items::none: too few bytes may be evicted (GpuCache::evict). Waits for the upload
+    // before the last one. Errors: the device; it has no memory for any item at all. What was added before is
     // uploaded then.
     struct Added {
         Handle handle{Items::none};
@@ -74,7 +75,7 @@ class BufferCache {
     };
     Result<Added> add(const Key& key, std::size_t bytes, std::uint64_t spared = 0) {
         if (staged_bytes_ + bytes > layout_.staging_bytes) ORO_CHECK(upload());
-        ORO_CHECK(make_staging());
+        if (staged_.empty()) ORO_CHECK(begin_staging());
         Added added{items_.insert(key, bytes)};
         if (added.handle == Items::none) {
             const Result<bool> grown = add_buffer(bytes);
@@ -84,26 +85,30 @@ class BufferCache {
         }
         if (added.handle == Items::none) added.handle = items_.evict(key, bytes, spared);
         if (added.handle == Items::none) return added;
-        added.bytes = staging_.mapped + std::exchange(staged_bytes_, staged_bytes_ + bytes);
+        added.bytes = staging_[turn_].buffer.mapped + std::exchange(staged_bytes_, staged_bytes_ + bytes);
         staged_.push_back(added.handle);
         return added;
     }
-    // Uploads what was added. Waits for the GPU. Errors: the device; what did not arrive is not in the cache.
+    // Uploads what was added: it is there for all that is submitted afterwards. What lay there is overwritten
+    // once all frames that were submitted before are done with it. Does not wait. Errors: the device; what
+    // was not sent is not in the cache.
     Result<void> upload() {
         if (staged_.empty()) return {};
-        const Result<void> copied =
-            commands_.run(*gpu_, [&](VkCommandBuffer commands) { record_copies(commands); });
+        const Result<void> copied = staging_[turn_].commands.submit(
+            *gpu_, [&](VkCommandBuffer commands) { record_copies(commands); });
         for (std::size_t i = 0; !copied.ok() && i < staged_.size(); ++i)
             items_.erase(items_.at(staged_[i]).key);
         if (copied.ok()) bytes_uploaded_ += staged_bytes_;
         staged_.clear();
         staged_bytes_ = 0;
+        turn_ = 1 - turn_;
         return copied;
     }
-    // Destroys buffers of which the frame and those in flight use nothing, for others that share the budget:
-    // true where there were any.
+    // Destroys buffers of which the frame uses nothing, for others that share the budget: true where there
+    // were any. Waits for frames in flight.
     bool release_unused() {
         const std::vector<bool> stayed = items_.release_unused();
+        if (std::ranges::find(stayed, false) != stayed.end()) gpu_->wait_idle();
         std::size_t buffer = 0;
         if (std::erase_if(buffers_, [&](const Buffer&) { return !stayed[buffer++]; }) == 0) return false;
         is_full_ = is_nearly_full_ = false;
@@ -115,11 +120,13 @@ class BufferCache {
     [[nodiscard]] std::size_t growth(std::size_t bytes) const {
         return is_full_ ? 0 : static_cast<std::size_t>(budget_->left() / bytes);
     }
-    Result<void> make_staging() {
-        if (staging_.handle) return {};
-        ORO_TRY(commands_, Commands::create(*gpu_, layout_.name + " upload"));
-        ORO_TRY(staging_, create_buffer(*gpu_, layout_.staging_bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                                        MemoryKind::upload, layout_.name + " staging"));
+    // What is sent is written here, while what was sent before may still be on its way.
+    Result<void> begin_staging() {
+        Staging& staging = staging_[turn_];
+        if (staging.buffer.handle) return staging.commands.wait();
+        ORO_TRY(staging.commands, Commands::create(*gpu_, layout_.name + " upload"));
+        ORO_TRY(staging.buffer, create_buffer(*gpu_, layout_.staging_bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                              MemoryKind::upload, layout_.name + " staging"));
         return {};
     }
     // One more buffer, with room for `least_bytes` in one piece, where the budget and the device have memory.
@@ -158,11 +165,13 @@ class BufferCache {
         }
     }
     void record_copies(VkCommandBuffer commands) const {
+        wait_for_earlier(commands);
         std::size_t staged = 0;
         for (const Handle handle : staged_) {
             const auto& slot = items_.at(handle);
             const VkBufferCopy copy{staged, slot.offset, slot.bytes};
-            vkCmdCopyBuffer(commands, staging_.handle.get(), buffers_[slot.bin].handle.get(), 1, &copy);
+            vkCmdCopyBuffer(commands, staging_[turn_].buffer.handle.get(), buffers_[slot.bin].handle.get(), 1,
+                            &copy);
             staged += slot.bytes;
         }
         memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
@@ -174,8 +183,12 @@ class BufferCache {
     std::shared_ptr<MemoryBudget> budget_;
     std::vector<Buffer> buffers_;  // of the bins
     Items items_;
-    Commands commands_;
-    Buffer staging_;
+    struct Staging {
+        Buffer buffer;
+        Commands commands;
+    };
+    std::array<Staging, 2> staging_;  // by turns; after the buffers: its commands end before these
+    std::size_t turn_{};
     std::vector<Handle> staged_;  // items that are not uploaded yet
     std::size_t staged_bytes_{};
     std::uint64_t bytes_uploaded_{};

@@ -108,6 +108,9 @@ class Gpu {
     // Memory type with all of `properties` among the allowed bits; nothing when the device has none.
     [[nodiscard]] std::optional<std::uint32_t> memory_type(std::uint32_t allowed_bits,
                                                            VkMemoryPropertyFlags properties) const;
+    // Waits until nothing is under way: before what frames use is given up. A device that is lost has nothing
+    // under way.
+    void wait_idle() const { vkDeviceWaitIdle(device_); }
     // Names an object for validation messages and debuggers.
     void name(VkObjectType type, std::uint64_t handle, const std::string& name) const;
     template <class Handle>

@@ -1,5 +1,8 @@
 #include "render/device/resources.h"
 
+#include <optional>
+#include <utility>
+
 #include "render/device/software_driver.h"
 
 namespace oro {
@@ -82,6 +85,14 @@ Result<Buffer> create_buffer(const Gpu& gpu, VkDeviceSize size, VkBufferUsageFla
     return buffer;
 }
 
+Result<void> replace_buffer(const Gpu& gpu, Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags usage,
+                            MemoryKind memory_kind, const std::string& name) {
+    ORO_TRY(Buffer other, create_buffer(gpu, size, usage, memory_kind, name));
+    if (buffer.handle) ORO_VK(vkQueueWaitIdle(gpu.queue()));
+    buffer = std::move(other);
+    return {};
+}
+
 Result<OwnedImageView> create_image_view(const Gpu& gpu, VkImage image, VkFormat format,
                                          VkImageAspectFlags aspect, const std::string& name) {
     VkImageViewCreateInfo info{};
@@ -148,36 +159,63 @@ Result<Commands> Commands::create(const Gpu& gpu, const std::string& name) {
     return commands;
 }
 
-Result<VkCommandBuffer> Commands::begin() {
+Commands& Commands::operator=(Commands&& other) noexcept {
+    pool_ = std::move(other.pool_);
+    fence_ = std::move(other.fence_);
+    std::swap(buffer_, other.buffer_);
+    std::swap(under_way_, other.under_way_);
+    return *this;
+}
+
+Commands::~Commands() {
+    if (under_way_ != VK_NULL_HANDLE && vkGetFenceStatus(under_way_, fence_.get()) == VK_NOT_READY)
+        vkDeviceWaitIdle(under_way_);
+}
+
+Result<void> Commands::submit(const Gpu& gpu, const Record& record, const Semaphores& semaphores) {
+    ORO_CHECK(wait());
     VkCommandBufferBeginInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     ORO_VK(vkBeginCommandBuffer(buffer_, &info));
-    return buffer_;
-}
-
-Result<void> Commands::run(const Gpu& gpu, const std::function<void(VkCommandBuffer)>& record) {
-    ORO_TRY(VkCommandBuffer buffer, begin());
-    record(buffer);
-    ORO_VK(vkEndCommandBuffer(buffer));
+    record(buffer_);
+    ORO_VK(vkEndCommandBuffer(buffer_));
+    VkSemaphoreSubmitInfo wait{};
+    wait.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO;
+    wait.semaphore = semaphores.waits;
+    wait.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    VkSemaphoreSubmitInfo signal = wait;
+    signal.semaphore = semaphores.signals;
     VkCommandBufferSubmitInfo submitted{};
     submitted.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO;
-    submitted.commandBuffer = buffer;
+    submitted.commandBuffer = buffer_;
     VkSubmitInfo2 submit{};
     submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2;
+    submit.waitSemaphoreInfoCount = semaphores.waits != VK_NULL_HANDLE ? 1 : 0;
+    submit.pWaitSemaphoreInfos = &wait;
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &submitted;
-    VkFence fence = fence_.get();
-    ORO_VK(vkQueueSubmit2(gpu.queue(), 1, &submit, fence));
-    return wait_for(gpu, fence);
+    submit.signalSemaphoreInfoCount = semaphores.signals != VK_NULL_HANDLE ? 1 : 0;
+    submit.pSignalSemaphoreInfos = &signal;
+    ORO_VK(vkQueueSubmit2(gpu.queue(), 1, &submit, fence_.get()));
+    under_way_ = gpu.device();
+    return {};
 }
 
-Result<void> wait_for(const Gpu& gpu, VkFence fence) {
-    const VkResult waited = vkWaitForFences(gpu.device(), 1, &fence, VK_TRUE, UINT64_MAX);
+Result<void> Commands::run(const Gpu& gpu, const Record& record) {
+    ORO_CHECK(submit(gpu, record));
+    return wait();
+}
+
+Result<void> Commands::wait() {
+    if (under_way_ == VK_NULL_HANDLE) return {};
+    const VkDevice device = std::exchange(under_way_, VK_NULL_HANDLE);
+    const VkFence fence = fence_.get();
+    const VkResult waited = vkWaitForFences(device, 1, &fence, VK_TRUE, UINT64_MAX);
     // A wait can fail while the work goes on, and whoever hears of it destroys what the work uses.
-    if (waited != VK_SUCCESS) vkDeviceWaitIdle(gpu.device());
+    if (waited != VK_SUCCESS) vkDeviceWaitIdle(device);
     ORO_CHECK(vulkan_checked(waited, "vkWaitForFences("));
-    ORO_VK(vkResetFences(gpu.device(), 1, &fence));
+    ORO_VK(vkResetFences(device, 1, &fence));
     return {};
 }
 
@@ -194,6 +232,12 @@ void memory_barrier(VkCommandBuffer commands, VkPipelineStageFlags2 from, VkAcce
     info.memoryBarrierCount = 1;
     info.pMemoryBarriers = &barrier;
     vkCmdPipelineBarrier2(commands, &info);
+}
+
+void wait_for_earlier(VkCommandBuffer commands) {
+    memory_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
+                   VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                   VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
 }
 
 void image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, ImageUse from,

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "render/device/gpu.h"
 #include "shaders/shared.h"
@@ -29,6 +30,11 @@ enum class MemoryKind { device, upload, readback };
 Result<Buffer> create_buffer(const Gpu& gpu, VkDeviceSize size, VkBufferUsageFlags usage,
                              MemoryKind memory_kind, const std::string& name, bool* full = nullptr);
 
+// A buffer in the place of a smaller one, or of none: once nothing on the device uses that any more. Errors:
+// as create_buffer(); the old one stays then.
+Result<void> replace_buffer(const Gpu& gpu, Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags usage,
+                            MemoryKind memory_kind, const std::string& name);
+
 // A 2D image with its own memory and a view of all of it.
 struct Image {
     OwnedMemory memory;
@@ -44,24 +50,42 @@ Result<OwnedImageView> create_image_view(const Gpu& gpu, VkImage image, VkFormat
 Result<Image> create_image(const Gpu& gpu, VkFormat format, VkExtent2D extent, VkImageUsageFlags usage,
                            VkImageAspectFlags aspect, const std::string& name);
 
-// Waits for a fence that was submitted, and takes it back. Where the wait fails, nothing is under way on the
-// device any more all the same. Errors: the device is lost or out of memory.
-Result<void> wait_for(const Gpu& gpu, VkFence fence);
+// How many frames may be under way on a device at a time. What the host writes for a frame, or reads of it,
+// there is as often; what the device alone writes there is once: the queue draws one frame after the other.
+inline constexpr std::size_t frames_in_flight = 2;
+
+// What commands wait for before they begin, and what they signal at their end; null: nothing.
+struct Semaphores {
+    VkSemaphore waits{VK_NULL_HANDLE};
+    VkSemaphore signals{VK_NULL_HANDLE};
+};
 
 // One command buffer and a fence: record, submit, wait.
 class Commands {
   public:
+    using Record = std::function<void(VkCommandBuffer)>;
     static Result<Commands> create(const Gpu& gpu, const std::string& name);
+    Commands() = default;
+    Commands(Commands&& other) noexcept { *this = std::move(other); }
+    Commands& operator=(Commands&& other) noexcept;
+    Commands(const Commands&) = delete;
+    Commands& operator=(const Commands&) = delete;
+    // Waits for what is under way. Whoever owns what the commands use declares them after it.
+    ~Commands();
+
     // Records with `record`, submits, and waits for the end. Errors: the device is lost or out of memory.
-    Result<void> run(const Gpu& gpu, const std::function<void(VkCommandBuffer)>& record);
-    // For callers that submit by themselves (a window).
-    Result<VkCommandBuffer> begin();
-    [[nodiscard]] VkFence fence() const { return fence_.get(); }
+    Result<void> run(const Gpu& gpu, const Record& record);
+    // The same without the wait for the end; what was submitted before is waited for first.
+    Result<void> submit(const Gpu& gpu, const Record& record, const Semaphores& semaphores = {});
+    // Waits for the end of what was submitted, if it was not waited for yet. Where that fails, nothing is
+    // under way on the device any more all the same. Errors: the device is lost or out of memory.
+    Result<void> wait();
 
   private:
     OwnedCommandPool pool_;
     OwnedFence fence_;
     VkCommandBuffer buffer_{VK_NULL_HANDLE};
+    VkDevice under_way_{VK_NULL_HANDLE};  // the device where something is; null: nothing is
 };
 
 // A barrier for memory alone; stages and accesses as in VkMemoryBarrier2.
@@ -75,5 +99,7 @@ struct ImageUse {
 };
 void image_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, ImageUse from,
                    ImageUse to);
+// All that was submitted before is done, and what it wrote can be read and written by all that follows.
+void wait_for_earlier(VkCommandBuffer commands);
 
 }  // namespace oro

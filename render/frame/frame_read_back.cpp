@@ -24,7 +24,7 @@ Result<std::vector<std::byte>> FrameRenderer::read_image(const Image& image, VkI
     const VkDeviceSize size = VkDeviceSize{4} * width * height;  // every format read back has four bytes
     ORO_TRY(const Buffer buffer, create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                                MemoryKind::readback, "image read back"));
-    ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
+    ORO_CHECK(commands().run(*gpu_, [&](VkCommandBuffer commands) {
         const ImageUse as_source{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
                                  VK_ACCESS_2_TRANSFER_READ_BIT};
         image_barrier(commands, image.handle.get(), aspect, last_use, as_source);
@@ -51,7 +51,7 @@ Result<void> FrameRenderer::replace_picture(std::span<const std::uint8_t> rgba, 
     ORO_TRY(const Buffer buffer, create_buffer(*gpu_, rgba.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                                MemoryKind::upload, "picture with writing"));
     std::memcpy(buffer.mapped, rgba.data(), rgba.size());
-    return commands_.run(*gpu_, [&](VkCommandBuffer commands) {
+    return commands().run(*gpu_, [&](VkCommandBuffer commands) {
         const ImageUse as_target{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
                                  VK_ACCESS_2_TRANSFER_WRITE_BIT};
         image_barrier(commands, picture_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, shader_write, as_target);
@@ -71,7 +71,7 @@ Result<std::vector<std::uint32_t>> FrameRenderer::read_words(const Buffer& sourc
     const VkDeviceSize size = 4 * static_cast<VkDeviceSize>(count);
     ORO_TRY(const Buffer buffer,
             create_buffer(*gpu_, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::readback, "read back"));
-    ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
+    ORO_CHECK(commands().run(*gpu_, [&](VkCommandBuffer commands) {
         memory_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
         const VkBufferCopy copy{4 * first, 0, size};
@@ -115,7 +115,7 @@ std::uint32_t FrameRenderer::triangle_rows() const {
 // What one of the frame's grids shows: the others' pixels are background to it.
 Result<void> FrameRenderer::add_triangles(std::uint32_t grid, std::uint32_t first_row, std::uint32_t rows,
                                           std::vector<ShownTriangle>& shown) {
-    ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
+    ORO_CHECK(commands().run(*gpu_, [&](VkCommandBuffer commands) {
         memory_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                        VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);

@@ -71,16 +71,12 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
             "cannot count triangles by mesh shaders (fragmentStoresAndAtomics is missing); --pipeline "
             "compute can"};
     ORO_TRY(renderer.pipelines_, shared_pipelines(gpu, options.path, wants_of(options, false)));
-    ORO_TRY(renderer.commands_, Commands::create(gpu, "frame"));
-    ORO_TRY(renderer.timestamps_, create_timestamps(gpu));
+    ORO_CHECK(renderer.create_slot(renderer.slots_.front()));
     constexpr VkBufferUsageFlags counted =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
         VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
     ORO_TRY(renderer.counts_,
             create_buffer(gpu, sizeof(gpu::FrameCounts), counted, MemoryKind::device, "counts"));
-    ORO_TRY(renderer.counts_read_,
-            create_buffer(gpu, sizeof(gpu::FrameCounts), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                          MemoryKind::readback, "counts read back"));
     if (options.path == RasterPath::compute) {
         ORO_TRY(ComputeRaster compute, ComputeRaster::create(gpu, options.extent));
         renderer.compute_.emplace(std::move(compute));
@@ -93,7 +89,18 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
     return renderer;
 }
 
+// At its first frame.
+Result<void> FrameRenderer::create_slot(Slot& slot) const {
+    if (slot.counts_read.handle) return {};
+    ORO_TRY(slot.commands, Commands::create(*gpu_, "frame"));
+    ORO_TRY(slot.timestamps, create_timestamps(*gpu_));
+    ORO_TRY(slot.counts_read, create_buffer(*gpu_, sizeof(gpu::FrameCounts), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                            MemoryKind::readback, "counts read back"));
+    return {};
+}
+
 Result<void> FrameRenderer::resize(VkExtent2D extent) {
+    assert(under_way_.empty());
     options_.extent = extent;
     if (compute_) ORO_CHECK(compute_->resize(extent));
     ORO_CHECK(create_images());
@@ -133,6 +140,7 @@ Result<void> FrameRenderer::create_sets() {
 Result<void> FrameRenderer::choose_pipelines(const FramePlan& plan) {
     const bool packed = std::ranges::any_of(plan.grids, has_packed_heights);
     if (packed == pipelines_->packed_heights) return {};
+    if (!under_way_.empty()) ORO_VK(vkQueueWaitIdle(gpu_->queue()));
     ORO_TRY(pipelines_, shared_pipelines(*gpu_, options_.path, wants_of(options_, packed)));
     return create_sets();
 }
@@ -151,36 +159,27 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
             *gpu_, *pipelines_, {ids_.view.get(), sum_.view.get(), picture_.view.get(), depth_.view.get()}));
     }
     const VkDeviceSize pixels = VkDeviceSize{4} * options_.extent.width * options_.extent.height;
-    if (needs_depths() && depths_.size < pixels) {
-        ORO_TRY(depths_, create_buffer(*gpu_, pixels,
-                                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                                           VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                                       MemoryKind::device, "depths"));
-    }
-    if (options_.show == gpu::show_overdraw && overdraw_.size < pixels) {
-        ORO_TRY(overdraw_,
-                create_buffer(*gpu_, pixels,
-                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                                  VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                              MemoryKind::device, "triangles over pixels"));
-    }
+    constexpr VkBufferUsageFlags read_back = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                             VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+    if (needs_depths() && depths_.size < pixels)
+        ORO_CHECK(replace_buffer(*gpu_, depths_, pixels, read_back, MemoryKind::device, "depths"));
+    if (options_.show == gpu::show_overdraw && overdraw_.size < pixels)
+        ORO_CHECK(replace_buffer(*gpu_, overdraw_, pixels,
+                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                     VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                                 MemoryKind::device, "triangles over pixels"));
     const VkDeviceSize triangles =
         VkDeviceSize{triangle_rows()} * options_.extent.width * sizeof(gpu::DrawnTriangle);
-    if (options_.keep_triangles && triangles_.size < triangles) {
-        ORO_TRY(triangles_,
-                create_buffer(*gpu_, triangles,
-                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                                  VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                              MemoryKind::device, "triangles"));
-    }
+    if (options_.keep_triangles && triangles_.size < triangles)
+        ORO_CHECK(replace_buffer(*gpu_, triangles_, triangles, read_back, MemoryKind::device, "triangles"));
     const VkDeviceSize positions = std::max<std::size_t>(plan.grids.front().pages.size(), 64) *
                                    gpu::page_posts * gpu::page_posts * sizeof(gpu::vec3);
-    if (options_.record_positions && recorded_.size < positions) {
-        ORO_TRY(recorded_,
-                create_buffer(*gpu_, positions,
-                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                              MemoryKind::readback, "recorded positions"));
-    }
+    if (options_.record_positions && recorded_.size < positions)
+        ORO_CHECK(
+            replace_buffer(*gpu_, recorded_, positions,
+                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                           MemoryKind::readback, "recorded positions"));
     return {};
 }
 
@@ -189,7 +188,7 @@ Result<void> FrameRenderer::upload(std::size_t number, GridPlan& plan, const Fra
     GridFrame& grid = grids_[number];
     gpu::FrameConstants& constants = plan.constants;
     occlusion_->address(constants);
-    ORO_CHECK(grid.reserve(*gpu_, plan));
+    ORO_CHECK(grid.reserve(*gpu_, plan, slot_));
     constants.sample_index = asked.sample_index;
     constants.sample_count = asked.sample_count;
     constants.counts = address_words(counts_.address);
@@ -206,12 +205,12 @@ Result<void> FrameRenderer::upload(std::size_t number, GridPlan& plan, const Fra
     if (plan.clusters.on)
         ORO_CHECK(add_cluster_pipelines(*gpu_, options_.path, options_.keep_triangles, *pipelines_));
     DrapeStore* const drape = number < asked.drapes.size() ? asked.drapes[number] : nullptr;
-    ORO_CHECK(
-        grid.drape.prepare(*gpu_, options_.path, *pipelines_, options_.shades ? drape : nullptr, constants));
+    ORO_CHECK(grid.drape.prepare(*gpu_, options_.path, *pipelines_, options_.shades ? drape : nullptr, slot_,
+                                 constants));
     if (options_.shades) {
         ORO_CHECK(air_.prepare(*gpu_, *pipelines_, constants));
         const ShareOptions how{options_.path, !shades_as_gpu(*gpu_, options_.as_on_gpu)};
-        ORO_CHECK(grid.casters.prepare(*gpu_, how, *pipelines_, plan, shared_shares_, constants));
+        ORO_CHECK(grid.casters.prepare(*gpu_, how, *pipelines_, plan, shared_shares_, slot_, constants));
         ORO_CHECK(choose_shading(grid, constants));
     }
     grid.address(plan);
@@ -230,11 +229,13 @@ void FrameRenderer::record_upload(VkCommandBuffer commands, std::size_t grids) c
                        VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
 }
 
-void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
+void FrameRenderer::record(VkCommandBuffer commands, const Slot& slot) {
+    const FramePlan& plan = *slot.plan;
     const auto stamp = [&](std::uint32_t number) {
-        vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), number);
+        vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot.timestamps.get(), number);
     };
-    vkCmdResetQueryPool(commands, timestamps_.get(), 0, timestamp_count);
+    vkCmdResetQueryPool(commands, slot.timestamps.get(), 0, timestamp_count);
+    wait_for_earlier(commands);
     record_upload(commands, plan.grids.size());
     stamp(0);
     record_clear(commands, plan);
@@ -242,7 +243,7 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
     stamp(1);
     record_rounds(commands, plan);
     stamp(2);
-    if (has_images(plan)) {
+    if (slot.has_images) {
         record_tile_feedback(commands, plan);
     } else if (options_.shades) {
         record_shade(commands, plan);
@@ -250,45 +251,91 @@ void FrameRenderer::record(VkCommandBuffer commands, const FramePlan& plan) {
         record_ids_alone(commands);
     }
     stamp(3);
+    if (slot.has_images && !slot.in_parts) {
+        stamp(4);
+        record_shade(commands, plan);
+        stamp(5);
+    }
     memory_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                    VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
                    VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_HOST_READ_BIT);
     const VkBufferCopy copy{0, 0, sizeof(gpu::FrameCounts)};
-    vkCmdCopyBuffer(commands, counts_.handle.get(), counts_read_.handle.get(), 1, &copy);
+    vkCmdCopyBuffer(commands, counts_.handle.get(), slot.counts_read.handle.get(), 1, &copy);
     for (std::size_t i = 0; i < plan.grids.size(); ++i) grids_[i].record_feedback(commands);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                    VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
 }
 
-Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& style,
-                                        std::uint32_t sample_index, std::uint32_t sample_count,
-                                        std::vector<DrapeStore*> drapes) {
+Result<void> FrameRenderer::begin(FramePlan plan, const FrameAsked& asked) {
     assert(!plan.grids.empty());
     assert(plan.view.width_px() <= options_.extent.width && plan.view.height_px() <= options_.extent.height);
-    assert(sample_count == 1 ||
+    assert(asked.sample_count == 1 ||
            (options_.several_samples && !options_.smooth_edges && options_.show == gpu::show_colours));
+    assert(under_way_.size() < slots_.size());
+    slot_ = 0;
+    while (std::ranges::find(under_way_, slot_) != under_way_.end()) ++slot_;
+    Slot& slot = slots_[slot_];
+    ORO_CHECK(create_slot(slot));
     ORO_CHECK(number_pages(plan));
     ORO_CHECK(choose_pipelines(plan));
     ORO_CHECK(reserve(plan));
     occlusion_->begin(plan, remembers(plan));
     if (occlusion_->is_on() && !occlusion_->uses_last_frame())
         for (GridFrame& grid : grids_) grid.forget();
-    ORO_CHECK(shared_shares_.reserve(*gpu_, plan, style));
-    const FrameAsked asked{style, sample_index, sample_count, drapes};
+    ORO_CHECK(shared_shares_.reserve(*gpu_, plan, asked.style));
     last_width_px_ = plan.view.width_px();
     last_grids_.clear();
     for (std::size_t i = 0; i < plan.grids.size(); ++i) {
         ORO_CHECK(upload(i, plan.grids[i], asked));
         last_grids_.push_back(plan.grids[i].pages.empty() ? 0 : 1);
     }
-    ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) { record(commands, plan); }));
+    slot.has_images = has_images(plan);
+    slot.in_parts = asked.in_parts;
+    slot.plan = std::move(plan);
+    ORO_CHECK(slot.commands.submit(*gpu_, [&](VkCommandBuffer commands) { record(commands, slot); }));
+    under_way_.push_back(slot_);
+    slot.trial = occlusion_->trial();
+    remember(*slot.plan);
+    return {};
+}
+
+Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& style,
+                                        std::uint32_t sample_index, std::uint32_t sample_count,
+                                        std::vector<DrapeStore*> drapes) {
+    assert(under_way_.empty());
+    ORO_CHECK(begin(std::move(plan), {style, sample_index, sample_count, drapes, true}));
+    return finish();
+}
+
+Result<void> FrameRenderer::submit(FramePlan plan, const gpu::FrameStyle& style,
+                                   std::vector<DrapeStore*> drapes) {
+    return begin(std::move(plan), {style, 0, 1, drapes, false});
+}
+
+Result<FrameReport> FrameRenderer::finish() {
+    assert(!under_way_.empty());
+    Slot& slot = slots_[under_way_.front()];
+    under_way_.erase(under_way_.begin());
+    ORO_CHECK(slot.commands.wait());
+    ORO_TRY(FrameReport report, report_of(slot));
+    if (slot.has_images) {
+        ORO_TRY(report.images_settled, load_images(slot));
+    }
+    if (slot.has_images && slot.in_parts) ORO_CHECK(shade_with_images(slot));
+    ORO_CHECK(add_times(slot, report));
+    return report;
+}
+
+// All but how long it took.
+Result<FrameReport> FrameRenderer::report_of(Slot& slot) {
+    const FramePlan& plan = *slot.plan;
+    const auto number = static_cast<std::size_t>(&slot - slots_.data());
     FrameReport report;
-    std::memcpy(&report.counts, counts_read_.mapped, sizeof(report.counts));
-    remember(plan);
+    std::memcpy(&report.counts, slot.counts_read.mapped, sizeof(report.counts));
     for (std::size_t i = 0; i < plan.grids.size(); ++i) {
         const GridPlan& grid = plan.grids[i];
         report.pages += grid.pages.size();
-        if (occlusion_->is_on()) report.feedback.push_back(grids_[i].feedback_of(grid));
+        if (slot.trial.is_on) report.feedback.push_back(grids_[i].feedback_of(grid, number));
         report.counts.meshlets_beyond_frustum += static_cast<gpu::uint>(grid.clusters.beyond_frustum);
         report.counts.meshlets_beyond_horizon += static_cast<gpu::uint>(grid.clusters.beyond_horizon);
     }
@@ -296,22 +343,23 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
         return Error{ErrorKind::failed, "picture",
                      std::to_string(report.counts.triangles_not_clipped) +
                          " triangles more than the compute path can clip in a frame; --pipeline mesh can"};
-    const bool images = has_images(plan);
-    if (images) {
-        ORO_TRY(report.images_settled, shade_with_images(plan));
-    }
+    return report;
+}
+
+Result<void> FrameRenderer::add_times(const Slot& slot, FrameReport& report) {
     std::array<std::uint64_t, timestamp_count> ticks{};
-    const std::uint32_t written = images ? timestamp_count : 4;
-    ORO_VK(vkGetQueryPoolResults(gpu_->device(), timestamps_.get(), 0, written, sizeof(ticks), ticks.data(),
-                                 sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+    const std::uint32_t written = slot.has_images ? timestamp_count : 4;
+    ORO_VK(vkGetQueryPoolResults(gpu_->device(), slot.timestamps.get(), 0, written, sizeof(ticks),
+                                 ticks.data(), sizeof(std::uint64_t),
+                                 VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
     const auto between_s = [&](std::size_t from) {
         return gpu_->seconds_between(ticks[from], ticks[from + 1]);
     };
     report.choose_s = between_s(0);
     report.raster_s = between_s(1);
-    occlusion_->end(report.raster_s);
-    report.shade_s = between_s(images ? 4 : 2);
-    return report;
+    occlusion_->end(slot.trial, report.raster_s);
+    report.shade_s = between_s(slot.has_images ? 4 : 2);
+    return {};
 }
 
 }  // namespace oro

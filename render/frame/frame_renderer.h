@@ -1,6 +1,7 @@
 // One frame: pages to ids and depth, ids to colours. The same path for pictures, the window and benchmarks.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -22,11 +23,11 @@ namespace oro {
 // What a frame did and how long the GPU took for it.
 struct FrameReport {
     gpu::FrameCounts counts{};
-    std::uint64_t pages{};            // of the frame, parents of drawn ones included
-    double choose_s{};                // GPU timestamps: levels chosen
-    double raster_s{};                // from pages to triangle ids, by either path
-    double shade_s{};                 // the shading pass
-    bool images_settled{true};        // images over the ground are as fine as the frame asks for
+    std::uint64_t pages{};      // of the frame, parents of drawn ones included
+    double choose_s{};          // GPU timestamps: levels chosen
+    double raster_s{};          // from pages to triangle ids, by either path
+    double shade_s{};           // the shading pass
+    bool images_settled{true};  // images over the ground are as fine as the frame asks for
     std::vector<FrameFeedback>
         feedback;  // of each grid, for Scene::apply_feedback(); none where it was drawn at once
     [[nodiscard]] double gpu_s() const { return choose_s + raster_s + shade_s; }
@@ -68,7 +69,7 @@ class FrameRenderer {
   public:
     static Result<FrameRenderer> create(const Gpu& gpu, const FrameRendererOptions& options);
 
-    // Takes another size of picture (waits for nothing: draw() has waited).
+    // Takes another size of picture. No frame is under way, and nobody on the device reads the picture.
     Result<void> resize(VkExtent2D extent);
 
     // Draws one sample of a plan (its tile is within the extent, its pages are on the GPU) and waits for it.
@@ -76,6 +77,15 @@ class FrameRenderer {
     // same bytes, on one driver. drapes: images over the ground of each grid, or null (Scene::drapes()).
     Result<FrameReport> draw(FramePlan plan, const gpu::FrameStyle& style, std::uint32_t sample_index = 0,
                              std::uint32_t sample_count = 1, std::vector<DrapeStore*> drapes = {});
+
+    // Several frames under way: submit() begins one of one sample as draw() does and does not wait for it;
+    // finish() waits for the one that was begun first. At most frames_in_flight may be under way, and none
+    // where draw() or what reads a picture is called. All that is submitted to the device afterwards sees the
+    // picture. Images over the ground are drawn as they are there; finish() brings what of them the frame
+    // lacked to the next one. Errors of both: those of draw().
+    Result<void> submit(FramePlan plan, const gpu::FrameStyle& style, std::vector<DrapeStore*> drapes = {});
+    Result<FrameReport> finish();
+    [[nodiscard]] std::size_t under_way() const { return under_way_.size(); }
 
     // The picture's top left width x height pixels as RGBA rows, sRGB.
     Result<std::vector<std::uint8_t>> read_picture(std::uint32_t width, std::uint32_t height);
@@ -123,13 +133,29 @@ class FrameRenderer {
         const gpu::FrameStyle& style;
         std::uint32_t sample_index, sample_count;
         std::span<DrapeStore* const> drapes;
+        bool in_parts;  // images over the ground are waited for before it is shaded
     };
+    // What a frame has for itself while others are under way.
+    struct Slot {
+        Buffer counts_read;  // for the host
+        OwnedQueryPool timestamps;
+        std::optional<FramePlan> plan;
+        Occlusion::Trial trial;
+        bool has_images{}, in_parts{};
+        Commands commands;  // last: what is under way ends before the rest goes
+    };
+    Result<void> create_slot(Slot& slot) const;
+    Result<void> begin(FramePlan plan, const FrameAsked& asked);
+    Result<FrameReport> report_of(Slot& slot);
+    Result<void> add_times(const Slot& slot, FrameReport& report);
+    // For what is recorded while no frame is under way.
+    [[nodiscard]] Commands& commands() { return slots_.front().commands; }
     Result<void> upload(std::size_t number, GridPlan& plan, const FrameAsked& asked);
     Result<void> add_triangles(std::uint32_t grid, std::uint32_t first_row, std::uint32_t rows,
                                std::vector<ShownTriangle>& shown);
     Result<std::vector<std::uint32_t>> read_words(const Buffer& buffer, VkDeviceSize first,
                                                   std::size_t count);
-    void record(VkCommandBuffer commands, const FramePlan& plan);
+    void record(VkCommandBuffer commands, const Slot& slot);
     void record_upload(VkCommandBuffer commands, std::size_t grids) const;
     void record_clear(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_choice(VkCommandBuffer commands, const GridFrame& grid, const GridPlan& plan) const;
@@ -151,8 +177,9 @@ class FrameRenderer {
     void record_ids_alone(VkCommandBuffer commands) const;
     void record_tile_feedback(VkCommandBuffer commands, const FramePlan& plan) const;
     Result<void> ask_again(const GridFrame& grid, const GridPlan& plan, std::uint32_t seed);
-    Result<bool> load_requested_tiles(const GridFrame& grid, const GridPlan& plan);
-    Result<bool> shade_with_images(const FramePlan& plan);
+    Result<bool> load_requested_tiles(const GridFrame& grid, const GridPlan& plan, const Slot& slot);
+    Result<bool> load_images(const Slot& slot);
+    Result<void> shade_with_images(Slot& slot);
     Result<std::vector<std::byte>> read_image(const Image& image, VkImageAspectFlags aspect,
                                               ImageUse last_use, std::uint32_t width, std::uint32_t height);
 
@@ -165,18 +192,18 @@ class FrameRenderer {
     std::optional<Occlusion> occlusion_;
     AirTables air_;
     SharedShares shared_shares_;
-    Commands commands_;
     Image ids_, depth_, sum_, picture_;
-    OwnedQueryPool timestamps_;
     Buffer depths_;
     Buffer tiles_in_parts_;
     Buffer overdraw_;  // FrameConstants::overdraw, where it is shown
     Buffer triangles_;
-    Buffer counts_;       // on the device
-    Buffer counts_read_;  // for the host
+    Buffer counts_;  // on the device
     Buffer recorded_;
     std::uint32_t last_width_px_{};
-    std::vector<char> last_grids_;  // of the last frame: 1 where a grid had pages in it
+    std::vector<char> last_grids_;              // of the last frame: 1 where a grid had pages in it
+    std::size_t slot_{};                        // of the frame that is being begun
+    std::vector<std::size_t> under_way_;        // slots of frames, in their order
+    std::array<Slot, frames_in_flight> slots_;  // last: frames end before what they use
 };
 
 }  // namespace oro

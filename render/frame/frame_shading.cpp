@@ -1,5 +1,6 @@
 // The part of FrameRenderer that turns triangle ids into colours. Which tiles of images over the ground these
-// need is known when the triangles are drawn, so a frame with images is submitted in two parts.
+// need is known when the triangles are drawn, so a frame with images is submitted in two parts, unless others
+// are under way.
 #include <algorithm>
 #include <cstddef>
 #include <utility>
@@ -45,11 +46,10 @@ Result<void> FrameRenderer::choose_shading(GridFrame& grid, gpu::FrameConstants&
     const VkDeviceSize bytes =
         sizeof(gpu::uint) * VkDeviceSize{tiles_of(options_.extent.width)} * tiles_of(options_.extent.height);
     if (tiles_in_parts_.size < bytes) {
-        ORO_TRY(tiles_in_parts_,
-                create_buffer(*gpu_, bytes,
-                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                                  VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                              MemoryKind::device, "tiles in parts"));
+        ORO_CHECK(replace_buffer(*gpu_, tiles_in_parts_, bytes,
+                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                     VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                                 MemoryKind::device, "tiles in parts"));
     }
     constants.tiles_in_parts = address_words(tiles_in_parts_.address);
     return {};
@@ -140,7 +140,7 @@ void FrameRenderer::record_tile_feedback(VkCommandBuffer commands, const FramePl
 
 // The same question again. Another seed: two tiles of one hash have others now.
 Result<void> FrameRenderer::ask_again(const GridFrame& grid, const GridPlan& plan, std::uint32_t seed) {
-    return commands_.run(*gpu_, [&](VkCommandBuffer commands) {
+    return commands().run(*gpu_, [&](VkCommandBuffer commands) {
         constexpr VkDeviceSize at =
             offsetof(gpu::FrameConstants, drape) + offsetof(gpu::DrapeTable, request_seed);
         vkCmdUpdateBuffer(commands, grid.data().handle.get(), at, sizeof(seed), &seed);
@@ -159,37 +159,44 @@ bool FrameRenderer::has_images(const FramePlan& plan) const {
 }
 
 // Brings the tiles that a grid is coloured from: all of them, unless there is no room or nobody waits.
-Result<bool> FrameRenderer::load_requested_tiles(const GridFrame& grid, const GridPlan& plan) {
+Result<bool> FrameRenderer::load_requested_tiles(const GridFrame& grid, const GridPlan& plan,
+                                                 const Slot& slot) {
     constexpr std::uint32_t most_tries = 64;
+    const bool waits = slot.in_parts && options_.waits_for_images;
+    const auto number = static_cast<std::size_t>(&slot - slots_.data());
     DrapeStore& store = grid.drape.store();
     store.begin_frame();
     for (std::uint32_t turn = 1;; ++turn) {
-        const bool missing = grid.drape.is_missing_any();
-        ORO_TRY(const bool has_capacity, store.serve(grid.drape.wanted(), options_.waits_for_images));
+        const bool missing = grid.drape.is_missing_any(number);
+        ORO_TRY(const bool has_capacity, store.serve(grid.drape.wanted(number), waits));
         if (!missing) return true;
-        if (!has_capacity || !options_.waits_for_images || turn == most_tries) return false;
+        if (!has_capacity || !waits || turn == most_tries) return false;
         ORO_CHECK(ask_again(grid, plan, turn));
     }
 }
 
 // True where the images are as fine as the frame asks for.
-Result<bool> FrameRenderer::shade_with_images(const FramePlan& plan) {
+Result<bool> FrameRenderer::load_images(const Slot& slot) {
     bool settled = true;
-    for (std::size_t i = 0; i < plan.grids.size(); ++i) {
+    for (std::size_t i = 0; i < slot.plan->grids.size(); ++i) {
         if (!grids_[i].drape.is_on()) continue;
-        ORO_TRY(const bool here, load_requested_tiles(grids_[i], plan.grids[i]));
+        ORO_TRY(const bool here, load_requested_tiles(grids_[i], slot.plan->grids[i], slot));
         settled = settled && here;
     }
-    ORO_CHECK(commands_.run(*gpu_, [&](VkCommandBuffer commands) {
+    return settled;
+}
+
+// The second part of a frame, with the images that are there now.
+Result<void> FrameRenderer::shade_with_images(Slot& slot) {
+    return slot.commands.run(*gpu_, [&](VkCommandBuffer commands) {
         grids_.front().bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
-        vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 4);
-        record_shade(commands, plan);
-        vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 5);
+        vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot.timestamps.get(), 4);
+        record_shade(commands, *slot.plan);
+        vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, slot.timestamps.get(), 5);
         memory_barrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
                        VK_ACCESS_2_TRANSFER_READ_BIT | VK_ACCESS_2_HOST_READ_BIT);
-    }));
-    return settled;
+    });
 }
 
 }  // namespace oro

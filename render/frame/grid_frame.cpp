@@ -102,19 +102,21 @@ void GridFrame::bind_constants(const Gpu& gpu) const {
     vkUpdateDescriptorSets(gpu.device(), 1, &write, 0, nullptr);
 }
 
-Result<void> GridFrame::reserve(const Gpu& gpu, const GridPlan& plan) {
+Result<void> GridFrame::reserve(const Gpu& gpu, const GridPlan& plan, std::size_t slot) {
+    slot_ = slot;
     const DataLayout layout = layout_of(plan);
-    if (staging_.size < layout.size) {
-        const VkDeviceSize size = std::max(layout.size, 2 * staging_.size);
-        ORO_TRY(Buffer staging, create_buffer(gpu, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::upload,
-                                              "frame staging"));
+    if (data_.size < layout.size) {
         constexpr VkBufferUsageFlags usage =
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
             VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
             VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-        ORO_TRY(data_, create_buffer(gpu, size, usage, MemoryKind::device, "frame data"));
-        staging_ = std::move(staging);  // both are that large, or neither is
+        ORO_CHECK(replace_buffer(gpu, data_, std::max(layout.size, 2 * data_.size), usage, MemoryKind::device,
+                                 "frame data"));
         bind_constants(gpu);
+    }
+    if (staging_[slot].size < layout.size) {
+        ORO_TRY(staging_[slot], create_buffer(gpu, data_.size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                              MemoryKind::upload, "frame staging"));
     }
     const std::size_t count = std::max<std::size_t>(plan.pages.size(), 64);
     if (count > page_capacity_) {
@@ -123,8 +125,8 @@ Result<void> GridFrame::reserve(const Gpu& gpu, const GridPlan& plan) {
         constexpr VkBufferUsageFlags usage =
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
             VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
-        ORO_TRY(choice_, create_buffer(gpu, 4 * (live_pages_words + capacity * choice_words), usage,
-                                       MemoryKind::device, "choice of levels"));
+        ORO_CHECK(replace_buffer(gpu, choice_, 4 * (live_pages_words + capacity * choice_words), usage,
+                                 MemoryKind::device, "choice of levels"));
         page_capacity_ = capacity;
     }
     ORO_CHECK(reserve_feedback(gpu, plan));
@@ -136,48 +138,48 @@ Result<void> GridFrame::reserve_clusters(const Gpu& gpu, const GridPlan& plan) {
     const VkDeviceSize bytes =
         sizeof(gpu::uint) * std::max<VkDeviceSize>(plan.clusters.drawn.size(), gpu::clusters_per_choice);
     if (cluster_states_.size >= bytes) return {};
-    ORO_TRY(cluster_states_,
-            create_buffer(gpu, std::max(bytes, 2 * cluster_states_.size),
+    return replace_buffer(gpu, cluster_states_, std::max(bytes, 2 * cluster_states_.size),
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                               VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                          MemoryKind::device, "cluster states"));
-    return {};
+                          MemoryKind::device, "cluster states");
 }
 
 Result<void> GridFrame::reserve_feedback(const Gpu& gpu, const GridPlan& plan) {
     const bool wanted = plan.request_feedback && plan.constants.occlusion != 0;
     const std::size_t words =
         plan.clusters.on ? plan.clusters.drawn.size() : gpu::feedback_words * plan.pages.size();
-    feedback_size_ = wanted ? sizeof(gpu::uint) * words : 0;
-    if (feedback_.size >= feedback_size_) return {};
-    const VkDeviceSize size = std::max(feedback_size_, 2 * feedback_.size);
-    ORO_TRY(Buffer feedback,
-            create_buffer(gpu, size,
-                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                          MemoryKind::device, "feedback"));
-    ORO_TRY(feedback_read_, create_buffer(gpu, size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::readback,
-                                          "feedback read back"));
-    feedback_ = std::move(feedback);  // both are that large, or neither is
+    const VkDeviceSize size = wanted ? sizeof(gpu::uint) * words : 0;
+    feedback_size_[slot_] = size;
+    if (feedback_.size < size)
+        ORO_CHECK(replace_buffer(gpu, feedback_, std::max(size, 2 * feedback_.size),
+                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                     VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                     VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                                 MemoryKind::device, "feedback"));
+    if (feedback_read_[slot_].size < size) {
+        ORO_TRY(feedback_read_[slot_], create_buffer(gpu, feedback_.size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                                     MemoryKind::readback, "feedback read back"));
+    }
     return {};
 }
 
 void GridFrame::record_feedback(VkCommandBuffer commands) const {
-    if (feedback_size_ == 0) return;
-    const VkBufferCopy copy{0, 0, feedback_size_};
+    if (feedback_size_[slot_] == 0) return;
+    const VkBufferCopy copy{0, 0, feedback_size_[slot_]};
     const Buffer& source_buffer = cluster_groups_ > 0 ? cluster_states_ : feedback_;
-    vkCmdCopyBuffer(commands, source_buffer.handle.get(), feedback_read_.handle.get(), 1, &copy);
+    vkCmdCopyBuffer(commands, source_buffer.handle.get(), feedback_read_[slot_].handle.get(), 1, &copy);
 }
 
-FrameFeedback GridFrame::feedback_of(const GridPlan& plan) const {
+FrameFeedback GridFrame::feedback_of(const GridPlan& plan, std::size_t slot) const {
     FrameFeedback feedback;
-    if (feedback_size_ == 0) return feedback;
+    const VkDeviceSize size = feedback_size_[slot];
+    if (size == 0) return feedback;
     if (plan.clusters.on)
         feedback.clusters = plan.clusters.drawn;
     else
         feedback.pages = plan.page_indices;
-    feedback.words.resize(feedback_size_ / sizeof(gpu::uint));
-    std::memcpy(feedback.words.data(), feedback_read_.mapped, feedback_size_);
+    feedback.words.resize(size / sizeof(gpu::uint));
+    std::memcpy(feedback.words.data(), feedback_read_[slot].mapped, size);
     feedback.view = plan.constants;
     return feedback;
 }
@@ -187,12 +189,10 @@ Result<void> GridFrame::reserve_seen(const Gpu& gpu, std::size_t pages) {
     turn_ = 1 - turn_;
     const VkDeviceSize bytes = VkDeviceSize{4} * gpu::accepted_words * std::max<std::size_t>(pages, 64);
     if (seen_[turn_].size >= bytes) return {};
-    ORO_TRY(seen_[turn_],
-            create_buffer(gpu, std::max(bytes, 2 * seen_[turn_].size),
+    return replace_buffer(gpu, seen_[turn_], std::max(bytes, 2 * seen_[turn_].size),
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                               VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                          MemoryKind::device, "nodes seen"));
-    return {};
+                          MemoryKind::device, "nodes seen");
 }
 
 void GridFrame::remember(const GridPlan& plan) {
@@ -252,7 +252,7 @@ void GridFrame::address(GridPlan& plan) const {
         constants.seen_before = address_words(seen_[1 - turn_].address);
     constants.page_before = address_words(data_.address + layout.before);
     constants.feedback =
-        feedback_size_ > 0 && !plan.clusters.on ? address_words(feedback_.address) : gpu::uvec2(0U);
+        feedback_size_[slot_] > 0 && !plan.clusters.on ? address_words(feedback_.address) : gpu::uvec2(0U);
 }
 
 void GridFrame::fill(const GridPlan& plan) {
@@ -260,10 +260,10 @@ void GridFrame::fill(const GridPlan& plan) {
     size_ = layout.size;
     const auto copy = [&](VkDeviceSize at, const auto& values) {
         if (!values.empty())
-            std::memcpy(staging_.mapped + at, values.data(), values.size() * sizeof(values[0]));
+            std::memcpy(staging_[slot_].mapped + at, values.data(), values.size() * sizeof(values[0]));
     };
     clears_seen_ = plan.constants.occlusion != 0 && !plan.clusters.on;
-    std::memcpy(staging_.mapped, &plan.constants, sizeof(plan.constants));
+    std::memcpy(staging_[slot_].mapped, &plan.constants, sizeof(plan.constants));
     copy(pages_offset, plan.pages);
     copy(layout.rows, plan.row_terms);
     copy(layout.columns, plan.column_terms);
@@ -271,7 +271,7 @@ void GridFrame::fill(const GridPlan& plan) {
     cluster_groups_ = plan.clusters.on ? layout.clusters : 0;
     if (!plan.clusters.on) return;
     constexpr std::array<std::uint32_t, 3> groups{0, 0, 1};  // until the cut is made
-    std::memcpy(staging_.mapped + layout.clusters, groups.data(), sizeof(groups));
+    std::memcpy(staging_[slot_].mapped + layout.clusters, groups.data(), sizeof(groups));
     copy(layout.clusters + cluster_groups_bytes, plan.clusters.drawn);
     copy(layout.asked, plan.clusters.asked);
     if (plan.constants.occlusion != 0) copy(layout.boxes, plan.clusters.boxes);
@@ -279,9 +279,10 @@ void GridFrame::fill(const GridPlan& plan) {
 
 void GridFrame::record_upload(VkCommandBuffer commands) const {
     const VkBufferCopy copy{0, 0, size_};
-    vkCmdCopyBuffer(commands, staging_.handle.get(), data_.handle.get(), 1, &copy);
+    vkCmdCopyBuffer(commands, staging_[slot_].handle.get(), data_.handle.get(), 1, &copy);
     if (clears_seen_) vkCmdFillBuffer(commands, seen_[turn_].handle.get(), 0, VK_WHOLE_SIZE, 0);
-    if (feedback_size_ > 0) vkCmdFillBuffer(commands, feedback_.handle.get(), 0, feedback_size_, 0);
+    const VkDeviceSize feedback_size = feedback_size_[slot_];
+    if (feedback_size > 0) vkCmdFillBuffer(commands, feedback_.handle.get(), 0, feedback_size, 0);
 }
 
 void GridFrame::bind(VkCommandBuffer commands, const Pipelines& pipelines, VkPipelineBindPoint point) const {

@@ -20,8 +20,9 @@ class GridFrame {
     // A set for the frame's images (ids, sum, picture; depth) and the grid's constants.
     Result<void> create_set(const Gpu& gpu, const Pipelines& pipelines,
                             const std::array<VkImageView, 4>& images);
-    // Room for the pages of a plan, on both sides, and for what is chosen of them.
-    Result<void> reserve(const Gpu& gpu, const GridPlan& plan);
+    // Room for the pages of a plan, on both sides, and for what is chosen of them. slot: of frames_in_flight;
+    // the frame that had it before is done. All that follows is of this frame.
+    Result<void> reserve(const Gpu& gpu, const GridPlan& plan, std::size_t slot);
     // Where all that lies, into the plan's constants.
     void address(GridPlan& plan) const;
     // Puts a plan, whose constants are whole, where record_upload() sends it from.
@@ -30,8 +31,9 @@ class GridFrame {
     // What the frame's nodes or clusters have shown goes to where feedback_of() reads it, once the frame is
     // done.
     void record_feedback(VkCommandBuffer commands) const;
-    // Nothing of a frame that was drawn at once.
-    [[nodiscard]] FrameFeedback feedback_of(const GridPlan& plan) const;
+    // What the frame of a slot, which is done, has shown, of its plan. Nothing of a frame that was drawn at
+    // once.
+    [[nodiscard]] FrameFeedback feedback_of(const GridPlan& plan, std::size_t slot) const;
     void bind(VkCommandBuffer commands, const Pipelines& pipelines, VkPipelineBindPoint point) const;
 
     // The frame was drawn in rounds: the next such one knows which of its nodes or clusters were seen. Or
@@ -65,9 +67,10 @@ class GridFrame {
 
     OwnedDescriptorPool pool_;
     VkDescriptorSet set_{VK_NULL_HANDLE};
+    std::size_t slot_{};  // of the frame that is being recorded
     // Constants, then pages, then rows and columns, then FrameConstants::page_before, then clusters and their
     // boxes.
-    Buffer staging_;
+    std::array<Buffer, frames_in_flight> staging_;
     Buffer data_;  // the same on the device
     Buffer choice_;
     std::array<Buffer, 2> seen_;  // of this frame in rounds and of the last such one, by turns
@@ -76,8 +79,11 @@ class GridFrame {
     std::uint32_t clusters_turn_{};    // frames of clusters in rounds so far
     std::uint32_t clusters_before_{};  // the last frame's number among them; 0: nothing is known of it
     Buffer cluster_states_;            // FrameConstants::cluster_states
-    Buffer feedback_, feedback_read_;  // FrameConstants::feedback, on the device and for the host
-    VkDeviceSize feedback_size_{};     // of the frame's; 0: nobody wants to know
+    // FrameConstants::feedback, on the device and for the host, and of how many bytes the frame's is; 0:
+    // nobody wants to know.
+    Buffer feedback_;
+    std::array<Buffer, frames_in_flight> feedback_read_;
+    std::array<VkDeviceSize, frames_in_flight> feedback_size_{};
     std::size_t page_capacity_{};
     bool clears_seen_{};
     VkDeviceSize size_{};  // that a frame sends

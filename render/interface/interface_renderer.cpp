@@ -184,6 +184,7 @@ Result<void> InterfaceRenderer::take_fonts(const Gpu& gpu, ImFontAtlas& fonts) {
     ORO_TRY(const Buffer staging, create_buffer(gpu, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                                 MemoryKind::upload, "letters on their way"));
     std::memcpy(staging.mapped, pixels, bytes);
+    gpu.wait_idle();
     ORO_CHECK(commands_.run(gpu, [&](VkCommandBuffer commands) {
         const ImageUse fresh{VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_COPY_BIT, 0};
         const ImageUse target{VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
@@ -210,15 +211,16 @@ Result<void> InterfaceRenderer::take_fonts(const Gpu& gpu, ImFontAtlas& fonts) {
     return {};
 }
 
-Result<void> InterfaceRenderer::prepare(const Gpu& gpu, const ImDrawData& lists) {
+Result<void> InterfaceRenderer::prepare(const Gpu& gpu, const ImDrawData& lists, std::size_t slot) {
+    slot_ = slot;
     const auto corners = static_cast<std::size_t>(lists.TotalVtxCount);
     const auto numbers = static_cast<std::size_t>(lists.TotalIdxCount);
     if (corners == 0 || numbers == 0) return {};
     ORO_CHECK(grow(gpu, corners * sizeof(ImDrawVert), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, "interface corners",
-                   corners_));
+                   lists_[slot].corners));
     ORO_CHECK(grow(gpu, numbers * sizeof(ImDrawIdx), VK_BUFFER_USAGE_INDEX_BUFFER_BIT, "interface numbers",
-                   numbers_));
-    std::byte *corner = corners_.mapped, *number = numbers_.mapped;
+                   lists_[slot].numbers));
+    std::byte *corner = lists_[slot].corners.mapped, *number = lists_[slot].numbers.mapped;
     for (int i = 0; i < lists.CmdListsCount; ++i) {
         const ImDrawList& list = *lists.CmdLists[i];
         const std::size_t corner_bytes = static_cast<std::size_t>(list.VtxBuffer.Size) * sizeof(ImDrawVert);
@@ -252,10 +254,10 @@ void InterfaceRenderer::record(VkCommandBuffer commands, const ImDrawData& lists
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
     vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), 0, 1, &set_, 0,
                             nullptr);
-    const VkBuffer corners = corners_.handle.get();
+    const VkBuffer corners = lists_[slot_].corners.handle.get();
     constexpr VkDeviceSize from_begin = 0;
     vkCmdBindVertexBuffers(commands, 0, 1, &corners, &from_begin);
-    vkCmdBindIndexBuffer(commands, numbers_.handle.get(), 0,
+    vkCmdBindIndexBuffer(commands, lists_[slot_].numbers.handle.get(), 0,
                          sizeof(ImDrawIdx) == 2 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32);
     const Push push{{2.0F / viewport.width, 2.0F / viewport.height}, {-1.0F, -1.0F}};
     vkCmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(push), &push);

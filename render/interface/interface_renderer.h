@@ -3,6 +3,9 @@
 
 #include <imgui.h>
 
+#include <array>
+#include <cstddef>
+
 #include "render/device/resources.h"
 
 namespace oro {
@@ -17,11 +20,11 @@ class InterfaceRenderer {
     // Takes the letters of an atlas, which are built here where they are not; from then on lists are drawn
     // with them. Waits for the device. Errors: the device.
     Result<void> take_fonts(const Gpu& gpu, ImFontAtlas& fonts);
-    // Copies corners to where the device reads them: what was drawn before is over. Errors: the device has no
-    // memory for them.
-    Result<void> prepare(const Gpu& gpu, const ImDrawData& lists);
-    // Draws the lists that were prepared over an image, which is in COLOR_ATTACHMENT_OPTIMAL and as large as
-    // the lists' display.
+    // Copies corners to where the device reads them. slot: the frame's, of frames_in_flight; the one that had
+    // it before is done. Errors: the device has no memory for them.
+    Result<void> prepare(const Gpu& gpu, const ImDrawData& lists, std::size_t slot);
+    // Draws the lists that were prepared last over an image, which is in COLOR_ATTACHMENT_OPTIMAL and as
+    // large as the lists' display.
     void record(VkCommandBuffer commands, const ImDrawData& lists, VkImageView target,
                 VkExtent2D extent) const;
 
@@ -37,7 +40,11 @@ class InterfaceRenderer {
     OwnedPipeline pipeline_;
     Image atlas_;
     Commands commands_;
-    Buffer corners_, numbers_;  // grown as lists need it
+    struct Lists {
+        Buffer corners, numbers;  // grown as they need it
+    };
+    std::array<Lists, frames_in_flight> lists_;
+    std::size_t slot_{};  // that was prepared last
 };
 
 }  // namespace oro

@@ -40,16 +40,15 @@ Result<void> ComputeRaster::resize(VkExtent2D extent) {
 
 Result<void> ComputeRaster::reserve(std::size_t count, std::size_t lists) {
     static_assert(sizeof(gpu::RasterLists) <= gpu::raster_lists_bytes && gpu::raster_lists_bytes % 16 == 0);
-    if (lists_.size < lists * gpu::raster_lists_bytes) {
-        ORO_TRY(lists_,
-                create_buffer(*gpu_, lists * gpu::raster_lists_bytes,
-                              listed | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
-                              MemoryKind::device, "raster lists"));
-    }
+    if (lists_.size < lists * gpu::raster_lists_bytes)
+        ORO_CHECK(
+            replace_buffer(*gpu_, lists_, lists * gpu::raster_lists_bytes,
+                           listed | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
+                           MemoryKind::device, "raster lists"));
     if (count <= page_capacity_) return {};
     const std::size_t capacity = std::max(count, 2 * page_capacity_);
-    ORO_TRY(meshlets_, create_buffer(*gpu_, capacity * gpu::meshlets_per_page * sizeof(std::uint32_t), listed,
-                                     MemoryKind::device, "meshlet list"));
+    ORO_CHECK(replace_buffer(*gpu_, meshlets_, capacity * gpu::meshlets_per_page * sizeof(std::uint32_t),
+                             listed, MemoryKind::device, "meshlet list"));
     page_capacity_ = capacity;
     return {};
 }

@@ -78,7 +78,10 @@ void Occlusion::begin(const FramePlan& plan, bool remembers) {
     if (last_.page_count == 0) return;  // nothing hides anything
     // Other views begin with occlusion: where a view is seen once, that is what it costs least with by the
     // mesh path.
-    if (!much) toggle_.forget();
+    if (!much) {
+        toggle_.forget();
+        ++views_;
+    }
     // While pages are missing, what is seen decides which come first.
     if (use_ == OcclusionUse::if_it_pays && much && plan.is_settled() && toggle_.disable_next()) return;
     uses_last_frame_ = much && remembers;
@@ -110,10 +113,15 @@ void Occlusion::record_pyramid(VkCommandBuffer commands, const Pipelines& pipeli
                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
 }
 
-void Occlusion::end(double raster_s) {
+Occlusion::Trial Occlusion::trial() {
     // What the first frame in rounds after one without knows of what is seen may be old: it is not counted.
-    if (!is_on() || was_on_) toggle_.report_time(is_on(), raster_s);
+    const Trial trial{is_on(), !is_on() || was_on_, views_};
     was_on_ = is_on();
+    return trial;
+}
+
+void Occlusion::end(const Trial& trial, double raster_s) {
+    if (trial.counts && trial.view == views_) toggle_.report_time(trial.is_on, raster_s);
 }
 
 }  // namespace oro

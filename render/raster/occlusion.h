@@ -39,8 +39,16 @@ class Occlusion {
     // From what the rounds so far have drawn; the frame's first set is bound, and its depths are there to be
     // read. Leaves the pyramid ready for compute reads.
     void record_pyramid(VkCommandBuffer commands, const Pipelines& pipelines, const FramePlan& plan) const;
-    // How long the frame's rounds took.
-    void end(double raster_s);
+    // What end() is to be told of the frame that begin() was called for last: once for each frame that is
+    // drawn.
+    struct Trial {
+        bool is_on{};
+        bool counts{};
+        std::uint64_t view{};  // of the toggle
+    };
+    Trial trial();
+    // How long the rounds of a frame took. Others may have begun meanwhile.
+    void end(const Trial& trial, double raster_s);
     static constexpr std::size_t most_rounds = 3;
 
   private:
@@ -52,8 +60,9 @@ class Occlusion {
     bool was_of_clusters_{};  // the last frame was
     std::vector<gpu::FrameRound> rounds_;
     gpu::FrameConstants
-        last_{};        // of the last frame that was drawn in rounds; its page_count 0: there is none
+        last_{};             // of the last frame that was drawn in rounds; its page_count 0: there is none
     AdaptiveToggle toggle_;  // of if_it_pays
+    std::uint64_t views_{};  // that it has forgotten
     bool was_on_{};
     Buffer pyramid_, ids_before_;
 };

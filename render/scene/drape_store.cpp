@@ -165,8 +165,10 @@ Result<void> DrapeStore::send_table() {
     };
     for (const auto& [tile, used] : empty_) enter(tile, 0);
     cache_.items().for_each([&](const auto& slot) { enter(slot.key, cache_.address(slot)); });
+    ORO_CHECK(commands_.wait());
     std::memcpy(table_staging_.mapped, places.data(), table_staging_.size);
-    return commands_.run(*gpu_, [&](VkCommandBuffer commands) {
+    return commands_.submit(*gpu_, [&](VkCommandBuffer commands) {
+        wait_for_earlier(commands);
         const VkBufferCopy copy{0, 0, table_.size};
         vkCmdCopyBuffer(commands, table_staging_.handle.get(), table_.handle.get(), 1, &copy);
         memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,

@@ -32,12 +32,12 @@ class DrapeStore {
 
     // Where shaders find the tiles; `requests` and the seed are left as they are.
     void describe(gpu::DrapeTable& table) const;
-    // From here on tiles are used by the next frame. All frames before are completed on the GPU.
+    // From here on tiles are used by the next frame. What is sent lands after all frames before.
     void begin_frame() { cache_.items().begin_frame(); }
 
     // Reads the tiles that are not here and uploads them; `all`: every one, else as many as can be read at a
-    // time. False where some find no capacity. Waits for the GPU. Errors: a file that cannot be read, the
-    // device.
+    // time. False where some find no capacity. They are there for all that is submitted afterwards; frames
+    // submitted before see the tiles that were there. Errors: a file that cannot be read, the device.
     Result<bool> serve(std::span<const ImageTile> wanted, bool all);
 
     // Number of tiles that are here.
@@ -62,8 +62,8 @@ class DrapeStore {
     const Gpu* gpu_;
     std::unique_ptr<const GroundImage> image_;
     DrapeLook look_;
-    Commands commands_;  // of the table
     Buffer table_staging_, table_;
+    Commands commands_;  // of the table
     Cache cache_;
     std::map<ImageTile, std::uint64_t> empty_;  // tiles without an image: the last frame that used each
     std::unique_ptr<Loader<ImageTile, Loaded>> loader_;  // last: it ends before the image

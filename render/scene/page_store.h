@@ -55,12 +55,12 @@ class PageStore {
     [[nodiscard]] std::uint64_t means_offset() const { return parts_.means ? block_offset_ : 0; }
     // How far before a page's block its places lie, bytes; 0 where none are kept.
     [[nodiscard]] std::uint64_t places_before() const { return places_before_; }
-    // From here on pages are used by the next frame. All frames before are completed on the GPU.
+    // From here on pages are used by the next frame. What is sent lands after all frames before.
     void begin_frame() { cache_.items().begin_frame(); }
 
     // Uploads pages, in their order, until one finds no capacity that the current frame does not use; number
-    // of those uploaded. A hidden one evicts no page that was shown in the last `shown_lately` frames. Waits
-    // for the GPU. Errors: the device; it has no memory for any page at all.
+    // of those uploaded. A hidden one evicts no page that was shown in the last `shown_lately` frames.
+    // Errors: the device; it has no memory for any page at all.
     Result<std::size_t> send(std::span<const LoadedPage> pages);
     static constexpr std::uint64_t shown_lately = 64;
     // Whether some more find capacity without an eviction;

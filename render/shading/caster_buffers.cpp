@@ -106,13 +106,12 @@ Result<void> SharedShares::reserve(const Gpu& gpu, const FramePlan& plan, const 
     const VkExtent2D extent{plan.view.width_px(), plan.view.height_px()};
     const VkDeviceSize pixels = VkDeviceSize{extent.width} * extent.height;
     if (shares_.size >= pixels * sizeof(float)) return {};
-    ORO_TRY(places_, create_buffer(gpu, pixels * sizeof(gpu::CastPlace), on_device, MemoryKind::device,
-                                   "places in shadow"));
-    ORO_TRY(of_one_grid_, create_buffer(gpu, bytes_of_shares(extent), on_device, MemoryKind::device,
-                                        "sun shares of one grid"));
-    ORO_TRY(shares_, create_buffer(gpu, pixels * sizeof(float), on_device, MemoryKind::device,
-                                   "sun shares of all grids"));
-    return {};
+    ORO_CHECK(replace_buffer(gpu, places_, pixels * sizeof(gpu::CastPlace), on_device, MemoryKind::device,
+                             "places in shadow"));
+    ORO_CHECK(replace_buffer(gpu, of_one_grid_, bytes_of_shares(extent), on_device, MemoryKind::device,
+                             "sun shares of one grid"));
+    return replace_buffer(gpu, shares_, pixels * sizeof(float), on_device, MemoryKind::device,
+                          "sun shares of all grids");
 }
 
 void SharedShares::record_clear(VkCommandBuffer commands) const {
@@ -127,17 +126,14 @@ Result<void> CasterBuffers::reserve(const Gpu& gpu, const GridPlan& frame,
     const auto grow = [&](Buffer& buffer, VkDeviceSize bytes, const char* name) -> Result<void> {
         if (buffer.size >= bytes) return {};
         made_.clear();
-        ORO_TRY(buffer,
-                create_buffer(gpu, std::max(bytes, 2 * buffer.size), on_device, MemoryKind::device, name));
-        return {};
+        return replace_buffer(gpu, buffer, std::max(bytes, 2 * buffer.size), on_device, MemoryKind::device,
+                              name);
     };
     const VkDeviceSize bytes = layout_of(plan).size;
-    if (staging_.size < bytes) {
-        const VkDeviceSize size = std::max(bytes, 2 * staging_.size);
-        ORO_TRY(Buffer staging, create_buffer(gpu, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::upload,
-                                              "casters staging"));
-        ORO_CHECK(grow(data_, size, "casters"));
-        staging_ = std::move(staging);
+    ORO_CHECK(grow(data_, bytes, "casters"));
+    if (staging_[slot_].size < bytes) {
+        ORO_TRY(staging_[slot_], create_buffer(gpu, data_.size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                               MemoryKind::upload, "casters staging"));
     }
     ORO_CHECK(
         grow(nodes_, plan.pages.size() * gpu::meshlets_per_page * sizeof(gpu::CasterNode), "casters' nodes"));
@@ -184,8 +180,9 @@ void CasterBuffers::describe(const GridPlan& frame, const gpu::FrameCasters& cas
 }
 
 Result<void> CasterBuffers::prepare(const Gpu& gpu, const ShareOptions& how, Pipelines& pipelines,
-                                    const GridPlan& frame, const SharedShares& shared,
+                                    const GridPlan& frame, const SharedShares& shared, std::size_t slot,
                                     gpu::FrameConstants& constants) {
+    slot_ = slot;
     const CasterPlan& plan = frame.casters;
     const gpu::FrameStyle& style = constants.style;
     const bool there = !plan.pages.empty();
@@ -214,7 +211,7 @@ Result<void> CasterBuffers::prepare(const Gpu& gpu, const ShareOptions& how, Pip
     casters.shown_shares = is_joined_ ? address_words(shared.shares()) : casters.own.sun_shares;
     casters.places = address_words(shared.places());
     describe(frame, casters, constants);
-    if (is_new_) std::memcpy(staging_.mapped, wanted_.data(), size_);
+    if (is_new_) std::memcpy(staging_[slot_].mapped, wanted_.data(), size_);
     constants.casters = address_words(data_.address);
     pages_ = static_cast<std::uint32_t>(plan.pages.size());
     frame_pages_ = static_cast<std::uint32_t>(frame.pages.size());
@@ -229,7 +226,7 @@ void CasterBuffers::record_casters(VkCommandBuffer commands, const Pipelines& pi
                       (groups + gpu::groups_per_row - 1) / gpu::groups_per_row, 1);
     };
     const VkBufferCopy copy{0, 0, size_};
-    vkCmdCopyBuffer(commands, staging_.handle.get(), data_.handle.get(), 1, &copy);
+    vkCmdCopyBuffer(commands, staging_[slot_].handle.get(), data_.handle.get(), 1, &copy);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
     if (casts_) dispatch(pipelines.caster_heights, groups_a_page * pages_);

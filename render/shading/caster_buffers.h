@@ -2,6 +2,7 @@
 // reach.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -37,9 +38,9 @@ class CasterBuffers {
   public:
     // Room for a plan's casters, and their place into the frame's constants; the pipelines on first use.
     // Nothing happens for a style without shadows and openness, and for a plan without casters unless others
-    // of the frame may take the sun from its ground.
+    // of the frame may take the sun from its ground. slot: the frame's, of frames_in_flight.
     Result<void> prepare(const Gpu& gpu, const ShareOptions& how, Pipelines& pipelines, const GridPlan& plan,
-                         const SharedShares& shared, gpu::FrameConstants& constants);
+                         const SharedShares& shared, std::size_t slot, gpu::FrameConstants& constants);
     // Sends them, and finds out how high they reach and how much of the sky they leave, unless all that is as
     // it was in the frame before. The frame's set is bound for all that is recorded, its ids can be read.
     void record_casters(VkCommandBuffer commands, const Pipelines& pipelines);
@@ -59,8 +60,9 @@ class CasterBuffers {
     void describe(const GridPlan& plan, const gpu::FrameCasters& casters,
                   const gpu::FrameConstants& constants);
 
-    Buffer staging_;  // gpu::FrameCasters, then pages, then the table
-    Buffer data_;     // the same on the device
+    std::array<Buffer, frames_in_flight> staging_;  // gpu::FrameCasters, then pages, then the table
+    std::size_t slot_{};                            // of the frame that is being recorded
+    Buffer data_;                                   // the same on the device
     Buffer nodes_;
     Buffer openness_;
     Buffer sun_shares_;

@@ -13,8 +13,10 @@ constexpr VkDeviceSize requests_bytes = (VkDeviceSize{gpu::texture_tile_requests
 }  // namespace
 
 Result<void> TextureTileFeedback::prepare(const Gpu& gpu, RasterPath path, Pipelines& pipelines,
-                                          DrapeStore* store, gpu::FrameConstants& constants) {
+                                          DrapeStore* store, std::size_t slot,
+                                          gpu::FrameConstants& constants) {
     store_ = store;
+    slot_ = slot;
     constants.drape = {};
     if (!store) return {};
     if (!requests_.handle) {
@@ -24,8 +26,10 @@ Result<void> TextureTileFeedback::prepare(const Gpu& gpu, RasterPath path, Pipel
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                               VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
                           MemoryKind::device, "wanted image tiles"));
-        ORO_TRY(read_back_, create_buffer(gpu, requests_bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                          MemoryKind::readback, "wanted image tiles read back"));
+    }
+    if (!read_back_[slot].handle) {
+        ORO_TRY(read_back_[slot], create_buffer(gpu, requests_bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                                MemoryKind::readback, "wanted image tiles read back"));
     }
     ORO_CHECK(add_drape_pipelines(gpu, path, constants.clusters.on != 0, pipelines));
     store->describe(constants.drape);
@@ -48,20 +52,20 @@ void TextureTileFeedback::record(VkCommandBuffer commands, const Pipelines& pipe
         VK_ACCESS_2_TRANSFER_WRITE_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_COPY_BIT,
         VK_ACCESS_2_TRANSFER_READ_BIT);
     const VkBufferCopy copy{0, 0, requests_bytes};
-    vkCmdCopyBuffer(commands, requests_.handle.get(), read_back_.handle.get(), 1, &copy);
+    vkCmdCopyBuffer(commands, requests_.handle.get(), read_back_[slot_].handle.get(), 1, &copy);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                    VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
 }
 
-bool TextureTileFeedback::is_missing_any() const {
+bool TextureTileFeedback::is_missing_any(std::size_t slot) const {
     gpu::TextureTileRequest last{};
-    std::memcpy(&last, read_back_.mapped + gpu::texture_tile_requests_max * sizeof(last), sizeof(last));
+    std::memcpy(&last, read_back_[slot].mapped + gpu::texture_tile_requests_max * sizeof(last), sizeof(last));
     return last.name != 0;
 }
 
-std::vector<ImageTile> TextureTileFeedback::wanted() const {
+std::vector<ImageTile> TextureTileFeedback::wanted(std::size_t slot) const {
     std::vector<gpu::TextureTileRequest> places(gpu::texture_tile_requests_max);
-    std::memcpy(places.data(), read_back_.mapped, places.size() * sizeof(places[0]));
+    std::memcpy(places.data(), read_back_[slot].mapped, places.size() * sizeof(places[0]));
     std::vector<ImageTile> tiles;
     for (const gpu::TextureTileRequest& place : places) {
         if (place.hash != 0)

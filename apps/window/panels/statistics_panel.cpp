@@ -28,7 +28,8 @@ void build_statistics_panel(Viewer& viewer) {
     if (begin_panel("Statistics", is_open, PanelCorner::upper_right, 300.0F)) {
         const FrameReport& report = viewer.report;
         const gpu::FrameCounts& counts = report.counts;
-        value_line("Frame", milliseconds(viewer.frame_s), "From the choice of what is drawn to the picture");
+        value_line("Frame", milliseconds(viewer.frame_s),
+                   "From the choice of what is drawn, or from the picture before, to the picture");
         value_line("GPU", milliseconds(report.gpu_s()), "What of that the GPU drew");
         value_line("  choosing", milliseconds(report.choose_s), "Levels of the ground, as fine as tau asks");
         value_line("  triangles", milliseconds(report.raster_s),

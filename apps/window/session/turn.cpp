@@ -195,12 +195,25 @@ Result<void> show(Session& session, bool is_new) {
     ORO_CHECK(session.interface.follow_scale());
     const ImDrawData* const over = session.interface.lists([&] { build_panels(viewer); });
     const WindowPicture whole{picture->picture, picture->part, over};
-    ORO_TRY(const bool shown, viewer.window.show(whole));
+    ORO_TRY(bool shown, viewer.window.show(whole));
+    // One that is still being drawn is presented when the next one is begun.
+    if (shown && viewer.under_way.empty()) {
+        ORO_TRY(shown, viewer.window.present());
+    }
     viewer.is_exposed = !shown;
     if (!shown) return {};
     --session.frames_due;
     say_what_is_shown(viewer);
     return {};
+}
+
+// Where another frame may follow at once, the last one is drawn beside it. Else nothing is left under way.
+Result<void> finish_turn(const Session& session) {
+    Viewer& viewer = session.viewer;
+    if (wait_s(session) == 0.0) return take_reports(viewer, frames_in_flight - 1);
+    ORO_TRY(const bool shown, viewer.window.present());
+    viewer.is_exposed = viewer.is_exposed || !shown;
+    return take_reports(viewer, 0);
 }
 
 }  // namespace
@@ -214,7 +227,9 @@ Result<bool> turn(Session& session) {
     ORO_TRY(const bool is_new, draw_frame(viewer, session.changed));
     if (is_new) session.looks_under_pointer = true;
     ORO_CHECK(show(session, is_new));
+    ORO_CHECK(finish_turn(session));
     const WindowInput input = viewer.window.poll(wait_s(session));
+    viewer.polled = Clock::now();
     if (input.closed) return false;
     viewer.is_exposed = viewer.is_exposed || input.exposed;
     if (!input.events.empty()) session.frames_due = 4;
@@ -227,8 +242,7 @@ Result<bool> turn(Session& session) {
     ORO_CHECK(grant_wishes(viewer));
     if (viewer.leaves) return false;
     advance_eye(viewer);
-    const bool moves = viewer.follows_eye && seconds_since(viewer.moved) < 0.15;
-    if (!moves && (session.looks_under_pointer || !input.events.empty())) {
+    if (!is_moving(viewer) && (session.looks_under_pointer || !input.events.empty())) {
         ORO_CHECK(look_around(session, input, std::exchange(session.looks_under_pointer, false)));
         session.frames_due = std::max(session.frames_due, 1);
     }

@@ -1,7 +1,12 @@
 // orograph view: a window to fly over a region.
 #include <algorithm>
+#include <deque>
 #include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "apps/command_line/refusals.h"
 #include "apps/eye/asked_summit.h"
@@ -25,7 +30,14 @@
 namespace oro {
 namespace {
 
+// Nothing that frames use goes before they end.
+struct FramesEnd {
+    const Gpu& gpu;
+    ~FramesEnd() { gpu.wait_idle(); }
+};
+
 Result<void> run_loop(Viewer& viewer, Interface& interface) {
+    const FramesEnd end{viewer.gpu};
     Session session{viewer, interface};
     for (;;) {
         if (!viewer.gpu.validation_messages().empty())
@@ -34,6 +46,33 @@ Result<void> run_loop(Viewer& viewer, Interface& interface) {
         if (!stays) return {};
     }
 }
+
+// What a window shows and what its user has done there: it outlives a device.
+struct ViewerState {
+    WindowOptions options;
+    View view{};
+    Region region{};
+    RegionCuts cuts{};
+    Style style{};
+    std::string name{};  // of what is shown, in a word
+    Clock::time_point started{};
+    bool keeps_means{};
+    bool is_lost{false};               // the device is: the window goes on with another
+    bool is_first{true};               // no device was lost yet
+    std::optional<Project> project{};  // that was asked for, until it is shown
+    std::vector<std::string> notes_of_settings{};
+    // Of the viewer.
+    WindowSettings settings{};
+    bool keeps_size{};
+    std::unique_ptr<RegionOpening> opening{};
+    Film film{};
+    std::string project_file{}, own_project{};
+    Panels panels{};
+    std::deque<Message> log{};
+    std::vector<std::vector<std::string>> recent{};
+    std::optional<VectorChoices> vectors_known{};
+    std::vector<std::string> images_known{};
+};
 
 Result<void> say_notes_of(const WindowOptions& options, const View& view, const Region& region,
                           const std::string& note_of_style) {
@@ -70,8 +109,111 @@ Result<std::unique_ptr<Window>> open_window(const Gpu& gpu, const Camera& camera
     ORO_TRY(const std::vector<std::uint8_t> pixels,
             loading_picture(static_cast<int>(extent.width), static_cast<int>(extent.height)));
     ORO_TRY(const Image* const sheet, window->picture_of(pixels, extent));
-    if (const auto shown = window->show({*sheet, extent}); !shown.ok()) return shown.error();
+    ORO_CHECK(window->show({*sheet, extent}));
+    ORO_CHECK(window->present());
     return window;
+}
+
+// What is known without a device, for another one.
+void keep(Viewer& viewer, ViewerState& state) {
+    // What refers to the region goes first.
+    viewer.looking = {};
+    viewer.panorama = {};
+    viewer.coming.reset();
+    viewer.finer.reset();
+    viewer.scene.reset();
+    viewer.ground.reset();
+    state.options = viewer.options;
+    state.view = std::move(viewer.view);
+    state.region = std::move(viewer.region);
+    state.cuts = std::move(viewer.cuts);
+    state.style = std::move(viewer.style);
+    state.name = viewer.name;
+    state.keeps_means = viewer.keeps_means;
+    state.settings = viewer.settings;
+    state.keeps_size = viewer.keeps_size;
+    state.opening = std::move(viewer.opening);
+    state.film = std::move(viewer.film);
+    state.project_file = viewer.project_file;
+    state.own_project = viewer.own_project;
+    state.panels = viewer.panels;
+    state.log = std::move(viewer.log);
+    state.recent = std::move(viewer.recent);
+    state.vectors_known = std::move(viewer.vectors_known);
+    state.images_known = std::move(viewer.images_known);
+    state.is_lost = true;
+    state.is_first = false;
+}
+
+// What a viewer begins with, or goes on with.
+Result<void> set_out(Viewer& viewer, ViewerState& state) {
+    viewer.started = state.started;
+    viewer.settings = state.settings;
+    viewer.keeps_size = state.keeps_size;
+    viewer.keeps_means = state.keeps_means;
+    viewer.name = state.name;
+    viewer.panels = state.panels;
+    viewer.log = std::move(state.log);
+    viewer.recent = std::move(state.recent);
+    viewer.vectors_known = std::move(state.vectors_known);
+    viewer.images_known = std::move(state.images_known);
+    viewer.gestures.emplace(navigation_of(viewer));
+    viewer.jumps = Jumps(users_roll_deg(viewer.view.camera, viewer.options.view.roll_deg));
+    fill_search(viewer);
+    if (!state.is_first) {
+        tell(viewer, "the GPU was lost: this is another start of it");
+        say(viewer.options.quiet, "note: " + viewer.message);
+        viewer.opening = std::move(state.opening);
+        viewer.film = std::move(state.film);
+        viewer.project_file = state.project_file;
+        viewer.own_project = state.own_project;
+        return {};
+    }
+    note_in_log(viewer);
+    for (const std::string& note : state.notes_of_settings) tell(viewer, note);
+    if (!viewer.options.region.paths.empty()) remember_opened(viewer, viewer.options.region.paths);
+    if (!state.project) return {};
+    remember_opened(viewer, {viewer.options.view_file});
+    return take_project(viewer, *state.project, viewer.options.view_file);
+}
+
+// As long as the user stays, or the device lasts.
+Result<void> fly(ViewerState& state, ProgressBar& bar) {
+    state.is_lost = false;
+    const WindowOptions& options = state.options;
+    GpuOptions gpu_options = gpu_options_from_environment();
+    ORO_TRY(gpu_options.instance_extensions, Window::required_extensions());
+    gpu_options.presents = true;
+    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options));
+    ORO_CHECK(check_window_size(state.view.camera, gpu->report()));
+    const bool quiet = options.quiet || !state.is_first;
+    ORO_TRY(OpenedScene opened,
+            open_scene(*gpu, state.region, state.cuts, state.view, {options.memory, quiet, state.keeps_means},
+                       [&](double share) { bar.show(share, "measuring levels"); }));
+    bar.clear();
+    if (state.is_first)
+        ORO_CHECK(say_notes_of(options, state.view, state.region,
+                               note_of_missing_footprints(state.style.frame, opened.scene.pages())));
+    ORO_TRY(const std::unique_ptr<Window> window, open_window(*gpu, state.view.camera, state.name));
+    ORO_TRY(const std::unique_ptr<Interface> interface, Interface::create(*window));
+    ORO_TRY(const RasterPath path, choose_path(state.view.pipeline, *gpu));
+    ORO_TRY(FrameRenderer renderer, renderer_for(*gpu, state.view, state.style, path, window->extent()));
+    Viewer viewer{options,
+                  std::move(state.view),
+                  std::move(state.region),
+                  std::move(state.cuts),
+                  std::move(state.style),
+                  *gpu,
+                  nullptr,
+                  *window,
+                  renderer,
+                  path};
+    take_scene(viewer, std::move(opened));
+    ORO_CHECK(set_out(viewer, state));
+    Result<void> ended = run_loop(viewer, *interface);
+    if (ended.ok()) keep_settings(viewer);
+    if (!ended.ok() && window->has_lost_device()) keep(viewer, state);
+    return ended;
 }
 
 }  // namespace
@@ -79,58 +221,31 @@ Result<std::unique_ptr<Window>> open_window(const Gpu& gpu, const Camera& camera
 Result<void> run_view(const WindowOptions& asked) {
     if (asked.view.tolerance)
         return refused("--tolerance", "", "is for single pictures: give --accuracy or --tau to a window");
-    const Clock::time_point started = Clock::now();
-    std::vector<std::string> notes_of_settings;
-    const WindowSettings settings = settings_of_user(notes_of_settings);
-    WindowOptions options = with_kept_size(asked, settings);
-    ORO_TRY(const std::vector<const char*> extensions, Window::required_extensions());
-    ORO_TRY(const std::optional<Project> project, project_named_by(options));
+    ViewerState state{asked};
+    state.started = Clock::now();
+    state.settings = settings_of_user(state.notes_of_settings);
+    state.keeps_size = !asked.view.size && asked.view_file.empty();
+    state.panels = panels_of_names(state.settings.panels);
+    state.options = with_kept_size(asked, state.settings);
+    const WindowOptions& options = state.options;
+    // Said before anything is read.
+    ORO_CHECK(Window::required_extensions());
+    ORO_TRY(state.project, project_named_by(state.options));
+    if (state.project) state.view = state.project->view;
     ProgressBar bar(options.quiet);
-    View view = project ? project->view : View();
-    Region region;
     ORO_CHECK(open_flight(
-        options, [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view,
-        region));
-    ORO_TRY(RegionCuts cuts, cut_regions(region));
-    ORO_TRY(const Style style, load_style(view, region.grids.front().field));
-    GpuOptions gpu_options = gpu_options_from_environment();
-    gpu_options.instance_extensions = extensions;
-    gpu_options.presents = true;
-    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options));
-    ORO_CHECK(check_window_size(view.camera, gpu->report()));
-    const bool keeps_means = asks_for_means(style.frame);
-    ORO_TRY(OpenedScene opened,
-            open_scene(*gpu, region, cuts, view, {options.memory, options.quiet, keeps_means},
-                       [&](double share) { bar.show(share, "measuring levels"); }));
-    bar.clear();
-    ORO_CHECK(
-        say_notes_of(options, view, region, note_of_missing_footprints(style.frame, opened.scene.pages())));
-    ORO_TRY(const std::unique_ptr<Window> window, open_window(*gpu, view.camera, name_of_region(options)));
-    ORO_TRY(const std::unique_ptr<Interface> interface, Interface::create(*window));
-    ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
-    ORO_TRY(FrameRenderer renderer, renderer_for(*gpu, view, style, path, window->extent()));
-    Viewer viewer{options, std::move(view), std::move(region), std::move(cuts), style,
-                  *gpu,    nullptr,         *window,           renderer,        path};
-    take_scene(viewer, std::move(opened));
-    viewer.started = started;
-    viewer.keeps_means = keeps_means;
-    viewer.name = name_of_region(options);
-    viewer.settings = settings;
-    viewer.keeps_size = !asked.view.size && asked.view_file.empty();
-    viewer.panels = panels_of_names(settings.panels);
-    note_in_log(viewer);
-    for (const std::string& note : notes_of_settings) tell(viewer, note);
-    viewer.gestures.emplace(navigation_of(viewer));
-    fill_search(viewer);
-    if (!options.region.paths.empty()) remember_opened(viewer, options.region.paths);
-    viewer.jumps = Jumps(users_roll_deg(viewer.view.camera, options.view.roll_deg));
-    if (project) {
-        remember_opened(viewer, {options.view_file});
-        ORO_CHECK(take_project(viewer, *project, options.view_file));
+        options, [&](double share, const std::string& what) { bar.show(share, "reading " + what); },
+        state.view, state.region));
+    ORO_TRY(state.cuts, cut_regions(state.region));
+    ORO_TRY(state.style, load_style(state.view, state.region.grids.front().field));
+    state.keeps_means = asks_for_means(state.style.frame);
+    state.name = name_of_region(options);
+    // A device that is lost again so soon is of no use.
+    constexpr double soon_s = 60.0;
+    for (std::optional<Clock::time_point> lost;; lost = Clock::now()) {
+        const Result<void> ended = fly(state, bar);
+        if (ended.ok() || !state.is_lost || (lost && seconds_since(*lost) < soon_s)) return ended;
     }
-    const Result<void> left = run_loop(viewer, *interface);
-    if (left.ok()) keep_settings(viewer);
-    return left;
 }
 
 }  // namespace oro

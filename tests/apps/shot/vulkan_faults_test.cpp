@@ -203,11 +203,24 @@ TEST(GpuMemory, FewerPagesAreEnoughWhereTheyAre) {
     EXPECT_GT(number, 0) << "no allocation was tried again with fewer pages";
 }
 
+// The device of a window is lost when it shows its so many-th picture. Then the window goes on with another,
+// for which orders are counted anew; that is lost, too, and the window ends.
+std::string lost_at(int picture) {
+    return "vkQueuePresentKHR " + std::to_string(picture) + " " + lost;
+}
+
+// Nothing was wrong but what was ordered, and nothing is left behind.
+void expect_ended(const FaultyRun& run, const std::string& result) {
+    expect_refusal(run.outcome, failed, {result});
+    EXPECT_EQ(run.files, Words{});
+    EXPECT_EQ(run.messages, Words{});
+}
+
 // What a window asks of Vulkan beyond a picture, and a device that is lost in its second frame.
 TEST(WindowFaults, EndItWithALine) {
-    const std::string loss = std::string("vkQueuePresentKHR 2 ") + lost;
-    const FaultyRun good = run_with_faults(window(), loss);
-    expect_reported(good, lost);
+    const FaultyRun good = run_with_faults(window(), lost_at(2));
+    EXPECT_EQ(good.faults, 2);
+    expect_ended(good, lost);
     for (const char* call :
          {"vkGetPhysicalDeviceSurfaceSupportKHR", "vkGetPhysicalDeviceSurfaceCapabilitiesKHR",
           "vkGetPhysicalDeviceSurfaceFormatsKHR", "vkCreateXcbSurfaceKHR", "vkCreateSemaphore",
@@ -225,11 +238,62 @@ TEST(WindowFaults, EndItWithALine) {
 TEST(WindowFaults, SuboptimalSwapchainsAreMadeAnew) {
     for (const char* call : {"vkAcquireNextImageKHR", "vkQueuePresentKHR"}) {
         const FaultyRun run =
-            run_with_faults(window(), std::string(call) + " 2 VK_SUBOPTIMAL_KHR;vkQueuePresentKHR 3 " + lost);
-        expect_refusal(run.outcome, failed, {lost});
-        EXPECT_EQ(run.faults, 2) << call;
-        EXPECT_EQ(run.calls.at("vkCreateSwapchainKHR"), 2) << call;
-        EXPECT_EQ(run.messages, Words{}) << call;
+            run_with_faults(window(), std::string(call) + " 2 VK_SUBOPTIMAL_KHR;" + lost_at(3));
+        expect_ended(run, lost);
+        EXPECT_EQ(run.faults, 4) << call;
+        EXPECT_EQ(run.calls.at("vkCreateSwapchainKHR"), 4) << call;  // two by each device
+    }
+}
+
+// Where every image of a window system is suboptimal no better swapchain can be had.
+TEST(WindowFaults, OfSuboptimalSwapchainsOneIsEnough) {
+    const FaultyRun run =
+        run_with_faults(window(), "vkAcquireNextImageKHR 0 VK_SUBOPTIMAL_KHR;" + lost_at(4));
+    expect_ended(run, lost);
+    EXPECT_EQ(run.calls.at("vkCreateSwapchainKHR"), 4);
+}
+
+// A window that nobody sees may be given no image; it goes on, and is shown once it is.
+TEST(WindowFaults, AHiddenWindowWaitsForNoImage) {
+    const FaultyRun run = run_with_faults(
+        window(), "vkAcquireNextImageKHR 2 VK_TIMEOUT;vkAcquireNextImageKHR 3 VK_TIMEOUT;" + lost_at(3));
+    expect_ended(run, lost);
+    EXPECT_EQ(run.faults, 6);
+    EXPECT_EQ(run.calls.at("vkAcquireNextImageKHR"), 10);
+}
+
+TEST(WindowFaults, ALostDeviceIsReplacedOnce) {
+    const FaultyRun run = run_with_faults(window(), lost_at(3));
+    expect_ended(run, lost);
+    EXPECT_EQ(run.faults, 2);
+    EXPECT_EQ(run.calls.at("vkCreateDevice"), 2);
+    EXPECT_EQ(run.calls.at("vkQueuePresentKHR"), 6);
+}
+
+// Memory is full, or the device lost, at calls of a window's life: of each kind one in its middle and a late
+// one.
+TEST(WindowFaults, AtAnyCallEndItWithALine) {
+    constexpr int pictures = 4;
+    const FaultyRun good = run_with_faults(window(), lost_at(pictures));
+    expect_ended(good, lost);
+    for (const auto& [call, of_both] : good.calls) {
+        // What waits for the end hears of nothing.
+        if (call == "vkDeviceWaitIdle") continue;
+        // Pages come as they are ready: a device may do with some calls fewer than another.
+        const int count = of_both / 2 - of_both / 20;
+        for (const int number : std::set<int>{(count + 1) / 2, count}) {
+            if (number < 1 || number > count) continue;
+            for (const std::string& result : results_of(call, false)) {
+                const std::string fault = call + " " + std::to_string(number) + " " + result;
+                SCOPED_TRACE(fault);
+                const FaultyRun run = run_with_faults(window(), fault + ";" + lost_at(pictures));
+                EXPECT_GE(run.faults, 1);
+                // Where room for fewer pages is enough the end is that of a lost device.
+                expect_refusal(run.outcome, failed, {"VK_ERROR_"});
+                EXPECT_EQ(run.files, Words{});
+                EXPECT_EQ(run.messages, Words{});
+            }
+        }
     }
 }
 
