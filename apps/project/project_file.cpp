@@ -111,6 +111,7 @@ std::optional<ProjectViewshed> viewshed_in(const json& from) {
 // All but the view and the film, which are texts of their own.
 void read_rest(const json& from, Project& project) {
     const json& layers = json_field(from, "layers");
+    if (!layers.is_object()) throw JsonFault{"'layers' must be an object of lists"};
     project.names = paths_in(layers, "names");
     project.overlay = paths_in(layers, "overlay");
     project.images = paths_in(layers, "images");
