@@ -137,6 +137,7 @@ set_tests_properties(
   Window.IsShownAgainWhereItWasLost
   Window.SaysWhatChangedSinceThePicture
   WindowFaults.EndItWithALine
+  WindowTour.LooksAsItDid
   WorldGrids.GiveOnePictureWhereverTheyBegin
   PROPERTIES LABELS "cli;long")
 set_tests_properties(
