@@ -138,6 +138,7 @@ set_tests_properties(
   Window.SaysWhatChangedSinceThePicture
   WindowFaults.AtAnyCallEndItWithALine
   WindowFaults.EndItWithALine
+  WindowTour.LooksAsItDid
   WorldGrids.GiveOnePictureWhereverTheyBegin
   PROPERTIES LABELS "cli;long")
 set_tests_properties(

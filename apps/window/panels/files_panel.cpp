@@ -79,6 +79,7 @@ void build_files_panel(Viewer& viewer) {
     if (viewer.folder.empty()) viewer.folder = fs::current_path(ignored).string();
     if (begin_panel("Open", is_open, PanelCorner::middle, 480.0F)) {
         ImGui::SetNextItemWidth(-scaled_px(90.0F));
+        if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
         const bool entered = ImGui::InputText("##path", &viewer.folder, ImGuiInputTextFlags_EnterReturnsTrue);
         const bool is_folder = fs::is_directory(viewer.folder, ignored);
         ImGui::SameLine();
