@@ -95,8 +95,18 @@ Result<void> take_size(Viewer& viewer, const VkExtent2D& extent, bool& changed) 
     return viewer.renderer.resize(extent);
 }
 
+// Whether the first picture would be long in coming: where a processor draws one that is large.
+bool begins_coarse(const Viewer& viewer) {
+    constexpr int large_px = 200'000;
+    const Camera& camera = viewer.view.camera;
+    return !viewer.is_shown && !viewer.view.show &&
+           viewer.gpu.report().kind == VK_PHYSICAL_DEVICE_TYPE_CPU &&
+           camera.width_px * camera.height_px > large_px;
+}
+
 // How much detail the next frame has.
 DetailStep step_now(const Viewer& viewer) {
+    if (begins_coarse(viewer)) return detail_steps.back();
     return is_moving(viewer) ? viewer.detail.now() : DetailStep();
 }
 
@@ -204,7 +214,7 @@ Result<bool> draw_frame(Viewer& viewer, bool& changed) {
     viewer.kept = {};
     viewer.part = {static_cast<std::uint32_t>(camera.width_px), static_cast<std::uint32_t>(camera.height_px)};
     viewer.drawn_at = frame.step;
-    changed = !frame.is_of_moving_eye && !viewer.report.images_settled;
+    changed = !frame.is_of_moving_eye && (!viewer.report.images_settled || !frame.step.is_whole());
     return true;
 }
 
