@@ -19,7 +19,7 @@ oro::WindowOptions options_of(const std::string& path) {
 }
 
 TEST(RegionOpening, ReadsInTheBackground) {
-    oro::RegionOpening opening(options_of((oro::test::bundled_data() / "jacksboro.tif").string()));
+    oro::RegionOpening opening(options_of((oro::test::bundled_data() / "jacksboro.tif").string()), {});
     EXPECT_EQ(opening.name(), "jacksboro.tif");
     for (int i = 0; i < 6000 && !opening.ready(); ++i) {
         EXPECT_GE(opening.share(), 0.0);
@@ -37,7 +37,7 @@ TEST(RegionOpening, ReadsInTheBackground) {
 }
 
 TEST(RegionOpening, TellsWhatCannotBeOpened) {
-    oro::RegionOpening opening(options_of((oro::test::scratch_folder() / "none.tif").string()));
+    oro::RegionOpening opening(options_of((oro::test::scratch_folder() / "none.tif").string()), {});
     const auto opened = opening.wait();
     ASSERT_FALSE(opened.ok());
     EXPECT_NE(opened.error().line().find("none.tif"), std::string::npos) << opened.error().line();
