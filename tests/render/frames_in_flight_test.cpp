@@ -2,8 +2,9 @@
 // give way to others between them: the same counts and feedback of each, and the same pictures.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstring>
-#include <optional>
 #include <vector>
 
 #include "render/frame/frame_renderer.h"
@@ -35,7 +36,7 @@ struct Told {
 
 class FramesInFlight : public test::GpuTest, public ::testing::WithParamInterface<RasterPath> {
   protected:
-    // So many pages have room, fewer than a frame's or those of two.
+    // So many pages have room.
     Scene scene_of(const HeightField& field, std::size_t pages) {
         auto scene = Scene::create(*gpu_, pages_in_memory(field, 1.0, 2), {pages * page_bytes({}), 0});
         EXPECT_TRUE(scene.ok()) << scene.error().line();
@@ -52,7 +53,17 @@ class FramesInFlight : public test::GpuTest, public ::testing::WithParamInterfac
         const Camera camera = flown_camera(frame);
         auto plan = scene.settled_plan({camera, test::whole_picture(camera), 1.0});
         EXPECT_TRUE(plan.ok()) << plan.error().line();
+        EXPECT_TRUE(plan->is_settled());  // or it would depend on the order in which pages come
         return std::move(plan).value();
+    }
+    // The most pages that a frame needs.
+    std::size_t most_pages(const HeightField& field, int frames) {
+        Scene scene = scene_of(field, 400);
+        std::size_t most = 0;
+        for (int frame = 0; frame < frames; ++frame)
+            most = std::max(most, plan_of(scene, frame).grids[0].pages.size());
+        EXPECT_GT(scene.grids()[0].store().size(), most + 4) << "or nothing gives way";
+        return most;
     }
     static std::vector<std::uint8_t> picture_of(FrameRenderer& renderer) {
         auto rgba = renderer.read_picture(flown_width_px, flown_height_px);
@@ -108,16 +119,15 @@ void expect_same(const Told& in_flight, const Told& in_turn, std::size_t frame) 
 
 TEST_P(FramesInFlight, AreThoseThatAreDrawnInTurn) {
     const HeightField field = test::rough_field(47.0, 8.0, 700, 900);
-    constexpr int frames = 14;
+    constexpr int frames = 12;
+    const std::size_t pages = most_pages(field, frames);
     for (const OcclusionUse occlusion : {OcclusionUse::off, OcclusionUse::on}) {
-        for (const std::size_t pages : {std::size_t{18}, std::size_t{400}}) {
-            const std::vector<Told> in_turn = draw_in_turn(field, pages, occlusion, frames);
-            for (const int count : {1, 2, 3, 8, frames}) {
-                const std::vector<Told> in_flight = draw_in_flight(field, pages, occlusion, count);
-                ASSERT_EQ(in_flight.size(), static_cast<std::size_t>(count));
-                for (std::size_t i = 0; i < in_flight.size(); ++i) expect_same(in_flight[i], in_turn[i], i);
-                EXPECT_EQ(in_flight.back().rgba, in_turn[in_flight.size() - 1].rgba) << count << " frames";
-            }
+        const std::vector<Told> in_turn = draw_in_turn(field, pages, occlusion, frames);
+        for (const int count : {3, frames}) {
+            const std::vector<Told> in_flight = draw_in_flight(field, pages, occlusion, count);
+            ASSERT_EQ(in_flight.size(), static_cast<std::size_t>(count));
+            for (std::size_t i = 0; i < in_flight.size(); ++i) expect_same(in_flight[i], in_turn[i], i);
+            EXPECT_EQ(in_flight.back().rgba, in_turn[in_flight.size() - 1].rgba) << count << " frames";
         }
     }
 }
@@ -128,8 +138,6 @@ TEST_P(FramesInFlight, EndBeforeTheirRenderer) {
     Scene scene = scene_of(field, 400);
     FrameRenderer renderer = renderer_of(OcclusionUse::on);
     for (int frame = 0; frame < 2; ++frame) ASSERT_TRUE(renderer.submit(plan_of(scene, frame), {}).ok());
-    renderer = renderer_of(OcclusionUse::on);
-    ASSERT_TRUE(renderer.draw(plan_of(scene, 2), {}).ok());
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths, FramesInFlight, testing::Values(RasterPath::mesh, RasterPath::compute),
