@@ -29,7 +29,7 @@ Camera flown_camera(int frame) {
 }
 
 // What a frame tells, and its picture where that was read.
-struct Told {
+struct Drawn {
     FrameReport report;
     std::vector<std::uint8_t> rgba;
 };
@@ -71,28 +71,28 @@ class FramesInFlight : public test::GpuTest, public ::testing::WithParamInterfac
         return std::move(rgba).value();
     }
 
-    std::vector<Told> draw_in_turn(const HeightField& field, std::size_t pages, OcclusionUse occlusion,
+    std::vector<Drawn> draw_in_turn(const HeightField& field, std::size_t pages, OcclusionUse occlusion,
                                    int frames) {
         Scene scene = scene_of(field, pages);
         FrameRenderer renderer = renderer_of(occlusion);
-        std::vector<Told> told;
+        std::vector<Drawn> drawn;
         for (int frame = 0; frame < frames; ++frame) {
             const auto report = renderer.draw(plan_of(scene, frame), {});
             EXPECT_TRUE(report.ok()) << report.error().line();
-            told.push_back({*report, picture_of(renderer)});
+            drawn.push_back({*report, picture_of(renderer)});
         }
-        return told;
+        return drawn;
     }
     // The picture of the last one alone is read: what reads it waits for all.
-    std::vector<Told> draw_in_flight(const HeightField& field, std::size_t pages, OcclusionUse occlusion,
+    std::vector<Drawn> draw_in_flight(const HeightField& field, std::size_t pages, OcclusionUse occlusion,
                                      int frames) {
         Scene scene = scene_of(field, pages);
         FrameRenderer renderer = renderer_of(occlusion);
-        std::vector<Told> told;
+        std::vector<Drawn> drawn;
         const auto finish = [&] {
             const auto report = renderer.finish();
             EXPECT_TRUE(report.ok()) << report.error().line();
-            told.push_back({*report, {}});
+            drawn.push_back({*report, {}});
         };
         for (int frame = 0; frame < frames; ++frame) {
             FramePlan plan = plan_of(scene, frame);
@@ -101,12 +101,12 @@ class FramesInFlight : public test::GpuTest, public ::testing::WithParamInterfac
             EXPECT_TRUE(begun.ok()) << begun.error().line();
         }
         while (renderer.under_way() > 0) finish();
-        told.back().rgba = picture_of(renderer);
-        return told;
+        drawn.back().rgba = picture_of(renderer);
+        return drawn;
     }
 };
 
-void expect_same(const Told& in_flight, const Told& in_turn, std::size_t frame) {
+void expect_same(const Drawn& in_flight, const Drawn& in_turn, std::size_t frame) {
     EXPECT_EQ(std::memcmp(&in_flight.report.counts, &in_turn.report.counts, sizeof(gpu::FrameCounts)), 0)
         << "frame " << frame;
     EXPECT_GT(in_turn.report.counts.triangles_drawn, 0U);
@@ -122,9 +122,9 @@ TEST_P(FramesInFlight, AreThoseThatAreDrawnInTurn) {
     constexpr int frames = 12;
     const std::size_t pages = most_pages(field, frames);
     for (const OcclusionUse occlusion : {OcclusionUse::off, OcclusionUse::on}) {
-        const std::vector<Told> in_turn = draw_in_turn(field, pages, occlusion, frames);
+        const std::vector<Drawn> in_turn = draw_in_turn(field, pages, occlusion, frames);
         for (const int count : {3, frames}) {
-            const std::vector<Told> in_flight = draw_in_flight(field, pages, occlusion, count);
+            const std::vector<Drawn> in_flight = draw_in_flight(field, pages, occlusion, count);
             ASSERT_EQ(in_flight.size(), static_cast<std::size_t>(count));
             for (std::size_t i = 0; i < in_flight.size(); ++i) expect_same(in_flight[i], in_turn[i], i);
             EXPECT_EQ(in_flight.back().rgba, in_turn[in_flight.size() - 1].rgba) << count << " frames";
