@@ -25,6 +25,8 @@ class MovingDetail {
 
     // The step that the next frame of a moving eye is drawn at.
     [[nodiscard]] const DetailStep& now() const { return detail_steps[step_]; }
+    // Where a processor draws: with the least detail, until frames are seen to leave room for more.
+    void begin_with_least() { step_ = detail_steps.size() - 1; }
     // Told how long a frame took that was drawn at a step: a slower one than the budget makes the next ones
     // coarser at once, by as many steps as its time asks for; frames in less than half of it make them finer
     // by one step after a while, so that detail does not go to and fro.

@@ -138,7 +138,7 @@ void take_report(Viewer& viewer, SubmittedFrame frame, FrameReport report) {
     frame.times.drawn = Clock::now();
     const auto since = std::max(frame.times.begun, std::exchange(viewer.drawn, frame.times.drawn));
     viewer.frame_s = std::chrono::duration<double>(frame.times.drawn - since).count();
-    if (viewer.follows_eye) viewer.detail.took(frame.step, viewer.frame_s);
+    if (viewer.follows_eye && viewer.is_shown) viewer.detail.took(frame.step, viewer.frame_s);
     viewer.report = std::move(report);
     viewer.scene->apply_feedback(viewer.report.feedback);
     viewer.is_settled =

@@ -149,6 +149,7 @@ void trace_state(Viewer& viewer) {
                            ? "Go to: " + viewer.search.text + "_"
                            : part(progress_words(viewer)) + part(moving) + part(viewer.message) + eye;
     if (viewer.search.is_open && !viewer.search.error.empty()) line += "  |  " + viewer.search.error;
+    if (!viewer.is_settled) line += "  |  drawing";
     if (line == viewer.traced) return;
     std::fprintf(stderr, "state: %s\n", one_line(line).c_str());
     viewer.traced = line;

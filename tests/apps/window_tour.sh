@@ -24,7 +24,7 @@ rests() {
   for try in $(seq 900); do
     sleep 0.2
     now=$(cksum <"$SCREEN_FILE")
-    if [ "$now" = "$last" ] && ! state | grep -Eq 'moving|loading|preparing|opening'; then
+    if [ "$now" = "$last" ] && ! state | grep -Eq 'moving|loading|preparing|opening|drawing'; then
       same=$((same + 1))
     else
       same=0
@@ -56,7 +56,8 @@ goes '46.577,8.005'; rests eiger
 press Return; rests stood
 goes '46.54,8.00'; rests ground
 points 480 300; xdotool click 3; sleep 1; rests place; press Escape
-goes nowhere-at-all; sleep 0.5; rests refused; press Escape Escape
+# A cursor blinks.
+goes nowhere-at-all; sleep 3; cp "$SCREEN_FILE" refused.xwd; printf 'refused: %s\n' "$(state)"; press Escape Escape
 press ctrl+o; sleep 0.5; press ctrl+a; xdotool type --delay 30 "$PWD/way.geojson"; sleep 0.3; press Return; sleep 2; rests opened
 press Escape Escape; sleep 5; rests overlay
 press Tab; rests bare; press Tab

@@ -209,6 +209,7 @@ Result<void> fly(ViewerState& state, ProgressBar& bar) {
                   renderer,
                   path};
     take_scene(viewer, std::move(opened));
+    if (gpu->report().kind == VK_PHYSICAL_DEVICE_TYPE_CPU) viewer.detail.begin_with_least();
     ORO_CHECK(set_out(viewer, state));
     Result<void> ended = run_loop(viewer, *interface);
     if (ended.ok()) keep_settings(viewer);
