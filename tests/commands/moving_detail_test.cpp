@@ -68,7 +68,7 @@ TEST(MovingDetail, HasAnEndWhereNothingHelps) {
 TEST(MovingDetail, MayBeginWithLeast) {
     MovingDetail detail;
     detail.begin_with_least();
-    EXPECT_EQ(detail.now().scale, detail_steps.back().scale);
+    EXPECT_EQ(detail.now().scale, oro::detail_steps.back().scale);
     // Quick frames bring it back, step by step.
     for (int frame = 0; frame < 200; ++frame) detail.took(detail.now(), 0.01);
     EXPECT_TRUE(detail.now().is_whole());
