@@ -138,7 +138,8 @@ void take_report(Viewer& viewer, SubmittedFrame frame, FrameReport report) {
     frame.times.drawn = Clock::now();
     const auto since = std::max(frame.times.begun, std::exchange(viewer.drawn, frame.times.drawn));
     viewer.frame_s = std::chrono::duration<double>(frame.times.drawn - since).count();
-    if (viewer.follows_eye && viewer.is_shown) viewer.detail.took(frame.step, viewer.frame_s);
+    // Of an eye that rests, too: what it takes says how an eye that begins to move is followed at once.
+    viewer.detail.took(frame.step, viewer.frame_s);
     viewer.report = std::move(report);
     viewer.scene->apply_feedback(viewer.report.feedback);
     viewer.is_settled =

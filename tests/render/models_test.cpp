@@ -197,7 +197,7 @@ TEST_F(ModelPlacement, RecordedViewsShowWhatPrecisionDoes) {
         FramePlan plan = plan_of(scene, camera, 0.0, {Earth::ellipsoid, {}, precision});
         for (gpu::FramePage& page : plan.grids[0].pages) page.cull = 0;
         EXPECT_TRUE(renderer.draw(plan, {}).ok());
-        return renderer.recorded();
+        return renderer.recorded(std::size_t{gpu::page_posts} * gpu::page_posts);
     };
     const auto relative_before = drawn(in_view, Precision::relative);
     const auto naive_before = drawn(in_view, Precision::naive);
