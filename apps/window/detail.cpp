@@ -11,7 +11,8 @@ double share_of_pixels(const DetailStep& step) {
 
 void MovingDetail::took(const DetailStep& step, double frame_s) {
     constexpr int quick_enough = 8;
-    constexpr double room = 0.55;
+    // Shadows come back where there is ample room alone, or they would come and go.
+    const double room = step_ + 1 == detail_steps.size() ? 0.2 : 0.55;
     // What does not follow the number of pixels.
     constexpr double fixed_share = 0.15;
     if (frame_s > budget_s) {

@@ -7,16 +7,24 @@
 namespace oro {
 
 // How a frame is drawn: `scale` times as many pixels a side as the window has, and tau_factor times the
-// view's tau, of these pixels.
+// view's tau, of these pixels; with shadows, where the view has some.
 struct DetailStep {
     double scale{1.0};
     double tau_factor{1.0};
+    bool shadows{true};
     [[nodiscard]] bool is_whole() const { return scale == 1.0 && tau_factor == 1.0; }
 };
 
-// From all of it to the least. Every step takes about two thirds of the pixels of the one before it.
-inline constexpr std::array<DetailStep, 7> detail_steps{
-    {{1.0, 1.0}, {1.0, 2.0}, {0.8, 2.0}, {0.66, 2.0}, {0.54, 2.0}, {0.44, 2.0}, {0.36, 2.0}}};
+// From all of it to the least. Every step takes about two thirds of the pixels of the one before it, and the
+// last leaves shadows out.
+inline constexpr std::array<DetailStep, 8> detail_steps{{{1.0, 1.0},
+                                                         {1.0, 2.0},
+                                                         {0.8, 2.0},
+                                                         {0.66, 2.0},
+                                                         {0.54, 2.0},
+                                                         {0.44, 2.0},
+                                                         {0.36, 2.0},
+                                                         {0.36, 2.0, false}}};
 
 // Holds frames of an eye that moves within a budget of time. An eye that rests has all detail.
 class MovingDetail {

@@ -99,8 +99,7 @@ Result<void> take_size(Viewer& viewer, const VkExtent2D& extent, bool& changed) 
 bool begins_coarse(const Viewer& viewer) {
     constexpr int large_px = 200'000;
     const Camera& camera = viewer.view.camera;
-    return !viewer.is_shown && !viewer.view.show &&
-           viewer.gpu.report().kind == VK_PHYSICAL_DEVICE_TYPE_CPU &&
+    return !viewer.is_shown && !viewer.view.show && viewer.gpu.report().kind == VK_PHYSICAL_DEVICE_TYPE_CPU &&
            camera.width_px * camera.height_px > large_px;
 }
 
@@ -147,12 +146,18 @@ void take_report(Viewer& viewer, SubmittedFrame frame, FrameReport report) {
     viewer.to_trace = frame;
 }
 
+gpu::FrameStyle style_of(const Viewer& viewer, const SubmittedFrame& frame) {
+    gpu::FrameStyle style = viewer.style.frame;
+    if (!frame.step.shadows) style.shadows = 0;
+    return style;
+}
+
 // Of an eye that rests: waits for it.
 Result<void> draw_at_rest(Viewer& viewer, FramePlan plan, const SubmittedFrame& frame) {
     ORO_CHECK(viewer.window.present());
     ORO_CHECK(take_reports(viewer, 0));
     ORO_TRY(FrameReport drawn,
-            viewer.renderer.draw(std::move(plan), viewer.style.frame, 0, 1, viewer.scene->drapes()));
+            viewer.renderer.draw(std::move(plan), style_of(viewer, frame), 0, 1, viewer.scene->drapes()));
     take_report(viewer, frame, std::move(drawn));
     return frame.step.scale < 1.0 ? Result<void>() : write_over(viewer, viewer.report);
 }
@@ -161,7 +166,7 @@ Result<void> draw_planned(Viewer& viewer, FramePlan plan, const SubmittedFrame& 
     ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.grids.front().field,
                           viewer.follows_eye ? Eye::moves : Eye::rests));
     if (frame.is_of_moving_eye) {
-        ORO_CHECK(viewer.renderer.submit(std::move(plan), viewer.style.frame, viewer.scene->drapes()));
+        ORO_CHECK(viewer.renderer.submit(std::move(plan), style_of(viewer, frame), viewer.scene->drapes()));
         viewer.under_way.push_back(frame);
     } else {
         ORO_CHECK(draw_at_rest(viewer, std::move(plan), frame));

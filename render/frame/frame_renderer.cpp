@@ -208,7 +208,7 @@ Result<void> FrameRenderer::upload(std::size_t number, GridPlan& plan, const Fra
     ORO_CHECK(grid.drape.prepare(*gpu_, options_.path, *pipelines_, options_.shades ? drape : nullptr, slot_,
                                  constants));
     if (options_.shades) {
-        ORO_CHECK(air_.prepare(*gpu_, *pipelines_, constants));
+        ORO_CHECK(air_.prepare(*gpu_, *pipelines_, constants, asked.exact_air));
         const ShareOptions how{options_.path, !shades_as_gpu(*gpu_, options_.as_on_gpu)};
         ORO_CHECK(grid.casters.prepare(*gpu_, how, *pipelines_, plan, shared_shares_, slot_, constants));
         ORO_CHECK(choose_shading(grid, constants));
@@ -303,13 +303,13 @@ Result<FrameReport> FrameRenderer::draw(FramePlan plan, const gpu::FrameStyle& s
                                         std::uint32_t sample_index, std::uint32_t sample_count,
                                         std::vector<DrapeStore*> drapes) {
     assert(under_way_.empty());
-    ORO_CHECK(begin(std::move(plan), {style, sample_index, sample_count, drapes, true}));
+    ORO_CHECK(begin(std::move(plan), {style, sample_index, sample_count, drapes, true, true}));
     return finish();
 }
 
 Result<void> FrameRenderer::submit(FramePlan plan, const gpu::FrameStyle& style,
                                    std::vector<DrapeStore*> drapes) {
-    return begin(std::move(plan), {style, 0, 1, drapes, false});
+    return begin(std::move(plan), {style, 0, 1, drapes, false, false});
 }
 
 Result<FrameReport> FrameRenderer::finish() {

@@ -82,7 +82,8 @@ class FrameRenderer {
     // finish() waits for the one that was begun first. At most frames_in_flight may be under way, and none
     // where draw() or what reads a picture is called. All that is submitted to the device afterwards sees the
     // picture. Images over the ground are drawn as they are there; finish() brings what of them the frame
-    // lacked to the next one. Errors of both: those of draw().
+    // lacked to the next one. The air may be that of an eye nearby (AirTables::prepare()). Errors of both:
+    // those of draw().
     Result<void> submit(FramePlan plan, const gpu::FrameStyle& style, std::vector<DrapeStore*> drapes = {});
     Result<FrameReport> finish();
     [[nodiscard]] std::size_t under_way() const { return under_way_.size(); }
@@ -133,7 +134,8 @@ class FrameRenderer {
         const gpu::FrameStyle& style;
         std::uint32_t sample_index, sample_count;
         std::span<DrapeStore* const> drapes;
-        bool in_parts;  // images over the ground are waited for before it is shaded
+        bool in_parts;   // images over the ground are waited for before it is shaded
+        bool exact_air;  // AirTables::prepare()
     };
     // What a frame has for itself while others are under way.
     struct Slot {

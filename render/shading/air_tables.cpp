@@ -1,6 +1,8 @@
 #include "render/shading/air_tables.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <type_traits>
 
@@ -31,7 +33,8 @@ static_assert(gpu::aerial_first * sizeof(gpu::vec4) == gpu::air_entries * sizeof
 
 }  // namespace
 
-Result<void> AirTables::prepare(const Gpu& gpu, Pipelines& pipelines, gpu::FrameConstants& constants) {
+Result<void> AirTables::prepare(const Gpu& gpu, Pipelines& pipelines, gpu::FrameConstants& constants,
+                                bool exactly) {
     wanted_.reset();
     constants.air = {};
     if (constants.style.air.on == 0) return {};
@@ -45,7 +48,20 @@ Result<void> AirTables::prepare(const Gpu& gpu, Pipelines& pipelines, gpu::Frame
     }
     constants.air = address_words(entries_.address);
     wanted_ = Made{constants.style.air, constants.earth_radius_m, constants.eye_h_m, constants.style.sun_enu};
+    if (!exactly && made_ && will_do(*made_, *wanted_)) wanted_ = made_;
     return {};
+}
+
+// Whether a sky looks alike from both eyes.
+bool AirTables::will_do(const Made& made, const Made& wanted) {
+    constexpr float share = 0.03F, least_m = 30.0F, radius_m = 1000.0F, sun_cosine = 0.99996F;
+    if (!same(made.model, wanted.model)) return false;
+    const float height_m = std::abs(made.eye_h_m - wanted.eye_h_m);
+    const auto& one = made.sun_enu;
+    const auto& other = wanted.sun_enu;
+    return std::abs(made.earth_radius_m - wanted.earth_radius_m) <= radius_m &&
+           height_m <= std::max(least_m, share * std::abs(made.eye_h_m)) &&
+           one.x * other.x + one.y * other.y + one.z * other.z >= sun_cosine;
 }
 
 void AirTables::record(VkCommandBuffer commands, const Pipelines& pipelines) {

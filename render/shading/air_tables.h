@@ -13,8 +13,10 @@ namespace oro {
 class AirTables {
   public:
     // Room for a frame's tables, and where they are into its constants; the pipelines on first use. Nothing
-    // happens for a style without air.
-    Result<void> prepare(const Gpu& gpu, Pipelines& pipelines, gpu::FrameConstants& constants);
+    // happens for a style without air. exactly: false where tables will do that were made for an eye a little
+    // higher or lower (3 % of its height, 30 m at least) and a sun at most half a degree away: of frames of
+    // an eye that moves.
+    Result<void> prepare(const Gpu& gpu, Pipelines& pipelines, gpu::FrameConstants& constants, bool exactly);
     // Fills those of them that are not as the constants of the last prepare() ask. The frame's set is bound.
     void record(VkCommandBuffer commands, const Pipelines& pipelines);
 
@@ -28,6 +30,8 @@ class AirTables {
         float eye_h_m{};
         gpu::vec3 sun_enu{};
     };
+    [[nodiscard]] static bool will_do(const Made& made, const Made& wanted);
+
     Buffer entries_;
     std::optional<Made> made_, wanted_;
 };

@@ -76,6 +76,30 @@ class AirTables : public test::GpuTest {
     double radius_m_{};
 };
 
+// Of an eye that moves the tables of an eye nearby do, and those of one far away do not. What is drawn to stay
+// has its own.
+TEST_F(AirTables, OfAMovingEyeAreMadeAnewNowAndThen) {
+    const std::vector<float> low = tables(1000.0, 30.0), little_higher = tables(1020.0, 30.0);
+    EXPECT_NE(low, little_higher);
+    const auto moved_to = [&](double eye_h_m) {
+        Camera camera;
+        camera.width_px = camera.height_px = 16;
+        camera.eye = {46.85, 8.15, eye_h_m};
+        auto plan = scene_->scene().settled_plan({camera, test::whole_picture(camera), 1.0});
+        EXPECT_TRUE(plan.ok());
+        EXPECT_TRUE(scene_->renderer().submit(std::move(*plan), lit_style(30.0)).ok());
+        EXPECT_TRUE(scene_->renderer().finish().ok());
+        return scene_->renderer().read_air().value();
+    };
+    EXPECT_EQ(tables(1000.0, 30.0), low);
+    EXPECT_EQ(moved_to(1020.0), low);
+    EXPECT_EQ(moved_to(1029.0), low);
+    const std::vector<float> higher = moved_to(1100.0);
+    EXPECT_NE(higher, low);
+    EXPECT_EQ(higher, tables(1100.0, 30.0));
+    EXPECT_EQ(tables(1020.0, 30.0), little_higher);
+}
+
 // A line of sight by its place in the sky's table, 0 to 1 and 0 to 1 (shaders/air/sky.glsl), for a sun.
 struct SkyLine {
     double elevation_rad, turn_rad, to_sun;
