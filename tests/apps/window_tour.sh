@@ -58,7 +58,7 @@ goes '46.54,8.00'; rests ground
 points 480 300; xdotool click 3; sleep 1; rests place; press Escape
 # A cursor blinks.
 goes nowhere-at-all; sleep 3; cp "$SCREEN_FILE" refused.xwd; printf 'refused: %s\n' "$(state)"; press Escape Escape
-press ctrl+o; sleep 0.5; press ctrl+a; xdotool type --delay 30 "$PWD/way.geojson"; sleep 0.3; press Return; sleep 2; rests opened
+press ctrl+o; sleep 0.5; press ctrl+a; xdotool type --delay 30 "$PWD/way.geojson"; sleep 0.3; press Return; sleep 2
 press Escape Escape; sleep 5; rests overlay
 press Tab; rests bare; press Tab
 xdotool windowsize --sync "$window" 720 480; sleep 1; rests resized
