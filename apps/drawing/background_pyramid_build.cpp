@@ -1,9 +1,7 @@
 #include "apps/drawing/background_pyramid_build.h"
 
-#include <chrono>
-#include <system_error>
-
 #include "apps/drawing/region_scene.h"
+#include "core/base/background.h"
 #include "core/base/parallel.h"
 
 namespace oro {
@@ -55,11 +53,7 @@ BackgroundPyramidBuild::BackgroundPyramidBuild(const Region& region, double exag
             region.grids.front(), {}, exaggeration, [this](double share) { share_ = share; },
             stop_.get_token());
     };
-    try {
-        pages_ = std::async(std::launch::async, measure);
-    } catch (const std::system_error&) {
-        pages_ = std::async(std::launch::deferred, measure);
-    }
+    pages_ = begin_in_background(measure);
 }
 
 BackgroundPyramidBuild::~BackgroundPyramidBuild() {
@@ -67,7 +61,7 @@ BackgroundPyramidBuild::~BackgroundPyramidBuild() {
 }
 
 bool BackgroundPyramidBuild::ready() const {
-    return pages_.wait_for(std::chrono::seconds(0)) != std::future_status::timeout;
+    return is_ready(pages_);
 }
 
 Result<std::unique_ptr<RegionPages>> BackgroundPyramidBuild::wait() {

@@ -1,10 +1,9 @@
 #include "apps/search/gazetteer_reading.h"
 
-#include <chrono>
-#include <system_error>
 #include <utility>
 
 #include "apps/search/gazetteer.h"
+#include "core/base/background.h"
 
 namespace oro {
 namespace {
@@ -30,11 +29,7 @@ GazetteerNames names_in(const std::vector<std::string>& files, const std::stop_t
 
 GazetteerReading::GazetteerReading(std::vector<std::string> files) {
     const auto work = [files = std::move(files), stop = stop_.get_token()] { return names_in(files, stop); };
-    try {
-        names_ = std::async(std::launch::async, work);
-    } catch (const std::system_error&) {
-        names_ = std::async(std::launch::deferred, work);
-    }
+    names_ = begin_in_background(work);
 }
 
 GazetteerReading::~GazetteerReading() {
@@ -42,7 +37,7 @@ GazetteerReading::~GazetteerReading() {
 }
 
 bool GazetteerReading::ready() const {
-    return names_.valid() && names_.wait_for(std::chrono::seconds(0)) != std::future_status::timeout;
+    return is_ready(names_);
 }
 
 GazetteerNames GazetteerReading::wait() {

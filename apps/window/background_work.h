@@ -2,13 +2,12 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <functional>
 #include <future>
 #include <stop_token>
-#include <system_error>
 #include <utility>
 
+#include "core/base/background.h"
 #include "core/base/result.h"
 
 namespace oro {
@@ -30,11 +29,7 @@ class BackgroundWork {
         const auto all = [this, work = std::move(work)] {
             return work([this](double share) { share_ = share; }, stop_.get_token());
         };
-        try {
-            done_ = std::async(std::launch::async, all);
-        } catch (const std::system_error&) {
-            done_ = std::async(std::launch::deferred, all);
-        }
+        done_ = begin_in_background(all);
     }
     // Asks it to stop, and waits until it has.
     ~BackgroundWork() { stop(); }
@@ -43,9 +38,7 @@ class BackgroundWork {
 
     void stop() { stop_.request_stop(); }
     [[nodiscard]] bool is_stopped() const { return stop_.stop_requested(); }
-    [[nodiscard]] bool ready() const {
-        return done_.wait_for(std::chrono::seconds(0)) != std::future_status::timeout;
-    }
+    [[nodiscard]] bool ready() const { return is_ready(done_); }
     [[nodiscard]] double share() const { return share_; }
     // What came of it, once; waits for it.
     Result<T> take() { return done_.get(); }

@@ -87,6 +87,17 @@ Result<void> clear_places(Viewer& viewer) {
     return measure_places(viewer, {});
 }
 
+bool has_loaded_lines(const View& view) {
+    const auto is_line = [](const VectorShape& shape) { return shape.kind == VectorKind::line; };
+    const auto has_lines = [&](const VectorFile& file) {
+        return std::ranges::any_of(file.layers, [&](const VectorLayer& layer) {
+            return std::ranges::any_of(layer.shapes, is_line);
+        });
+    };
+    return view.vectors_read && (std::ranges::any_of(view.vectors_read->overlay, has_lines) ||
+                                 std::ranges::any_of(view.vectors_read->names, has_lines));
+}
+
 std::vector<LoadedLine> loaded_lines(const View& view) {
     std::vector<LoadedLine> lines;
     if (!view.vectors_read) return lines;

@@ -18,6 +18,7 @@ struct LoadedLine {
     int number{};  // in it, from 1
     std::string name;
 };
+[[nodiscard]] bool has_loaded_lines(const View& view);
 std::vector<LoadedLine> loaded_lines(const View& view);
 // Measures one in the place of what is drawn. Errors: posts; what is wrong with the file is said.
 Result<void> measure_loaded(Viewer& viewer, const LoadedLine& line);

@@ -1,11 +1,10 @@
 #include "apps/window/region_opening.h"
 
-#include <chrono>
 #include <memory>
-#include <system_error>
 #include <utility>
 
 #include "apps/window/window_start.h"
+#include "core/base/background.h"
 
 namespace oro {
 
@@ -16,11 +15,7 @@ RegionOpening::RegionOpening(WindowOptions options, std::optional<Project> proje
     name_ = name_of_paths(asked.paths());
     const auto begun = std::make_shared<OpenedRegion>(std::move(asked));
     const auto work = [this, begun] { return read(std::move(*begun)); };
-    try {
-        opened_ = std::async(std::launch::async, work);
-    } catch (const std::system_error&) {
-        opened_ = std::async(std::launch::deferred, work);
-    }
+    opened_ = begin_in_background(work);
 }
 
 void RegionOpening::tell(double share, const std::string& step) {
@@ -35,7 +30,7 @@ std::string RegionOpening::step() const {
 }
 
 bool RegionOpening::ready() const {
-    return opened_.wait_for(std::chrono::seconds(0)) != std::future_status::timeout;
+    return is_ready(opened_);
 }
 
 Result<OpenedRegion> RegionOpening::wait() {

@@ -110,12 +110,11 @@ void sums(const Measurement& measurement) {
 
 // A line of a file that lies over the ground, in the place of one that is drawn.
 void line_choice(Viewer& viewer) {
-    const std::vector<LoadedLine> lines = loaded_lines(viewer.view);
-    if (lines.empty()) return;
+    if (!has_loaded_lines(viewer.view)) return;
     ImGui::SetNextItemWidth(-1.0F);
     if (!ImGui::BeginCombo("##line", "a line of a file")) return;
     int id = 0;
-    for (const LoadedLine& line : lines) {
+    for (const LoadedLine& line : loaded_lines(viewer.view)) {
         ImGui::PushID(id++);
         if (ImGui::Selectable(line.name.c_str()))
             viewer.wishes.push_back([line](Viewer& v) { return measure_loaded(v, line); });

@@ -66,7 +66,7 @@ struct ViewerState {
     bool keeps_size{};
     std::unique_ptr<RegionOpening> opening{};
     Film film{};
-    std::string project_file{}, own_project{};
+    std::string project_file{"project.json"}, own_project{};
     Panels panels{};
     std::deque<Message> log{};
     std::vector<std::vector<std::string>> recent{};
@@ -114,6 +114,24 @@ Result<std::unique_ptr<Window>> open_window(const Gpu& gpu, const Camera& camera
     return window;
 }
 
+// What a user has done in a window, from one that has it to another: a viewer and what outlives its device.
+template <class From, class To>
+void move_session(From& from, To& to) {
+    to.name = from.name;
+    to.keeps_means = from.keeps_means;
+    to.settings = from.settings;
+    to.keeps_size = from.keeps_size;
+    to.opening = std::move(from.opening);
+    to.film = std::move(from.film);
+    to.project_file = from.project_file;
+    to.own_project = from.own_project;
+    to.panels = from.panels;
+    to.log = std::move(from.log);
+    to.recent = std::move(from.recent);
+    to.vectors_known = std::move(from.vectors_known);
+    to.images_known = std::move(from.images_known);
+}
+
 // What is known without a device, for another one.
 void keep(Viewer& viewer, ViewerState& state) {
     // What refers to the region goes first.
@@ -128,19 +146,7 @@ void keep(Viewer& viewer, ViewerState& state) {
     state.region = std::move(viewer.region);
     state.cuts = std::move(viewer.cuts);
     state.style = std::move(viewer.style);
-    state.name = viewer.name;
-    state.keeps_means = viewer.keeps_means;
-    state.settings = viewer.settings;
-    state.keeps_size = viewer.keeps_size;
-    state.opening = std::move(viewer.opening);
-    state.film = std::move(viewer.film);
-    state.project_file = viewer.project_file;
-    state.own_project = viewer.own_project;
-    state.panels = viewer.panels;
-    state.log = std::move(viewer.log);
-    state.recent = std::move(viewer.recent);
-    state.vectors_known = std::move(viewer.vectors_known);
-    state.images_known = std::move(viewer.images_known);
+    move_session(viewer, state);
     state.is_lost = true;
     state.is_first = false;
 }
@@ -148,25 +154,13 @@ void keep(Viewer& viewer, ViewerState& state) {
 // What a viewer begins with, or goes on with.
 Result<void> set_out(Viewer& viewer, ViewerState& state) {
     viewer.started = state.started;
-    viewer.settings = state.settings;
-    viewer.keeps_size = state.keeps_size;
-    viewer.keeps_means = state.keeps_means;
-    viewer.name = state.name;
-    viewer.panels = state.panels;
-    viewer.log = std::move(state.log);
-    viewer.recent = std::move(state.recent);
-    viewer.vectors_known = std::move(state.vectors_known);
-    viewer.images_known = std::move(state.images_known);
+    move_session(state, viewer);
     viewer.gestures.emplace(navigation_of(viewer));
     viewer.jumps = Jumps(users_roll_deg(viewer.view.camera, viewer.options.view.roll_deg));
     fill_search(viewer);
     if (!state.is_first) {
         tell(viewer, "the GPU was lost: this is another start of it");
         say(viewer.options.quiet, "note: " + viewer.message);
-        viewer.opening = std::move(state.opening);
-        viewer.film = std::move(state.film);
-        viewer.project_file = state.project_file;
-        viewer.own_project = state.own_project;
         return {};
     }
     note_in_log(viewer);
