@@ -92,6 +92,8 @@ void forget_region(Viewer& viewer) {
     viewer.measuring = {};
     viewer.looking = {};
     viewer.panorama = {};
+    viewer.two = {};
+    viewer.comparing = {};
     viewer.panels.viewshed = viewer.panels.panorama = false;
     viewer.flies = false;
     viewer.playing.reset();
