@@ -51,7 +51,7 @@ bool comes_to_rest(Viewer& viewer) {
     if (since_s < rest_s) return since_s > settle_s && !viewer.drawn_at.is_whole();
     viewer.follows_eye = false;
     return viewer.style.contours_by_view || has_writing(viewer.view, viewer.style) ||
-           !viewer.drawn_at.is_whole();
+           second_changes_at_rest(viewer) || !viewer.drawn_at.is_whole();
 }
 
 // Over a frame that is whole, of an eye that rests. Finding it takes too long for an eye that moves.

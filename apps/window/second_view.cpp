@@ -5,7 +5,6 @@
 
 #include "apps/drawing/drape.h"
 #include "apps/drawing/mesh_choice.h"
-#include "apps/eye/standpoint.h"
 #include "apps/window/changes.h"
 #include "apps/window/frames.h"
 #include "apps/window/kept_view.h"
@@ -113,6 +112,8 @@ Result<std::unique_ptr<SecondView>> second_of(Viewer& viewer, SecondGround groun
     const OwnRegion* const own = ground.own.get();
     const Region& region = region_of(viewer, own);
     ORO_TRY(View view, view_beside(viewer, ground.choice, own));
+    // Of its levels, whatever the first view has come to meanwhile.
+    view.exaggeration = ground.exaggeration;
     ORO_TRY(const Style style, load_style(view, region.grids.front().field));
     ORO_TRY(const bool clusters, draws_clusters(region, view));
     const bool means = asks_for_means(style.frame);
@@ -223,7 +224,7 @@ Result<void> show_second(Viewer& viewer, const SecondChoice& choice) {
     TwoViews& two = viewer.two;
     two.choice = choice;
     // What is being prepared is shown first, and then changed.
-    if (two.work) return {};
+    if (two.work && !two.work->is_stopped()) return {};
     if (two.second) {
         const Result<bool> changed = change_second(viewer, choice);
         if (!changed.ok()) {
@@ -306,6 +307,13 @@ VkExtent2D extent_of_first(const Viewer& viewer, const VkExtent2D& window) {
     return {static_cast<std::uint32_t>(halves.first_px), window.height};
 }
 
+View view_alone(const Viewer& viewer) {
+    View view = viewer.view;
+    const auto width_px = viewer.two.second ? static_cast<int>(viewer.window.extent().width) : 0;
+    if (width_px > 0) view.camera.width_px = width_px;
+    return view;
+}
+
 int pointer_border_px(const Viewer& viewer) {
     if (!viewer.two.second || viewer.two.layout == TwoViewsLayout::swipe) return 0;
     return two_halves(viewer.two.layout, viewer.two.line, static_cast<int>(viewer.window.extent().width))
@@ -332,6 +340,11 @@ Result<void> take_second_size(Viewer& viewer, const VkExtent2D& window, bool& ch
 Result<bool> advance_second(Viewer& viewer) {
     if (!viewer.two.second || !viewer.two.second->is_missing) return false;
     return viewer.two.second->scene->advance();
+}
+
+bool second_changes_at_rest(const Viewer& viewer) {
+    const auto& second = viewer.two.second;
+    return second && (second->style.contours_by_view || has_writing(second->view, second->style));
 }
 
 Result<void> submit_second(Viewer& viewer, const DetailStep& step) {

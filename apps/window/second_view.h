@@ -83,6 +83,8 @@ Result<void> follow_first_view(Viewer& viewer);
 MemoryOptions memory_of_first(const Viewer& viewer);
 // Size of the first view's picture: the window's, or of its half.
 VkExtent2D extent_of_first(const Viewer& viewer, const VkExtent2D& window);
+// The first view in a picture as large as the window, whether or not it has half of that now.
+View view_alone(const Viewer& viewer);
 // Where the second view's picture begins in the window, for what the pointer does; 0: both have the same
 // places, or there is one alone.
 int pointer_border_px(const Viewer& viewer);
@@ -93,6 +95,8 @@ DifferenceWords source_names(const Viewer& viewer);
 Result<void> take_second_size(Viewer& viewer, const VkExtent2D& window, bool& changed);
 // Brings what its last frame lacked: true where some of that is here. Errors: pages that cannot be read.
 Result<bool> advance_second(Viewer& viewer);
+// Whether it is another picture once the eye rests, where that is whole already: what is written over it.
+bool second_changes_at_rest(const Viewer& viewer);
 // Draws it from the first view's eye as coarse as the step says, with what is on the GPU: begins it where the
 // eye moves (finish_second()), else waits for it and writes over it. Nothing where there is none. Errors:
 // the device, posts that cannot be read.

@@ -117,6 +117,7 @@ Result<std::unique_ptr<Window>> open_window(const Gpu& gpu, const Camera& camera
 
 // What is known without a device, for another one.
 void keep(Viewer& viewer, ViewerState& state) {
+    viewer.view = view_alone(viewer);
     // What refers to the region goes first.
     viewer.looking = {};
     viewer.panorama = {};
