@@ -50,6 +50,11 @@ TEST(WindowTwoViews, ThatAreTheSameShowTheSame) {
         "xdotool key 2; for try in $(seq 300); do grep -q 'preparing the second' said.txt && break; sleep "
         "0.1; done; rests sides; "
         "xdotool key 2; sleep 1; rests line; xdotool key 2; sleep 1; rests again; "
+        // A drag in the second half turns both.
+        "xdotool key 2; sleep 2; rests sides; xdotool mousemove --window $window 240 150; sleep 0.3; "
+        "xdotool mousedown 3; xdotool mousemove_relative 30 10; sleep 0.3; "
+        "xdotool mousemove_relative 30 10; sleep 0.3; xdotool mouseup 3; "
+        "xdotool mousemove --window $window 500 400; rests turned; "
         "xdotool key Tab; rests panels; xdotool key ctrl+q; wait $viewer; echo ended $?; cat said.txt";
     const auto outcome = oro::test::run_program({OROGRAPH_ON_DISPLAY, "sh", "-c", "cd \"$2\"; " + session,
                                                  "sh", OROGRAPH_PROGRAM, folder, oro::test::bundled()},
@@ -65,7 +70,9 @@ TEST(WindowTwoViews, ThatAreTheSameShowTheSame) {
     EXPECT_TRUE(shown("sides.xwd", 0, 160) == shown("sides.xwd", 160, 320)) << outcome.out;
     EXPECT_TRUE(shown("line.xwd", 0, 320) == one) << outcome.out;
     EXPECT_TRUE(shown("again.xwd", 0, 320) == one) << outcome.out;
-    EXPECT_FALSE(shown("panels.xwd", 0, 320) == one) << outcome.out;
+    EXPECT_FALSE(shown("turned.xwd", 0, 160) == shown("sides.xwd", 0, 160)) << outcome.out;
+    EXPECT_TRUE(shown("turned.xwd", 0, 160) == shown("turned.xwd", 160, 320)) << outcome.out;
+    EXPECT_FALSE(shown("panels.xwd", 0, 320) == shown("turned.xwd", 0, 320)) << outcome.out;
 }
 
 }  // namespace
