@@ -397,7 +397,24 @@ Result<const Image*> Window::picture_of(std::span<const std::uint8_t> rgba, VkEx
     return &pixels_;
 }
 
-// The picture, as large as the window or scaled to it, and what lies over it.
+// Rows of a picture's part into all rows of a window's image, columns into columns; both are ready for it.
+void Window::blit(VkCommandBuffer commands, const Image& picture, const VkExtent2D& part,
+                  const ShownColumns& columns, std::uint32_t index) const {
+    if (columns.is_empty() || part.height == 0) return;
+    const bool scaled = columns.from_end_px - columns.from_px != columns.to_end_px - columns.to_px ||
+                        part.height != swapchain_extent_.height;
+    VkImageBlit region{};
+    region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.srcOffsets[0] = {columns.from_px, 0, 0};
+    region.srcOffsets[1] = {columns.from_end_px, static_cast<std::int32_t>(part.height), 1};
+    region.dstOffsets[0] = {columns.to_px, 0, 0};
+    region.dstOffsets[1] = {columns.to_end_px, static_cast<std::int32_t>(swapchain_extent_.height), 1};
+    vkCmdBlitImage(commands, picture.handle.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, images_[index],
+                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
+                   scaled ? VK_FILTER_LINEAR : VK_FILTER_NEAREST);
+}
+
+// The picture, as large as the window or scaled to it, a second one beside it, and what lies over both.
 void Window::record(VkCommandBuffer commands, const WindowPicture& shown, std::uint32_t index) const {
     const ImageUse written{VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                            VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT};
@@ -410,24 +427,27 @@ void Window::record(VkCommandBuffer commands, const WindowPicture& shown, std::u
                               VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
                               VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
     const ImageUse presented{VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0};
-    const VkImage picture = shown.picture.handle.get();
-    image_barrier(commands, picture, VK_IMAGE_ASPECT_COLOR_BIT, written, source);
+    const auto barrier_of_pictures = [&](const ImageUse& before, const ImageUse& after) {
+        image_barrier(commands, shown.picture.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, before, after);
+        if (shown.beside)
+            image_barrier(commands, shown.beside->picture.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, before,
+                          after);
+    };
+    barrier_of_pictures(written, source);
     image_barrier(commands, images_[index], VK_IMAGE_ASPECT_COLOR_BIT, fresh, target);
-    const bool scaled =
-        shown.part.width != swapchain_extent_.width || shown.part.height != swapchain_extent_.height;
-    VkImageBlit blit{};
-    blit.srcSubresource = blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    blit.srcOffsets[1] = {static_cast<std::int32_t>(shown.part.width),
-                          static_cast<std::int32_t>(shown.part.height), 1};
-    blit.dstOffsets[1] = {static_cast<std::int32_t>(swapchain_extent_.width),
-                          static_cast<std::int32_t>(swapchain_extent_.height), 1};
-    vkCmdBlitImage(commands, picture, source.layout, images_[index], target.layout, 1, &blit,
-                   scaled ? VK_FILTER_LINEAR : VK_FILTER_NEAREST);
+    const std::uint32_t width = swapchain_extent_.width;
+    const std::uint32_t border = shown.beside ? std::min(shown.beside->begins_px, width) : width;
+    const bool is_swiped = shown.beside && shown.beside->is_of_whole_window;
+    blit(commands, shown.picture, shown.part, shown_columns(shown.part.width, width, 0, border, is_swiped),
+         index);
+    if (shown.beside)
+        blit(commands, shown.beside->picture, shown.beside->part,
+             shown_columns(shown.beside->part.width, width, border, width, is_swiped), index);
     image_barrier(commands, images_[index], VK_IMAGE_ASPECT_COLOR_BIT, target, drawn_over);
     if (shown.over != nullptr)
         interface_.record(commands, *shown.over, views_[index].get(), swapchain_extent_);
     image_barrier(commands, images_[index], VK_IMAGE_ASPECT_COLOR_BIT, drawn_over, presented);
-    image_barrier(commands, picture, VK_IMAGE_ASPECT_COLOR_BIT, source, written);
+    barrier_of_pictures(source, written);
 }
 
 Result<bool> Window::take_result(VkResult result, const char* call) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "render/interface/interface_renderer.h"
+#include "render/window_columns.h"
 #include "render/window_input.h"
 
 struct GLFWwindow;
@@ -19,12 +20,23 @@ struct GLFWcursor;
 
 namespace oro {
 
+// A second picture in the columns of a window from one on, like the first in GENERAL layout: its top left
+// part, scaled to these columns, or of a picture of the whole window what lies there.
+struct PictureBeside {
+    const Image& picture;
+    VkExtent2D part{};
+    std::uint32_t begins_px{};
+    bool is_of_whole_window{};
+};
+
 // What a window shows: the top left part of a picture, as large as the window or scaled to it, and what lies
-// over it (null: nothing).
+// over it (null: nothing). With a second picture beside it the first has the columns before that, in the same
+// way.
 struct WindowPicture {
     const Image& picture;
     VkExtent2D part{};
     const ImDrawData* over{};
+    std::optional<PictureBeside> beside{};
 };
 
 enum class PointerShape { arrow, text, hand };
@@ -75,6 +87,8 @@ class Window {
     Result<VkSurfaceCapabilitiesKHR> capabilities() const;
     Result<void> create_swapchain();
     Result<void> create_images();
+    void blit(VkCommandBuffer commands, const Image& picture, const VkExtent2D& part,
+              const ShownColumns& columns, std::uint32_t index) const;
     void record(VkCommandBuffer commands, const WindowPicture& shown, std::uint32_t index) const;
     void destroy_swapchain();
     // Told what acquiring or presenting an image gave: whether that is of any use. Errors: others than these.

@@ -139,6 +139,7 @@ set_tests_properties(
   WindowFaults.AtAnyCallEndItWithALine
   WindowFaults.EndItWithALine
   WindowTour.LooksAsItDid
+  WindowTwoViews.ThatAreTheSameShowTheSame
   WorldGrids.GiveOnePictureWhereverTheyBegin
   PROPERTIES LABELS "cli;long")
 set_tests_properties(

@@ -25,16 +25,6 @@ void forget_mesh(const Viewer& viewer, View& view) {
     if (!viewer.options.view.mesh) view.mesh = "auto";
 }
 
-// Another scene, as the view asks for now: coarse at first where measuring levels takes long.
-Result<void> renew_scene(Viewer& viewer) {
-    ORO_CHECK(finish_frames(viewer));
-    forget_mesh(viewer, viewer.view);
-    ORO_TRY(OpenedScene opened, open_scene(viewer.gpu, viewer.region, viewer.cuts, viewer.view,
-                                           {viewer.options.memory, true, viewer.keeps_means}, [](double) {}));
-    take_scene(viewer, std::move(opened));
-    return is_tinted(viewer) ? lay_over_ground(viewer) : Result<void>();
-}
-
 Result<void> take_renderer(Viewer& viewer, FrameRenderer renderer) {
     ORO_CHECK(finish_frames(viewer));
     if (viewer.has_picture) viewer.kept = viewer.renderer.release_picture();
@@ -77,10 +67,20 @@ Result<void> take_look(Viewer& viewer, View view) {
     viewer.keeps_means = viewer.keeps_means || lacks_means;
     if (lacks_means || other_mesh) ORO_CHECK(renew_scene(viewer));
     viewer.wants_picture = true;
-    return {};
+    return follow_first_view(viewer);
 }
 
 }  // namespace
+
+Result<void> renew_scene(Viewer& viewer) {
+    ORO_CHECK(finish_frames(viewer));
+    forget_mesh(viewer, viewer.view);
+    ORO_TRY(OpenedScene opened,
+            open_scene(viewer.gpu, viewer.region, viewer.cuts, viewer.view,
+                       {memory_of_first(viewer), true, viewer.keeps_means}, [](double) {}));
+    take_scene(viewer, std::move(opened));
+    return is_tinted(viewer) ? lay_over_ground(viewer) : Result<void>();
+}
 
 Result<void> renew_renderer(Viewer& viewer) {
     ORO_TRY(FrameRenderer renderer,
@@ -133,7 +133,7 @@ Result<void> choose_graticule(Viewer& viewer, std::optional<Graticule> graticule
         return find_graticule_crs(viewer.view, viewer.region);
     }
     viewer.wants_picture = true;
-    return {};
+    return follow_first_view(viewer);
 }
 
 Result<void> choose_exaggeration(Viewer& viewer, double factor) {
@@ -153,7 +153,7 @@ Result<void> choose_exaggeration(Viewer& viewer, double factor) {
     const Geodetic& eye = viewer.view.camera.eye;
     viewer.view.camera =
         above_ground(viewer.view.camera, grid_at(viewer.region, eye.lat_deg, eye.lon_deg).field, factor);
-    return renewed;
+    return renewed.ok() ? follow_first_view(viewer) : renewed;
 }
 
 Result<bool> choose_vectors(Viewer& viewer, const VectorChoices& choices) {
@@ -168,6 +168,7 @@ Result<bool> choose_vectors(Viewer& viewer, const VectorChoices& choices) {
     if (viewer.view.fingerprints) viewer.view.fingerprints->vectors = std::move(fingerprints);
     index_points(viewer);
     viewer.wants_picture = true;
+    ORO_CHECK(follow_first_view(viewer));
     return true;
 }
 
@@ -183,7 +184,8 @@ Result<void> choose_drape(Viewer& viewer, const std::vector<std::string>& files,
     viewer.view.images = std::move(*images);
     if (viewer.view.fingerprints) viewer.view.fingerprints->images = std::move(fingerprints);
     viewer.wants_picture = true;
-    return lay_over_ground(viewer);
+    ORO_CHECK(lay_over_ground(viewer));
+    return follow_first_view(viewer);
 }
 
 }  // namespace oro

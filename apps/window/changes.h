@@ -28,6 +28,9 @@ Result<bool> choose_vectors(Viewer& viewer, const VectorChoices& choices);
 // Which images lie over the ground, and how opaque they are.
 Result<void> choose_drape(Viewer& viewer, const std::vector<std::string>& files, double opacity);
 
+// Another scene of the first view, as it asks for now: coarse at first where measuring levels takes long.
+// Errors: those of open_scene().
+Result<void> renew_scene(Viewer& viewer);
 // A renderer that smooths edges and explains frames as the view asks for now.
 Result<void> renew_renderer(Viewer& viewer);
 

@@ -22,11 +22,6 @@ void say_waited(const Viewer& viewer, const char* what) {
     say(viewer.options.quiet, text);
 }
 
-// Whole pictures.
-Tile whole_of(const Camera& camera) {
-    return {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
-}
-
 // What a coarse picture needs of the scene that comes: with that it takes the place of the one that is shown,
 // and the eye stays. Until then the window goes on. True once it has.
 Result<bool> swap_in_full_pyramid(Viewer& viewer) {
@@ -36,7 +31,7 @@ Result<bool> swap_in_full_pyramid(Viewer& viewer) {
     scene.require_fields(viewer.style.frame);
     ORO_TRY(const FramePlan plan,
             scene.plan(
-                {camera, whole_of(camera), std::max(first_tau_px, viewer.view.tau_px), viewer.view.model}));
+                {camera, whole_tile(camera), std::max(first_tau_px, viewer.view.tau_px), viewer.view.model}));
     // Where the GPU has no room for all of it, it never is whole.
     if (!plan.is_settled() && seconds_since(viewer.coming_since) < longest_s) {
         const Result<bool> advanced = scene.advance();
@@ -56,7 +51,7 @@ bool comes_to_rest(Viewer& viewer) {
     if (since_s < rest_s) return since_s > settle_s && !viewer.drawn_at.is_whole();
     viewer.follows_eye = false;
     return viewer.style.contours_by_view || has_writing(viewer.view, viewer.style) ||
-           !viewer.drawn_at.is_whole();
+           second_changes_at_rest(viewer) || !viewer.drawn_at.is_whole();
 }
 
 // Over a frame that is whole, of an eye that rests. Finding it takes too long for an eye that moves.
@@ -82,8 +77,11 @@ bool lacks_ground(Viewer& viewer, const FramePlan& plan) {
     return !has_ground(plan) || seconds_since(viewer.waiting_since) < longest_s;
 }
 
-// A window's size is its camera's and its renderer's. The picture from before stays until another is drawn.
-Result<void> take_size(Viewer& viewer, const VkExtent2D& extent, bool& changed) {
+// A window's size is its camera's and its renderer's, that of a half where there are two. The picture from
+// before stays until another is drawn.
+Result<void> take_size(Viewer& viewer, const VkExtent2D& window, bool& changed) {
+    ORO_CHECK(take_second_size(viewer, window, changed));
+    const VkExtent2D extent = extent_of_first(viewer, window);
     viewer.view.camera.width_px = static_cast<int>(extent.width);
     viewer.view.camera.height_px = static_cast<int>(extent.height);
     if (extent.width == viewer.renderer.extent().width && extent.height == viewer.renderer.extent().height)
@@ -109,18 +107,10 @@ DetailStep step_now(const Viewer& viewer) {
     return is_moving(viewer) ? viewer.detail.now() : DetailStep();
 }
 
-Camera scaled(const Camera& camera, double scale) {
-    Camera smaller = camera;
-    const auto side = [&](int px) { return std::max(1, static_cast<int>(std::lround(px * scale))); };
-    smaller.width_px = side(camera.width_px);
-    smaller.height_px = side(camera.height_px);
-    return smaller;
-}
-
 // What a frame would be drawn from now, and what of it is missing.
 Result<FramePlan> plan_now(Viewer& viewer, const Camera& camera, double tau_px) {
     viewer.scene->require_fields(viewer.style.frame);
-    ORO_TRY(FramePlan plan, viewer.scene->plan({camera, whole_of(camera), tau_px, viewer.view.model}));
+    ORO_TRY(FramePlan plan, viewer.scene->plan({camera, whole_tile(camera), tau_px, viewer.view.model}));
     viewer.is_missing = !plan.is_settled();
     viewer.waits_for_ground = lacks_ground(viewer, plan);
     if (viewer.is_shown || plan.wants_pages()) return plan;
@@ -146,18 +136,12 @@ void take_report(Viewer& viewer, SubmittedFrame frame, FrameReport report) {
     viewer.to_trace = frame;
 }
 
-gpu::FrameStyle style_of(const Viewer& viewer, const SubmittedFrame& frame) {
-    gpu::FrameStyle style = viewer.style.frame;
-    if (!frame.step.shadows) style.shadows = 0;
-    return style;
-}
-
 // Of an eye that rests: waits for it.
 Result<void> draw_at_rest(Viewer& viewer, FramePlan plan, const SubmittedFrame& frame) {
     ORO_CHECK(viewer.window.present());
     ORO_CHECK(take_reports(viewer, 0));
-    ORO_TRY(FrameReport drawn,
-            viewer.renderer.draw(std::move(plan), style_of(viewer, frame), 0, 1, viewer.scene->drapes()));
+    ORO_TRY(FrameReport drawn, viewer.renderer.draw(std::move(plan), style_at(viewer.style.frame, frame.step),
+                                                    0, 1, viewer.scene->drapes()));
     take_report(viewer, frame, std::move(drawn));
     return frame.step.scale < 1.0 ? Result<void>() : write_over(viewer, viewer.report);
 }
@@ -166,10 +150,14 @@ Result<void> draw_planned(Viewer& viewer, FramePlan plan, const SubmittedFrame& 
     ORO_CHECK(fit_to_view(viewer.style, viewer.view, viewer.region.grids.front().field,
                           viewer.follows_eye ? Eye::moves : Eye::rests));
     if (frame.is_of_moving_eye) {
-        ORO_CHECK(viewer.renderer.submit(std::move(plan), style_of(viewer, frame), viewer.scene->drapes()));
+        // Before the first view's, whose time then holds both.
+        ORO_CHECK(submit_second(viewer, frame.step));
+        ORO_CHECK(viewer.renderer.submit(std::move(plan), style_at(viewer.style.frame, frame.step),
+                                         viewer.scene->drapes()));
         viewer.under_way.push_back(frame);
     } else {
         ORO_CHECK(draw_at_rest(viewer, std::move(plan), frame));
+        ORO_CHECK(draw_second_at_rest(viewer, frame.step));
     }
     if (frame.step.scale < 1.0) return {};
     const int every = is_coarse(viewer) ? coarse_step(viewer.region.grids.front().field) : 1;
@@ -178,6 +166,23 @@ Result<void> draw_planned(Viewer& viewer, FramePlan plan, const SubmittedFrame& 
 }
 
 }  // namespace
+
+Tile whole_tile(const Camera& camera) {
+    return {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
+}
+
+gpu::FrameStyle style_at(gpu::FrameStyle style, const DetailStep& step) {
+    if (!step.shadows) style.shadows = 0;
+    return style;
+}
+
+Camera scaled_camera(const Camera& camera, double scale) {
+    Camera smaller = camera;
+    const auto side = [&](int px) { return std::max(1, static_cast<int>(std::lround(px * scale))); };
+    smaller.width_px = side(camera.width_px);
+    smaller.height_px = side(camera.height_px);
+    return smaller;
+}
 
 Result<void> refine(Viewer& viewer, bool& changed) {
     if (viewer.finer && viewer.finer->ready()) ORO_CHECK(begin_finer_scene(viewer));
@@ -196,6 +201,8 @@ Result<bool> draw_frame(Viewer& viewer, bool& changed) {
         ORO_TRY(const bool better, viewer.scene->advance());
         changed = changed || better;
     }
+    ORO_TRY(const bool better_second, advance_second(viewer));
+    changed = changed || better_second;
     changed = comes_to_rest(viewer) || changed;
     if (!changed) return false;
     SubmittedFrame frame;
@@ -204,7 +211,7 @@ Result<bool> draw_frame(Viewer& viewer, bool& changed) {
     frame.is_of_moving_eye = is_moving(viewer);
     follow_sun(viewer);
     frame.step = step_now(viewer);
-    const Camera camera = scaled(viewer.view.camera, frame.step.scale);
+    const Camera camera = scaled_camera(viewer.view.camera, frame.step.scale);
     ORO_TRY(FramePlan plan, plan_now(viewer, camera, viewer.view.tau_px * frame.step.tau_factor));
     if (viewer.waits_for_ground) {
         // Asked again with the next page, or soon where some ground is there.
@@ -220,7 +227,9 @@ Result<bool> draw_frame(Viewer& viewer, bool& changed) {
     viewer.kept = {};
     viewer.part = {static_cast<std::uint32_t>(camera.width_px), static_cast<std::uint32_t>(camera.height_px)};
     viewer.drawn_at = frame.step;
-    changed = !frame.is_of_moving_eye && (!viewer.report.images_settled || !frame.step.is_whole());
+    const bool lacks_images =
+        !viewer.report.images_settled || (viewer.two.second && !viewer.two.second->images_settled);
+    changed = !frame.is_of_moving_eye && (lacks_images || !frame.step.is_whole());
     return true;
 }
 
@@ -233,7 +242,7 @@ Result<void> take_reports(Viewer& viewer, std::size_t left) {
         trace_frame(*std::exchange(viewer.to_trace, std::nullopt));
         if (!viewer.report.images_settled) viewer.wants_picture = true;
     }
-    return {};
+    return finish_second(viewer, left);
 }
 
 Result<void> finish_frames(Viewer& viewer) {
@@ -247,7 +256,8 @@ Result<std::optional<WindowPicture>> picture_to_show(Viewer& viewer) {
     const VkExtent2D extent = viewer.window.extent();
     if (extent.width == 0 || extent.height == 0) return Shown();
     if (shows_panorama(viewer)) return panorama_to_show(viewer);
-    if (viewer.has_picture) return Shown(WindowPicture{viewer.renderer.picture(), viewer.part});
+    if (viewer.has_picture)
+        return Shown(WindowPicture{viewer.renderer.picture(), viewer.part, nullptr, second_to_show(viewer)});
     if (viewer.kept.handle) return Shown(WindowPicture{viewer.kept, viewer.part});
     ORO_TRY(const std::vector<std::uint8_t> pixels,
             loading_picture(static_cast<int>(extent.width), static_cast<int>(extent.height)));

@@ -21,6 +21,12 @@ Result<void> finish_frames(Viewer& viewer);
 Result<std::optional<WindowPicture>> picture_to_show(Viewer& viewer);
 // Told of each time that it was shown.
 void say_what_is_shown(Viewer& viewer);
+// All of a camera's picture.
+Tile whole_tile(const Camera& camera);
+// The same camera with so many times as many pixels a side, at least one.
+Camera scaled_camera(const Camera& camera, double scale);
+// A style as a frame at a step of detail has it.
+gpu::FrameStyle style_at(gpu::FrameStyle style, const DetailStep& step);
 // A renderer that draws what the view and its style ask for now.
 Result<FrameRenderer> renderer_for(const Gpu& gpu, const View& view, const Style& style, RasterPath path,
                                    VkExtent2D extent);

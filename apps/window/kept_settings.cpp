@@ -8,12 +8,13 @@
 namespace oro {
 namespace {
 
-constexpr std::array<std::pair<const char*, bool Panels::*>, 5> panel_names{
+constexpr std::array<std::pair<const char*, bool Panels::*>, 6> panel_names{
     {{"layers", &Panels::layers},
      {"sun", &Panels::sun},
      {"statistics", &Panels::statistics},
      {"log", &Panels::messages},
-     {"measure", &Panels::measure}}};
+     {"measure", &Panels::measure},
+     {"two views", &Panels::two_views}}};
 
 }  // namespace
 

@@ -9,6 +9,17 @@
 #include "apps/window/window_start.h"
 
 namespace oro {
+namespace {
+
+// The colours that lie over the ground; null: none.
+std::shared_ptr<const PostColours> shown_tint(const Viewer& viewer) {
+    if (viewer.leaves_tints_out) return nullptr;
+    if (viewer.comparing.found && viewer.comparing.is_shown) return viewer.comparing.found->colours;
+    if (viewer.looking.found && viewer.looking.is_shown) return viewer.looking.found->colours;
+    return nullptr;
+}
+
+}  // namespace
 
 void look_around(Viewer& viewer) {
     LookingAround& looking = viewer.looking;
@@ -61,13 +72,18 @@ void save_seen_around(Viewer& viewer) {
 }
 
 bool is_tinted(const Viewer& viewer) {
-    return viewer.looking.found && viewer.looking.is_shown;
+    return shown_tint(viewer) != nullptr;
+}
+
+Result<void> leave_tints_out(Viewer& viewer, bool left_out) {
+    viewer.leaves_tints_out = left_out;
+    viewer.wants_picture = true;
+    return lay_over_ground(viewer);
 }
 
 Result<void> lay_over_ground(Viewer& viewer, Scene& scene) {
     for (std::size_t grid = 0; grid < scene.grids().size(); ++grid) scene.set_drape(nullptr, grid);
-    return lay_images(viewer.view, viewer.options.memory, viewer.gpu, scene, true,
-                      is_tinted(viewer) ? viewer.looking.found->colours : nullptr);
+    return lay_images(viewer.view, memory_of_first(viewer), viewer.gpu, scene, true, shown_tint(viewer));
 }
 
 Result<void> lay_over_ground(Viewer& viewer) {

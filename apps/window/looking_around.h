@@ -33,9 +33,13 @@ Result<void> forget_seen_around(Viewer& viewer);
 // Writes the command's GeoTIFF into the working folder. What goes wrong is told.
 void save_seen_around(Viewer& viewer);
 
-// Whether there is a tint, and it is shown.
+// Whether there is a tint, and it is shown: of what is seen, or of how two sources differ.
 bool is_tinted(const Viewer& viewer);
-// Lays the view's images over a scene anew, and the tint over them. Errors: the device, images.
+// Leaves all tints out of the ground, or lays the one that is shown over it again. Errors: the device,
+// images.
+Result<void> leave_tints_out(Viewer& viewer, bool left_out);
+// Lays the view's images over a scene anew, and the tint over them; of two tints that of the difference.
+// Errors: the device, images.
 Result<void> lay_over_ground(Viewer& viewer, Scene& scene);
 // The same over the scenes that are there: the one that is shown, and the one that comes.
 Result<void> lay_over_ground(Viewer& viewer);

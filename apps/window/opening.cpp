@@ -92,6 +92,8 @@ void forget_region(Viewer& viewer) {
     viewer.measuring = {};
     viewer.looking = {};
     viewer.panorama = {};
+    viewer.two = {};
+    viewer.comparing = {};
     viewer.panels.viewshed = viewer.panels.panorama = false;
     viewer.flies = false;
     viewer.playing.reset();
@@ -112,7 +114,7 @@ void begin_opening_project(Viewer& viewer, const std::string& file) {
     options.region = {};
     options.region.paths = {file};
     options.view = {};
-    const Camera& shown = viewer.view.camera;
+    const Camera shown = view_alone(viewer).camera;
     options.view.size = std::to_string(shown.width_px) + "x" + std::to_string(shown.height_px);
     options.gazetteers.clear();
     options.no_paths = false;
@@ -195,7 +197,7 @@ Result<void> open_paths(Viewer& viewer, const std::vector<std::string>& paths) {
             others.push_back(path);
     }
     if (!others.empty())
-        begin_opening(viewer, options_for_other_region(viewer.options, viewer.view, others), {});
+        begin_opening(viewer, options_for_other_region(viewer.options, view_alone(viewer), others), {});
     return vectors.empty() ? Result<void>() : add_vectors(viewer, vectors);
 }
 

@@ -78,7 +78,7 @@ Result<void> begin_finer_scene(Viewer& viewer) {
     ORO_TRY(pages.front(), viewer.finer->wait());
     viewer.finer.reset();
     ORO_TRY(Scene scene, scene_with_images(viewer.gpu, viewer.region, viewer.cuts, std::move(pages),
-                                           viewer.view, {viewer.options.memory, true, viewer.keeps_means}));
+                                           viewer.view, {memory_of_first(viewer), true, viewer.keeps_means}));
     if (is_tinted(viewer)) ORO_CHECK(lay_over_ground(viewer, scene));
     viewer.coming = std::make_unique<Scene>(std::move(scene));
     viewer.coming_since = Clock::now();
@@ -103,9 +103,9 @@ Result<void> take_picture(Viewer& viewer) {
 Result<void> take_picture(Viewer& viewer, const PictureChoice& choice) {
     // A picture has what its view tells, which a tint is no part of.
     const bool tinted = is_tinted(viewer);
-    if (tinted) ORO_CHECK(show_seen_around(viewer, false));
+    if (tinted) ORO_CHECK(leave_tints_out(viewer, true));
     ORO_CHECK(write_picture_of(viewer, choice));
-    return tinted ? show_seen_around(viewer, true) : Result<void>();
+    return tinted ? leave_tints_out(viewer, false) : Result<void>();
 }
 
 std::string command_line_of(const View& shown, const PictureChoice& choice) {

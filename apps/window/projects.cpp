@@ -57,7 +57,7 @@ Result<std::optional<Project>> project_named_by(WindowOptions& options) {
 
 Project project_of(const Viewer& viewer) {
     Project project;
-    project.view = viewer.view;
+    project.view = view_alone(viewer);
     const VectorChoices& shown = viewer.view.vectors;
     const VectorChoices known = viewer.vectors_known.value_or(shown);
     project.names = joined_files(known.names, shown.names);

@@ -22,7 +22,7 @@ bool traces() {
 void Panels::open(bool Panels::*panel) {
     // Sides of fewer panels end in nulls.
     constexpr std::array<std::array<bool Panels::*, 5>, 3> sides{
-        {{&Panels::layers, &Panels::measure, &Panels::messages, &Panels::film},
+        {{&Panels::layers, &Panels::measure, &Panels::messages, &Panels::film, &Panels::two_views},
          {&Panels::sun, &Panels::statistics, &Panels::place, &Panels::viewshed, &Panels::panorama},
          {&Panels::keys, &Panels::files, &Panels::picture, &Panels::project}}};
     for (const auto& side : sides) {
@@ -119,7 +119,9 @@ std::string progress_words(const Viewer& viewer) {
         return text;
     }
     if (is_coarse(viewer)) return "loading full detail";
-    return viewer.is_missing ? "loading" : "";
+    if (viewer.two.work) return "preparing the second view";
+    const bool lacks_second = viewer.two.second && viewer.two.second->is_missing;
+    return viewer.is_missing || lacks_second ? "loading" : "";
 }
 
 void tell(Viewer& viewer, const std::string& text, bool is_error) {

@@ -21,15 +21,17 @@
 #include "apps/search/search_index.h"
 #include "apps/settings/window_settings.h"
 #include "apps/view/style.h"
+#include "apps/window/comparing.h"
 #include "apps/window/detail.h"
 #include "apps/window/films.h"
 #include "apps/window/jump.h"
 #include "apps/window/looking_around.h"
 #include "apps/window/measure.h"
-#include "apps/window/place_certificates.h"
-#include "apps/window/region_opening.h"
 #include "apps/window/panoramas.h"
+#include "apps/window/place_certificates.h"
 #include "apps/window/playing.h"
+#include "apps/window/region_opening.h"
+#include "apps/window/second_view.h"
 #include "core/base/elapsed.h"
 #include "render/frame/frame_renderer.h"
 #include "render/window.h"
@@ -116,6 +118,7 @@ struct Panels {
     bool panorama{false};  // all around from there
     bool film{false};
     bool project{false};
+    bool two_views{false};
 
     // Opens one, or closes it; others that would lie over it are closed.
     void toggle(bool Panels::*panel);
@@ -160,6 +163,9 @@ struct Viewer {
     Measuring measuring{};
     LookingAround looking{};    // ends before the region that it reads
     PanoramaAround panorama{};  // likewise
+    TwoViews two{};             // likewise
+    Comparing comparing{};      // likewise
+    bool leaves_tints_out{};    // of the ground, for a picture
     std::optional<SunClock> sun_clock{};
     std::optional<PictureChoice> picture_choice{};   // of the dialog
     std::vector<std::vector<std::string>> recent{};  // what was opened last, each together

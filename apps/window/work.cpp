@@ -3,12 +3,14 @@
 namespace oro {
 
 bool has_work(const Viewer& viewer) {
-    return viewer.looking.work || viewer.panorama.work;
+    return viewer.looking.work || viewer.panorama.work || viewer.two.work || viewer.comparing.work;
 }
 
 Result<void> take_finished_work(Viewer& viewer) {
     take_panorama(viewer);
-    return take_seen_around(viewer);
+    ORO_CHECK(take_seen_around(viewer));
+    ORO_CHECK(take_second(viewer));
+    return take_difference(viewer);
 }
 
 }  // namespace oro

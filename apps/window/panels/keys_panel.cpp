@@ -31,7 +31,7 @@ constexpr KeyWords key_words[] = {{"", "Moving"},
                                   {"Ctrl-S", "saves all this as a project"},
                                   {"?, H, F1", "these keys"},
                                   {"Tab", "hides and shows all that lies over the picture"},
-                                  {"F11", "full screen"},
+                                  {"F11, 2", "full screen; two views, and with a line, and one"},
                                   {"Ctrl and +, -, 0", "larger, smaller and usual letters"},
                                   {"Esc", "closes what is open; it never quits"},
                                   {"Ctrl-Q", "quits"}};

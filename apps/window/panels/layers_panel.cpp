@@ -206,6 +206,8 @@ void build_layers_panel(Viewer& viewer) {
         if (ImGui::Checkbox("Feet and miles", &imperial))
             viewer.settings.units = imperial ? UnitSystem::imperial : UnitSystem::metric;
         tip("In the lower border. The panels of places and measures, and what is copied, stay metric.");
+        if (ImGui::Button("Two views")) viewer.panels.open(&Panels::two_views);
+        tip("Beside this one: with another tau, Earth, light, style, sun or source (2)");
     }
     ImGui::End();
 }

@@ -140,6 +140,10 @@ void draw_line(const Viewer& viewer) {
     const Measuring& measuring = viewer.measuring;
     if (!measuring.found.profile && measuring.found.places.empty()) return;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const Camera& shown = viewer.view.camera;
+    // Of two views side by side in the first.
+    list.PushClipRect({0.0F, 0.0F},
+                      {static_cast<float>(shown.width_px), static_cast<float>(shown.height_px)});
     const auto join = [&](const std::optional<glm::dvec2>& from, const std::optional<glm::dvec2>& to) {
         if (!from || !to) return;
         const ImVec2 a(static_cast<float>(from->x), static_cast<float>(from->y)),
@@ -157,6 +161,7 @@ void draw_line(const Viewer& viewer) {
         list.AddCircleFilled(dot, scaled_px(5.0F), interface_colour::shadow);
         list.AddCircleFilled(dot, scaled_px(3.5F), interface_colour::ink);
     }
+    list.PopClipRect();
 }
 
 }  // namespace

@@ -8,6 +8,7 @@ void build_panels(Viewer& viewer) {
     if (viewer.panels.hidden && !viewer.search.is_open) return build_toasts(viewer);
     build_search_field(viewer);
     if (viewer.panels.hidden) return;
+    build_two_views(viewer);
     build_panorama_panel(viewer);
     build_status_bar(viewer);
     build_buttons(viewer);
@@ -24,6 +25,7 @@ void build_panels(Viewer& viewer) {
     build_viewshed_panel(viewer);
     build_film_panel(viewer);
     build_measure_panel(viewer);
+    build_two_views_panel(viewer);
     build_files_panel(viewer);
     build_project_panel(viewer);
     build_picture_panel(viewer);

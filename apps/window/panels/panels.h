@@ -31,6 +31,8 @@ void build_film_panel(Viewer& viewer);        // keys of a camera's path, and li
 void build_measure_panel(Viewer& viewer);     // and the line over the picture
 void build_files_panel(Viewer& viewer);       // to open some
 void build_project_panel(Viewer& viewer);     // where all this is saved to
+void build_two_views(Viewer& viewer);         // the line between them, what differs, a tint's legend
+void build_two_views_panel(Viewer& viewer);   // what the second view has otherwise
 void build_picture_panel(Viewer& viewer);     // a picture of another size, and the command that draws it
 
 }  // namespace oro

@@ -106,6 +106,7 @@ Result<void> take_key(Session& session, const KeyChanged& event) {
 void take_character(Viewer& viewer, char32_t code) {
     if (code == U'g' || code == U'G' || code == U'/') open_search(viewer);
     if (code == U'?') viewer.panels.toggle(&Panels::keys);
+    if (code == U'2') viewer.wishes.push_back(choose_next_layout);
 }
 
 // What was clicked at, and not dragged.
@@ -129,6 +130,19 @@ bool takes_eye_in_hand(const WindowEvent& event) {
     return std::holds_alternative<WheelTurned>(event);
 }
 
+// Of two views side by side each shows the same places: what the pointer does in the second half it does
+// there in the first.
+void take_over_halves(Viewer& viewer, ViewEvent& event) {
+    using Kind = ViewEvent::Kind;
+    const int border_px = pointer_border_px(viewer);
+    if (event.kind == Kind::press) viewer.two.pointer.button(true, event.point_px, border_px);
+    const glm::dvec2 at_px = event.point_px;
+    const bool has_point = event.kind == Kind::press || event.kind == Kind::release ||
+                           event.kind == Kind::cursor || event.kind == Kind::wheel;
+    if (has_point) event.point_px = viewer.two.pointer.point_of_first(at_px, border_px);
+    if (event.kind == Kind::release) viewer.two.pointer.button(false, at_px, border_px);
+}
+
 Result<void> take_event(Session& session, const WindowEvent& event) {
     Viewer& viewer = session.viewer;
     if (viewer.playing && takes_eye_in_hand(event)) {
@@ -140,8 +154,9 @@ Result<void> take_event(Session& session, const WindowEvent& event) {
     if (const auto* const dropped = std::get_if<PathsDropped>(&event))
         return open_paths(viewer, dropped->paths);
     if (is_save_chord(event)) return {};
-    const auto of_view = view_event_of(event, motion_clock_s());
+    auto of_view = view_event_of(event, motion_clock_s());
     if (!of_view) return {};
+    take_over_halves(viewer, *of_view);
     const auto click = take_view_event(viewer, *of_view);
     return click ? take_click(viewer, *click) : Result<void>();
 }
@@ -155,7 +170,7 @@ Result<void> look_around(Session& session, const WindowInput& input, bool is_new
     if (is_new) {
         ORO_TRY(viewer.in_middle, picked_at(viewer, {0.5 * camera.width_px, 0.5 * camera.height_px}));
     }
-    const glm::dvec2 at = input.pointer_px;
+    const glm::dvec2 at = viewer.two.pointer.point_of_first(input.pointer_px, pointer_border_px(viewer));
     const bool is_over = at.x >= 0.0 && at.y >= 0.0 && at.x < camera.width_px && at.y < camera.height_px &&
                          !session.interface.has_pointer();
     if (!is_over) {
@@ -179,7 +194,8 @@ double wait_s(const Session& session) {
     const Viewer& viewer = session.viewer;
     if (viewer.window.extent().width == 0) return 0.05;  // minimised
     if (session.changed || session.frames_due > 0 || viewer.gestures->is_moving()) return 0.0;
-    return viewer.is_missing || viewer.coming ? 0.005 : 0.05;
+    const bool lacks_second = viewer.two.second && viewer.two.second->is_missing;
+    return viewer.is_missing || lacks_second || viewer.coming ? 0.005 : 0.05;
 }
 
 Result<void> show(Session& session, bool is_new) {
@@ -194,7 +210,7 @@ Result<void> show(Session& session, bool is_new) {
     session.interface.set_user_scale(viewer.settings.ui_scale);
     ORO_CHECK(session.interface.follow_scale());
     const ImDrawData* const over = session.interface.lists([&] { build_panels(viewer); });
-    const WindowPicture whole{picture->picture, picture->part, over};
+    const WindowPicture whole{picture->picture, picture->part, over, picture->beside};
     ORO_TRY(bool shown, viewer.window.show(whole));
     // One that is still being drawn is presented when the next one is begun.
     if (shown && viewer.under_way.empty()) {

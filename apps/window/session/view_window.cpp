@@ -59,6 +59,7 @@ struct ViewerState {
     bool keeps_means{};
     bool is_lost{false};               // the device is: the window goes on with another
     bool is_first{true};               // no device was lost yet
+    bool had_two_views{false};         // when it was lost
     std::optional<Project> project{};  // that was asked for, until it is shown
     std::vector<std::string> notes_of_settings{};
     // Of the viewer.
@@ -134,9 +135,13 @@ void move_session(From& from, To& to) {
 
 // What is known without a device, for another one.
 void keep(Viewer& viewer, ViewerState& state) {
+    viewer.view = view_alone(viewer);
     // What refers to the region goes first.
     viewer.looking = {};
     viewer.panorama = {};
+    state.had_two_views = viewer.two.second != nullptr;
+    viewer.two = {};
+    viewer.comparing = {};
     viewer.coming.reset();
     viewer.finer.reset();
     viewer.scene.reset();
@@ -161,6 +166,7 @@ Result<void> set_out(Viewer& viewer, ViewerState& state) {
     if (!state.is_first) {
         tell(viewer, "the GPU was lost: this is another start of it");
         say(viewer.options.quiet, "note: " + viewer.message);
+        if (state.had_two_views) tell(viewer, "the second view was closed: 2 shows it again");
         return {};
     }
     note_in_log(viewer);
