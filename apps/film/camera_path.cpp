@@ -81,6 +81,8 @@ CameraPath::CameraPath(std::vector<CameraKey> keys) : keys_(std::move(keys)) {
         legs_.push_back(leg);
         along_m.push_back(along_m.back() + leg.length_m);
     }
+    for (std::size_t i = 0; i < keys_.size(); ++i)
+        if (keys_[i].time_utc_s) clock_keys_.push_back(i);
     std::size_t number = 0;
     along_m_ = cubic_of(keys_, [&](const CameraKey&) { return along_m[number++]; });
     h_m_ = cubic_of(keys_, [](const CameraKey& key) { return key.eye.h_m; });
@@ -88,13 +90,14 @@ CameraPath::CameraPath(std::vector<CameraKey> keys) : keys_(std::move(keys)) {
 }
 
 std::optional<std::int64_t> CameraPath::clock_at(double time_s) const {
-    const CameraKey *before = nullptr, *behind = nullptr;
-    for (const CameraKey& key : keys_) {
-        if (!key.time_utc_s) continue;
-        if (key.time_s <= time_s) before = &key;
-        if (key.time_s >= time_s && behind == nullptr) behind = &key;
-    }
-    if (before == nullptr && behind == nullptr) return std::nullopt;
+    if (clock_keys_.empty()) return std::nullopt;
+    const auto key_time_s = [&](std::size_t number) { return keys_[number].time_s; };
+    const auto first = std::ranges::lower_bound(clock_keys_, time_s, {}, key_time_s);
+    const CameraKey* const behind = first == clock_keys_.end() ? nullptr : &keys_[*first];
+    const bool is_at_key = behind != nullptr && behind->time_s == time_s;
+    const CameraKey* const before = is_at_key                      ? behind
+                                    : first != clock_keys_.begin() ? &keys_[*(first - 1)]
+                                                                   : nullptr;
     const CameraKey& from = before != nullptr ? *before : *behind;
     double rate = 1.0;
     if (before != nullptr && behind != nullptr && behind != before)
@@ -106,10 +109,10 @@ std::optional<std::int64_t> CameraPath::clock_at(double time_s) const {
 
 CameraKey CameraPath::at(double time_s) const {
     const double held_s = std::clamp(time_s, keys_.front().time_s, keys_.back().time_s);
-    for (const CameraKey& key : keys_) {
-        if (std::abs(key.time_s - held_s) > same_time_s) continue;
-        CameraKey there = key;
-        there.time_utc_s = clock_at(key.time_s);
+    const auto near = std::ranges::lower_bound(keys_, held_s - same_time_s, {}, &CameraKey::time_s);
+    if (near != keys_.end() && near->time_s - held_s <= same_time_s) {
+        CameraKey there = *near;
+        there.time_utc_s = clock_at(near->time_s);
         return there;
     }
     const auto next = std::ranges::upper_bound(keys_, held_s, {}, &CameraKey::time_s);

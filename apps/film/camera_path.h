@@ -1,6 +1,7 @@
 // The way of a camera through time: keys, and what is between them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -50,6 +51,7 @@ class CameraPath {
     [[nodiscard]] std::optional<std::int64_t> clock_at(double time_s) const;
 
     std::vector<CameraKey> keys_;
+    std::vector<std::size_t> clock_keys_;  // those whose clock is known, ascending
     std::vector<Leg> legs_;
     MonotoneCubic along_m_;
     MonotoneCubic h_m_;

@@ -139,15 +139,27 @@ Result<std::vector<CameraKey>> eyes_over_region(const std::vector<WrittenKey>& k
     for (const WrittenKey& written : keys) {
         CameraKey key = written.key;
         ORO_TRY(key.eye.h_m, h_over_region(key.eye, written.heights, region, exaggeration, where));
+        placed.push_back(key);
+    }
+    ORO_CHECK(check_keys(placed, where));
+    return placed;
+}
+
+Result<void> check_keys(const std::vector<CameraKey>& keys, const std::string& where) {
+    char text[160];
+    for (const CameraKey& key : keys) {
         if (!limits::eye_h_m.hold(key.eye.h_m)) {
-            char text[120];
             std::snprintf(text, sizeof text, "an eye would be at h %g m, not between %g and %g", key.eye.h_m,
                           limits::eye_h_m.low, limits::eye_h_m.high);
             return Error{ErrorKind::usage, where, text};
         }
-        placed.push_back(key);
+        if (!(std::abs(key.time_s) <= longest_film_s)) {
+            std::snprintf(text, sizeof text, "a film would last %g s, more than %g s", key.time_s,
+                          longest_film_s);
+            return Error{ErrorKind::usage, where, text};
+        }
     }
-    return placed;
+    return {};
 }
 
 }  // namespace oro

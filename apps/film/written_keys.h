@@ -39,8 +39,12 @@ std::string keys_to_json(const std::vector<CameraKey>& keys);
 Result<double> h_over_region(const Geodetic& written, HeightAbove heights, const Region& region,
                              double exaggeration, const std::string& where);
 
+// Whether a film can have these keys. Errors (usage): an eye beyond view_limits::eye_h_m; a time of more than
+// 10,000,000 s.
+Result<void> check_keys(const std::vector<CameraKey>& keys, const std::string& where);
+
 // The keys with heights above the ellipsoid, over a region whose heights are exaggerated. Errors: those
-// of h_over_region(); an eye beyond view_limits::eye_h_m (usage).
+// of h_over_region() and check_keys().
 Result<std::vector<CameraKey>> eyes_over_region(const std::vector<WrittenKey>& keys, const Region& region,
                                                 double exaggeration, const std::string& where);
 

@@ -104,10 +104,6 @@ Result<void> check_words(const FilmOptions& options) {
     ORO_CHECK(within("--fps", options.fps, frames_a_second));
     if (options.view.tolerance)
         return refused("--tolerance", "", "is for shot: give --accuracy or --tau to a film");
-    if (options.write_path.empty()) return {};
-    ORO_TRY(const bool there, is_there(options.write_path));
-    if (there && !options.overwrite)
-        return Error{ErrorKind::failed, options.write_path, "is there already (--overwrite replaces it)"};
     return {};
 }
 
@@ -154,9 +150,25 @@ Result<void> write_keys(const FilmOptions& options, const View& view, const Regi
     if (options.write_path.empty()) return {};
     ORO_CHECK(spare_inputs({options.write_path},
                            {files_of_picture(view, region), {{options.path}, "which is the camera's path"}}));
-    ORO_CHECK(write_whole_file(options.write_path, keys_to_json(keys), options.overwrite));
+    const std::string text = keys_to_json(keys);
+    ORO_TRY(const bool there, is_there(options.write_path));
+    if (there && !options.overwrite) {
+        const auto now = read_own_text_file(options.write_path);
+        if (now.ok() && *now == text) return {};
+        return Error{ErrorKind::failed, options.write_path,
+                     "is there already, and tells another path (--overwrite replaces it)"};
+    }
+    ORO_CHECK(write_whole_file(options.write_path, text, options.overwrite));
     say(options.quiet, "wrote " + options.write_path);
     return {};
+}
+
+// What a command tells that writes the path and draws nothing.
+void tell_path(const FilmOptions& options, const CameraPath& path) {
+    if (!options.json) return;
+    const nlohmann::ordered_json json =
+        json_object("path", options.write_path, "duration_s", path.duration_s(), "keys", path.keys().size());
+    std::printf("%s\n", json_text(json, true).c_str());
 }
 
 // The frames that are asked for, with their views.
@@ -340,7 +352,11 @@ Result<void> run_film(const FilmOptions& options) {
     ORO_CHECK(write_keys(options, view, region, keys));
     const CameraPath path(std::move(keys));
     report.read_s = seconds_since(reading);
-    if (options.out.empty()) return {};
+    if (options.out.empty()) {
+        bar.clear();
+        tell_path(options, path);
+        return {};
+    }
     ORO_CHECK(film_it(options, files, path, bar, view, region, report));
     bar.clear();
     tell(options, files, path, report);

@@ -56,6 +56,7 @@ Result<std::vector<CameraKey>> keys_of_tour(const std::vector<TourStop>& stops, 
         }
         keys.push_back(key);
     }
+    ORO_CHECK(check_keys(keys, where));
     return keys;
 }
 

@@ -10,6 +10,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/command_line/whole_text.h"
 #include "apps/eye/standpoint.h"
+#include "apps/film/written_keys.h"
 #include "apps/options/option_table.h"
 #include "apps/options/view_limits.h"
 #include "core/terrain/ground.h"
@@ -167,6 +168,10 @@ Result<TrackFlight> track_flight(const FilmOptions& options, double length_m) {
     if (options.speed_m_s) {
         ORO_TRY(const double speed_m_s, within("--speed", *options.speed_m_s, track_speed_m_s));
         flight.duration_s = length_m / speed_m_s;
+        if (!track_duration_s.hold(flight.duration_s))
+            return refused("--speed", "",
+                           "the film's length " + between_words(track_duration_s.low, track_duration_s.high) +
+                               " seconds");
     }
     if (!options.look_ahead) return flight;
     ORO_TRY(const LookAhead ahead, look_ahead_of(*options.look_ahead));
@@ -199,6 +204,7 @@ Result<std::vector<CameraKey>> keys_along_track(const LineAlong& line, const Tra
         key.vertical_fov_deg = flight.vertical_fov_deg;
         keys.push_back(key);
     }
+    ORO_CHECK(check_keys(keys, line.file));
     return keys;
 }
 

@@ -197,6 +197,14 @@ TEST_F(Film, TracksAndTheirKeysAreOneFilm) {
     const Outcome written = run_orograph({"film", track, bundled(), "--duration", "1", "--above", "200",
                                           "--look-ahead", "800", "--write-path", keys, "-q"});
     ASSERT_EQ(written.exit_code, 0) << written.err;
+    const Words again{"film", track, bundled(), "--above", "200", "--write-path", keys, "--json", "-q"};
+    const Outcome same = run_orograph(joined(again, {"--duration", "1", "--look-ahead", "800"}));
+    ASSERT_EQ(same.exit_code, 0) << "a film that goes on has its path already: " << same.err;
+    EXPECT_NE(same.out.find("\"duration_s\": 1"), std::string::npos) << same.out;
+    expect_refusal(run_orograph(joined(again, {"--duration", "2"})), oro::test::failed,
+                   {"keys.json", "is there already, and tells another path"});
+    expect_refusal(run_orograph(joined(again, {"--speed", "1000000", "--overwrite"})), oro::test::usage,
+                   {"--speed", "the film's length must be between 0.1 and 1e+06 seconds"});
     const Words how{"--size", "64x48", "--fps", "2", "--time", "2026-11-21T09:00:00Z", "-q"};
     ASSERT_EQ(run_orograph(joined({"film", track, bundled(), "--duration", "1", "--above", "200",
                                    "--look-ahead", "800", "--out", folder / "a"},
