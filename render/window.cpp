@@ -332,6 +332,10 @@ bool Window::is_full_screen() const {
     return glfwGetWindowMonitor(window_) != nullptr;
 }
 
+void Window::hide() {
+    glfwHideWindow(window_);
+}
+
 void Window::toggle_full_screen() {
     if (is_full_screen()) {
         glfwSetWindowMonitor(window_, nullptr, windowed_[0], windowed_[1], windowed_[2], windowed_[3], 0);

@@ -73,6 +73,8 @@ class Window {
     void set_pointer(PointerShape shape);
     void toggle_full_screen();
     [[nodiscard]] bool is_full_screen() const;
+    // Takes it off the screen: of a user who leaves, while what is under way ends.
+    void hide();
     void set_clipboard(const std::string& text);
     [[nodiscard]] std::string clipboard() const;
     // Size of what is shown, in pixels; 0 x 0 while minimised.

@@ -214,7 +214,11 @@ Result<void> fly(ViewerState& state, ProgressBar& bar) {
     if (gpu->report().kind == VK_PHYSICAL_DEVICE_TYPE_CPU) viewer.detail.begin_with_least();
     ORO_CHECK(set_out(viewer, state));
     Result<void> ended = run_loop(viewer, *interface);
-    if (ended.ok()) keep_settings(viewer);
+    if (ended.ok()) {
+        keep_settings(viewer);
+        // Reading that is under way ends with its file.
+        window->hide();
+    }
     if (!ended.ok() && window->has_lost_device()) keep(viewer, state);
     return ended;
 }
