@@ -138,6 +138,7 @@ set_tests_properties(
   Window.SaysWhatChangedSinceThePicture
   WindowFaults.AtAnyCallEndItWithALine
   WindowFaults.EndItWithALine
+  WindowFlight.MinutesOverPoland
   WindowTour.LooksAsItDid
   WindowTwoViews.ThatAreTheSameShowTheSame
   WorldGrids.GiveOnePictureWhereverTheyBegin

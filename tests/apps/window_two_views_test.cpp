@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 // Some columns of the screen's first rows, four bytes a pixel as they are in a dump (X11/XWDFile.h): words of
 // four bytes, the highest first, of which word 0 is the header's size, 12 the bytes of a row, 19 the colours
 // of 12 bytes that follow.
-std::string columns_of(const std::string& dump, std::size_t from, std::size_t end, std::size_t rows) {
+std::string columns_of(const std::string& dump, std::size_t from, std::size_t end, std::size_t row_count) {
     const auto word = [&](std::size_t i) {
         std::size_t value = 0;
         for (std::size_t byte = 0; byte < 4; ++byte)
@@ -22,10 +22,10 @@ std::string columns_of(const std::string& dump, std::size_t from, std::size_t en
         return value;
     };
     const std::size_t first = word(0) + 12 * word(19), row_bytes = word(12);
-    std::string columns;
-    for (std::size_t row = 0; row < rows; ++row)
-        columns += dump.substr(first + row * row_bytes + 4 * from, 4 * (end - from));
-    return columns;
+    std::string bytes;
+    for (std::size_t row = 0; row < row_count; ++row)
+        bytes += dump.substr(first + row * row_bytes + 4 * from, 4 * (end - from));
+    return bytes;
 }
 
 // In which nothing differs: each half shows the same, and a line parts one picture from itself.
