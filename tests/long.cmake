@@ -1,12 +1,32 @@
-# Tests of more than some four seconds, but for one of most suites, and sweeps of faults through commands other than info:
-# scripts/test --long runs them, scripts/test leaves them out. Tests that are not in the folder that includes this are passed
+# The longer tests of suites that take more than some four seconds, but for one of most suites, and sweeps of faults through
+# commands other than info: scripts/test --long runs them, scripts/test leaves them out. Tests that are not in the folder that includes this are passed
 # over.
 set_tests_properties(
+  Accuracy.AToleranceChoosesAndTheChoiceIsRecorded
+  Accuracy.AViewIsWhatItsFieldsAre
+  Accuracy.BundlesSetWhatTheySay
+  Accuracy.SingleOptionsWinAndTheNameGoes
+  Accuracy.ToleranceFromLooseToTight
+  Accuracy.WhatSingleOptionsFixIsInThePrediction
+  AtPlace.ACellIsFramed
+  AtPlace.IsInTheMiddleAndNotUnderTheFeet
+  AtPlace.IsStoodOnWhereAHeightOrAnotherPlaceIsNamed
+  AtPlace.StraightDownKeepsTheAskedHeading
+  BadInput.BoundingBoxes
   BadInput.LimitOfFileSizes
+  BadInput.Styles
+  BadInput.ViewsThatMeanNothing
   BadInput.WholeNumbersAreDecimal
   Bake.AFlippedByteIsTold
+  Bake.AViewOfTilesIsDrawnFromTheBakedRegion
+  Bake.BakedRegionsAreOpenedAloneAndAsTheyAre
+  Bake.FilesOnItsWayAreSpared
   Bake.FilesThatAreNoBakedRegions
+  Bake.InputsAreSpared
+  Bake.LeftoversOfOtherInputAreNotUsed
+  Bake.OutThatCannotBe
   Bake.PicturesAreThoseOfItsSources
+  Bake.VoidsAreToldAndFilledWhenBaking
   BrokenOffBake.KilledAtAnyMoment
   ClustersBake.DamageIsOneLine
   ClustersBake.EightAtOnceLeaveOneFile
@@ -21,8 +41,12 @@ set_tests_properties(
   ClustersReported.FiguresOfTheGraph
   ClustersReported.PlanRefusesWhatIsNotDrawn
   ClustersReported.TradeHasARowForEachTau
+  ComparedPixels.AShiftByAPixelIsFound
+  ComparedPixels.ASinglePixelIsFound
   ComparedPixels.AnAllRedPictureIsRefused
+  ComparedPixels.AnEditedSquareIsFound
   ComparedPixels.AnotherPicturesPixelsInAJpegAreRefused
+  ComparedPixels.AnotherSizeOrAHalfFileIsRefused
   ComparedPixels.GoldenPicturesPass
   ComparedPixels.OtherFormatsPass
   ComparedPixels.TheOtherWayOfDrawingPasses
@@ -31,8 +55,12 @@ set_tests_properties(
   DamagedRegion.AnyMutationThroughEachCommand
   DamagedRegion.EachPageInCoarsePictures
   DefaultStyle.IsNatural
+  DefaultStyle.OpensViewsWithASeaAndARimThatItDoesNotDraw
   DeviceChoice.TakesTheBestThatCanDraw
   DeviceChoice.TakesTheOneThatIsNamed
+  DeviceChoice.TimesCountValidBitsAlone
+  Environment.ChangesNothingThatAFileMeans
+  Environment.DoctorPrintsNoControlCharacters
   FilesFarApart.AreDrawnAgainAsTheyWere
   FilesFarApart.AreEachDrawnAsAlone
   FilesFarApart.AreMeasured
@@ -56,36 +84,74 @@ set_tests_properties(
   GpuMemory.FewerPagesAreEnoughWhereTheyAre
   GridsBake.DamageIsFound
   GridsBake.IsDrawnAsTheFilesAre
+  GridsBake.IsRefusedWhereOneGridIsAskedFor
   GridsBake.IsTheSameTwiceAndAfterKills
+  GridsBake.IsToldGridByGrid
   GridsOverEachOther.AreDrawnAgainFromTheirView
+  GridsOverEachOther.AreFeatheredWhereThatIsAskedFor
   GridsOverEachOther.AreForetold
   GridsOverEachOther.AreInTheOrderThatIsAskedFor
   GridsOverEachOther.AreLookedOverTogether
   GridsOverEachOther.AreMappedTogether
   GridsOverEachOther.AreMeasured
   GridsOverEachOther.AreStoodOnWhereTheFinerHasGround
+  GridsOverEachOther.AreTheSamePictureInAnyOrder
+  GridsOverEachOther.AreToldApartByLayers
+  GridsOverEachOther.AreToldOneByOne
   GridsOverEachOther.HaveARimThatIsForetold
+  GridsOverEachOther.StandInPanoramasWithNames
   GridsUnderImages.LieOnTheSamePlaces
+  Help.HasNoWordsOfTheParser
+  Help.HasTheSameExitLineEverywhere
+  Help.HasTheSameHeadingsInTheSameOrder
+  Help.HidesWhatDoesNothing
   HostileInput.AnInterruptedPictureLeavesNothing
+  HostileInput.ClosedStandardError
+  HostileInput.StandardOutputThatIsFullOrClosed
+  HostileInput.ViewsWithNumbersThatWouldBeBent
+  HostileSources.NetworkNamesInOtherPlacesReachNone
   HostileSources.SourcesOfAVrtReachNoNetwork
+  InputsSpared.TheViewAsASideOutput
   InputsSpared.TheViewOfShotAndPanorama
+  Jacksboro/GoldenPicture.IsDrawnAsItWas/levels_coarse
+  Jacksboro/GoldenPicture.IsDrawnAsItWas/overview
+  Jacksboro/GoldenPicture.IsDrawnAsItWas/overview_samples
+  Jacksboro/GoldenPicture.IsDrawnAsItWas/valley
+  Jacksboro/GoldenPicture.IsDrawnAsItWasByCompute/levels_coarse
+  Jacksboro/GoldenPicture.IsDrawnAsItWasByCompute/levels_valley
+  Jacksboro/GoldenPicture.IsDrawnAsItWasByCompute/overview
+  Jacksboro/GoldenPicture.IsDrawnAsItWasByCompute/overview_samples
+  Jacksboro/GoldenPicture.IsDrawnAsItWasByCompute/valley
   KinkedGrid.IsTheSamePictureBaked
   LabelsOfShots.AreLeftOutWhereTheViewSaysSo
   LabelsOfShots.AreTheSameFromABakedRegion
   LabelsOfShots.AreToldAndDrawnAgain
   Manual.HasEachOptionOfHelp
   ModelOptions.AreSaidAndKeptAndDrawnAgain
+  ModelOptions.BadValuesAreRefused
+  ModelOptions.HalfTheHeightsHalfTheBytes
   ModelOptions.PackedHeightsDrawTheSamePicture
+  ModelOptions.RefractionOfBeforeDrawsAsStandardAir
+  ModelOptions.WithoutGeoidHeightsAreAboveTheEllipsoid
+  NetBake.AViewOfTheFilesIsDrawnFromTheBakedRegion
   NetBake.PicturesAreThoseOfItsSources
+  NetBake.SightLinesAndViewshedsAreThoseOfItsSources
   OnSummit.AWallBeforeWhoStandsOnAFlankIsSaid
+  OnSummit.IsSaidInWords
+  OnSummit.MovesTheEyeOfEachCommandThatStands
   OwnPostsOfShots.AreDrawnAgainByEitherWayFromTheirView
   OwnPostsOfShots.ArePlannedAndTraded
   OwnPostsOfShots.AreRefusedWhereTheyCannotBe
+  OwnPostsOfShots.AreWithinTauOfTheTruth
   OwnPostsOfShots.BesideOtherFilesAreKeptByWhatPredicts
   OwnPostsOfShots.OfTheSwissTileHaveItsSummit
   OwnPostsOfShots.ViewsThatSayNothingOfThemAreDrawnResampled
+  Panorama.GoesRoundPolesAndTheAntimeridian
+  Panorama.HasLinesOverTheGround
+  Panorama.IsNoPictureOfAnotherCommand
   Panorama.IsTheSameTwiceAndByItsView
   Panorama.RefusesWhatCannotBe
+  Panorama.SaysTheSameInAllFormats
   PanoramaPeaks.AreWhereGeographicLibHasThemAndNamedWhereTheyAreSeen
   Pipeline.APictureMeasuresNothingWhereAProcessorDraws
   Pipeline.IsMeasuredOnceAndRemembered
@@ -93,9 +159,27 @@ set_tests_properties(
   Pipeline.ViewsNameTheWayThatDrewThem
   Pipelines/EachCallOfVulkan.FailsWithALineAndNothingLeft/compute
   Pipelines/EachCallOfVulkan.FailsWithALineAndNothingLeft/mesh
+  Plan.ABakedRegionIsPlannedAsItsTiles
+  Plan.BadValuesAreRefused
+  Plan.EmptyValuesAreRefused
+  Plan.EndsInASentence
+  Plan.OddViewsHaveFiguresOrNothingInView
+  Plan.SaysHowLightGoes
+  Plan.TakesAViewAndItsOwnOptionsOverIt
+  Plan.TheLastLineIsOnTheTablesSideOfTheTolerance
+  Plan.ToleranceJudges
+  ProfileCommand.AMillionPlacesAreALine
+  ProfileCommand.FilesHaveLinesOrAreRefused
+  ProfileCommand.WhatIsWrongIsSaidInOneLine
   RecordedView.LimitsAreTheSameOnBothSides
   RecordedView.PathsStartFromThePicture
   RecordedView.PictureAndErrorsAreOneStep
+  RefusedOptions.Choices
+  RefusedOptions.MissingValues
+  RefusedOptions.NamesThatThereAreNot
+  RefusedOptions.NoCommandIsOneForHelpEither
+  RefusedOptions.Numbers
+  RegionWords.ACopyrightThatIsNoUtf8IsDrawnWithItsBadByteReplaced
   RegionWords.AViewOfAnotherPlaceIsRefusedAndTheSkyIsNoted
   RegionWords.VoidsAndMissingTilesAreCountedApart
   ResamplingReported.WithoutBeingAskedForThereIsNone
@@ -107,18 +191,40 @@ set_tests_properties(
   SeveralViews.AreDrawnOneAfterTheOther
   SeveralViews.MayBeAListInAFile
   Shot.AntimeridianAndPoles
+  Shot.GrindelwaldFirst
+  Shot.SaysWhatItsMiddleSees
   Shot.TagsOfEveryFormatAgreeWithTheView
   Shot.ViewDrawsTheSameBytes
+  Shot.VoidsAreHolesOrFilledAndCounted
+  Shot.WholeRegionAndSamples
   ShotDrape.OfSixteenBitsIsWhatItsProfileOrTheOptionSays
   ShotDrape.ThatChangedIsTold
+  ShotLayers.AreFilesThatGdalReads
+  ShotLayers.AreNoPartOfTheView
   ShotLegend.ItsViewDrawsItAgain
   ShotLegend.OfAFileWithALatin1Name
+  ShotLegend.OfAMapIsOpaqueBelowIt
+  ShotLegend.OfShowIsThereByItself
+  ShotLegend.StandsBelowThePictureAsItIs
+  ShotOrtho.HasAWorldFileInEveryFormat
   ShotOrtho.ItsViewDrawsItAgain
+  ShotOrtho.RefusesWhatAMapCannotHave
+  SightCommand.WhatIsWrongIsSaidInOneLine
   SkyBands.AreBrokenUpByDither
+  SunCommand.NightIsNotHiddenByTerrain
+  SunCommand.OverTerrain
+  SunOfAShot.AViewTakesAnother
+  SunOfAShot.BelowTheHorizonOnlyTheSkyLights
   SunOfAShot.IsTheUsualOneInTheStyleOfDaylight
   SunOfAShot.OlderPicturesKeepTheirs
   SunOfAShot.OtherStylesKeepTheirOwn
+  TextInput.NestedCacheIsWrittenAnew
   TextInput.PipesDevicesAndEndlessFilesAreRefused
+  TradeCommand.AViewOfTheSkyHasNoErrorsToTell
+  TradeCommand.CallsPartsOfTheModelAsPlanDoes
+  TradeCommand.MakesItsFolder
+  TradeCommand.RefusesWhatItTriesItself
+  TradeCommand.ReplacesOnlyWhenTold
   TradeCommand.WritesATableAndAPage
   Unseen.APartThatWasChosenEndsAndMissesNothing
   Unseen.APictureOfAllTheDataSaysNothing
@@ -126,16 +232,25 @@ set_tests_properties(
   Unseen.TheBundledRegionEndsToo
   Unseen.TheTileThatIsMissingIsNamedWithItsBound
   Vectors.AreInTheViewWhichDrawsThemAgain
+  Vectors.LeavePicturesWithoutThemAsTheyWere
   Vectors.ThatChangedAreTold
+  Verify.BakedRegionsAreMeasured
+  Verify.CompareRefusesWhatItMustNotWrite
   Verify.CompareTellsTheSameOfAWrittenPicture
+  Verify.DoesNotChangeThePicture
   Verify.QuietLeavesWhatWasAskedFor
+  Verify.ReplacesOnlyWhenTold
+  Verify.TheErrorPictureHasALegend
   Verify.WhatAModelLeavesOutIsMeasured
   ViewshedCommand.IsAGeoTiffThatSaysWhatSightSays
   ViewshedCommand.OfAProjectedFileLiesOnItsOwnPosts
+  ViewshedCommand.WhatIsWrongIsSaidInOneLine
   Window.FliesJumpsTakesAPictureAndLeaves
   Window.FramesThatAreExplainedHaveALegend
   Window.IsShownAgainWhereItWasLost
+  Window.LoadingLooksLikeLoading
   Window.SaysWhatChangedSinceThePicture
+  Window.ShowsACoarsePictureWhileLevelsAreMeasured
   WindowFaults.AtAnyCallEndItWithALine
   WindowFaults.EndItWithALine
   WindowFlight.MinutesOverPoland
@@ -145,6 +260,7 @@ set_tests_properties(
   PROPERTIES LABELS "cli;long")
 set_tests_properties(
   Commands/FailedAllocations.AllFromOneOn/Bake
+  Commands/FailedAllocations.AllFromOneOn/Info
   Commands/FailedAllocations.AllFromOneOn/Shot
   Commands/FailedAllocations.AllFromOneOn/ShotOfBaked
   Commands/FailedAllocations.AllFromOneOn/Viewshed
@@ -154,6 +270,7 @@ set_tests_properties(
   Commands/FailedAllocations.OfAll/ShotOfBaked
   Commands/FailedAllocations.OfAll/Viewshed
   Commands/FailedAllocations.OfTheProgram/Bake
+  Commands/FailedAllocations.OfTheProgram/Info
   Commands/FailedAllocations.OfTheProgram/Shot
   Commands/FailedAllocations.OfTheProgram/ShotOfBaked
   Commands/FailedAllocations.OfTheProgram/Viewshed
@@ -165,24 +282,28 @@ set_tests_properties(
   Commands/FailedAllocationsOfC.ForTheProgram/Shot
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Bake
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/BakeAgain
+  Commands/FailedSystemCalls.AllOfAKindFromOneOn/Info
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Profile
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Shot
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/ShotOfBaked
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Viewshed
   Commands/FailedSystemCalls.OfAll/Bake
   Commands/FailedSystemCalls.OfAll/BakeAgain
+  Commands/FailedSystemCalls.OfAll/Info
   Commands/FailedSystemCalls.OfAll/Profile
   Commands/FailedSystemCalls.OfAll/Shot
   Commands/FailedSystemCalls.OfAll/ShotOfBaked
   Commands/FailedSystemCalls.OfAll/Viewshed
   Commands/FailedSystemCalls.OfTheProgram/Bake
   Commands/FailedSystemCalls.OfTheProgram/BakeAgain
+  Commands/FailedSystemCalls.OfTheProgram/Info
   Commands/FailedSystemCalls.OfTheProgram/Profile
   Commands/FailedSystemCalls.OfTheProgram/Shot
   Commands/FailedSystemCalls.OfTheProgram/ShotOfBaked
   Commands/FailedSystemCalls.OfTheProgram/Viewshed
   Commands/FailedSystemCalls.OfWriting/Bake
   Commands/FailedSystemCalls.OfWriting/BakeAgain
+  Commands/FailedSystemCalls.OfWriting/Info
   Commands/FailedSystemCalls.OfWriting/Profile
   Commands/FailedSystemCalls.OfWriting/Shot
   Commands/FailedSystemCalls.OfWriting/ShotOfBaked
@@ -192,6 +313,9 @@ set_tests_properties(
   Commands/FailedThreads.EachAndAllFromOneOn/ShotOfBaked
   FailedAllocationsOfFreetype.ForLabels
   FailedAllocationsOfLibpng.ForAPicture
+  JsonWithoutMemory.OfMeasurements
+  JsonWithoutMemory.OfRegions
+  Mutated.Archives
   Mutated.Rasters
   Mutated.ViewsAndPictures
   PROPERTIES LABELS "faults;long")
@@ -199,7 +323,12 @@ set_tests_properties(
   AirTables.GroundIsSeenThroughWhatBruteForceGives
   AirTables.PixelsOfTheSkyAreWhatBruteForceGives
   AirTables.SkyIsWhatBruteForceGives
+  Areas.AreTintedWhereTheOracleSeesThem
+  CalibrationTest.MeasuresBothWays
   CastShadows.AreTheSameBytesHoweverTheyAreDrawn
+  CastShadows.ComeFromBehindTheEyeOverARoundEarth
+  CastShadows.LeaveAValleyTheShareOfTheSkyThatItSees
+  CastShadows.OfAWallLieOnTheGroundBesideIt
   ClusterPictures.AreWithinTau
   ClusterPictures.HaveNoCracks
   ClusterPictures.HaveNoCracksWhileTheyStream
@@ -211,17 +340,36 @@ set_tests_properties(
   Cover.IceLiesOnWideLevelGround
   Cover.SlopesTowardsThePoleLieLower
   Cover.SteepGroundIsRock
+  Drape.IsInTheViewWhichDrawsItAgain
   Drape.IsTheSameByBothWaysOfDrawingAndTwice
+  Drape.IsTheSameOverABakedRegion
   Drape.KeepsToItsMemoryAndSaysWhereThatIsTooLittle
+  Drape.LeavesPicturesWithoutItAsTheyWere
   Drape.LiesWhereProjPutsIt
   Drape.LiesWhereProjPutsItOverANet
+  Drape.OfAnEmptyGiantIsQuick
   Drape.OpacityMixesAndLaterImagesLieOnTop
+  Drape.ThatCannotLieOverGroundIsOneLine
+  Drape.ThatChangedIsTold
   ErrorsOfPictures.OfRealTerrainIsWithinTau
   ErrorsOfPictures.OnNetsIsWithinTau
+  ExtremeData.HardlyAny
+  ExtremeData.SixteenBitsOfHeight
+  ExtremeHeights.FromSpace
+  ExtremeHeights.PitBelowSeaLevel
+  ExtremeHeights.TrenchAndSummit
+  ExtremeMeasures.AboveRealSlopes
+  ExtremeMeasures.AboveSlopes
+  ExtremeMeasures.SidewaysOnASphere
+  ExtremeMeasures.Spikes
+  ExtremeMeasures.WallOfNineKilometres
+  ExtremePictures.FieldsOfView
   ExtremePlaces.Antimeridian
   ExtremePlaces.DownFromThePoles
+  ExtremePlaces.EquatorAndGreenwich
   ExtremePlaces.FlightAcrossThePoles
   ExtremeSize.HundredMillionPosts
+  ExtremeSurfaces.TwoSurfacesAMetreApart
   ExtremeSurfaces.WallEdgeOn
   Footprint.HoldsForMaps
   Footprint.HoldsForRandomViews
@@ -231,9 +379,12 @@ set_tests_properties(
   Footprint.LeavesAnglesOfLargePosts
   Footprint.ShadowsFollowTheSunInOneRenderer
   Footprint.ShadowsOfFarGroundAreNoSpeckle
+  Halves.LeaveTheLowerIdWhereTrianglesAreAsNear
   Halves.ShowTheTrianglesOfWholeMeshletsAtRims
   Halves.ShowTheTrianglesOfWholeMeshletsInRounds
   HatchToTheHorizon.IsSeenFromAPersonsHeight
+  HeightsOnGpu.AreWithinHalfAStep
+  HeightsOnGpu.BothPathsDrawTheSame
   HeightsOnGpu.PackedDrawTheSamePictures
   Jitter.OfAThousandSteps
   Labels.TellTheHeightOfRealGround
@@ -252,6 +403,9 @@ set_tests_properties(
   Paths/ClusterCuts.AreTheProcessors/compute
   Paths/ClusterCuts.AreTheProcessors/mesh
   Paths/ClusterCuts.OfLevelsAreTheProcessors/compute
+  Paths/ClustersByPath.MakeRoomForEachOther/compute
+  Paths/ClustersByPath.MakeRoomForEachOther/mesh
+  Paths/ClustersByPath.ThePictureIsTheSameAgain/mesh
   Paths/ClustersByPath.WithoutAnErrorAreTheOriginal/compute
   Paths/ClustersByPath.WithoutAnErrorAreTheOriginal/mesh
   Paths/ClustersShaded.AsAMap/compute
@@ -269,7 +423,15 @@ set_tests_properties(
   Paths/Cracks.NoneInTheHimalaya/mesh
   Paths/Cracks.NoneOnNets/compute
   Paths/Cracks.NoneOnNets/mesh
+  Paths/DepthPictures.InTilesAreTheSame/compute
+  Paths/DepthPictures.InTilesAreTheSame/mesh
+  Paths/Frame.CullingChangesNoPixel/compute
   Paths/Frame.CullingChangesNoPixel/mesh
+  Paths/Frame.DistancesAgreeWithRaysOnTheCpu/compute
+  Paths/Frame.LookingDownShowsNoGap/compute
+  Paths/Frame.LookingDownShowsNoGap/mesh
+  Paths/Frame.TilesJoinIntoTheSamePicture/compute
+  Paths/Frame.TilesJoinIntoTheSamePicture/mesh
   Paths/GridsTogether.AreWhatBruteForceFinds/mesh
   Paths/GridsTogether.AreWithinTauOfTheTruth/compute
   Paths/GridsTogether.AreWithinTauOfTheTruth/mesh
@@ -277,10 +439,23 @@ set_tests_properties(
   Paths/GridsTogether.JoinOverGaps/mesh
   Paths/GridsTogether.LeaveNoGap/compute
   Paths/GridsTogether.LeaveNoGap/mesh
+  Paths/GroundErrorOfPictures.AtFullDetailPointsAreTheOracles/mesh
+  Paths/GroundErrorOfPictures.GroundThatIsMovedSidewaysIsSeen/compute
+  Paths/GroundErrorOfPictures.GroundThatIsMovedSidewaysIsSeen/mesh
+  Paths/GroundErrorOfPictures.WhatIsMissingIsSeen/compute
+  Paths/GroundErrorOfPictures.WhatIsMissingIsSeen/mesh
+  Paths/Models.BentLightKeepsTau/compute
+  Paths/Models.BentLightKeepsTau/mesh
   Paths/Models.CullingChangesNoPixel/compute
   Paths/Models.CullingChangesNoPixel/mesh
+  Paths/Models.DrawnDepthsLieOnTheModelsSurface/mesh
   Paths/Models.LookingDownShowsNoGap/compute
   Paths/Models.LookingDownShowsNoGap/mesh
+  Paths/Occluded.AWrongPyramidIsNoticed/mesh
+  Paths/Occluded.FramesHoldWhileDataStreamIn/compute
+  Paths/Occluded.FramesHoldWhileDataStreamIn/mesh
+  Paths/Occluded.GridsHideEachOther/compute
+  Paths/Occluded.GridsHideEachOther/mesh
   Paths/Occluded.HiddenPagesNeedNoRoom/compute
   Paths/Occluded.HiddenPagesNeedNoRoom/mesh
   Paths/Occluded.PicturesAreThoseWithout/compute
@@ -301,6 +476,13 @@ set_tests_properties(
   Paths/OccludedScene.TheAlpsAreThoseWithout/mesh
   Paths/SeveralGrids.AreDrawnAsOneOfAllTheirPosts/compute
   Paths/SeveralGrids.AreDrawnAsOneOfAllTheirPosts/mesh
+  Paths/SeveralGrids.GiveEachPixelOnceInEverySample/mesh
+  Paths/ShownParts.ALevelOfClustersIsDrawnAlone/compute
+  Paths/ShownParts.ALevelOfClustersIsDrawnAlone/mesh
+  Paths/ShownParts.OfClustersHaveTheColoursOfTheGraph/compute
+  Paths/ShownParts.OfClustersHaveTheColoursOfTheGraph/mesh
+  Paths/ShownParts.OfClustersTellOfRounds/compute
+  Paths/ShownParts.OfClustersTellOfRounds/mesh
   Paths/ShownParts.OverdrawCountsTriangles/compute
   Paths/ShownParts.OverdrawCountsTriangles/mesh
   Paths/StreamedClusters.AreCoarserWithTooLittleMemory/compute
@@ -311,8 +493,13 @@ set_tests_properties(
   Paths/StreamedClusters.HaveNoCracksAndEndAsThoseThatAreWaitedFor/mesh
   Paths/StreamedClusters.HoldNoMoreGroupsThanTheyMayOrAFrameNeeds/compute
   Paths/StreamedClusters.HoldNoMoreGroupsThanTheyMayOrAFrameNeeds/mesh
+  Paths/StreamedClusters.NeedNoMoreMemoryThanTheirCut/mesh
+  PlacementOnGpu.OfAContinentAgreesWithGeographicLib
+  PlacementOnGpu.OfNetsAgreesWithGeographicLib
   Programs.AnotherStyleMakesWhatIsMissingAndDrawsTheSame
   RandomViews.BoundsAndTolerancesHold
+  ReadData.SixteenBits
+  ReliefLightTest.BelowTheHorizonTheSunLightsNoSlope
   ShadowsOfPictures.BetweenGridsAreTheOracles
   ShadowsOfPictures.BetweenGridsAreTheSameEitherWay
   ShadowsOfPictures.HaveNoEdgesOfTrianglesNearTheEye
@@ -346,20 +533,63 @@ set_tests_properties(
   Triangles/FullLists.WhatCannotBeClippedIsAnError/clusters
   PROPERTIES LABELS "render;long")
 set_tests_properties(
+  All/TrustedFormats.TellWhenTheyAreCut/0
+  All/TrustedFormats.TellWhenTheyAreCut/1
+  All/TrustedFormats.TellWhenTheyAreCut/10
+  All/TrustedFormats.TellWhenTheyAreCut/11
+  All/TrustedFormats.TellWhenTheyAreCut/12
+  All/TrustedFormats.TellWhenTheyAreCut/13
+  All/TrustedFormats.TellWhenTheyAreCut/14
+  All/TrustedFormats.TellWhenTheyAreCut/15
+  All/TrustedFormats.TellWhenTheyAreCut/16
+  All/TrustedFormats.TellWhenTheyAreCut/17
+  All/TrustedFormats.TellWhenTheyAreCut/2
+  All/TrustedFormats.TellWhenTheyAreCut/3
+  All/TrustedFormats.TellWhenTheyAreCut/4
+  All/TrustedFormats.TellWhenTheyAreCut/5
+  All/TrustedFormats.TellWhenTheyAreCut/6
+  All/TrustedFormats.TellWhenTheyAreCut/7
   BakedFile.DamageIsToldInOneLine
   BakedFile.HasSeveralGridsInTheirOrder
+  BakedRegion.ABoxCutsOutWhatItCutsOutOfTheSources
+  BakedRegion.ABoxThatEndsBetweenSourcesHasVoidPostsThere
+  BakedRegion.IsTheSurfaceOfItsSources
+  BakedRegionErrors.DescriptionsThatDoNotFit
   BenchTin.IsWithinItsErrorAtEveryPlaceOfRandomFields
   Certificate.NothingInViewIsFartherThanTauFromItsPlace
+  ClusterCertificate.HoldsOnANet
+  ClusterCertificate.HoldsOverRoughGround
+  ClusterChoices.IsTheCutButForWhatCannotBeSeen
+  ClusterCutCover.PlacesAtRandomAreInOneTriangle
+  ClusterCutCover.RoughGroundIsCoveredOnceByAnyCut
+  ClusterCutCover.SoIsGroundWithHoles
+  ClusterFile.ACutOrLongerFileIsFound
   ClusterFile.AFlippedBitAnywhereIsFound
+  ClusterFile.DoesNotDependOnThreads
+  ClusterFile.GroundWithHoles
+  ClusterFile.RoughGround
   ClusterFile.TakesFewBytes
+  ClusterFile.WindowOfARegion
   ClusterFileOfRealGround.N46E008
+  ClusterGraph.ASeaIsNotOneGroup
+  ClusterGraph.DoesNotDependOnThreads
+  Core/NodeDeviationsOnRoughGround.AreTheWorstOfEveryPlaceAndStitching/WithoutVoids
   Culling.NoVisiblePostIsEverCulled
+  CylinderTiles.UnrollToTheColoursOfTheirDirections
   DamagedGeoid.AWholeCopyIsTakenAndTellsTheSameNEverywhere
   DamagedGeoid.CutEmptyAndHeaderOnlyGridsAreErrors
   DamagedGeoid.CutGridsAreErrorsBehindLinksAndInTheUsersOwnFolder
   DamagedGeoid.ZerosNoValuesAndForeignNumbersAreErrors
+  DisplayText.NothingIsDecidedOnIt
+  EffectBounds.HoldBetweenTheSamples
+  Files/OwnDataOf.KeepsItsHeightsAndItsRange/1
+  Files/OwnDataOf.KeepsItsHeightsAndItsRange/2
+  Files/OwnDataOf.KeepsItsHeightsAndItsRange/3
   FrameChoice.HasNoGapsWhateverIsMissing
   FrameChoice.MeetsItselfRoundTheEarth
+  FramePlan.HasAsManyPagesAsTriangleIdsCanNumber
+  Geotags.AreWhatExiftoolReads
+  Geotags.SurviveAnotherProgramsEdit
   GraphInBands.GroundWithHoles
   GraphInBands.RoughGround
   GraphInBands.WindowOfARegion
@@ -367,11 +597,21 @@ set_tests_properties(
   GraphWindow.WholeGroupsAreThoseOfTheRegion
   GridClip.RandomGridsCoverEveryPlaceOnce
   Ground.FromTheMoonOntoTheWholeEarth
+  Ground.TheFirstOfManyCrossingsIsFound
   GroundProfile.TenThousandLinesLeaveNothingOut
+  HeldByFrames.AreTheSameClustersWithinTheBudget
+  Hgt.TilesOfHalfASecond
+  HorizontalDatums.DynamicDatumsAndEpochs
   HostileVectors.AMillionPlacesAreReadAtOnce
   Levels.CoverTheRegionOnceInStepsOfOne
+  Listing.ADamagedCacheIsIgnored
   Listing.HeadersOfTenThousandFilesAreReadOnce
+  LyingGroups.SpheresThatAreTooSmall
   MeshForecasts.AreTheSameOfPostsReadPageByPage
+  ModelView.TheHorizonHidesNothingThatBentLightShows
+  MovedTruth.NorWhereSpiresAloneMove
+  NetCorrections.GoOnBetweenPosts
+  NetCorrections.PutEveryPostWhereItIs
   NetFile.RefusesEveryFlippedBitOfTheNet
   NetFile.SurvivesRandomNumbers
   NetViewshed.IsTheLookoutsTurnedOverTheAntimeridianAndAPole
@@ -380,6 +620,11 @@ set_tests_properties(
   OwnPosts.OfSeveralLatticesAreResampled
   PackedRegion.OfEveryKindComesBack
   PackedRegion.OfTheAlpsTakesLessThanAThird
+  Placement.FromAfarTheErrorIsAShareOfTheDistance
+  Placement.HoldsForAllThatIsNear
+  Raster.RealCollection
+  Region.FinerSpacingWinsAndCoarserFillsWithItsTriangles
+  Region.PostsThatACoarserSourceLendsToAVoidAreSaid
   RegionFile.RefusesEveryFlippedBit
   RegionFile.SurvivesRandomHeaders
   RegionFileWriter.GoesOnAfterAnyBreak
@@ -388,14 +633,22 @@ set_tests_properties(
   ResamplingError.RotatedInFeetAndAnotherProjection
   ResamplingError.TheHighestPostOfManyIsAlwaysThere
   SeenPoints.AreThoseThatAWalkAlongTheSightLineSees
+  Shape.FunctionsAreShort
   StoredValues.OfAllRealFilesAreThoseOfGdal
+  StreamedChoices.ComeToTheWholeCut
   StreamedChoices.CoverEachPlaceOnceWhateverIsHere
   StreamedChoices.WhatIsHiddenComesLast
   SunOverAlps.WithinTenSecondsOfBruteForce
+  SunOverTerrain.WithinTenSecondsOfBruteForce
   TradeScript.ThePageEscapesEverything
   TradeScript.ThePageHoldsEveryPoint
   TrustedFormat.MasksAndSourcesTellWhenTheyAreCut
+  UnseenGround.CostsLittle
+  UnseenGround.TheAntimeridianIsAsWalked
+  UnseenGround.ThePolesAreAsWalked
   Viewshed.IsTheLookoutsOverHills
+  Viewshed.IsTheLookoutsOverTheAntimeridianAndNearThePole
+  Viewshed.OfMadeTerrainIsGdals
   ViewshedOfGdal.OfARealTileIsGdals
   ViewshedOfGrids.IsWhatMarchedLinesSee
   WindowedGraph.GoesOnAfterABreak

@@ -10,6 +10,13 @@ namespace {
 // Some 0.1 s of work on one processor (core/lod/pyramid.h).
 constexpr std::size_t posts_in_a_moment = 1'000'000;
 
+// Once some are asked for all are there.
+Result<void> measure_means(const RegionPages& pages) {
+    if (!pages.knows_means()) return {};
+    const auto means = std::make_unique<gpu::PageMeans>();
+    return pages.load_means({0, 0, pages.levels() - 1}, *means);
+}
+
 GridAxis every(const GridAxis& axis, int step) {
     GridAxis coarse = axis;
     coarse.posts_per_deg = axis.posts_per_deg / step;
@@ -26,6 +33,11 @@ bool measures_long(const Region& region) {
     const RegionGrid& first = region.grids.front();
     return region.grids.size() == 1 && !first.file && !first.field.posts && !first.field.grid.net &&
            first.field.grid.post_count() > 4 * posts_in_a_moment;
+}
+
+bool measures_means_long(const Region& region) {
+    const RegionGrid& first = region.grids.front();
+    return region.grids.size() == 1 && first.file && first.field.grid.post_count() > 4 * posts_in_a_moment;
 }
 
 int coarse_step(const HeightField& field) {
@@ -47,11 +59,14 @@ HeightField coarse_field(const HeightField& field) {
     return coarse;
 }
 
-BackgroundPyramidBuild::BackgroundPyramidBuild(const Region& region, double exaggeration) {
-    const auto measure = [this, &region, exaggeration] {
-        return grid_pages(
+BackgroundPyramidBuild::BackgroundPyramidBuild(const Region& region, double exaggeration, bool means) {
+    const auto measure = [this, &region, exaggeration, means] {
+        auto pages = grid_pages(
             region.grids.front(), {}, exaggeration, [this](double share) { share_ = share; },
             stop_.get_token());
+        if (!pages.ok() || !means || stop_.stop_requested()) return pages;
+        if (const Result<void> measured = measure_means(**pages); !measured.ok()) pages = measured.error();
+        return pages;
     };
     pages_ = begin_in_background(measure);
 }

@@ -2,6 +2,7 @@
 
 #include "apps/accuracy/beyond_data.h"
 #include "apps/drawing/drape.h"
+#include "apps/drawing/mesh_choice.h"
 #include "apps/legend/legend.h"
 #include "apps/output/picture_file.h"
 #include "apps/report/json_text.h"
@@ -68,17 +69,19 @@ void take_scene(Viewer& viewer, OpenedScene opened) {
     viewer.coming.reset();
     viewer.certificates.forget();
     viewer.scene = std::make_unique<Scene>(std::move(opened.scene));
-    viewer.finer = opened.is_coarse
-                       ? std::make_unique<BackgroundPyramidBuild>(viewer.region, viewer.view.exaggeration)
-                       : nullptr;
+    viewer.finer = opened.is_coarse ? std::make_unique<BackgroundPyramidBuild>(
+                                          viewer.region, viewer.view.exaggeration, opened.keeps_means)
+                                    : nullptr;
 }
 
 Result<void> begin_finer_scene(Viewer& viewer) {
     GridPages pages(1);
     ORO_TRY(pages.front(), viewer.finer->wait());
     viewer.finer.reset();
-    ORO_TRY(Scene scene, scene_with_images(viewer.gpu, viewer.region, viewer.cuts, std::move(pages),
-                                           viewer.view, {memory_of_first(viewer), true, viewer.keeps_means}));
+    ORO_TRY(const bool clusters, draws_clusters(viewer.region, viewer.view));
+    ORO_TRY(Scene scene,
+            scene_with_images(viewer.gpu, viewer.region, viewer.cuts, std::move(pages), viewer.view,
+                              {memory_of_first(viewer), true, viewer.keeps_means, clusters}));
     if (is_tinted(viewer)) ORO_CHECK(lay_over_ground(viewer, scene));
     viewer.coming = std::make_unique<Scene>(std::move(scene));
     viewer.coming_since = Clock::now();

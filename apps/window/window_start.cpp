@@ -65,12 +65,20 @@ Result<Scene> scene_with_images(const Gpu& gpu, const Region& region, const Regi
     return std::move(whole.scene);
 }
 
+Result<OpenedScene> first_scene(const Gpu& gpu, const Region& region, const RegionCuts& cuts, GridPages pages,
+                                const View& view, SceneChoice choice) {
+    const bool keeps_means = choice.keeps_means;
+    const bool lacks_means = keeps_means && measures_means_long(region);
+    choice.keeps_means = keeps_means && !lacks_means;
+    ORO_TRY(Scene scene, scene_with_images(gpu, region, cuts, std::move(pages), view, choice));
+    return OpenedScene{std::move(scene), measures_long(region) || lacks_means, keeps_means};
+}
+
 Result<OpenedScene> open_scene(const Gpu& gpu, const Region& region, const RegionCuts& cuts, View& view,
                                SceneChoice choice, const RenderProgress& progress) {
     ORO_TRY(GridPages pages, first_pages(region, cuts, view, progress));
     ORO_TRY(choice.clusters, draws_clusters(region, view));
-    ORO_TRY(Scene scene, scene_with_images(gpu, region, cuts, std::move(pages), view, choice));
-    return OpenedScene{std::move(scene), measures_long(region)};
+    return first_scene(gpu, region, cuts, std::move(pages), view, choice);
 }
 
 std::string name_of_paths(const std::vector<std::string>& paths) {

@@ -31,12 +31,17 @@ struct SceneChoice {
 Result<Scene> scene_with_images(const Gpu& gpu, const Region& region, const RegionCuts& cuts, GridPages pages,
                                 const View& view, const SceneChoice& choice);
 
-// What a window draws first of a region: all of it, or every n-th post (first_pages()). choice: clusters are
-// chosen here, as the view asks for. Errors: as scene_with_images() and draws_clusters().
+// What a window draws first of a region.
 struct OpenedScene {
     Scene scene;
-    bool is_coarse{};
+    bool is_coarse{};    // every n-th post, or without means of the ground: a finer one is to come
+    bool keeps_means{};  // the finer one has them
 };
+// A scene of first_pages() as scene_with_images() makes it, but without means that take long.
+Result<OpenedScene> first_scene(const Gpu& gpu, const Region& region, const RegionCuts& cuts, GridPages pages,
+                                const View& view, SceneChoice choice);
+// All of a region, or what can be shown soon. choice: clusters are chosen here, as the view asks for. Errors:
+// as scene_with_images() and draws_clusters().
 Result<OpenedScene> open_scene(const Gpu& gpu, const Region& region, const RegionCuts& cuts, View& view,
                                SceneChoice choice, const RenderProgress& progress);
 

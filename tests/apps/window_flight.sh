@@ -42,7 +42,7 @@ while now=$(($(date +%s) - begun)); [ "$now" -lt "$seconds" ]; do
   esac
   sleep 0.5
   kill -0 "$viewer" 2>/dev/null || { tail -n 3 states.txt >&2; wait "$viewer"; exit $?; }
-  printf 'turn %s %s %s %s\n' "$now" "$(sed -n 's/^VmRSS: *\([0-9]*\).*/\1/p' "/proc/$viewer/status")" \
+  printf 'turn %s %s %s %s\n' "$now" "$(sed -n 's/^VmRSS:[[:space:]]*\([0-9]*\).*/\1/p' "/proc/$viewer/status")" \
     "$(ls "/proc/$viewer/fd" | wc -l)" "$(ls "/proc/$viewer/task" | wc -l)"
   # What a trace holds is not what is measured.
   [ $((turn % 50)) -ne 0 ] || : >states.txt

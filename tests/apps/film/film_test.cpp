@@ -204,7 +204,7 @@ TEST_F(Film, TracksAndTheirKeysAreOneFilm) {
     expect_refusal(run_orograph(joined(again, {"--duration", "2"})), oro::test::failed,
                    {"keys.json", "is there already, and tells another path"});
     expect_refusal(run_orograph(joined(again, {"--speed", "1000000", "--overwrite"})), oro::test::usage,
-                   {"--speed", "the film's length must be between 0.1 and 1e+06 seconds"});
+                   {"--speed", "the film's length must be between 0.1 and 1000000 seconds"});
     const Words how{"--size", "64x48", "--fps", "2", "--time", "2026-11-21T09:00:00Z", "-q"};
     ASSERT_EQ(run_orograph(joined({"film", track, bundled(), "--duration", "1", "--above", "200",
                                    "--look-ahead", "800", "--out", folder / "a"},
