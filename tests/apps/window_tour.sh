@@ -38,6 +38,7 @@ rests() {
 }
 goes() { xdotool key g; sleep 0.5; xdotool key ctrl+a; xdotool type --delay 30 "$1"; sleep 0.3; xdotool key Return; }
 points() { xdotool mousemove --window "$window" "$1" "$2"; sleep 0.3; }
+clicks() { points "$1" "$2"; xdotool click 1; sleep 0.5; }
 press() { for one in "$@"; do xdotool key "$one"; sleep 0.4; done; }
 
 rests start
@@ -56,6 +57,13 @@ goes '46.577,8.005'; rests eiger
 press Return; rests stood
 goes '46.54,8.00'; rests ground
 points 480 300; xdotool click 3; sleep 1; rests place; press Escape
+# Each panel by its button; a line is measured by clicks, a film has two keys.
+panel() { clicks "$2" 27; points 900 480; rests "$1"; press Escape; }
+panel layers 344; panel sun 395; panel statistics 687; panel picture 618
+clicks 452 27; clicks 560 330; clicks 640 300; clicks 720 350; points 900 480; rests measured; press Escape Escape
+clicks 511 27; clicks 70 130; clicks 70 130; points 900 480; rests film; press Escape
+points 480 300; xdotool click 3; sleep 1; clicks 694 140; points 900 480; rests viewshed; press Escape Escape
+points 480 300; xdotool click 3; sleep 1; clicks 804 140; points 900 480; rests panorama; press Escape Escape
 # A cursor blinks.
 goes nowhere-at-all; sleep 3; cp "$SCREEN_FILE" refused.xwd; printf 'refused: %s\n' "$(state)"; press Escape Escape
 press ctrl+o; sleep 0.5; press ctrl+a; xdotool type --delay 30 "$PWD/way.geojson"; sleep 0.3; press Return; sleep 2
