@@ -22,7 +22,7 @@ struct Amplitudes {
     double border, patches, grain;
 };
 Amplitudes amplitudes(double cell_m) {
-    return {band(cell_m, 900.0, 0.7, 0.4), band(cell_m, 1500.0, 0.25, 0.2),
+    return {band(cell_m, 1100.0, 0.55, 0.3), band(cell_m, 1500.0, 0.25, 0.2),
             cell_m > 400.0   ? 0.0
             : cell_m > 100.0 ? 0.6
                              : 1.0};

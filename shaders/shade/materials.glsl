@@ -42,7 +42,7 @@ void find_pixel_materials(SurfacePoint point) {
         vec3 colour = FRAME.style.materials.of[i].colour + patches * FRAME.style.materials.of[i].patches;
         pixel_materials[i] = colour * max(1.0 + FRAME.style.materials.of[i].grain * pixel_noise.grain, 0.1);
     }
-    pixel_materials[material_rock] *= 1.0 + 0.2 * strata(point.mean_H_m, foot_m);
+    pixel_materials[material_rock] *= 1.0 + 0.3 * strata(point.mean_H_m, foot_m);
 }
 
 vec3 colour_of_shares(MaterialShares shares) {
@@ -65,11 +65,11 @@ MaterialShares shares_by_rule(SurfacePoint point) {
     float snow = broken(above_m + 10.0 * point.hollow_m, 170.0) * broken(FRAME.style.materials.snow_to_deg - slope, 6.0);
     float left = 1.0 - snow;
     float high = smoothstep(0.75 * forest_m, 0.3 * forest_m, above_m);
-    float rock = left * broken(slope - middle_deg - held_deg(above_m) + 6.0 * high, 6.0, -pixel_noise.border, pixel_noise.border_left);
+    float rock = left * broken(slope - middle_deg - held_deg(above_m) + 6.0 * high, 5.0, -pixel_noise.border, pixel_noise.border_left);
     left -= rock;
     float dry = dry_share(point);
     // On slopes more than on level ground, which is tilled or grazed.
-    float wooded = min((forest_m - above_m) / 130.0, clamp(0.045 * (slope - 10.0), -0.5, 0.65));
+    float wooded = min((forest_m - above_m) / 130.0, clamp(0.045 * (slope - 10.0) + 0.025 * point.hollow_m, -0.7, 0.9));
     float forest = left * (1.0 - dry) * broken(wooded, 1.0);
     left -= forest;
     float broad = patched((1.9 * forest_m - above_m) / 220.0, 1.0);
