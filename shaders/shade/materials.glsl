@@ -22,8 +22,9 @@ float patched(float x, float spread) { return broken(x, spread, pixel_noise.patc
 // Layers of rock, by height, bent by noise: of mean 0.
 float strata(float H_m, float foot_m) {
     float bent_m = H_m + 22.0 * pixel_noise.border + 14.0 * pixel_noise.patches, sum = 0.0;
-    for (int i = 0; i < 2; ++i) {
-        float thick_m = i == 0 ? 62.0 : 19.0;
+    float thick_m = 170.0;
+    for (int i = 0; i < 3; ++i) {
+        thick_m *= 0.35;
         float kept = clamp(0.5 * thick_m / foot_m - 1.0, 0.0, 1.0);
         float layers = bent_m / thick_m, whole = floor(layers), on = smoothstep(0.25, 0.75, layers - whole);
         uint layer = uint(int(whole)) * 0x9e3779b1u + uint(i);
