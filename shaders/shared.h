@@ -392,6 +392,7 @@ struct FrameConstants {
     uint clusters_turn;    // number of this frame among those in rounds, for ClusterBlock.seen
     uint clusters_before;  // ... of the last one; 0: nothing is known of it
     ClusterCut cut;
+    NoiseOctave noise[16];  // from the largest cells on
 };
 
 #ifdef __cplusplus

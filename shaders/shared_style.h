@@ -101,6 +101,46 @@ struct GroundCover {
     float level_m;   // ... and on level ground, where ice flows down to
 };
 
+// What the ground is made of, by these numbers (data/README.md).
+ORO_CONST uint material_rock = 0u;
+ORO_CONST uint material_scree = 1u;
+ORO_CONST uint material_meadow = 2u;
+ORO_CONST uint material_shrub = 3u;
+ORO_CONST uint material_needle_forest = 4u;
+ORO_CONST uint material_broad_forest = 5u;
+ORO_CONST uint material_crops = 6u;
+ORO_CONST uint material_bare = 7u;
+ORO_CONST uint material_snow = 8u;
+ORO_CONST uint material_water = 9u;
+ORO_CONST uint material_built = 10u;
+ORO_CONST uint material_wetland = 11u;
+ORO_CONST uint material_count = 12u;
+struct Material {
+    vec3 colour;   // its mean, linear light
+    vec3 patches;  // what its patches add to it, or take
+    float grain;   // how much darker or lighter its grain is, root mean square of each octave
+};
+// 0 in `on`: GroundCover's tints and its rock colour the ground.
+struct MaterialTable {
+    uint on;
+    Material of[12];
+    vec2 dry_lat_deg;   // north or south: between these there is no meadow and no forest,
+    vec2 dry_H_m;       // ... from between these on
+    float snow_to_deg;  // the steepest slope that snow lies on
+};
+// An octave of the noise that breaks the materials' borders (core/frame/ground_noise.h): a lattice of cubes
+// in space, turned, where the eye is.
+ORO_CONST uint noise_octaves = 16u;
+ORO_CONST float noise_lacunarity = 2.3f;  // so many times smaller are the cells of the next octave
+struct NoiseOctave {
+    uvec3 cell;     // the eye's cell
+    vec3 part;      // where in it the eye is, 0 to 1
+    float cell_m;   // its edge
+    float border;   // the octave's amplitude in what moves borders; the sum of their variances is 1,
+    float patches;  // ... in patches of colour, the same,
+    float grain;    // ... and in grain: 0 or what gives the octave a root mean square of 1
+};
+
 // Water in the ground's heights, in air. 0 in `on`: none is looked for. Level areas are water: see
 // shaders/shade/water.glsl.
 struct WaterModel {
@@ -150,6 +190,7 @@ struct FrameStyle {
     uint sky_openness;  // 1: the sky's light is that of the part of the sky that a place sees
     uint footprint;     // footprint_...
     uint smooth_edges;  // 1: of pictures of one sample, see shaders/shade/edges.comp
+    MaterialTable materials;
 };
 
 #endif

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/legend/legend.h"
+#include "apps/styles/material_names.h"
 #include "core/frame/frame_colours.h"
 #include "core/terrain/level_grid.h"
 
@@ -71,6 +72,23 @@ ColourKey key_of_show(Show show, bool clusters, const Region& region, int every)
     return key;
 }
 
+// Of what a rule may make of ground, the mean colours.
+ColourKey key_of_materials(const gpu::MaterialTable& materials) {
+    ColourKey key;
+    key.shape = KeyShape::names;
+    key.title = "Ground, by a rule";
+    for (std::size_t i = 0; i <= gpu::material_snow; ++i) {
+        StripColour colour{};
+        for (int c = 0; c < 3; ++c)
+            colour[static_cast<std::size_t>(c)] =
+                code_of(encoded(static_cast<double>(materials.of[i].colour[c])));
+        std::string name = material_names[i];
+        std::replace(name.begin(), name.end(), '_', ' ');
+        key.names.push_back({colour, name});
+    }
+    return key;
+}
+
 void add_ticks(ColourKey& key, double step) {
     for (double at = std::ceil(key.low / step) * step; at <= key.high; at += step) key.ticks.push_back(at);
 }
@@ -96,6 +114,7 @@ StripColour ColourKey::colour(double value) const {
 ColourKey colour_key(const View& view, const Region& region, const Style& style, int every) {
     if (view.show) return key_of_show(*view.show, view.mesh == "clusters", region, every);
     const gpu::FrameStyle& frame = style.frame;
+    if (frame.materials.on != 0) return key_of_materials(frame.materials);
     ColourKey key;
     key.stops.assign(frame.tints, frame.tints + frame.tint_count);
     key.codes = frame.tints_as_codes != 0;

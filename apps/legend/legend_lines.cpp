@@ -104,6 +104,8 @@ std::string data_line(const View& view, const Region& region) {
 std::vector<std::string> legend_lines(const View& view, const Region& region, const Style& style) {
     std::vector<std::string> lines{view.map ? map_line(view) : eye_line(view, region)};
     if (style.frame.light != gpu::light_none) lines.push_back(sun_line(style));
+    if (style.frame.colour_by == gpu::colour_by_cover)
+        lines.emplace_back("Ground cover: invented, by a rule of height, slope and latitude");
     if (style.frame.contours.interval_m > 0.0F)
         lines.push_back(text_of("Contour lines: every %.6g m, every fifth thicker",
                                 static_cast<double>(style.frame.contours.interval_m)));

@@ -70,6 +70,10 @@ void read_ground(const json& object, gpu::FrameStyle& style) {
     } else if (object.contains("cover")) {
         throw JsonFault{"'cover' is for 'colour_by': 'cover'"};
     }
+    if (!object.contains("materials")) return;
+    if (style.colour_by != gpu::colour_by_cover || !object.contains("air"))
+        throw JsonFault{"'materials' is for 'colour_by': 'cover', with 'air'"};
+    style.materials = materials_of(json_field(object, "materials"));
 }
 
 SunDirection read_light(const json& object, gpu::FrameStyle& style) {
@@ -198,11 +202,11 @@ Style style_of_json(const json& object) {
     const bool of_means = style.frame.footprint == gpu::footprint_mean;
     style.frame.smooth_edges =
         choice(object, "edges", std::array{of_means ? smooth : steps, of_means ? steps : smooth});
-    refuse_unknown(
-        object, "a style",
-        {"name",   "licence",      "colour_by", "tints",        "flat",     "light",      "sun",  "ambient",
-         "relief", "relief_light", "shadows",   "sky_openness", "contours", "background", "haze", "sky",
-         "air",    "no_data",      "cover",     "water",        "voids",    "footprint",  "edges"});
+    refuse_unknown(object, "a style",
+                   {"name",     "licence",    "colour_by", "tints",        "flat",      "light",
+                    "sun",      "ambient",    "relief",    "relief_light", "shadows",   "sky_openness",
+                    "contours", "background", "haze",      "sky",          "air",       "no_data",
+                    "cover",    "materials",  "water",     "voids",        "footprint", "edges"});
     return style;
 }
 

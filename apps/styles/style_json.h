@@ -28,4 +28,7 @@ void set_visibility(double visibility_km, gpu::AirModel& air);
 // Throws a JsonFault.
 gpu::GroundCover cover_of(const nlohmann::json& object, bool as_codes);
 
+// What the ground is made of, of a style's "materials". Throws a JsonFault.
+gpu::MaterialTable materials_of(const nlohmann::json& object);
+
 }  // namespace oro

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/earth/culling.h"
+#include "core/frame/ground_noise.h"
 #include "core/frame/model_view.h"
 #include "core/lod/levels.h"
 #include "core/terrain/drawn_heights.h"
@@ -324,6 +325,7 @@ gpu::FrameConstants frame_constants(const RegionPages& pages, const Camera& came
     constants.eye_post = eye_post(region.grid, camera.eye, model.earth);
     if (region.grid.net) constants.net = net_map(*region.grid.net, lon);
     constants.is_seam = pages.is_seam() ? 1U : 0U;
+    set_ground_noise(model_eye_ecef(model.earth, camera.eye), constants);
     return constants;
 }
 

@@ -49,6 +49,7 @@ struct ShadingKind {
     bool parts_follow{};  // pixels whose footprint has several parts are left to a program of their own,
     bool parts_alone{};   // which this is
     bool on_net{};        // the region's posts lie on a net
+    bool of_materials{};  // materials colour the ground (FrameStyle.materials)
     bool on_clusters{};   // clusters are drawn, not nodes of pages
     auto operator<=>(const ShadingKind&) const = default;
 };
@@ -59,13 +60,13 @@ struct Pipelines {
     // 0 ids, 1 sum, 2 picture: storage images of the shading pass; 3 FrameConstants; depth_binding: the mesh
     // path's depth, sampled
     OwnedSetLayout set;
-    OwnedPipelineLayout layout;         // that set, and a FrameRound pushed
-    VkShaderStageFlags round_stages{};  // ... to these
+    OwnedPipelineLayout layout;            // that set, and a FrameRound pushed
+    VkShaderStageFlags round_stages{};     // ... to these
     OwnedPipeline lod_test, live_pages;    // levels chosen, in this order
     OwnedPipeline cull, cull_second_pass;  // of what is drawn: in the first round, in the others
-    OwnedPipeline pyramid;              // of the farthest depths, 64 x 64 pixels a workgroup
-    OwnedPipeline terrain;              // mesh path: task, mesh, fragment
-    OwnedPipeline terrain_ties;         // ... and what is as near as what is there, with lower ids
+    OwnedPipeline pyramid;                 // of the farthest depths, 64 x 64 pixels a workgroup
+    OwnedPipeline terrain;                 // mesh path: task, mesh, fragment
+    OwnedPipeline terrain_ties;            // ... and what is as near as what is there, with lower ids
     std::uint32_t meshlets_per_task{1};
     // Compute path, in this order.
     std::int32_t alone_max_px{};  // of the largest box of pixels that an invocation draws by itself
@@ -73,9 +74,9 @@ struct Pipelines {
     std::map<ShadingKind, OwnedPipeline> shades;  // compute, 8 x 8; see shading_for
     std::array<OwnedPipeline, 4> edges;  // without and with air, then both of clusters, 8 x 8; see edges_for
     std::array<OwnedPipeline, 2>
-        texture_tile_feedback;                 // what tiles of images are wanted (then of clusters), 8 x 8
-    std::array<OwnedPipeline, 6> air;          // its tables, in this order, 64 entries a workgroup
-    OwnedPipeline caster_heights, openness;    // of what casts shadows
+        texture_tile_feedback;               // what tiles of images are wanted (then of clusters), 8 x 8
+    std::array<OwnedPipeline, 6> air;        // its tables, in this order, 64 entries a workgroup
+    OwnedPipeline caster_heights, openness;  // of what casts shadows
     // Off and on a net, of clusters; of each by what it does (shares.comp), 16 x 16 pixels or 64 of a list.
     std::array<std::array<OwnedPipeline, 5>, 3> sun_shares;
     // Of frames of several grids, off and on a net: where pixels' ground is, 8 x 8; as sun_shares; 8 x 8.
@@ -86,8 +87,8 @@ struct Pipelines {
     OwnedPipeline show;       // colours by what draws a pixel, compute, 8 x 8
     // Of frames that draw clusters: see add_cluster_pipelines().
     OwnedPipeline choose_clusters, choose_clusters_second_pass;  // in the first round, in the others
-    OwnedPipeline cluster_terrain, cluster_ties;      // mesh path: mesh, fragment; as terrain_ties
-    OwnedPipeline cluster_raster, cluster_clip;       // compute path; then raster_large
+    OwnedPipeline cluster_terrain, cluster_ties;                 // mesh path: mesh, fragment; as terrain_ties
+    OwnedPipeline cluster_raster, cluster_clip;                  // compute path; then raster_large
     OwnedPipeline cluster_triangles;
 };
 

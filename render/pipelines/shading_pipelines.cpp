@@ -59,6 +59,7 @@ std::span<const std::uint32_t> shade_words(const ShadingKind& kind) {
 ShadingKind shading_of(const gpu::FrameStyle& style) {
     ShadingKind kind;
     kind.in_air = style.air.on != 0;
+    kind.of_materials = kind.in_air && style.materials.on != 0;
     kind.as_map = !kind.in_air &&
                   (style.colour_by != gpu::colour_by_height || style.tints_as_codes != 0 ||
                    style.light != gpu::light_sun || style.is_map != 0 || style.contours.interval_m > 0.0F);
@@ -70,14 +71,15 @@ Result<VkPipeline> shading_for(const Gpu& gpu, RasterPath path, const ShadingKin
     OwnedPipeline& shade = pipelines.shades[kind];
     if (shade) return shade.get();
     // By constant_id of shade.comp.
-    const std::array<VkBool32, 8> values{flag(path == RasterPath::compute),
+    const std::array<VkBool32, 9> values{flag(path == RasterPath::compute),
                                          flag(kind.casts),
                                          flag(kind.opens),
                                          flag(kind.draped),
                                          flag(kind.by_means),
                                          flag(kind.edges_follow),
                                          flag(kind.parts_follow),
-                                         flag(kind.parts_alone)};
+                                         flag(kind.parts_alone),
+                                         flag(kind.of_materials)};
     std::array<VkSpecializationMapEntry, values.size()> entries{};
     for (std::uint32_t i = 0; i < entries.size(); ++i)
         entries[i] = {i, i * std::uint32_t{sizeof(VkBool32)}, sizeof(VkBool32)};

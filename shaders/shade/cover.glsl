@@ -14,8 +14,14 @@ float snow_line_m(float lat_deg) {
     return mix(FRAME.style.cover.snow_line[below].H_m, FRAME.style.cover.snow_line[first].H_m, share);
 }
 
-// How far a pixel's ground is above the snow line, or taken for so: what tints are by. rock: its share.
-float above_snow_line_m(SurfacePoint point, out float rock) {
+// Trees and snow hold on where grass and scree have slid down.
+float held_deg(float above_m) {
+    return 9.0 * (1.0 - smoothstep(FRAME.style.cover.forest_m, 0.5 * FRAME.style.cover.forest_m, above_m)
+                  + smoothstep(-100.0, 300.0, above_m));
+}
+
+// How far a pixel's ground is above the snow line, or taken for so: what tints are by.
+float above_snow_line_m(SurfacePoint point) {
     float slope = slope_deg(point), lean = length(point.normal.xy), up = FRAME.exaggeration * point.normal.z;
     float steepness = min(2.0 * lean * inversesqrt(max(lean * lean + up * up, 1.0e-12)), 1.0);
     float to_pole = lean > 0.0 ? point.normal.y / lean * (point.lat_deg < 0.0 ? -1.0 : 1.0) : 0.0;
@@ -23,9 +29,10 @@ float above_snow_line_m(SurfacePoint point, out float rock) {
     // Level ground high up is most often ice, which snow feeds from above.
     float high = smoothstep(-1.6, -0.8, above_m / max(FRAME.style.cover.level_m, 1.0));
     above_m += FRAME.style.cover.level_m * high * point.wide_level * (1.0 - smoothstep(7.0, 15.0, slope));
-    // Trees and snow hold on where grass and scree have slid down.
-    float held = 9.0 * (1.0 - smoothstep(FRAME.style.cover.forest_m, 0.5 * FRAME.style.cover.forest_m, above_m)
-                        + smoothstep(-100.0, 300.0, above_m));
-    rock = smoothstep(FRAME.style.cover.rock_from_deg + held, FRAME.style.cover.rock_to_deg + held, slope);
     return above_m;
 }
+float rock_share(SurfacePoint point, float above_m) {
+    float held = held_deg(above_m);
+    return smoothstep(FRAME.style.cover.rock_from_deg + held, FRAME.style.cover.rock_to_deg + held, slope_deg(point));
+}
+

@@ -33,18 +33,22 @@ float aspect_deg(SurfacePoint point) {
 }
 
 #include "shaders/shade/cover.glsl"
+#include "shaders/shade/materials.glsl"
 
 // In linear light, or as codes.
 vec3 ground_tint(SurfacePoint point) {
     bool by_cover = FRAME.style.colour_by == colour_by_cover;
-    float value, rock = 0.0;
-    if (by_cover) value = above_snow_line_m(point, rock);
+    float value;
+#ifdef IN_AIR
+    if (of_materials) return colour_of_shares(shares_by_rule(point));
+#endif
+    if (by_cover) value = above_snow_line_m(point);
     else if (FRAME.style.colour_by == colour_by_slope) value = slope_deg(point);
     else if (FRAME.style.colour_by == colour_by_height) value = point.mean_H_m;
     else if (point.normal.xy == vec2(0.0)) return FRAME.style.flat_colour;
     else value = aspect_deg(point);
     vec3 colour = tint(value);
-    return by_cover ? mix(colour, FRAME.style.cover.rock, rock) : colour;
+    return by_cover ? mix(colour, FRAME.style.cover.rock, rock_share(point, value)) : colour;
 }
 
 // Cosine of the angle between the sun and the slope, which is drawn `relief` times as steep.
@@ -179,6 +183,9 @@ GroundLight pixel_light(SurfacePoint point, vec3 sun) {
     GroundLight sum = GroundLight(vec3(0.0), vec3(0.0), vec3(0.0));
     Images images = images_over(point);
     if (in_air) point.mean_H_m = land_H_m(point.mean_H_m);
+#ifdef IN_AIR
+    if (of_materials) find_pixel_materials(point);
+#endif
     float share = 0.0;
     if (by_means && !parts_follow)
         for (int i = 0; i < point.parts; ++i) {
@@ -235,6 +242,9 @@ void look_for_snow(inout SurfacePoint point) {
     point.snow_line_m = snow_line_m(point.lat_deg);
     // Far below it nothing is ice, and far above it everything is.
     float above_m = point.mean_H_m - point.snow_line_m, level_m = FRAME.style.cover.level_m;
+#ifdef IN_AIR
+    if (of_materials && by_means && above_m < 1000.0) point.hollow_m = hollow_m_at(point);
+#endif
     if (!by_means || level_m <= 0.0 || above_m <= -1.6 * level_m - 1000.0 || above_m >= 2000.0) return;
     // Nor is it on slopes of 15 degrees; where a pixel has one slope and one height that can be told (cover.glsl).
     float lean = length(point.normal.xy), up = FRAME.exaggeration * point.normal.z;

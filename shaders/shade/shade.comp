@@ -21,6 +21,7 @@ layout(constant_id = 4) const bool by_means = false;  // FrameStyle.footprint
 // be water, and what is no ground.
 layout(constant_id = 6) const bool parts_follow = false;
 layout(constant_id = 7) const bool parts_alone = false;
+layout(constant_id = 8) const bool of_materials = false;  // FrameStyle.materials
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"

@@ -9,6 +9,7 @@ struct SurfacePoint {
     float lat_deg;  // where the style asks for it
     float snow_line_m; // H, likewise; of look_for_snow()
     float wide_level;  // likewise: 1 on ground that is level for half a kilometre around, 0 on slopes and crests
+    float hollow_m;    // likewise: how much lower it is than the ground around it
     uint shaded_page;  // that it is shaded from,
     vec2 shaded_post;  // ... and where in it: (row, column), fractional
     uint page;         // of the triangle,
@@ -321,7 +322,7 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     if (!by_means && shows_angle) point.normal = horn_normal_at(PageBlocks(page.block), page, post);
     else if (!by_means) point.normal = point.smooth_normal;
     if (HAS_NET && FRAME.is_seam != 0u) point.normal = point.smooth_normal = normal_of_seam(page, posts, vec3(share_a, share_b, share_c), heights_m, at);
-    point.lat_deg = point.snow_line_m = 0.0;
+    point.lat_deg = point.snow_line_m = point.hollow_m = 0.0;
     point.wide_level = 1.0;
     if ((as_map || in_air) && FRAME.style.colour_by == colour_by_cover) {
         RowTerms row = RowTable(FRAME.row_terms).at[page.row_terms + whole_number(floor(clamp(post.x, 0.0, float(page_quads))))];

@@ -177,6 +177,9 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     json["footprint"] = !shot.has_means                                  ? "point"
                         : style.frame.footprint == gpu::footprint_finest ? "finest"
                                                                          : "mean";
+    // What says which materials the ground's colours are of; null: they are of none.
+    json["cover"] = nullptr;
+    if (style.frame.colour_by == gpu::colour_by_cover) json["cover"] = "rule";
     json["contour_interval_m"] = nullptr;
     if (style.frame.contours.interval_m > 0.0F) json["contour_interval_m"] = style.frame.contours.interval_m;
     json["labels"] = labels_json(shot.labels);

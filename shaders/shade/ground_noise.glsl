@@ -1,0 +1,58 @@
+// Noise of absolute place, from the octaves that are at least two pixels long: FrameConstants.noise.
+
+struct GroundNoise {
+    float border;        // of variance 1, with what is left out
+    float border_left;   // the variance of what is left out
+    float patches;
+    float patches_left;
+    float grain;
+};
+
+// Source: C. Wellons, hash-prospector, lowbias32 (public domain).
+uint mixed_bits(uint h) {
+    h ^= h >> 16u;
+    h *= 0x7feb352du;
+    h ^= h >> 15u;
+    h *= 0x846ca68bu;
+    return h ^ (h >> 16u);
+}
+// Two numbers, 1 to 2.
+vec2 at_lattice_point(uint h) {
+    uint bits = mixed_bits(h);
+    return uintBitsToFloat(0x3f800000u | uvec2(bits >> 9u, (bits << 8u) & 0x7fffffu));
+}
+// Two kinds of noise, -1 to 1, in a cell. Source: K. Perlin, Improving noise, 2002 (the fade).
+vec2 lattice_noise(uvec3 cell, vec3 part, uint octave) {
+    const uint x = 0x9e3779b1u, y = 0x85ebca77u, z = 0xc2b2ae3du;
+    uint h = cell.x * x + cell.y * y + cell.z * z + octave * 0x27d4eb2fu;
+    vec3 on = part * part * part * (part * (part * 6.0 - 15.0) + 10.0);
+    vec2 low = mix(mix(at_lattice_point(h), at_lattice_point(h + x), on.x), mix(at_lattice_point(h + y), at_lattice_point(h + x + y), on.x), on.y);
+    h += z;
+    vec2 high = mix(mix(at_lattice_point(h), at_lattice_point(h + x), on.x), mix(at_lattice_point(h + y), at_lattice_point(h + x + y), on.x), on.y);
+    return 2.0 * mix(low, high, on.z) - 3.0;
+}
+
+// Of a place in view coordinates, as it is seen; foot_m: the side of a pixel on the ground.
+GroundNoise ground_noise(vec3 view, float foot_m) {
+    if (FRAME.refraction_per_m != 0.0) view -= (0.5 * FRAME.refraction_per_m * squared_across(view)) * FRAME.up_view;
+    vec3 at = (view * FRAME.view_from_ecef) / FRAME.noise[0].cell_m;
+    GroundNoise noise = GroundNoise(0.0, 1.0, 0.0, 1.0, 0.0);
+    for (uint i = 0u; i < noise_octaves; ++i) {
+        // Its waves are two cells long: it fades in from 2.4 pixels a wave on.
+        float kept = min(FRAME.noise[i].cell_m / foot_m - 1.2, 1.0);
+        if (kept <= 0.0) break;
+        vec3 from_cell = at + FRAME.noise[i].part, whole = floor(from_cell);
+        vec2 both = kept * lattice_noise(FRAME.noise[i].cell + uvec3(ivec3(whole)), from_cell - whole, i);
+        float border = FRAME.noise[i].border, patches = FRAME.noise[i].patches;
+        noise.border += border * both.x;
+        noise.patches += patches * both.y;
+        noise.border_left -= 0.1603 * kept * kept * border * border;
+        noise.patches_left -= 0.1603 * kept * kept * patches * patches;
+        // Of the one kind where it moves no border much, so that grain and borders have nothing in common.
+        noise.grain += FRAME.noise[i].grain * both.y;
+        at = noise_lacunarity / 3.0 * vec3(2.0 * at.x - 2.0 * at.y + at.z, at.x + 2.0 * at.y + 2.0 * at.z, 2.0 * at.x + at.y - 2.0 * at.z);
+    }
+    noise.border_left = max(noise.border_left, 0.0);
+    noise.patches_left = max(noise.patches_left, 0.0);
+    return noise;
+}

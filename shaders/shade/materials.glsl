@@ -1,0 +1,103 @@
+// Ground of materials, whose borders are broken by noise: FrameStyle.materials. Needs cover.glsl. Which materials a place has is said by their
+// shares: here by a rule of height, slope, hollows and latitude. What says it otherwise (a map of land cover) gives such shares, too.
+#ifdef IN_AIR
+#include "shaders/shade/ground_noise.glsl"
+
+// By number (material_rock and so on); together 1.
+struct MaterialShares { float of[12]; };
+
+// Found once for a pixel, for all the parts of its footprint.
+GroundNoise pixel_noise;
+vec3 pixel_materials[12];  // the materials' colours there
+
+// The share of ground on the one side of a border: x from it, in units in which noise moves the border by `spread` (root mean square). Of noise
+// that a pixel is too large for the mean: shares of large areas are those of small ones.
+float broken(float x, float spread, float noise, float left) {
+    float sharp = inversesqrt(left + 0.0005);
+    return smoothstep(-1.88, 1.88, (x / spread + noise) * sharp);  // nearly a normal distribution's
+}
+float broken(float x, float spread) { return broken(x, spread, pixel_noise.border, pixel_noise.border_left); }
+float patched(float x, float spread) { return broken(x, spread, pixel_noise.patches, pixel_noise.patches_left); }
+
+// Layers of rock, by height, bent by noise: of mean 0.
+float strata(float H_m, float foot_m) {
+    float bent_m = H_m + 22.0 * pixel_noise.border + 14.0 * pixel_noise.patches, sum = 0.0;
+    float thick_m = 170.0;
+    for (int i = 0; i < 3; ++i) {
+        thick_m *= 0.35;
+        float kept = clamp(0.5 * thick_m / foot_m - 1.0, 0.0, 1.0);
+        float layers = bent_m / thick_m, whole = floor(layers), on = smoothstep(0.25, 0.75, layers - whole);
+        uint layer = uint(int(whole)) * 0x9e3779b1u + uint(i);
+        sum += kept * (2.0 * mix(at_lattice_point(layer).x, at_lattice_point(layer + 0x9e3779b1u).x, on) - 3.0);
+    }
+    return sum;
+}
+
+void find_pixel_materials(SurfacePoint point) {
+    vec3 to_eye = normalize(-point.view) * axes_at(point.view);
+    // A square of as much ground as the pixel's: where that is seen at a grazing angle its longer side alone would leave nothing.
+    float foot_m = length(point.view) * inversesqrt(max(dot(point.normal, to_eye), 0.04)) / FRAME.pixels_per_tangent;
+    pixel_noise = ground_noise(point.view, foot_m);
+    float patches = clamp(pixel_noise.patches, -2.0, 2.0);
+    for (uint i = 0u; i < material_count; ++i) {
+        vec3 colour = FRAME.style.materials.of[i].colour + patches * FRAME.style.materials.of[i].patches;
+        pixel_materials[i] = colour * max(1.0 + FRAME.style.materials.of[i].grain * pixel_noise.grain, 0.1);
+    }
+    pixel_materials[material_rock] *= 1.0 + 0.3 * strata(point.mean_H_m, foot_m);
+}
+
+vec3 colour_of_shares(MaterialShares shares) {
+    vec3 colour = vec3(0.0);
+    for (uint i = 0u; i < material_count; ++i) colour += shares.of[i] * pixel_materials[i];
+    return colour;
+}
+
+// Deserts beyond mountains that take the rain; nothing else is known of rain here.
+float dry_share(SurfacePoint point) {
+    vec2 lat = FRAME.style.materials.dry_lat_deg, H = FRAME.style.materials.dry_H_m;
+    float north = min(abs(point.lat_deg) - lat.x, lat.y - abs(point.lat_deg)) / 0.4;
+    return broken(min(north, 4.0 * (point.mean_H_m - H.x) / max(H.y - H.x, 1.0) - 2.0), 1.0);
+}
+
+MaterialShares shares_by_rule(SurfacePoint point) {
+    float above_m = above_snow_line_m(point), slope = slope_deg(point), forest_m = FRAME.style.cover.forest_m;
+    float middle_deg = 0.5 * (FRAME.style.cover.rock_from_deg + FRAME.style.cover.rock_to_deg);
+    // Snow lies longest in hollows, and slides from walls.
+    float snow = broken(above_m + 10.0 * point.hollow_m, 170.0) * broken(FRAME.style.materials.snow_to_deg - slope, 6.0);
+    float left = 1.0 - snow;
+    float high = smoothstep(0.75 * forest_m, 0.3 * forest_m, above_m);
+    float rock = left * broken(slope - middle_deg - held_deg(above_m) + 6.0 * high, 5.0, -pixel_noise.border, pixel_noise.border_left);
+    left -= rock;
+    float dry = dry_share(point);
+    // On slopes more than on level ground, which is tilled or grazed.
+    float wooded = min((forest_m - above_m) / 130.0, clamp(0.045 * (slope - 10.0) + 0.025 * point.hollow_m, -0.7, 0.9));
+    float forest = left * (1.0 - dry) * broken(wooded, 1.0);
+    left -= forest;
+    float broad = patched((1.9 * forest_m - above_m) / 220.0, 1.0);
+    float green = broken((0.5 * forest_m - above_m) / 150.0 - max(slope - 30.0, 0.0) / 5.0 + clamp(0.04 * point.hollow_m, -1.0, 1.0), 1.0);
+    float grown = left * green * (1.0 - dry);
+    float shrub = grown * patched(0.2 - abs(above_m - 0.85 * forest_m) / 120.0, 1.0);
+    float crops = (grown - shrub) * patched(min(0.2 - 0.4 * (slope - 3.0), (2.0 * forest_m - above_m) / 300.0), 1.0);
+    float bare = left * green * dry;
+    MaterialShares shares;
+    shares.of[material_rock] = rock;
+    shares.of[material_scree] = left - grown - bare;
+    shares.of[material_meadow] = grown - shrub - crops;
+    shares.of[material_shrub] = shrub;
+    shares.of[material_needle_forest] = forest * (1.0 - broad);
+    shares.of[material_broad_forest] = forest * broad;
+    shares.of[material_crops] = crops;
+    shares.of[material_bare] = bare;
+    shares.of[material_snow] = snow;
+    shares.of[material_water] = shares.of[material_built] = shares.of[material_wetland] = 0.0;
+    return shares;
+}
+
+// How much lower a place is than the ground of some 200 m around it.
+float hollow_m_at(SurfacePoint point) {
+    MeansPage page = page_over(means_page(point.page), uint(max(log2(250.0 / point.post_m), 0.0)), point.region);
+    GroundSum around = no_ground();
+    add_squares(around, means_of(page), among_squares(page, point.region), point.h_m / FRAME.exaggeration, false);
+    return around.share > 0.0 ? clamp(around.h_m / around.share, -40.0, 40.0) : 0.0;
+}
+#endif

@@ -1,0 +1,183 @@
+// Ground of materials: what noise does to pictures, and what it leaves alone.
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "tests/styles/drawn_style.h"
+
+namespace oro {
+namespace {
+
+constexpr int side_px = 128;
+
+class MaterialPictures : public test::StyleTest {
+  protected:
+    // Ground that rises towards the north by `rise`, with square cells, 1,200 m high in its middle.
+    static Region slope(double post_m, double rise) {
+        Region region{std::vector<RegionGrid>(1)};
+        region.grids[0].field = test::square_field(
+            46.5, 8.0, post_m, 129, [&](int row, int) { return 1200.0 + rise * post_m * (64 - row); });
+        return region;
+    }
+
+    // `natural` in the light of noon, without shadows and water.
+    static gpu::FrameStyle natural(const Region& region) {
+        View view;
+        view.style = (test::bundled_data() / "styles" / "natural.json").string();
+        view.sun = SunDirection{180.0, 60.0};
+        const auto style = load_style(view, region.grids[0].field);
+        EXPECT_TRUE(style.ok()) << style.error().line();
+        gpu::FrameStyle frame = style->frame;
+        frame.shadows = frame.sky_openness = 0;
+        frame.water.on = 0;
+        return frame;
+    }
+
+    // Straight down, so that a pixel has px_m of ground.
+    static Camera down(const Region& region, double px_m) {
+        const HeightField& field = region.grids[0].field;
+        Camera camera = test::straight_down(field, px_m, side_px, side_px);
+        camera.eye.h_m = 1200.0 + 1000.0 * px_m;
+        camera.vertical_fov_deg = 2.0 * std::atan(0.5 * side_px / 1000.0) * 180.0 / std::numbers::pi;
+        return camera;
+    }
+
+    std::vector<std::uint8_t> picture(const Region& region, const Camera& camera,
+                                      const gpu::FrameStyle& frame) {
+        Style style{};
+        style.frame = frame;
+        auto found = drawn(region, camera, style, true);
+        EXPECT_TRUE(found.has_value());
+        return found ? std::move(found->rgba) : std::vector<std::uint8_t>(4 * side_px * side_px);
+    }
+
+    static std::array<double, 3> mean(const std::vector<std::uint8_t>& rgba) {
+        std::array<double, 3> sum{};
+        for (std::size_t i = 0; i < rgba.size(); ++i)
+            if (i % 4 < 3) sum[i % 4] += 4.0 * rgba[i] / static_cast<double>(rgba.size());
+        return sum;
+    }
+    // Root mean square of the codes from their mean.
+    static double contrast(const std::vector<std::uint8_t>& rgba) {
+        const std::array<double, 3> middle = mean(rgba);
+        double sum = 0.0;
+        for (std::size_t i = 0; i < rgba.size(); ++i)
+            if (i % 4 < 3) sum += std::pow(rgba[i] - middle[i % 4], 2);
+        return std::sqrt(sum / (0.75 * static_cast<double>(rgba.size())));
+    }
+};
+
+// Patches and grain take from the one place what they give to the other.
+TEST_F(MaterialPictures, HaveTheTablesMeanColour) {
+    for (const double px_m : {0.3, 4.0, 600.0}) {
+        const Region region = slope(px_m < 100.0 ? 30.0 : 1500.0, 0.0);
+        gpu::FrameStyle of_one = natural(region);
+        const gpu::Material meadow = of_one.materials.of[gpu::material_meadow];
+        for (gpu::Material& material : of_one.materials.of) {
+            material = meadow;
+            // Patches are kilometres wide: of a small piece of ground the mean is that of its patch.
+            if (px_m < 100.0) material.patches = gpu::vec3(0.0F);
+        }
+        gpu::FrameStyle flat = of_one;
+        for (gpu::Material& material : flat.materials.of) {
+            material.patches = gpu::vec3(0.0F);
+            material.grain = 0.0F;
+        }
+        const Camera camera = down(region, px_m);
+        const auto with = picture(region, camera, of_one), without = picture(region, camera, flat);
+        const std::array<double, 3> one = mean(with), other = mean(without);
+        std::printf(
+            "%g m a pixel: %.2f %.2f %.2f, without noise %.2f %.2f %.2f; contrast %.2f and %.2f codes\n",
+            px_m, one[0], one[1], one[2], other[0], other[1], other[2], contrast(with), contrast(without));
+        for (std::size_t i = 0; i < 3; ++i)
+            EXPECT_NEAR(one[i], other[i], 1.0) << "codes, " << px_m << " m a pixel";
+        if (px_m < 100.0) EXPECT_GT(contrast(with), contrast(without) + 2.0) << px_m << " m a pixel";
+    }
+}
+
+// What is drawn belongs to the ground: an eye that goes sixteen pixels on sees it moved by sixteen pixels.
+TEST_F(MaterialPictures, StayWhereTheyAre) {
+    const Region region = slope(30.0, 0.3);
+    const gpu::FrameStyle style = natural(region);
+    const Camera here = down(region, 1.0);
+    Camera there = here;
+    constexpr int moved_px = 16;
+    // A sixteenth of the picture's width of ground, at the height of the ground; the eye's circle is larger.
+    there.eye.lon_deg += moved_px / test::metres_per_degree(46.5, 1200.0).lon;
+    const auto one = picture(region, here, style), other = picture(region, there, style);
+    double sum = 0.0, still = 0.0, count = 0.0;
+    for (int row = 8; row < side_px - 8; ++row) {
+        for (int column = 8; column < side_px - moved_px - 8; ++column) {
+            for (int c = 0; c < 3; ++c) {
+                const auto at = [&](int of) {
+                    return static_cast<std::size_t>(4 * (side_px * row + of) + c);
+                };
+                sum += std::abs(other[at(column)] - one[at(column + moved_px)]);
+                still += std::abs(other[at(column)] - one[at(column)]);
+                count += 1.0;
+            }
+        }
+    }
+    std::printf("%.2f codes from where it was, %.2f if it had not moved\n", sum / count, still / count);
+    EXPECT_LT(sum / count, 2.0) << "codes; rays go through other parts of the pixels";
+    EXPECT_GT(still / count, 2.0 * sum / count) << "or there is nothing to see";
+}
+
+// No octave is shorter than two pixels: between its pixels a picture is what they say.
+TEST_F(MaterialPictures, AreSampledFinelyEnough) {
+    const Region region = slope(30.0, 0.3);
+    const gpu::FrameStyle style = natural(region);
+    const Camera here = down(region, 1.0);
+    Camera there = here;
+    there.eye.lon_deg += 0.5 / test::metres_per_degree(46.5, 1200.0).lon;
+    const auto one = picture(region, here, style), other = picture(region, there, style);
+    double sum = 0.0, count = 0.0;
+    for (int row = 8; row < side_px - 8; ++row) {
+        for (int column = 8; column < side_px - 8; ++column) {
+            for (int c = 0; c < 3; ++c) {
+                const auto at = [&](int of) {
+                    return static_cast<std::size_t>(4 * (side_px * row + of) + c);
+                };
+                sum += std::abs(other[at(column)] - 0.5 * (one[at(column)] + one[at(column + 1)]));
+                count += 1.0;
+            }
+        }
+    }
+    std::printf("half a pixel on: %.2f codes\n", sum / count);
+    EXPECT_LE(sum / count, 2.0) << "codes";
+}
+
+// Where a style has none, nothing is asked for.
+TEST_F(MaterialPictures, AreOfNaturalAlone) {
+    const Region region = slope(30.0, 0.0);
+    for (const auto& entry : std::filesystem::directory_iterator(test::bundled_data() / "styles")) {
+        View view;
+        view.style = entry.path().string();
+        const auto style = load_style(view, region.grids[0].field);
+        ASSERT_TRUE(style.ok()) << style.error().line();
+        EXPECT_EQ(style->frame.materials.on == 1, entry.path().stem() == "natural") << entry.path();
+    }
+}
+
+TEST_F(MaterialPictures, RefuseWhatIsAmiss) {
+    std::ifstream file(test::bundled_data() / "styles" / "natural.json");
+    const std::string text((std::istreambuf_iterator<char>(file)), {});
+    const Region region = slope(30.0, 0.0);
+    const auto line_of = [&](const std::string& from, const std::string& to) {
+        std::string changed = text;
+        const std::size_t at = changed.find(from);
+        EXPECT_NE(at, std::string::npos) << from;
+        changed.replace(at, from.size(), to);
+        const auto style = style_of(changed, ".json", Camera{}, region.grids[0].field);
+        return style.ok() ? std::string() : style.error().line();
+    };
+    EXPECT_NE(line_of("\"scree\"", "\"gravel\"").find("'scree'"), std::string::npos);
+    EXPECT_NE(line_of("\"snow_to_deg\": 48", "\"snow_to_deg\": 148").find("'snow_to_deg'"),
+              std::string::npos);
+    EXPECT_NE(line_of("\"lat_deg\": [28.7, 40]", "\"lat_deg\": [40, 28.7]").find("'lat_deg' must ascend"),
+              std::string::npos);
+    EXPECT_NE(line_of("\"grain\": 0.1 }", "\"grain\": 0.1, \"hue\": 1 }").find("hue"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace oro
