@@ -71,6 +71,21 @@ ColourKey key_of_show(Show show, bool clusters, const Region& region, int every)
     return key;
 }
 
+// The classes that the files of land cover hold.
+ColourKey key_of_cover(const CoverMap& cover) {
+    ColourKey key;
+    key.shape = KeyShape::names;
+    key.title = "Land cover; where none is known, by height";
+    for (const CoverClass& one : cover.table().classes) {
+        const bool is_there = std::ranges::any_of(cover.sources(), [&](const CoverSource& source) {
+            return std::ranges::any_of(one.codes, [&](int code) { return source.codes.contains(code); });
+        });
+        if (is_there)
+            key.names.push_back({StripColour{one.colour[0], one.colour[1], one.colour[2]}, one.name});
+    }
+    return key;
+}
+
 void add_ticks(ColourKey& key, double step) {
     for (double at = std::ceil(key.low / step) * step; at <= key.high; at += step) key.ticks.push_back(at);
 }
@@ -96,6 +111,7 @@ StripColour ColourKey::colour(double value) const {
 ColourKey colour_key(const View& view, const Region& region, const Style& style, int every) {
     if (view.show) return key_of_show(*view.show, view.mesh == "clusters", region, every);
     const gpu::FrameStyle& frame = style.frame;
+    if (view.cover && frame.colour_by == gpu::colour_by_cover) return key_of_cover(*view.cover);
     ColourKey key;
     key.stops.assign(frame.tints, frame.tints + frame.tint_count);
     key.codes = frame.tints_as_codes != 0;

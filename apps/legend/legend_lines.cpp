@@ -99,6 +99,14 @@ std::string data_line(const View& view, const Region& region) {
     return "Heights: " + (names.empty() ? counted(sources.size(), "file", "files") : names);
 }
 
+std::string cover_line(const View& view) {
+    std::string line = "Land cover: classes of " + one_line(view.cover->table().title);
+    if (!view.tells_paths) return line;
+    for (const std::string& file : view.cover_choice.files)
+        line += ", " + one_line(std::filesystem::path(file).filename().string());
+    return line;
+}
+
 }  // namespace
 
 std::vector<std::string> legend_lines(const View& view, const Region& region, const Style& style) {
@@ -108,6 +116,7 @@ std::vector<std::string> legend_lines(const View& view, const Region& region, co
         lines.push_back(text_of("Contour lines: every %.6g m, every fifth thicker",
                                 static_cast<double>(style.frame.contours.interval_m)));
     lines.push_back(data_line(view, region));
+    if (view.cover && style.frame.colour_by == gpu::colour_by_cover) lines.push_back(cover_line(view));
     std::string images;
     for (const std::string& file : view.drape)
         if (view.tells_paths)

@@ -38,6 +38,7 @@ layout(constant_id = 7) const bool parts_alone = false;
 #include "shaders/shade/water.glsl"
 #include "shaders/shade/outside.glsl"
 #include "shaders/shade/drape.glsl"
+#include "shaders/shade/cover_tiles.glsl"
 #include "shaders/shade/ground.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
