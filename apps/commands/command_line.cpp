@@ -360,6 +360,9 @@ void add_sight(CLI::App& app, SightOptions& options) {
     line.flag("--on-summit", options.on_summit, on_summit_sentence("the eye stands", "--from"));
     line.number("--target", options.target_m, "METRES",
                 "Height of what is looked at over the ground at --to (default 0: the ground itself).");
+    line.option("--landcover", options.view.landcover, "FILE",
+                "Name the land cover at both ends and at the obstacle: as shot --landcover.")
+        .allow_extra_args(false);
     add_region_options(command, options.region);
     add_air_options(command, options.view);
     add_json(command, options.json);

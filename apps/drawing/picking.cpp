@@ -33,6 +33,10 @@ Result<std::optional<SeenPlace>> place_seen(const View& view, const RegionGround
     place.column = hit->column;
     if (const SourceReport* const source = source_at(grid, place.lat_deg, place.lon_deg))
         place.source = source->path;
+    if (view.cover) {
+        ORO_TRY(const int code, view.cover->code_at(place.lat_deg, place.lon_deg));
+        if (code != no_cover_code) place.cover = SeenPlace::Cover{code, view.cover->name_of(code)};
+    }
     return std::optional(place);
 }
 
@@ -50,7 +54,8 @@ std::string line_of(const std::optional<SeenPlace>& place) {
         place->lat_deg, place->lon_deg, place->H_m, place->h_m, place->seen_distance_m, place->bearing_deg,
         place->row, place->column);
     const std::string name = std::filesystem::path(place->source).filename().string();
-    return text + (name.empty() ? "an unknown source" : one_line(name));
+    const std::string cover = place->cover ? "  " + one_line(place->cover->name) : "";
+    return text + (name.empty() ? "an unknown source" : one_line(name)) + cover;
 }
 
 }  // namespace oro

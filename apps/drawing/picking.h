@@ -24,6 +24,11 @@ struct SeenPlace {
     double seen_distance_m{};  // along the sight line, to where the view has the place
     int row{};                 // north-west post of its cell in its grid
     int column{};
+    struct Cover {
+        int code{};
+        std::string name;  // of its class: "tree cover"
+    };
+    std::optional<Cover> cover;  // its land cover, where the view has some and the files know any
     std::string source;  // path of the source that it comes from; empty where no source's box holds it
 };
 
@@ -31,14 +36,14 @@ struct SeenPlace {
 // the first); nothing where the sight line meets no ground. Asked of the full resolution, with the view's
 // exaggeration and refraction; views of another Earth than WGS84 are drawn elsewhere than this looks.
 // `ground`: of the view's region, with its exaggeration. Exact as Oracle::first_hit is. Errors: a post that
-// could not be read, now or earlier.
+// could not be read, now or earlier; a file of land cover that cannot be read.
 Result<std::optional<SeenPlace>> place_seen(const View& view, const RegionGround& ground,
                                             glm::dvec2 point_px);
 // The place that is seen at the picture's middle, as place_seen().
 Result<std::optional<SeenPlace>> place_in_middle(const View& view, const RegionGround& ground);
 
 // On one line for people: latitude and longitude with 6 decimals, both heights, distance along the sight
-// line, bearing, cell and the source's file name; or that there is nothing.
+// line, bearing, cell, land cover and the source's file name; or that there is nothing.
 std::string line_of(const std::optional<SeenPlace>& place);
 
 }  // namespace oro

@@ -38,7 +38,21 @@ Tags source_tags(const View& view, const Region& region) {
     return tags;
 }
 
+// What the codes of the layer cover are.
+Tags cover_tags(const CoverMap& cover) {
+    Tags tags{{"TABLE", cover.table().title}};
+    for (const CoverClass& one : cover.table().classes)
+        for (const int code : one.codes) tags.emplace_back("CLASS_" + std::to_string(code), one.name);
+    return tags;
+}
+
 }  // namespace
+
+std::vector<const char*> layers_of_view(bool covers) {
+    std::vector<const char*> names(layer_names.begin(), layer_names.end());
+    if (covers) names.push_back("cover");
+    return names;
+}
 
 std::string layer_path(const std::string& picture, const std::string& layer) {
     const std::filesystem::path path(picture);
@@ -55,7 +69,7 @@ Result<std::vector<WholeFile>> layer_files(const std::string& picture, bool over
         const char* what;
         const char* unit;
     };
-    const std::array<Layer, layer_names.size()> all{{
+    std::vector<Layer> all{
         {Doubles(layers.longitude_deg), "longitude, WGS84, east positive", "degree"},
         {Doubles(layers.latitude_deg), "latitude, WGS84, north positive", "degree"},
         {Floats(layers.H_m), "H: height of the ground above the geoid (sea level)", "metre"},
@@ -64,15 +78,22 @@ Result<std::vector<WholeFile>> layer_files(const std::string& picture, bool over
         {Floats(layers.slope_deg), "slope of the ground (Horn), 0 is level", "degree"},
         {Floats(layers.source), "number of the source in the list that --json prints, from 0", ""},
         {Floats(layers.shadow), "share of the sun's light past the terrain: 0 in shadow, 1 in the sun", ""},
-    }};
+    };
+    if (view.cover)
+        all.push_back(
+            {Floats(layers.cover), "code of the land cover: the tags CLASS_... have its names", ""});
+    const std::vector<const char*> names = layers_of_view(view.cover != nullptr);
     const Tags common = common_tags(picture, view, region);
     std::vector<WholeFile> files;
     for (std::size_t i = 0; i < all.size(); ++i) {
         LayerRaster raster{view.camera.width_px, view.camera.height_px, all[i].values,
                            all[i].what,          all[i].unit,           common};
-        if (std::string(layer_names[i]) == "source")
+        const std::string name = names[i];
+        if (name == "source")
             for (auto& tag : source_tags(view, region)) raster.tags.push_back(std::move(tag));
-        ORO_TRY(WholeFile file, layer_raster(layer_path(picture, layer_names[i]), overwrite, raster));
+        if (name == "cover")
+            for (auto& tag : cover_tags(*view.cover)) raster.tags.push_back(std::move(tag));
+        ORO_TRY(WholeFile file, layer_raster(layer_path(picture, name), overwrite, raster));
         files.push_back(std::move(file));
     }
     return files;

@@ -3,6 +3,8 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <mutex>
+#include <span>
 
 #include "apps/command_line/refusals.h"
 #include "apps/labels/labelled_picture.h"
@@ -87,6 +89,27 @@ void put(const ShownPlace& place, const View& view, const RegionGround& ground, 
     layers.shadow[pixel] = sun.share_at(place);
 }
 
+// The land cover of all pixels that show ground, row by row: each pixel's place is known.
+Result<void> add_cover(const CoverMap& cover, const Camera& camera, PictureLayers& layers) {
+    const auto width = static_cast<std::size_t>(camera.width_px);
+    layers.cover.assign(layers.latitude_deg.size(), none);
+    std::mutex one_at_a_time;
+    Result<void> all;
+    in_parallel(camera.height_px, thread_count(), [&](int row) {
+        const std::size_t first = static_cast<std::size_t>(row) * width;
+        std::vector<int> codes(width, no_cover_code);
+        const Result<void> found =
+            cover.codes_at(std::span(layers.latitude_deg).subspan(first, width),
+                           std::span(layers.longitude_deg).subspan(first, width), codes);
+        for (std::size_t i = 0; i < width; ++i)
+            if (codes[i] != no_cover_code) layers.cover[first + i] = static_cast<float>(codes[i]);
+        if (found.ok()) return;
+        const std::scoped_lock lock(one_at_a_time);
+        if (all.ok()) all = found;
+    });
+    return all;
+}
+
 double pixels_of(const Camera& camera) {
     return static_cast<double>(camera.width_px) * camera.height_px;
 }
@@ -129,6 +152,7 @@ Result<PictureLayers> picture_layers(const Gpu& gpu, Scene& scene, const View& v
     ORO_CHECK(shown_triangles(gpu, scene, camera, picture_options(view, path), take));
     // What could not be read counted as void.
     ORO_CHECK(ground.ground().health());
+    if (view.cover) ORO_CHECK(add_cover(*view.cover, camera, layers));
     layers.ground_px = ground_px;
     layers.missed_px = places.missed();
     return layers;

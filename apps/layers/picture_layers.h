@@ -24,7 +24,8 @@ struct PictureLayers {
     std::vector<float> slope_deg;   // horn_slope_deg()
     std::vector<float> source;      // number among the sources of all grids, from 0
     std::vector<float>
-        shadow;  // share of the sun's light that comes past the terrain: 0 in shadow, 1 without
+        shadow;                // share of the sun's light that comes past the terrain: 0 in shadow, 1 without
+    std::vector<float> cover;  // code of the land cover, NaN where there is none; of views with some
     std::uint64_t ground_px{};
     std::uint64_t missed_px{};  // whose rays pass beside what was drawn there (ShownPlaces)
 };
@@ -43,6 +44,8 @@ Result<PictureLayers> picture_layers(const Gpu& gpu, Scene& scene, const View& v
 // for there are file systems that see none: height is H, ellipsoidal-height is h.
 inline constexpr std::array layer_names{"longitude", "latitude", "height", "ellipsoidal-height",
                                         "distance",  "slope",    "source", "shadow"};
+// Those of a view, in their order: with land cover, the layer cover is the last.
+std::vector<const char*> layers_of_view(bool covers);
 std::string layer_path(const std::string& picture, const std::string& layer);
 
 // One file a layer, in the order of the names; whole, without their names yet. Errors: the files'.

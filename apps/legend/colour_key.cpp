@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "apps/legend/legend.h"
-#include "apps/styles/material_names.h"
 #include "core/frame/frame_colours.h"
 #include "core/terrain/level_grid.h"
 
@@ -82,9 +81,21 @@ ColourKey key_of_materials(const gpu::MaterialTable& materials) {
         for (int c = 0; c < 3; ++c)
             colour[static_cast<std::size_t>(c)] =
                 code_of(encoded(static_cast<double>(materials.of[i].colour[c])));
-        std::string name = material_names[i];
-        std::replace(name.begin(), name.end(), '_', ' ');
-        key.names.push_back({colour, name});
+        key.names.push_back({colour, material_names[i]});
+    }
+    return key;
+}
+// The classes that the files of land cover hold.
+ColourKey key_of_cover(const CoverMap& cover) {
+    ColourKey key;
+    key.shape = KeyShape::names;
+    key.title = "Land cover; where none is known, by height";
+    for (const CoverClass& one : cover.table().classes) {
+        const bool is_there = std::ranges::any_of(cover.sources(), [&](const CoverSource& source) {
+            return std::ranges::any_of(one.codes, [&](int code) { return source.codes.contains(code); });
+        });
+        if (is_there)
+            key.names.push_back({StripColour{one.colour[0], one.colour[1], one.colour[2]}, one.name});
     }
     return key;
 }
@@ -114,6 +125,7 @@ StripColour ColourKey::colour(double value) const {
 ColourKey colour_key(const View& view, const Region& region, const Style& style, int every) {
     if (view.show) return key_of_show(*view.show, view.mesh == "clusters", region, every);
     const gpu::FrameStyle& frame = style.frame;
+    if (view.cover && frame.colour_by == gpu::colour_by_cover) return key_of_cover(*view.cover);
     if (frame.materials.on != 0) return key_of_materials(frame.materials);
     ColourKey key;
     key.stops.assign(frame.tints, frame.tints + frame.tint_count);

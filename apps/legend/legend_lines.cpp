@@ -99,17 +99,28 @@ std::string data_line(const View& view, const Region& region) {
     return "Heights: " + (names.empty() ? counted(sources.size(), "file", "files") : names);
 }
 
+std::string cover_line(const View& view) {
+    std::string line = "Land cover: classes of " + one_line(view.cover->table().title);
+    if (!view.tells_paths) return line;
+    for (const std::string& file : view.cover_choice.files)
+        line += ", " + one_line(std::filesystem::path(file).filename().string());
+    return line;
+}
+
 }  // namespace
 
 std::vector<std::string> legend_lines(const View& view, const Region& region, const Style& style) {
     std::vector<std::string> lines{view.map ? map_line(view) : eye_line(view, region)};
     if (style.frame.light != gpu::light_none) lines.push_back(sun_line(style));
     if (style.frame.colour_by == gpu::colour_by_cover)
-        lines.emplace_back("Ground cover: invented, by a rule of height, slope and latitude");
+        lines.emplace_back(view.cover ? "Ground cover: of " + view.cover->table().title +
+                                            "; where that holds nothing invented, by a rule"
+                                      : "Ground cover: invented, by a rule of height, slope and latitude");
     if (style.frame.contours.interval_m > 0.0F)
         lines.push_back(text_of("Contour lines: every %.6g m, every fifth thicker",
                                 static_cast<double>(style.frame.contours.interval_m)));
     lines.push_back(data_line(view, region));
+    if (view.cover && style.frame.colour_by == gpu::colour_by_cover) lines.push_back(cover_line(view));
     std::string images;
     for (const std::string& file : view.drape)
         if (view.tells_paths)

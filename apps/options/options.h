@@ -38,11 +38,12 @@ struct ViewOptions : ViewSettings<OnCommandLine> {
     std::optional<std::string> size;
     std::optional<std::string> sun;
     std::optional<std::string> sun_time;
-    bool legend{false};              // a strip below the picture
-    bool takes_maps{false};          // not an option: whether a view that is a map may be opened
-    bool on_summit{false};           // the eye stands on the highest post near --at
-    bool stands_at_place{false};     // not an option: whether --at alone is where the eye stands
-    std::vector<std::string> names;  // vector files whose points are named
+    bool legend{false};                  // a strip below the picture
+    std::vector<std::string> landcover;  // rasters of land cover, each FILE or FILE,TABLE
+    bool takes_maps{false};              // not an option: whether a view that is a map may be opened
+    bool on_summit{false};               // the eye stands on the highest post near --at
+    bool stands_at_place{false};         // not an option: whether --at alone is where the eye stands
+    std::vector<std::string> names;      // vector files whose points are named
     std::optional<std::string> names_field;
     std::vector<std::string> overlay;  // vector files that lie on the ground
     std::optional<std::string> overlay_colour;
@@ -73,6 +74,7 @@ struct ShotOptions {
     std::optional<double> unseen_ceiling_m;
     bool verify{false};
     bool layers{false};
+    bool covers{false};  // not an option: the view has land cover
     bool ortho{false};
     std::optional<std::string> crs;    // of a map; as GDAL takes it
     std::optional<double> resolution;  // of a map: a pixel, in the unit of its CRS
@@ -158,7 +160,7 @@ struct SunOptions {
 
 struct SightOptions {
     RegionOptions region;
-    ViewOptions view;  // the air alone
+    ViewOptions view;  // the air and land cover alone
     std::string from;
     std::string to;
     std::optional<double> above_m;

@@ -27,6 +27,11 @@ FilesToSpare files_of_picture(const View& view, const Region& region) {
     picture.files.insert(picture.files.end(), view.drape.begin(), view.drape.end());
     for (const ImageSource& image : view.images)
         picture.files.insert(picture.files.end(), image.files.begin(), image.files.end());
+    picture.files.insert(picture.files.end(), view.cover_choice.files.begin(), view.cover_choice.files.end());
+    if (is_table_path(view.cover_choice.table)) picture.files.push_back(view.cover_choice.table);
+    if (view.cover)
+        for (const CoverSource& source : view.cover->sources())
+            picture.files.insert(picture.files.end(), source.files.begin(), source.files.end());
     VectorChoices vectors = view.vectors;
     for (const std::string* const file : vectors.paths()) picture.files.push_back(*file);
     return picture;

@@ -1,4 +1,4 @@
-// What styles and legends call the materials of the ground.
+// What styles call the materials of the ground.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 namespace oro {
 
 // By number: gpu::material_rock and so on.
-inline constexpr std::array<const char*, gpu::material_count> material_names{
+inline constexpr std::array<const char*, gpu::material_count> material_fields{
     "rock",  "scree", "meadow", "shrub", "needle_forest", "broad_forest",
     "crops", "bare",  "snow",   "water", "built",         "wetland"};
 

@@ -43,8 +43,8 @@ gpu::vec2 from_to(const json& object, const char* name, double low, double high)
 gpu::MaterialTable materials_of(const json& object) {
     gpu::MaterialTable table{};
     table.on = 1;
-    for (std::size_t i = 0; i < material_names.size(); ++i)
-        table.of[i] = material_of(json_field(object, material_names[i]));
+    for (std::size_t i = 0; i < material_fields.size(); ++i)
+        table.of[i] = material_of(json_field(object, material_fields[i]));
     const auto& dry = json_field(object, "dry");
     table.dry_lat_deg = from_to(dry, "lat_deg", 0.0, 90.0);
     table.dry_H_m = from_to(dry, "H_m", -1e4, 1e4);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/cover/cover_tables.h"
 #include "apps/fingerprints/fingerprints.h"
 #include "apps/light/sun.h"
 #include "apps/options/options.h"
@@ -18,6 +19,7 @@
 #include "core/earth/world_model.h"
 #include "core/frame/height_quantization.h"
 #include "core/terrain/page.h"
+#include "geo/cover/cover_map.h"
 #include "geo/drape/image_source.h"
 #include "geo/rasters/map_frame.h"
 #include "geo/region/region.h"
@@ -65,6 +67,8 @@ struct View : ViewSettings<OfView> {
     bool sea_asked{};
     bool rim_asked{};
     std::vector<ImageSource> images;                  // the files of drape, from open_view on
+    CoverChoice cover_choice;                         // the files of land cover, and their table
+    std::shared_ptr<const CoverMap> cover;            // what is in them, from open_view on; null: none
     VectorChoices vectors;                            // names and lines from files
     std::shared_ptr<const VectorsRead> vectors_read;  // what is in them, from open_view on; null: no files
     // The CRS of a projected graticule, as CrsPlaces::of() takes it, from open_view on.
@@ -144,6 +148,12 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
 // there, and those of open_image().
 Result<std::vector<ImageSource>> open_images(const std::vector<std::string>& files, ImageValues values,
                                              std::vector<Fingerprints::OfSource>& fingerprints);
+
+// Opens the land cover that is chosen; null where none is. The choice then names the table that was taken.
+// Adds fingerprints of the files and of the table. Errors: a file that is not there, those of
+// open_cover_source(), of a table and of CoverMap::of().
+Result<std::shared_ptr<const CoverMap>> open_cover(CoverChoice& choice,
+                                                   std::vector<Fingerprints::OfSource>& fingerprints);
 
 // Finds the CRS of a view's graticule, where it has a projected one. Errors (usage): the data are in none, or
 // in several.

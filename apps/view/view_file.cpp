@@ -103,6 +103,24 @@ void read_drape(const nlohmann::json& json, View& view) {
     read_choice(drape, "values", image_value_names, view.drape_values);
 }
 
+// Likewise.
+void read_cover(const nlohmann::json& json, View& view) {
+    if (!json.contains("landcover")) return;
+    const nlohmann::json& cover = json_field(json, "landcover");
+    const nlohmann::json& files = json_field(cover, "files");
+    if (!files.is_array() || files.empty() || files.size() > most_images)
+        throw JsonFault{"'files' of 'landcover' must be a list of 1 to " + std::to_string(most_images)};
+    for (const nlohmann::json& file : files)
+        view.cover_choice.files.push_back(path_from(as_field("files", file), "files"));
+    view.cover_choice.table = path_from(cover, "table");
+}
+
+ordered_json cover_json(const CoverChoice& choice) {
+    ordered_json files = ordered_json::array();
+    for (const std::string& file : choice.files) files.push_back(path_json(file));
+    return json_object("files", std::move(files), "table", path_json(choice.table));
+}
+
 ordered_json drape_json(const View& view) {
     ordered_json json = ordered_json::object();
     json["files"] = ordered_json::array();
@@ -211,6 +229,7 @@ void read_settings(const nlohmann::json& json, View& view) {
     if (const auto& sun = json_field(json, "sun"); !sun.is_null()) view.sun = read_sun(sun);
     view.style = present_name(path_from(json, "style"));
     read_drape(json, view);
+    read_cover(json, view);
     view.vectors = vectors_from(json);
     read_choice(json, "labels", label_switch_names, view.labels);
     read_air(json, view.model.air);
@@ -267,10 +286,10 @@ namespace {
 // The keys of settings in the order that views have had them in since the first. Those that are not listed
 // follow in the order of the table.
 constexpr std::array keys_in_order{
-    "samples", "exaggeration", "sun",        "visibility_km", "style",      "sea",          "rim",
-    "drape",   "names",        "overlay",    "names_field",   "shadows",    "sky_openness", "labels",
-    "show",    "edges",        "pipeline",   "mesh",          "mesh_level", "tau_px",       "accuracy",
-    "earth",   "geoid",        "refraction", "air",           "precision",  "heights"};
+    "samples",  "exaggeration", "sun",   "visibility_km", "style",       "sea",        "rim",
+    "drape",    "landcover",    "names", "overlay",       "names_field", "shadows",    "sky_openness",
+    "labels",   "show",         "edges", "pipeline",      "mesh",        "mesh_level", "tau_px",
+    "accuracy", "earth",        "geoid", "refraction",    "air",         "precision",  "heights"};
 
 void move_field(ordered_json& from, const char* key, ordered_json& to) {
     const auto found = from.find(key);
@@ -288,6 +307,7 @@ ordered_json settings_json(const View& view) {
     if (view.sun) json["sun"] = sun_json(*view.sun);
     json["style"] = path_json(view.style);
     if (!view.drape.empty()) json["drape"] = drape_json(view);
+    if (!view.cover_choice.files.empty()) json["landcover"] = cover_json(view.cover_choice);
     put_vectors(view.vectors, json);
     json["labels"] = name_in(label_switch_names, view.labels);
     json["accuracy"] = view.accuracy;

@@ -5,6 +5,7 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/eye/standpoint.h"
+#include "apps/report/option_words.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "apps/view/view_option_table.h"
@@ -65,8 +66,20 @@ Result<void> check_kind(const View& view, const std::string& view_file, PictureK
 // The same for all that a view names beside its elevation data.
 Result<void> open_files(View& view) {
     ORO_TRY(view.images, open_images(view.drape, view.drape_values, view.fingerprints->images));
+    ORO_TRY(view.cover, open_cover(view.cover_choice, view.fingerprints->cover));
     ORO_TRY(view.vectors_read, open_vectors(view.vectors, view.fingerprints->vectors));
     return {};
+}
+
+// A file of land cover that is not there, perhaps because what follows its comma is no table.
+Error no_such_cover(const std::string& file) {
+    const std::size_t comma = file.rfind(',');
+    if (comma != std::string::npos && is_there(file.substr(0, comma)).ok() &&
+        *is_there(file.substr(0, comma)))
+        return refused("--landcover", file,
+                       "there is no table " + file.substr(comma + 1) + ": choose " +
+                           listed(cover_table_names()) + ", or name a .json file");
+    return {ErrorKind::failed, file, "no such raster of land cover"};
 }
 
 // Over which place the sun stands as a view's light says: the eye's, or the middle of a map.
@@ -106,6 +119,34 @@ Result<std::vector<ImageSource>> open_images(const std::vector<std::string>& fil
     return images;
 }
 
+Result<std::shared_ptr<const CoverMap>> open_cover(CoverChoice& choice,
+                                                   std::vector<Fingerprints::OfSource>& fingerprints) {
+    if (choice.files.empty()) return std::shared_ptr<const CoverMap>();
+    std::vector<CoverSource> sources;
+    for (const std::string& file : choice.files) {
+        ORO_TRY(const bool there, is_there(file));
+        if (!there && !file.starts_with("/vsi")) return no_such_cover(file);
+        ORO_TRY(CoverSource source, open_cover_source(file));
+        fingerprints.push_back({std::filesystem::path(file).filename().string(), source.fingerprint});
+        sources.push_back(std::move(source));
+    }
+    std::vector<CoverTableRead> read;
+    for (const std::string& table :
+         choice.table.empty() ? cover_table_names() : std::vector<std::string>{choice.table}) {
+        ORO_TRY(CoverTableRead one, read_cover_table(table));
+        read.push_back(std::move(one));
+    }
+    std::vector<CoverTable> tables;
+    for (const CoverTableRead& one : read) tables.push_back(one.table);
+    ORO_TRY(std::shared_ptr<const CoverMap> cover,
+            CoverMap::of(std::move(sources), tables, choice.table.empty() ? nullptr : tables.data()));
+    choice.table = cover->table().name;
+    const auto taken = std::ranges::find(tables, choice.table, &CoverTable::name);
+    fingerprints.push_back({std::filesystem::path(choice.table).filename().string(),
+                            read[static_cast<std::size_t>(taken - tables.begin())].fingerprint});
+    return cover;
+}
+
 Result<void> find_graticule_crs(View& view, const Region& region) {
     view.graticule_crs.clear();
     if (view.graticule != Graticule::projected) return {};
@@ -136,6 +177,7 @@ Result<void> open_region_of(const RegionOptions& region_options, const Progress&
     if (held != nullptr && asks_for_same_region(view, *held)) {
         view.fingerprints = held->fingerprints;
         view.fingerprints->images.clear();
+        view.fingerprints->cover.clear();
         view.fingerprints->vectors.clear();
         view.first_grid = held->first_grid;
         begin_with_grid_at(view.camera.eye, view, region);
@@ -182,6 +224,8 @@ Result<void> open_recorded_view(const std::string& where, const ViewOptions& vie
     // Those that somebody names instead are others on purpose.
     if (!view_options.drape.empty() && view.recorded->fingerprints)
         view.recorded->fingerprints->images.clear();
+    if (!view_options.landcover.empty() && view.recorded->fingerprints)
+        view.recorded->fingerprints->cover.clear();
     if ((!view_options.names.empty() || !view_options.overlay.empty()) && view.recorded->fingerprints)
         view.recorded->fingerprints->vectors.clear();
     ORO_CHECK(find_graticule_crs(view, region));

@@ -93,6 +93,9 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
     view.rim_asked |= options.rim.has_value();
     ORO_CHECK(check_vectors(options, view.vectors));
     ORO_CHECK(check_drape(view, options));
+    if (!options.landcover.empty()) {
+        ORO_TRY(view.cover_choice, cover_choice_from(options.landcover));
+    }
     if (view.show && view.samples > 1)
         return refused("--show", "", "is for pictures of one sample, not together with --samples");
     ORO_CHECK(choose_mesh_level(view, options));

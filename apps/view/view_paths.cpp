@@ -87,6 +87,14 @@ Result<std::string> from_folder(const fs::path& folder, const std::string& named
     return absolute.empty() ? named : absolute.string();
 }
 
+// The paths of a view's land cover: its files, and its table where that is a user's own.
+std::vector<std::string*> cover_paths(View& view) {
+    std::vector<std::string*> paths;
+    for (std::string& file : view.cover_choice.files) paths.push_back(&file);
+    if (is_table_path(view.cover_choice.table)) paths.push_back(&view.cover_choice.table);
+    return paths;
+}
+
 }  // namespace
 
 Result<View> view_as_written_in(const View& view, const std::string& picture) {
@@ -97,9 +105,11 @@ Result<View> view_as_written_in(const View& view, const std::string& picture) {
         if (written.fingerprints) {
             for (Fingerprints::OfSource& source : written.fingerprints->sources) source.name.clear();
             for (Fingerprints::OfSource& image : written.fingerprints->images) image.name.clear();
+            for (Fingerprints::OfSource& cover : written.fingerprints->cover) cover.name.clear();
             for (Fingerprints::OfSource& vectors : written.fingerprints->vectors) vectors.name.clear();
         }
         for (std::string& image : written.drape) image = fs::path(image).filename().string();
+        for (std::string* const file : cover_paths(written)) *file = fs::path(*file).filename().string();
         for (std::string* const file : written.vectors.paths()) *file = fs::path(*file).filename().string();
         if (is_style_path(written.style)) written.style = fs::path(written.style).filename().string();
         return written;
@@ -115,6 +125,9 @@ Result<View> view_as_written_in(const View& view, const std::string& picture) {
     }
     for (std::string& image : written.drape) {
         ORO_TRY(image, from_folder(folder, image));
+    }
+    for (std::string* const file : cover_paths(written)) {
+        ORO_TRY(*file, from_folder(folder, *file));
     }
     for (std::string* const file : written.vectors.paths()) {
         ORO_TRY(*file, from_folder(folder, *file));
@@ -138,6 +151,7 @@ Result<void> lead_from_working_folder(View& view, const std::string& file) {
     };
     for (std::string& path : view.region.paths) ORO_CHECK(lead(path));
     for (std::string& image : view.drape) ORO_CHECK(lead(image));
+    for (std::string* const path : cover_paths(view)) ORO_CHECK(lead(*path));
     for (std::string* const path : view.vectors.paths()) ORO_CHECK(lead(*path));
     if (is_style_path(view.style)) ORO_CHECK(lead(view.style));
     return {};

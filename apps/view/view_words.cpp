@@ -116,6 +116,7 @@ ViewOptions look_options_of(const View& view) {
         give(view.drape_opacity, usual.drape_opacity, options.drape_opacity);
         give_name(view.drape_values, usual.drape_values, image_value_names, options.drape_values);
     }
+    options.landcover = words_of(view.cover_choice);
     give_name(view.heights, usual.heights, height_storage_names, options.heights);
     if (view.edges) options.edges = name_in(edge_names, *view.edges);
     if (view.show) options.show = name_in(show_names, *view.show);

@@ -41,8 +41,11 @@ void keep_choices(const View& shown, View& view) {
     view.vectors = shown.vectors;
     view.vectors_read = shown.vectors_read;
     view.images = shown.images;
+    view.cover_choice = shown.cover_choice;
+    view.cover = shown.cover;
     if (view.fingerprints && shown.fingerprints) {
         view.fingerprints->images = shown.fingerprints->images;
+        view.fingerprints->cover = shown.fingerprints->cover;
         view.fingerprints->vectors = shown.fingerprints->vectors;
     }
     if (shown.sun && !shown.sun->is_usual)

@@ -20,8 +20,8 @@ PostPlace place_at(const PostGrid& grid, double row, double column) {
     return {std::clamp(angle_deg(grid.lat, row), -90.0, 90.0), angle_deg(grid.lon, column)};
 }
 
-PixelPlace pixel_of(const ImageSource& image, double x, double y) {
-    const auto& m = image.pixel_from_crs;
+PixelPlace pixel_of(const PlacedRaster& raster, double x, double y) {
+    const auto& m = raster.pixel_from_crs;
     return {m[0] + m[1] * x + m[2] * y, m[3] + m[4] * x + m[5] * y};
 }
 
@@ -31,10 +31,10 @@ double length(const PixelPlace& a) {
 
 }  // namespace
 
-std::optional<ImagePlacing> ImagePlacing::of(const ImageSource& image) {
-    const SpatialReference crs = spatial_reference(image.crs_wkt), wgs84 = wgs84_degrees();
+std::optional<ImagePlacing> ImagePlacing::of(const PlacedRaster& raster) {
+    const SpatialReference crs = spatial_reference(raster.crs_wkt), wgs84 = wgs84_degrees();
     if (!crs || !wgs84) return std::nullopt;
-    ImagePlacing placing(image);
+    ImagePlacing placing(raster);
     placing.to_image_.reset(OCTNewCoordinateTransformation(wgs84.get(), crs.get()));
     placing.from_image_.reset(OCTNewCoordinateTransformation(crs.get(), wgs84.get()));
     if (!placing.to_image_ || !placing.from_image_) return std::nullopt;
@@ -51,15 +51,15 @@ void ImagePlacing::place(std::vector<double>& lon_deg, std::vector<double>& lat_
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t i = 0; i < places.size(); ++i) {
         double x = lon_deg[i];
-        if (image_->geographic) x = near_lon_deg + std::remainder(x - near_lon_deg, 360.0);
+        if (raster_->geographic) x = near_lon_deg + std::remainder(x - near_lon_deg, 360.0);
         places[i] = done[i] != 0 && std::isfinite(x) && std::isfinite(lat_deg[i])
-                        ? pixel_of(*image_, x, lat_deg[i])
+                        ? pixel_of(*raster_, x, lat_deg[i])
                         : PixelPlace{none, none};
     }
 }
 
 std::optional<ImagePlacing::Spot> ImagePlacing::spot(const PixelPlace& place) const {
-    const auto& m = image_->crs_from_pixel;
+    const auto& m = raster_->crs_from_pixel;
     double x = m[0] + m[1] * place.column + m[2] * place.row,
            y = m[3] + m[4] * place.column + m[5] * place.row;
     int done = 0;
@@ -69,8 +69,8 @@ std::optional<ImagePlacing::Spot> ImagePlacing::spot(const PixelPlace& place) co
 }
 
 std::optional<PixelPlace> ImagePlacing::turn() const {
-    if (!image_->geographic) return std::nullopt;
-    const auto& m = image_->pixel_from_crs;
+    if (!raster_->geographic) return std::nullopt;
+    const auto& m = raster_->pixel_from_crs;
     return PixelPlace{360.0 * m[1], 360.0 * m[4]};
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/drape/ground_image.h"
-#include "geo/drape/image_source.h"
+#include "geo/drape/placed_raster.h"
 #include "geo/files/raster_library.h"
 
 namespace oro {
@@ -22,7 +22,7 @@ struct PixelPlace {
 class ImagePlacing {
   public:
     // Null where PROJ knows no way from WGS84 to the image's CRS.
-    static std::optional<ImagePlacing> of(const ImageSource& image);
+    static std::optional<ImagePlacing> of(const PlacedRaster& raster);
 
     // lon_deg and lat_deg are WGS84's and become places of the image. Longitudes of a geographic CRS are
     // given in the turn that is nearest to `near_lon_deg`.
@@ -38,8 +38,8 @@ class ImagePlacing {
     [[nodiscard]] std::optional<PixelPlace> turn() const;
 
   private:
-    explicit ImagePlacing(const ImageSource& image) : image_(&image) {}
-    const ImageSource* image_;
+    explicit ImagePlacing(const PlacedRaster& raster) : raster_(&raster) {}
+    const PlacedRaster* raster_;
     CoordinateTransformation to_image_, from_image_;
 };
 

@@ -1,21 +1,14 @@
 #include "geo/drape/image_source.h"
 
-#include <cpl_string.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <span>
 #include <utility>
 
-#include "core/base/checksum.h"
-#include "core/base/open_file.h"
 #include "geo/drape/image_values.h"
+#include "geo/drape/raster_opening.h"
 #include "geo/drape/window_read.h"
 #include "geo/files/guarded_files.h"
 #include "geo/files/raster_library.h"
-#include "geo/sources/raster_crs.h"
-#include "geo/sources/raster_parts.h"
 
 namespace oro {
 namespace {
@@ -53,22 +46,6 @@ Result<void> choose_bands(ImageSource& image, GDALDatasetH dataset) {
         if (GDALDataTypeIsComplex(GDALGetRasterDataType(GDALGetRasterBand(dataset, band))))
             return fault("holds complex numbers, no image");
     }
-    return {};
-}
-
-Result<void> place(ImageSource& image, GDALDatasetH dataset) {
-    ORO_TRY(const SpatialReference crs, crs_of(dataset));
-    auto& m = image.crs_from_pixel;
-    if (GDALGetGeoTransform(dataset, m.data()) != CE_None)
-        return fault("states no georeference: where its pixels lie is unknown");
-    const double area = m[1] * m[5] - m[2] * m[4];
-    const bool finite = std::ranges::all_of(m, [](double value) { return std::isfinite(value); });
-    if (!finite || area == 0.0 || !GDALInvGeoTransform(m.data(), image.pixel_from_crs.data()))
-        return fault("its georeference is no map from pixels to places");
-    const SpatialReference horizontal = horizontal_part(crs.get());
-    image.crs = crs_name(horizontal.get());
-    image.crs_wkt = wkt_of(horizontal.get());
-    image.geographic = OSRIsGeographic(horizontal.get()) != 0;
     return {};
 }
 
@@ -136,25 +113,10 @@ Result<void> choose_range(ImageSource& image, GDALDatasetH dataset, ImageValues 
 
 Result<void> describe(ImageSource& image, ImageValues values, const GdalMessages& messages,
                       FileWatch& watch) {
-    ORO_TRY(const RasterParts parts, parts_of_raster(image.file));
-    const Dataset dataset(GDALOpenEx(image.file.c_str(),
-                                     GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                                     trusted_drivers(), nullptr, nullptr));
-    if (!dataset)
-        return fault("is not an image in an accepted format (" + trusted_formats() +
-                     "): " + messages.last("unknown format"));
-    image.columns = GDALGetRasterXSize(dataset.get());
-    image.rows = GDALGetRasterYSize(dataset.get());
+    ORO_TRY(const Dataset dataset, open_dataset(image, messages));
     ORO_CHECK(choose_bands(image, dataset.get()));
-    ORO_CHECK(place(image, dataset.get()));
+    ORO_CHECK(place_raster(image, dataset.get()));
     ORO_CHECK(choose_range(image, dataset.get(), values, messages, watch));
-    image.files = parts.files;
-    const CPLStringList listed(GDALGetFileList(dataset.get()));
-    for (int i = 0; i < listed.size(); ++i) {
-        const std::string file = local_file_of(listed[i]);
-        if (std::ranges::find(image.files, file) == image.files.end()) image.files.push_back(file);
-    }
-    for (const std::string& doubt : parts.doubts) image.notes.push_back(image.file + ": " + doubt);
     return {};
 }
 
@@ -168,30 +130,9 @@ Result<ImageSource> open_image(const std::string& file, ImageValues values) {
     image.file = file;
     const Result<void> described = describe(image, values, messages, watch);
     if (!watch.fault().empty()) return Error{ErrorKind::failed, file, watch.fault()};
-    if (!described.ok())
-        return Error{described.error().kind,
-                     described.error().where.empty() ? file : file + ": " + described.error().where,
-                     described.error().what};
-    ORO_TRY(image.fingerprint, image_fingerprint(image.files));
+    if (!described.ok()) return with_file(file, described.error());
+    ORO_TRY(image.fingerprint, files_fingerprint(image.files));
     return image;
-}
-
-Result<std::uint64_t> image_fingerprint(const std::vector<std::string>& files) {
-    constexpr std::uint64_t piece = std::uint64_t{1} << 20U, whole = 256 * piece, places = 64;
-    std::vector<std::byte> bytes(piece);
-    RunningChecksum sum;
-    for (const std::string& name : files) {
-        ORO_TRY(const OpenFile file, OpenFile::open(name, OpenFile::Use::read));
-        ORO_TRY(const std::uint64_t size, file.size());
-        sum.add(std::as_bytes(std::span(&size, 1)));
-        const std::uint64_t step = size <= whole ? piece : (size - piece) / places;
-        for (std::uint64_t at = 0; at < size; at += step) {
-            const std::span<std::byte> part = std::span(bytes).first(std::min(piece, size - at));
-            ORO_CHECK(file.read(at, part));
-            sum.add(part);
-        }
-    }
-    return sum.sum();
 }
 
 }  // namespace oro

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/base/open_file.h"
-#include "geo/drape/image_source.h"
+#include "geo/drape/placed_raster.h"
 #include "geo/files/archive_entries.h"
 #include "geo/files/foreign_text.h"
 #include "geo/files/guarded_files.h"
@@ -282,7 +282,7 @@ Result<VectorFile> read_vectors(const std::string& name, double limit_s) {
     const Result<void> read = read_all(file, *look, watch, messages);
     if (!watch.fault().empty()) return Error{ErrorKind::failed, name, watch.fault()};
     if (!read.ok()) return with_name(read.error());
-    ORO_TRY(file.fingerprint, image_fingerprint({name}));
+    ORO_TRY(file.fingerprint, files_fingerprint({name}));
     return file;
 }
 

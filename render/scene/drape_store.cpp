@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstring>
 #include <utility>
 
@@ -16,6 +17,14 @@ constexpr std::size_t tiles_in_staging = 32;
 // Places of the table: twice as many as a frame can want.
 constexpr std::size_t table_places = std::size_t{4} * gpu::texture_tile_requests_max;
 constexpr std::size_t most_held = table_places / 2;
+// Behind them: what there is, and the grounds of land cover.
+constexpr std::size_t table_entries = table_places + 1 + unknown_ground;
+// Tiles of land cover are those of a level that is so much higher.
+constexpr int cover_level_offset = 64;
+
+bool is_of_cover(const ImageTile& tile) {
+    return tile.level >= cover_level_offset / 2;
+}
 
 std::uint32_t name_of(int level) {
     return static_cast<std::uint32_t>(level - gpu::drape_finest + 1);
@@ -38,18 +47,22 @@ bool comes_before(const ImageTile& a, const ImageTile& b) {
 }  // namespace
 
 DrapeStore::DrapeStore(const Gpu& gpu, std::unique_ptr<const GroundImage> image, const DrapeLook& look,
-                       std::uint64_t bytes)
+                       std::uint64_t bytes, std::unique_ptr<const CoverTiles> cover)
     : gpu_(&gpu),
       image_(std::move(image)),
+      cover_(std::move(cover)),
       look_(look),
       cache_(gpu, tile_cache_layout(),
              std::make_shared<MemoryBudget>(
                  std::clamp<std::uint64_t>(bytes / tile_bytes, 1, gpu::texture_tile_requests_max) *
                  tile_bytes)) {
-    const auto read =
-        [from = image_.get()](const Loader<ImageTile, Loaded>::Request& request) -> Result<Loaded> {
+    const auto read = [image = image_.get(), cover = cover_.get()](
+                          const Loader<ImageTile, Loaded>::Request& request) -> Result<Loaded> {
         Loaded loaded{request.key, std::vector<std::uint32_t>(gpu::drape_words)};
-        ORO_TRY(const bool has_image, from->load(request.key, loaded.texels));
+        ImageTile tile = request.key;
+        const GroundImage* const from = is_of_cover(tile) ? cover : image;
+        if (from == cover) tile.level -= cover_level_offset;
+        ORO_TRY(const bool has_image, from->load(tile, loaded.texels));
         if (!has_image) loaded.texels = {};
         return loaded;
     };
@@ -57,10 +70,12 @@ DrapeStore::DrapeStore(const Gpu& gpu, std::unique_ptr<const GroundImage> image,
 }
 
 Result<DrapeStore> DrapeStore::create(const Gpu& gpu, std::unique_ptr<const GroundImage> image,
-                                      const DrapeLook& look, std::uint64_t bytes) {
-    DrapeStore store(gpu, std::move(image), look, bytes);
+                                      const DrapeLook& look, std::uint64_t bytes,
+                                      std::unique_ptr<const CoverTiles> cover) {
+    assert(image || cover);
+    DrapeStore store(gpu, std::move(image), look, bytes, std::move(cover));
     ORO_TRY(store.commands_, Commands::create(gpu, "image tiles"));
-    constexpr VkDeviceSize size = table_places * sizeof(gpu::DrapeTile);
+    constexpr VkDeviceSize size = table_entries * sizeof(gpu::DrapeTile);
     ORO_TRY(store.table_staging_, create_buffer(gpu, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                                 MemoryKind::upload, "table of image tiles, staging"));
     ORO_TRY(store.table_,
@@ -76,8 +91,9 @@ void DrapeStore::describe(gpu::DrapeTable& table) const {
     table.tiles = address_words(table_.address);
     table.tile_mask = static_cast<std::uint32_t>(table_places - 1);
     static_assert(std::has_single_bit(table_places));
-    table.finest = image_->finest_level();
-    table.coarsest = image_->coarsest_level();
+    const GroundImage& finest = image_ ? *image_ : *cover_;
+    table.finest = finest.finest_level();
+    table.coarsest = finest.coarsest_level();
     table.opacity = look_.opacity;
     table.relief = look_.relief;
 }
@@ -154,8 +170,23 @@ void DrapeStore::forget_empty() {
     std::erase_if(empty_, [&](const auto& one) { return one.second < cache_.items().frame(); });
 }
 
+// As shaders/shade/cover_tiles.glsl reads them.
+void DrapeStore::put_grounds(std::vector<gpu::DrapeTile>& places) const {
+    gpu::DrapeTile& head = places[table_places];
+    head.name = (image_ ? 1U : 0U) | (cover_ ? 2U : 0U);
+    if (!cover_) return;
+    head.row = static_cast<std::uint32_t>(cover_->finest_level());
+    head.column = static_cast<std::uint32_t>(cover_->coarsest_level());
+    for (std::size_t i = 0; i < cover_->grounds().size(); ++i) {
+        const GroundColour& ground = cover_->grounds()[i];
+        const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
+        places[table_places + 1 + i] = {bits(ground.colour.x), bits(ground.colour.y), bits(ground.colour.z),
+                                        gpu::uvec2(ground.materials, 0U)};
+    }
+}
+
 Result<void> DrapeStore::send_table() {
-    std::vector<gpu::DrapeTile> places(table_places, gpu::DrapeTile{});
+    std::vector<gpu::DrapeTile> places(table_entries, gpu::DrapeTile{});
     const auto enter = [&](const ImageTile& tile, VkDeviceAddress texels) {
         const gpu::DrapeTile entry{name_of(tile.level), static_cast<std::uint32_t>(tile.row),
                                    static_cast<std::uint32_t>(tile.column), address_words(texels)};
@@ -163,6 +194,7 @@ Result<void> DrapeStore::send_table() {
         while (places[place].name != 0) place = (place + 1) & (table_places - 1);
         places[place] = entry;
     };
+    put_grounds(places);
     for (const auto& [tile, used] : empty_) enter(tile, 0);
     cache_.items().for_each([&](const auto& slot) { enter(slot.key, cache_.address(slot)); });
     ORO_CHECK(commands_.wait());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/cache/loader.h"
+#include "core/drape/cover_tiles.h"
 #include "core/drape/ground_image.h"
 #include "render/device/buffer_cache.h"
 
@@ -23,9 +24,11 @@ struct DrapeLook {
 // The cache of tiles on the GPU. Those least recently used are evicted first.
 class DrapeStore {
   public:
-    // Tiles may take `bytes`, at least one tile; buffers are made when they are needed.
+    // Tiles may take `bytes`, at least one tile; buffers are made when they are needed. image or cover may be
+    // null, not both.
     static Result<DrapeStore> create(const Gpu& gpu, std::unique_ptr<const GroundImage> image,
-                                     const DrapeLook& look, std::uint64_t bytes);
+                                     const DrapeLook& look, std::uint64_t bytes,
+                                     std::unique_ptr<const CoverTiles> cover = nullptr);
     DrapeStore(DrapeStore&&) noexcept = default;
     DrapeStore& operator=(DrapeStore&&) = delete;  // a loader ends before the image that it reads
     ~DrapeStore() = default;
@@ -52,7 +55,8 @@ class DrapeStore {
     };
     using Cache = BufferCache<ImageTile>;
     DrapeStore(const Gpu& gpu, std::unique_ptr<const GroundImage> image, const DrapeLook& look,
-               std::uint64_t bytes);
+               std::uint64_t bytes, std::unique_ptr<const CoverTiles> cover);
+    void put_grounds(std::vector<gpu::DrapeTile>& places) const;
     std::vector<ImageTile> missing_of(std::span<const ImageTile> wanted);
     Result<std::vector<Loaded>> load(std::span<const ImageTile> tiles);
     Result<bool> send(std::span<const Loaded> tiles);
@@ -61,6 +65,7 @@ class DrapeStore {
 
     const Gpu* gpu_;
     std::unique_ptr<const GroundImage> image_;
+    std::unique_ptr<const CoverTiles> cover_;
     DrapeLook look_;
     Buffer table_staging_, table_;
     Commands commands_;  // of the table

@@ -9,10 +9,8 @@ struct DrapeSpot {
     uvec2 tile;
     vec2 texel;
 };
-DrapeSpot drape_spot(ivec2 whole, vec2 part, int level) {
-    // In quads of the level, 128 of which are a tile.
-    ivec2 quad;
-    vec2 rest;
+// A place in quads of a level, whole ones and the rest.
+void quad_at(ivec2 whole, vec2 part, int level, out ivec2 quad, out vec2 rest) {
     if (level >= 0) {
         quad = whole >> level;
         rest = (vec2(whole - (quad << level)) + part) / float(1 << level);
@@ -22,6 +20,12 @@ DrapeSpot drape_spot(ivec2 whole, vec2 part, int level) {
         quad = (whole << -level) + ivec2(quads);
         rest = finer - quads;
     }
+}
+DrapeSpot drape_spot(ivec2 whole, vec2 part, int level) {
+    // 128 quads are a tile.
+    ivec2 quad;
+    vec2 rest;
+    quad_at(whole, part, level, quad, rest);
     DrapeSpot spot;
     spot.name = uint(level - drape_finest + 1);
     spot.tile = uvec2(quad >> 7);
@@ -59,7 +63,8 @@ mat2 drape_per_px(SurfacePoint point) {
     return per_px;
 }
 
-DrapeFootprint drape_footprint(mat2 per_px) {
+// levels: the finest and the coarsest that there are.
+DrapeFootprint drape_footprint(mat2 per_px, ivec2 levels) {
     // The footprint is an ellipse: the image of a circle of one pixel. Its axes are the singular vectors of per_px.
     vec2 x = per_px[0], y = per_px[1];
     float a = x.x * x.x + y.x * y.x, b = x.x * x.y + y.x * y.y, c = x.y * x.y + y.y * y.y;
@@ -68,20 +73,20 @@ DrapeFootprint drape_footprint(mat2 per_px) {
     vec2 axis = a >= c ? vec2(middle + spread - c, b) : vec2(b, middle + spread - a);
     float axis_length = length(axis);
     axis = axis_length > 0.0 ? axis / axis_length : vec2(1.0, 0.0);
-    float finest_texel = exp2(float(FRAME.drape.finest - 1));
+    float finest_texel = exp2(float(levels.x - 1));
     float across = max(max(shorter, longer / float(drape_taps_max)), finest_texel);
     DrapeFootprint footprint;
     // Anything that is no number ends at the coarsest level.
     float level = log2(across) + 1.0;
-    level = level >= float(FRAME.drape.finest) ? min(level, float(FRAME.drape.coarsest)) : float(FRAME.drape.finest);
-    footprint.level = min(int(floor(level)), FRAME.drape.coarsest);
+    level = level >= float(levels.x) ? min(level, float(levels.y)) : float(levels.x);
+    footprint.level = min(int(floor(level)), levels.y);
     footprint.share = level - float(footprint.level);
     footprint.taps = clamp(int(ceil(longer / across - 0.01)), 1, drape_taps_max);
     footprint.step = axis * (longer / float(footprint.taps));
     if (!(longer < 1.0e9)) {
         footprint.taps = 1;
         footprint.step = vec2(0.0);
-        footprint.level = FRAME.drape.coarsest;
+        footprint.level = levels.y;
         footprint.share = 0.0;
     }
     return footprint;
@@ -139,7 +144,7 @@ vec4 drape_at(ivec2 whole, vec2 part, int level) {
 }
 
 vec4 drape_sample(SurfacePoint point) {
-    DrapeFootprint footprint = drape_footprint(drape_per_px(point));
+    DrapeFootprint footprint = drape_footprint(drape_per_px(point), ivec2(FRAME.drape.finest, FRAME.drape.coarsest));
     vec4 sum = vec4(0.0);
     for (int tap = 0; tap < footprint.taps; ++tap) {
         ivec2 whole;

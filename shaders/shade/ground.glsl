@@ -104,18 +104,33 @@ struct Images {
     vec3 colour;
     float share;
     float upright;
+    vec4 cover;  // land cover below them: its colour, and the share that is known
 };
+vec4 cover_below(SurfacePoint point, bool as_codes) {
+    if (!(as_map || in_air) || !has_cover()) return vec4(0.0);
+    vec4 cover = cover_sample(point);
+    if (cover.a <= 0.0) return vec4(0.0);
+    vec3 light = cover.rgb / cover.a;
+    return vec4(as_codes ? srgb_from_linear(light) : light, cover.a);
+}
 Images images_over(SurfacePoint point) {
-    if (!draped) return Images(vec3(0.0), 0.0, 0.0);
+    Images images = Images(vec3(0.0), 0.0, 0.0, vec4(0.0));
+    if (!draped) return images;
+    bool as_codes = as_map && !in_air && FRAME.style.tints_as_codes == 1u;
+    images.cover = cover_below(point, as_codes);
+    if (!has_images()) return images;
     vec4 image = drape_sample(point);
     float share = image.a * FRAME.drape.opacity;
-    if (share <= 0.0) return Images(vec3(0.0), 0.0, 0.0);
+    if (share <= 0.0) return images;
     vec3 codes = image.rgb / image.a;
-    bool as_codes = as_map && !in_air && FRAME.style.tints_as_codes == 1u;
-    return Images(as_codes ? codes : linear_from_srgb(codes), share, share * (1.0 - FRAME.drape.relief));
+    return Images(as_codes ? codes : linear_from_srgb(codes), share, share * (1.0 - FRAME.drape.relief), images.cover);
 }
 vec3 imaged_tint(Images images, inout SurfacePoint point) {
-    vec3 colour = as_map || in_air ? ground_tint(point) : tint(point.mean_H_m);
+    vec3 colour = images.cover.rgb;
+    if (!draped || images.cover.a < 1.0) {
+        vec3 by_rule = as_map || in_air ? ground_tint(point) : tint(point.mean_H_m);
+        colour = draped ? mix(by_rule, colour, images.cover.a) : by_rule;
+    }
     if (images.share <= 0.0) return colour;
     point.normal = normalize(mix(point.normal, vec3(0.0, 0.0, 1.0), images.upright));
     return mix(colour, images.colour, images.share);
@@ -181,11 +196,11 @@ float add_part(inout GroundLight sum, Images images, SurfacePoint point, GroundS
 
 GroundLight pixel_light(SurfacePoint point, vec3 sun) {
     GroundLight sum = GroundLight(vec3(0.0), vec3(0.0), vec3(0.0));
-    Images images = images_over(point);
     if (in_air) point.mean_H_m = land_H_m(point.mean_H_m);
 #ifdef IN_AIR
     if (of_materials) find_pixel_materials(point);
 #endif
+    Images images = images_over(point);
     float share = 0.0;
     if (by_means && !parts_follow)
         for (int i = 0; i < point.parts; ++i) {

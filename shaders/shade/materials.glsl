@@ -9,6 +9,8 @@ struct MaterialShares { float of[12]; };
 // Found once for a pixel, for all the parts of its footprint.
 GroundNoise pixel_noise;
 vec3 pixel_materials[12];  // the materials' colours there
+float pixel_second;        // the share of the second of two materials that a map does not tell apart
+float pixel_rock;          // the share of bare ground that is rock
 
 // The share of ground on the one side of a border: x from it, in units in which noise moves the border by `spread` (root mean square). Of noise
 // that a pixel is too large for the mean: shares of large areas are those of small ones.
@@ -44,6 +46,17 @@ void find_pixel_materials(SurfacePoint point) {
         pixel_materials[i] = colour * max(1.0 + FRAME.style.materials.of[i].grain * pixel_noise.grain, 0.1);
     }
     pixel_materials[material_rock] *= 1.0 + 0.3 * strata(point.mean_H_m, foot_m);
+    pixel_second = patched(0.0, 1.0);
+    float middle_deg = 0.5 * (FRAME.style.cover.rock_from_deg + FRAME.style.cover.rock_to_deg);
+    pixel_rock = broken(slope_deg(point) - middle_deg, 5.0);
+}
+
+// The materials' noise on a map's own colour, whose mean it stays. Bare ground that is steep is rock, whatever a map's colour of it.
+vec3 textured(vec3 colour, uint materials) {
+    uint first = materials & 255u, second = (materials >> 8u) & 255u;
+    vec3 mean = 0.5 * (FRAME.style.materials.of[first].colour + FRAME.style.materials.of[second].colour);
+    vec3 own = colour * mix(pixel_materials[first], pixel_materials[second], pixel_second) / max(mean, vec3(0.001));
+    return first == material_bare ? mix(own, pixel_materials[material_rock], pixel_rock) : own;
 }
 
 vec3 colour_of_shares(MaterialShares shares) {

@@ -39,6 +39,7 @@ layout(constant_id = 8) const bool of_materials = false;  // FrameStyle.material
 #include "shaders/shade/water.glsl"
 #include "shaders/shade/outside.glsl"
 #include "shaders/shade/drape.glsl"
+#include "shaders/shade/cover_tiles.glsl"
 #include "shaders/shade/ground.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -13,6 +13,7 @@ const bool parts_alone = false;
 #include "shaders/place/net.glsl"
 #include "shaders/shade/surface.glsl"
 #include "shaders/shade/drape.glsl"
+#include "shaders/shade/cover_tiles.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool from_compute = false;  // ids come from the compute rasteriser's buffer
@@ -40,16 +41,17 @@ void request(DrapeSpot spot) {
     }
 }
 
-void request_for_pixel(SurfacePoint point) {
-    DrapeFootprint footprint = drape_footprint(drape_per_px(point));
+void request_for_pixel(SurfacePoint point, ivec2 levels, bool of_cover) {
+    DrapeFootprint footprint = drape_footprint(drape_per_px(point), levels);
     DrapeSpot before[2];
     before[0].name = before[1].name = 0u;
     for (int tap = 0; tap < footprint.taps; ++tap) {
         ivec2 whole;
         vec2 part;
-        drape_tap(point, footprint, tap, whole, part);
+        if (of_cover) cover_tap(point, footprint, tap, levels, whole, part);
+        else drape_tap(point, footprint, tap, whole, part);
         for (int i = 0; i < (footprint.share > 0.0 ? 2 : 1); ++i) {
-            DrapeSpot spot = drape_spot(whole, part, footprint.level + i);
+            DrapeSpot spot = of_cover ? cover_spot(whole, part, footprint.level + i) : drape_spot(whole, part, footprint.level + i);
             if (spot.name == before[i].name && spot.tile == before[i].tile) continue;
             request(spot);
             before[i] = spot;
@@ -64,5 +66,8 @@ void main() {
     vec3 ray = vec3((clip - FRAME.projection_shift) / FRAME.projection_scale, -1.0);
     uint id = from_compute ? id_of(VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)])
                            : imageLoad(ids, pixel).x;
-    if (is_of_grid(id)) request_for_pixel(surface_at(triangle_of_id(id), ray));
+    if (!is_of_grid(id)) return;
+    SurfacePoint point = surface_at(triangle_of_id(id), ray);
+    if (has_images()) request_for_pixel(point, ivec2(FRAME.drape.finest, FRAME.drape.coarsest), false);
+    if (has_cover()) request_for_pixel(point, cover_levels(), true);
 }

@@ -151,7 +151,8 @@ void tell(const ShotOptions& options, const PictureFiles& files, bool checks, co
     for (const std::string& pose : pose_paths(files.picture, {options.kml, options.geopose}))
         say(options.quiet, "wrote " + pose);
     if (shot.layers)
-        for (const char* layer : layer_names) say(options.quiet, "wrote " + layer_path(files.picture, layer));
+        for (const char* layer : layers_of_view(shot.view.cover != nullptr))
+            say(options.quiet, "wrote " + layer_path(files.picture, layer));
     // Measurements say it themselves.
     if (const std::string note = unseen_sentence(shot.unseen); !shot.verification && !note.empty())
         say(options.quiet, "note: " + note);
@@ -371,6 +372,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
 // What is asked for of a view that is not known before its file is read.
 Result<void> check_view_of_file(const View& recorded, ShotOptions& options) {
     options.ortho = recorded.map.has_value();
+    options.covers = options.covers || !recorded.cover_choice.files.empty();
     if (options.ortho && (options.verify || options.layers))
         return refused(options.verify ? "--verify" : "--layers", "",
                        "is for pictures from an eye; " + options.view_file + " is a map");
@@ -409,6 +411,7 @@ Result<void> take_shots(const ShotOptions& options, const std::vector<ListedView
 
 Result<void> run_shot(const ShotOptions& asked) {
     ShotOptions options = asked;
+    options.covers = !options.view.landcover.empty();
     if (!options.view_files.empty()) options.view_file = options.view_files.front();
     ORO_CHECK(check_map_options(options));
     ORO_TRY(const PictureFiles files, shot_files(options));

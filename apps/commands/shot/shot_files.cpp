@@ -72,7 +72,8 @@ std::vector<std::string> written_files(const ShotOptions& options, const Picture
     for (const std::string& pose : pose_paths(files.picture, {options.kml, options.geopose}))
         all.push_back(pose);
     if (options.layers)
-        for (const char* layer : layer_names) all.push_back(layer_path(files.picture, layer));
+        for (const char* layer : layers_of_view(options.covers))
+            all.push_back(layer_path(files.picture, layer));
     return all;
 }
 

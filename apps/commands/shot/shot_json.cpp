@@ -29,6 +29,7 @@ ordered_json destination_json(const std::optional<SeenPlace>& place) {
     json["cell"] = json_object("row", place->row, "column", place->column);
     json["source"] = nullptr;
     if (!place->source.empty()) json["source"] = place->source;
+    if (place->cover) json["cover"] = json_object("code", place->cover->code, "name", place->cover->name);
     return json;
 }
 
@@ -134,10 +135,10 @@ void put_map(const MapFrame& map, const PictureFiles& files, ordered_json& json)
 }
 
 // The files by what is in them.
-void put_layers(const LayersReport& layers, const ShotTimes& times, const PictureFiles& files,
+void put_layers(const LayersReport& layers, bool covers, const ShotTimes& times, const PictureFiles& files,
                 ordered_json& json) {
     ordered_json& layer_files = json["layers"] = ordered_json::object();
-    for (const char* layer : layer_names) layer_files[layer] = layer_path(files.picture, layer);
+    for (const char* layer : layers_of_view(covers)) layer_files[layer] = layer_path(files.picture, layer);
     json["layer_pixels"] = json_object("ground", layers.ground_px, "beside", layers.missed_px);
     json["times_s"]["layers"] = times.layers_s;
 }
@@ -179,7 +180,8 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
                                                                          : "mean";
     // What says which materials the ground's colours are of; null: they are of none.
     json["cover"] = nullptr;
-    if (style.frame.colour_by == gpu::colour_by_cover) json["cover"] = "rule";
+    if (style.frame.colour_by == gpu::colour_by_cover)
+        json["cover"] = shot.view.cover ? "files, and a rule where they hold nothing" : "rule";
     json["contour_interval_m"] = nullptr;
     if (style.frame.contours.interval_m > 0.0F) json["contour_interval_m"] = style.frame.contours.interval_m;
     json["labels"] = labels_json(shot.labels);
@@ -191,6 +193,9 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     json["destination"] = destination_json(shot.middle);
     json["attribution"] = tags.attribution;
     put_regions(shot, json);
+    if (shot.view.cover)
+        json["landcover"] =
+            json_object("table", shot.view.cover->table().name, "title", shot.view.cover->table().title);
     put_counts(shot, json);
     json["tau_px"] = shot.view.tau_px;
     json["mesh_level"] = nullptr;
@@ -208,7 +213,7 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
                                  device.driver, "api", version_words(device.vulkan_version));
     json["pipeline"] = name_of(shot.picture.path);
     if (shot.view.map) put_map(*shot.view.map, files, json);
-    if (shot.layers) put_layers(*shot.layers, shot.times, files, json);
+    if (shot.layers) put_layers(*shot.layers, shot.view.cover != nullptr, shot.times, files, json);
     if (shot.verification) {
         json["times_s"]["verify"] = shot.times.verify_s;
         json["error_picture"] = files.error;

@@ -22,6 +22,18 @@ void say_walls(const Standpoint& from, const Standpoint& target, const SightOpti
                                (options.on_summit ? "; --on-summit moves the eye alone" : ""));
 }
 
+// Names the land cover at the places that are told of.
+Result<void> name_cover(const CoverMap& cover, SightReport& report) {
+    const auto name = [&](const Geodetic& place, std::string& words) -> Result<void> {
+        ORO_TRY(const int code, cover.code_at(place.lat_deg, place.lon_deg));
+        words = cover.name_of(code);
+        return {};
+    };
+    ORO_CHECK(name(report.from, report.from_cover));
+    ORO_CHECK(name(report.to, report.to_cover));
+    return report.obstacle ? name(report.obstacle->point, report.obstacle_cover) : Result<void>();
+}
+
 }  // namespace
 
 Result<void> run_sight(const SightOptions& options) {
@@ -33,6 +45,9 @@ Result<void> run_sight(const SightOptions& options) {
         if (const auto place = place_at(option, text); !place.ok()) return place.error();
     }
     ORO_TRY(const Air air, air_asked_for(options.view.refraction_k, options.view.air, standard_air));
+    ORO_TRY(CoverChoice choice, cover_choice_from(options.view.landcover));
+    std::vector<Fingerprints::OfSource> ignored;
+    ORO_TRY(const std::shared_ptr<const CoverMap> cover, open_cover(choice, ignored));
     ProgressBar bar(options.quiet);
     ORO_TRY(const auto ground, open_sight_ground(options.region, [&](double share, const std::string& what) {
                 bar.show(share, "reading " + what);
@@ -48,10 +63,13 @@ Result<void> run_sight(const SightOptions& options) {
     SightReport report = look_along(from.eye, to, air, ground->ground());
     report.moved = from.moved;
     ORO_CHECK(ground->region.health());
+    if (cover) ORO_CHECK(name_cover(*cover, report));
     bar.clear();
     if (report.slant_m <= least_above_m)
         return refused("--to", options.to, "is where --from is: there is no line between them");
     say_notes(ground->region, options.quiet);
+    if (cover)
+        for (const std::string& note : cover->notes()) say(options.quiet, "note: " + note);
     say_walls(from, target, options);
     if (report.line.without_data_m > 0.5) {
         char note[160];

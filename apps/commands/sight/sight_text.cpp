@@ -19,11 +19,16 @@ std::string printed(const char* format, Values... values) {
     return text;
 }
 
-std::string end_text(const char* name, const Geodetic& point, const SightGround& ground) {
+std::string cover_text(const std::string& cover) {
+    return cover.empty() ? "" : ", " + cover;
+}
+
+std::string end_text(const char* name, const Geodetic& point, const std::string& cover,
+                     const SightGround& ground) {
     std::string text =
         printed("%s %.6f %.6f, H %.1f m", name, point.lat_deg, point.lon_deg, ground.H_m(point));
     if (const auto above_m = ground.above_m(point)) text += printed(", %.1f m above the ground", *above_m);
-    return text + "\n";
+    return text + cover_text(cover) + "\n";
 }
 
 // "8.43 km", "312 m"
@@ -51,25 +56,26 @@ std::string hidden_text(const SightReport& report, const SightGround& ground) {
                         *report.eye_clearance_deficit_m);
     return text +
            "\nFirst obstacle: " + ground_text(report.obstacle->point, report.obstacle_distance_m, ground) +
-           "\n";
+           cover_text(report.obstacle_cover) + "\n";
 }
 
 ordered_json or_null(const std::optional<double>& value) {
     return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
-ordered_json end_json(const Geodetic& point, const SightGround& ground) {
+ordered_json end_json(const Geodetic& point, const std::string& cover, const SightGround& ground) {
     ordered_json json = point_json(ground, point);
     json["above_ground_m"] = or_null(ground.above_m(point));
+    if (!cover.empty()) json["cover"] = cover;
     return json;
 }
 
 }  // namespace
 
 std::string sight_text(const SightReport& report, const SightGround& ground) {
-    std::string text = end_text("From:", report.from, ground);
+    std::string text = end_text("From:", report.from, report.from_cover, ground);
     if (report.moved) text += "Summit: " + summit_words("the eye stands", *report.moved) + "\n";
-    text += end_text("To:  ", report.to, ground);
+    text += end_text("To:  ", report.to, report.to_cover, ground);
     text += report.obstacle ? hidden_text(report, ground) : "Visible\n";
     if (report.line.without_data_m < report.slant_m)
         text += printed("Least clearance: %.2f m, over ", report.line.clearance_m) +
@@ -83,9 +89,9 @@ std::string sight_text(const SightReport& report, const SightGround& ground) {
 
 ordered_json sight_json(const SightReport& report, const SightGround& ground) {
     ordered_json json = json_object("visible", !report.obstacle);
-    json["from"] = end_json(report.from, ground);
+    json["from"] = end_json(report.from, report.from_cover, ground);
     if (report.moved) json["on_summit"] = summit_json(*report.moved);
-    json["to"] = end_json(report.to, ground);
+    json["to"] = end_json(report.to, report.to_cover, ground);
     json["target_missed_by_m"] =
         report.obstacle ? or_null(report.target_clearance_deficit_m) : ordered_json(0.0);
     json["eye_missed_by_m"] = report.obstacle ? or_null(report.eye_clearance_deficit_m) : ordered_json(0.0);
@@ -94,6 +100,7 @@ ordered_json sight_json(const SightReport& report, const SightGround& ground) {
         ordered_json& obstacle = json["obstacle"] = point_json(ground, report.obstacle->point);
         obstacle["distance_m"] = report.obstacle_distance_m;
         obstacle["slant_m"] = report.obstacle->distance_m;
+        if (!report.obstacle_cover.empty()) obstacle["cover"] = report.obstacle_cover;
     }
     json["clearance"] = nullptr;
     if (report.line.without_data_m < report.slant_m) {

@@ -26,6 +26,8 @@ struct SightReport {
     // How much higher one of them would have to be; nothing: no height would do, or it is seen.
     std::optional<double> target_clearance_deficit_m;
     std::optional<double> eye_clearance_deficit_m;
+    // Land cover at the eye, at the target and at the obstacle: names of classes; "" where none is known.
+    std::string from_cover, to_cover, obstacle_cover;
 };
 
 std::string sight_text(const SightReport& report, const SightGround& ground);

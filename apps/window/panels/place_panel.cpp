@@ -63,6 +63,9 @@ void all_about(const Viewer& viewer, const PickedPlace& picked) {
                    written("%s, %.0f°", compass_point(static_cast<int>(*picked.aspect_deg / 22.5 + 0.5) % 16),
                            *picked.aspect_deg),
                    "Where the ground falls to: its aspect, clockwise from true north");
+    if (seen.cover)
+        value_line("Land cover", written("%s (%d)", seen.cover->name.c_str(), seen.cover->code),
+                   "The class that the file of land cover has there, and its code");
     ImGui::Separator();
     value_line("Distance", written("%.2f m", seen.seen_distance_m), "Along the line of sight");
     value_line("On the map", written("%.2f m", seen.distance_m), "Along the ellipsoid, from under the eye");

@@ -50,6 +50,11 @@ void place_words(const Viewer& viewer) {
                       seen.H_m, seen.h_m);
         tip(text);
     }
+    if (seen.cover) {
+        ImGui::SameLine();
+        ImGui::TextDisabled("%s", seen.cover->name.c_str());
+        tip("The land cover there, as its file has it.");
+    }
     if (!place->slope_deg) return;
     ImGui::SameLine();
     ImGui::TextDisabled("slope %.0f°", *place->slope_deg);
