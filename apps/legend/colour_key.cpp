@@ -85,11 +85,12 @@ ColourKey key_of_materials(const gpu::MaterialTable& materials) {
     }
     return key;
 }
+
 // The classes that the files of land cover hold.
 ColourKey key_of_cover(const CoverMap& cover) {
     ColourKey key;
     key.shape = KeyShape::names;
-    key.title = "Land cover; where none is known, by height";
+    key.title = "Land cover; where none is known, by a rule";
     for (const CoverClass& one : cover.table().classes) {
         const bool is_there = std::ranges::any_of(cover.sources(), [&](const CoverSource& source) {
             return std::ranges::any_of(one.codes, [&](int code) { return source.codes.contains(code); });

@@ -74,8 +74,8 @@ Camera Gestures::dragged(const ViewEvent& event, const Camera& camera) {
     GrabStart& start = drag_->start;
     drag_->begun = drag_->begun || glm::distance(event.point_px, start.pressed_px) >= drag_starts_px;
     if (!drag_->begun) return camera;
-    // Who walks looks round where they stand.
-    if (!drag_->picked && !walking_) start.place = scene_.pick(start.camera, start.pressed_px);
+    // Who stands on the ground looks round there.
+    if (!drag_->picked && !stands(start.camera)) start.place = scene_.pick(start.camera, start.pressed_px);
     drag_->picked = true;
     Camera there;
     if (drag_->orbits && start.place) {
@@ -89,6 +89,12 @@ Camera Gestures::dragged(const ViewEvent& event, const Camera& camera) {
     }
     there.width_px = camera.width_px, there.height_px = camera.height_px;
     return there;
+}
+
+bool Gestures::stands(const Camera& camera) const {
+    constexpr double standing_m = 5.0;
+    const auto ground_h_m = scene_.ground_h_m(camera.eye.lat_deg, camera.eye.lon_deg);
+    return walking_ || (ground_h_m && camera.eye.h_m - *ground_h_m < standing_m);
 }
 
 // What has moved the eye meanwhile holds; the drag goes on from there.

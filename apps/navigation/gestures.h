@@ -2,6 +2,7 @@
 //
 //     left drag                the ground under the cursor stays under it
 //     right, middle or Ctrl+left drag   turns the eye round the place under the cursor, and tilts
+//     any drag of an eye that stands on the ground, or that begins on the sky   looks round
 //     wheel                    nearer to and farther from what is under the cursor
 //     double click             flies to what is under the cursor
 //     W A S D, arrows          forward, left, back, right; Space, E up; Q down; with Shift faster
@@ -123,6 +124,8 @@ class Gestures {
     [[nodiscard]] static bool moves(const FlightStep& step);
     [[nodiscard]] FlightStep step_of_keys(const Camera& camera) const;
     [[nodiscard]] bool holds(ViewKey key) const { return held_[static_cast<std::size_t>(key)]; }
+    // Walking, or with the eye no more than 5 m over the ground.
+    [[nodiscard]] bool stands(const Camera& camera) const;
     void press(const ViewEvent& event, const Camera& camera);
     void release(const ViewEvent& event, GestureOutcome& outcome);
     [[nodiscard]] Camera dragged(const ViewEvent& event, const Camera& camera);

@@ -18,6 +18,7 @@
 #include "apps/window/window_start.h"
 #include "core/lod/ground_means.h"
 #include "core/terrain/ground.h"
+#include "geo/drape/image_source.h"
 #include "geo/files/letter_case.h"
 #include "geo/pictures/photograph_view.h"
 
@@ -76,6 +77,29 @@ std::optional<Camera> camera_of_picture(const Viewer& viewer, const std::string&
                       photograph->pitch_deg.value_or(0.0), photograph->roll_deg.value_or(0.0)};
     if (photograph->vertical_fov_deg) there.vertical_fov_deg = *photograph->vertical_fov_deg;
     return above_ground(there, grid.field, viewer.view.exaggeration);
+}
+
+// Whether a raster is there to be looked at: it has colours, or the few values of a picture, or is of a
+// format that keeps no elevation.
+bool is_image(const std::string& path) {
+    const auto of_pictures = {".jp2", ".j2k", ".jpg", ".jpeg", ".png", ".webp"};
+    if (!ends_in_one_of(path, of_pictures) && !ends_in_one_of(path, {".tif", ".tiff", ".vrt"})) return false;
+    const auto image = open_image(path);
+    if (!image.ok()) return false;
+    const bool is_of_bytes = !image->is_light && image->black == 0.0 && image->white == 255.0;
+    return image->bands.size() > 1 || image->palette || is_of_bytes || ends_in_one_of(path, of_pictures);
+}
+
+// Lays images over the ground that is shown, over those that lie there.
+Result<void> add_images(Viewer& viewer, const std::vector<std::string>& images) {
+    std::vector<std::string> all = viewer.view.drape;
+    for (const std::string& image : images)
+        if (std::ranges::find(all, image) == all.end()) all.push_back(image);
+    const double opacity = viewer.view.drape_opacity > 0.0 ? viewer.view.drape_opacity : 1.0;
+    ORO_CHECK(choose_drape(viewer, all, opacity));
+    if (viewer.view.drape == all)
+        tell(viewer, "laid " + name_of_paths(images) + " over the ground: Layers shows and hides it");
+    return {};
 }
 
 // All that is known of the region from before means nothing any more.
@@ -160,6 +184,9 @@ Result<void> show_region(Viewer& viewer, OpenedRegion opened, OpenedScene scene,
     fill_search(viewer);
     remember_opened(viewer, paths);
     ORO_CHECK(renew_renderer(viewer));
+    // What was shown is of another place.
+    viewer.kept = {};
+    viewer.is_settled = false;
     // A region that is opened is no part of the project that was shown.
     viewer.own_project.clear();
     return opened.project ? take_project(viewer, *opened.project, paths.front()) : Result<void>();
@@ -174,7 +201,7 @@ void remember_opened(Viewer& viewer, const std::vector<std::string>& paths) {
 }
 
 Result<void> open_paths(Viewer& viewer, const std::vector<std::string>& paths) {
-    std::vector<std::string> vectors, others;
+    std::vector<std::string> vectors, images, others;
     for (const std::string& path : paths) {
         if (is_vector_path(path)) {
             vectors.push_back(path);
@@ -194,8 +221,9 @@ Result<void> open_paths(Viewer& viewer, const std::vector<std::string>& paths) {
         if (there)
             fly_to(viewer, *there, "where " + std::filesystem::path(path).filename().string() + " was taken");
         else
-            others.push_back(path);
+            (is_image(path) ? images : others).push_back(path);
     }
+    if (!images.empty()) ORO_CHECK(add_images(viewer, images));
     if (!others.empty())
         begin_opening(viewer, options_for_other_region(viewer.options, view_alone(viewer), others), {});
     return vectors.empty() ? Result<void>() : add_vectors(viewer, vectors);

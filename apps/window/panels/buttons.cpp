@@ -17,7 +17,7 @@ constexpr std::array<PanelButton, 9> panel_buttons{
      {"Sun", "The light of a date and a time", &Panels::sun},
      {"Measure", "Distance, area, profile, line of sight", &Panels::measure},
      {"Film", "A camera's path: recorded, or along a track", &Panels::film},
-     {"Open", "Elevation, tracks, pictures (Ctrl-O)", &Panels::files},
+     {"Open", "Elevation, images over it, tracks, pictures (Ctrl-O)", &Panels::files},
      {"Picture", "A picture of any size (Shift-P); P takes one at once", &Panels::picture},
      {"Statistics", "How this picture was drawn, and how long it took", &Panels::statistics},
      {"Log", "What was said since the window opened", &Panels::messages},

@@ -1,3 +1,4 @@
+#include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
@@ -38,7 +39,9 @@ Listing listing_of(const std::string& folder) {
     return listing;
 }
 
+// The panel has done what it is for.
 void open_now(Viewer& viewer, const std::vector<std::string>& paths) {
+    viewer.panels.files = false;
     viewer.wishes.push_back([paths](Viewer& v) { return open_paths(v, paths); });
 }
 
@@ -77,6 +80,10 @@ void build_files_panel(Viewer& viewer) {
     }
     std::error_code ignored;
     if (viewer.folder.empty()) viewer.folder = fs::current_path(ignored).string();
+    // Of the file that was opened last, its folder.
+    if (listing.folder.empty() && !fs::is_directory(viewer.folder, ignored) &&
+        fs::is_directory(fs::path(viewer.folder).parent_path(), ignored))
+        viewer.folder = fs::path(viewer.folder).parent_path().string();
     if (begin_panel("Open", is_open, PanelCorner::middle, 480.0F)) {
         ImGui::SetNextItemWidth(-scaled_px(90.0F));
         if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
@@ -86,18 +93,18 @@ void build_files_panel(Viewer& viewer) {
         if (ImGui::Button(is_folder ? "Open all" : "Open") || (entered && !is_folder))
             open_now(viewer, {viewer.folder});
         tip(is_folder ? "All elevation of this folder, as one region" : "This file");
+        quiet_text(
+            "Elevation takes the place of what is shown. Images, tracks and places (GPX, KML, GeoJSON) lie "
+            "over "
+            "it. A picture of this program moves the eye to where it was taken. Files may be dropped, too.");
         if (is_folder && listing.folder != viewer.folder) listing = listing_of(viewer.folder);
-        ImGui::BeginChild("##list", {0.0F, scaled_px(240.0F)}, true);
+        ImGui::BeginChild("##list", {0.0F, scaled_px(210.0F)}, true);
         if (!listing.error.empty()) quiet_text(listing.error.c_str());
         list_folder(viewer, listing);
         ImGui::EndChild();
         list_recent(viewer);
         if (ImGui::Button("Save as a project")) viewer.panels.open(&Panels::project);
         tip("This view, its layers and its film, to be opened again (Ctrl-S)");
-        quiet_text(
-            "Elevation takes the place of what is shown; tracks and places (GPX, KML, GeoJSON) lie over "
-            "it; a picture of this program moves the eye to where it was taken. Two clicks open a file. "
-            "Files may be dropped on the window, too.");
     }
     ImGui::End();
 }

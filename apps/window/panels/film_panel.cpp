@@ -1,3 +1,4 @@
+#include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
@@ -94,9 +95,8 @@ void keep_film(Viewer& viewer) {
         tip(tip_text);
     };
     button("Open", open_film, "In the place of these keys");
-    button("Save", save_film, "As orograph film takes it");
-    if (ImGui::Button("Copy the command"))
-        ImGui::SetClipboardText(film_command(film.file, viewer.view).c_str());
+    button("Save the path", save_film, "As orograph film takes it, which draws the frames or the movie");
+    copy_button(viewer, "Copy the command that films it", film_command(film.file, viewer.view));
     tip("The line for a shell that draws the film of that file as this window looks now");
 }
 

@@ -37,6 +37,7 @@ void build_toasts(Viewer& viewer) {
         ImGui::PopStyleColor();
         if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left))
             message->is_toast = false;
+        raise_above_panels();
         bottom -= ImGui::GetWindowHeight() + scaled_px(6.0F);
         ImGui::End();
     }

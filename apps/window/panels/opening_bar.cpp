@@ -18,6 +18,7 @@ void build_opening_bar(const Viewer& viewer) {
     ImGui::ProgressBar(static_cast<float>(viewer.opening->share()), {width, scaled_px(4.0F)}, "");
     ImGui::PopStyleColor();
     quiet_text(viewer.opening->step().c_str());
+    raise_above_panels();
     ImGui::End();
 }
 

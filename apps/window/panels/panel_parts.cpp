@@ -1,5 +1,7 @@
 #include "apps/window/panels/panel_parts.h"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 
 namespace oro {
@@ -70,6 +72,16 @@ void quiet_text(const char* text) {
     ImGui::PushStyleColor(ImGuiCol_Text, interface_colour::quiet);
     ImGui::TextWrapped("%s", text);
     ImGui::PopStyleColor();
+}
+
+void copy_button(Viewer& viewer, const char* words, const std::string& text) {
+    if (!ImGui::Button(words)) return;
+    ImGui::SetClipboardText(text.c_str());
+    tell(viewer, "copied");
+}
+
+void raise_above_panels() {
+    ImGui::BringWindowToDisplayFront(ImGui::GetCurrentWindow());
 }
 
 }  // namespace oro

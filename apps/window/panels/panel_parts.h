@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/window/interface.h"
+#include "apps/window/viewer.h"
 
 namespace oro {
 
@@ -23,6 +24,10 @@ bool begin_area(const char* name, ImVec2 at_px, ImVec2 pivot, bool with_paper = 
 void value_line(const char* name, const std::string& value, const char* tip = "");
 // Lets what was built last have a tooltip.
 void tip(const char* text);
+// A button that copies a text, and says so.
+void copy_button(Viewer& viewer, const char* words, const std::string& text);
+// The area that is being built is above all panels.
+void raise_above_panels();
 // A line over a group of what belongs together.
 void heading(const char* text);
 // Text on several lines, in the quiet colour.

@@ -61,8 +61,7 @@ void build_picture_panel(Viewer& viewer) {
             viewer.wishes.push_back([choice](Viewer& v) { return take_picture(v, choice); });
         tip("Into the working folder, with its place and all of its view");
         ImGui::SameLine();
-        if (ImGui::Button("Copy the command"))
-            ImGui::SetClipboardText(command_line_of(viewer.view, choice).c_str());
+        copy_button(viewer, "Copy the command", command_line_of(viewer.view, choice));
         tip("The lines for a shell that draw this very picture, to the byte");
     }
     ImGui::End();

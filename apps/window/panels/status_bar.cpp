@@ -132,8 +132,9 @@ std::string certificate_there(const Viewer& viewer) {
 }
 
 void certificate(const Viewer& viewer) {
-    ImGui::PushStyleColor(ImGuiCol_Text,
-                          viewer.is_settled ? interface_colour::good : interface_colour::accent);
+    ImGui::PushStyleColor(ImGuiCol_Text, viewer.is_settled && progress_words(viewer).empty()
+                                             ? interface_colour::good
+                                             : interface_colour::accent);
     ImGui::TextUnformatted(certificate_words(viewer).c_str());
     ImGui::PopStyleColor();
     if (!ImGui::IsItemHovered()) return;

@@ -81,16 +81,26 @@ std::string hour_words(double utc_s, int zone_h) {
     return text;
 }
 
-void rises(std::int64_t midnight_utc_s, const Geodetic& place, int zone_h) {
+// A button for each time at which the sun comes up or goes down. Whether one was pressed: the clock has its
+// time then.
+bool rises(SunClock& clock, std::int64_t midnight_utc_s, const Geodetic& place) {
     const SunDayEvents day =
         sun_day(static_cast<double>(midnight_utc_s), {place.lat_deg, place.lon_deg, 0.0});
-    std::string words;
-    for (const SunCrossing& crossing : day.crossings)
-        words += (words.empty() ? "" : ", ") + std::string(crossing.rising ? "up " : "down ") +
-                 hour_words(crossing.time_utc_s, zone_h);
-    if (day.crossings.empty()) words = day.day == SunDay::up_all_day ? "up all day" : "down all day";
-    value_line("Plain horizon", words,
-               "Sunrise and sunset as almanacs have them; orograph sun tells those over the terrain");
+    if (day.crossings.empty())
+        quiet_text(day.day == SunDay::up_all_day ? "The sun is up all day" : "The sun is down all day");
+    bool chosen = false;
+    for (const SunCrossing& crossing : day.crossings) {
+        if (&crossing != &day.crossings.front()) ImGui::SameLine();
+        const std::string words = std::string(crossing.rising ? "Sunrise " : "Sunset ") +
+                                  hour_words(crossing.time_utc_s, clock.zone_h);
+        if (ImGui::Button(words.c_str())) {
+            const double since_min = (crossing.time_utc_s - static_cast<double>(midnight_utc_s)) / 60.0;
+            clock.minute = std::clamp(static_cast<int>(std::lround(since_min)), 0, day_min - 1);
+            chosen = true;
+        }
+        tip("Over a plain horizon, as almanacs have it; orograph sun tells it over the terrain");
+    }
+    return chosen;
 }
 
 }  // namespace
@@ -123,8 +133,9 @@ void build_sun_panel(Viewer& viewer) {
         }
         tip("Year-month-day");
         ImGui::SameLine();
-        ImGui::SetNextItemWidth(scaled_px(86.0F));
-        if (ImGui::InputInt("UTC", &clock.zone_h)) {
+        ImGui::SetNextItemWidth(scaled_px(110.0F));
+        const int step_h = 1;
+        if (ImGui::InputScalar("##zone", ImGuiDataType_S32, &clock.zone_h, &step_h, nullptr, "UTC%+d")) {
             clock.zone_h = std::clamp(clock.zone_h, -12, 14);
             changed = true;
         }
@@ -139,7 +150,7 @@ void build_sun_panel(Viewer& viewer) {
         if (midnight.ok()) {
             const std::int64_t midnight_utc_s = *midnight - clock.zone_h * 3600;
             day_arc(clock, midnight_utc_s, viewer.view.camera.eye);
-            rises(midnight_utc_s, viewer.view.camera.eye, clock.zone_h);
+            changed = rises(clock, midnight_utc_s, viewer.view.camera.eye) || changed;
         }
         if (changed && midnight.ok())
             viewer.wishes.push_back([time = time_of(clock)](Viewer& v) { return choose_sun(v, time); });

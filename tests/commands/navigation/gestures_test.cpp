@@ -308,6 +308,22 @@ TEST_F(GesturesTest, WhoWalksLooksRoundAndWalksOn) {
     EXPECT_FALSE(gestures_.is_walking());
 }
 
+// Two metres over the ground: far ground is no place to be carried round.
+TEST_F(GesturesTest, WhoStandsLooksRound) {
+    camera_.eye.h_m = *hill_h_m(camera_.eye.lat_deg, camera_.eye.lon_deg) + 2.0;
+    wait(0.6);
+    for (const PointerButton button : {PointerButton::left, PointerButton::right}) {
+        const Camera before = camera_;
+        pointer(Kind::press, {500.5, 450.5}, button);
+        EXPECT_TRUE(pointer(Kind::cursor, {700.5, 440.5}, button).moved);
+        pointer(Kind::release, {700.5, 440.5}, button);
+        EXPECT_EQ(camera_.eye.lat_deg, before.eye.lat_deg);
+        EXPECT_EQ(camera_.eye.lon_deg, before.eye.lon_deg);
+        EXPECT_EQ(camera_.eye.h_m, before.eye.h_m);
+        EXPECT_NE(camera_.attitude.heading_deg, before.attitude.heading_deg);
+    }
+}
+
 // The ground has become higher since the eye was there: undo, a bookmark and a dropped picture lead over it.
 TEST_F(GesturesTest, FlightsEndOverTheGroundAsItIsNow) {
     const auto over_m = [&] { return camera_.eye.h_m - *hill_h_m(camera_.eye.lat_deg, camera_.eye.lon_deg); };

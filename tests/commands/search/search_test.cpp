@@ -201,8 +201,11 @@ TEST(SearchIndex, SaysWhatIsWrongInOneLine) {
         return target.error().what;
     };
     EXPECT_EQ(wrong(index, "  "), "type a place: 46.57,7.99, a cell such as N46E008, or a name");
-    EXPECT_EQ(wrong(index, "Nanga Parbat"), "no place of this name is known here");
-    EXPECT_EQ(wrong(bare, "Eiger"), "no place of this name is known here");
+    const std::string unknown =
+        "no place of this name is known here; a file of places (GPX, KML, GeoJSON) that is opened adds its "
+        "names";
+    EXPECT_EQ(wrong(index, "Nanga Parbat"), unknown);
+    EXPECT_EQ(wrong(bare, "Eiger"), unknown);
     EXPECT_EQ(wrong(index, "8,47,9,46"), "south must lie below north; the order is west,south,east,north");
     EXPECT_NE(wrong(index, "91,8").find("latitude 91 is outside [-90, 90]"), std::string::npos);
     EXPECT_EQ(wrong(index, "99999,99999999").find("latitude"), std::string::npos);
