@@ -258,7 +258,7 @@ void look_for_snow(inout SurfacePoint point) {
     // Far below it nothing is ice, and far above it everything is.
     float above_m = point.mean_H_m - point.snow_line_m, level_m = FRAME.style.cover.level_m;
 #ifdef IN_AIR
-    if (of_materials && by_means && above_m < 1000.0) point.hollow_m = hollow_m_at(point);
+    if (of_materials && by_means && above_m < 1000.0) point.hollow_m = hollow_m_at(point, length(point.view) / FRAME.pixels_per_tangent);
 #endif
     if (!by_means || level_m <= 0.0 || above_m <= -1.6 * level_m - 1000.0 || above_m >= 2000.0) return;
     // Nor is it on slopes of 15 degrees; where a pixel has one slope and one height that can be told (cover.glsl).

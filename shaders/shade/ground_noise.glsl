@@ -1,17 +1,15 @@
 // Noise of absolute place, from the octaves that are at least two pixels long: FrameConstants.noise.
 
 struct GroundNoise {
-    float border;        // of variance 1, with what is left out
-    float border_left;   // the variance of what is left out
-    float patches;
-    float patches_left;
+    float border;         // of variance 1, with what is left out
+    float border_sharp;   // 1 over the root mean square of what is left out
+    float patches;        // the same
+    float patches_sharp;
     float grain;
 };
 
-// Source: C. Wellons, hash-prospector, lowbias32 (public domain).
+// Of a sum of products, whose upper bits are mixed already. Source: C. Wellons, hash-prospector, lowbias32 (public domain), its second half.
 uint mixed_bits(uint h) {
-    h ^= h >> 16u;
-    h *= 0x7feb352du;
     h ^= h >> 15u;
     h *= 0x846ca68bu;
     return h ^ (h >> 16u);
@@ -36,7 +34,8 @@ vec2 lattice_noise(uvec3 cell, vec3 part, uint octave) {
 GroundNoise ground_noise(vec3 view, float foot_m) {
     if (FRAME.refraction_per_m != 0.0) view -= (0.5 * FRAME.refraction_per_m * squared_across(view)) * FRAME.up_view;
     vec3 at = (view * FRAME.view_from_ecef) / FRAME.noise[0].cell_m;
-    GroundNoise noise = GroundNoise(0.0, 1.0, 0.0, 1.0, 0.0);
+    GroundNoise noise = GroundNoise(0.0, 0.0, 0.0, 0.0, 0.0);
+    vec2 left = vec2(1.0);  // variance
     for (uint i = 0u; i < noise_octaves; ++i) {
         // Its waves are two cells long: it fades in from 2.4 pixels a wave on.
         float kept = min(FRAME.noise[i].cell_m / foot_m - 1.2, 1.0);
@@ -46,13 +45,13 @@ GroundNoise ground_noise(vec3 view, float foot_m) {
         float border = FRAME.noise[i].border, patches = FRAME.noise[i].patches;
         noise.border += border * both.x;
         noise.patches += patches * both.y;
-        noise.border_left -= 0.1603 * kept * kept * border * border;
-        noise.patches_left -= 0.1603 * kept * kept * patches * patches;
+        left -= 0.1603 * kept * kept * vec2(border * border, patches * patches);
         // Of the one kind where it moves no border much, so that grain and borders have nothing in common.
         noise.grain += FRAME.noise[i].grain * both.y;
         at = noise_lacunarity / 3.0 * vec3(2.0 * at.x - 2.0 * at.y + at.z, at.x + 2.0 * at.y + 2.0 * at.z, 2.0 * at.x + at.y - 2.0 * at.z);
     }
-    noise.border_left = max(noise.border_left, 0.0);
-    noise.patches_left = max(noise.patches_left, 0.0);
+    vec2 sharp = inversesqrt(max(left, 0.0) + 0.0005);
+    noise.border_sharp = sharp.x;
+    noise.patches_sharp = sharp.y;
     return noise;
 }

@@ -14,12 +14,11 @@ float pixel_rock;          // the share of bare ground that is rock
 
 // The share of ground on the one side of a border: x from it, in units in which noise moves the border by `spread` (root mean square). Of noise
 // that a pixel is too large for the mean: shares of large areas are those of small ones.
-float broken(float x, float spread, float noise, float left) {
-    float sharp = inversesqrt(left + 0.0005);
+float broken(float x, float spread, float noise, float sharp) {
     return smoothstep(-1.88, 1.88, (x / spread + noise) * sharp);  // nearly a normal distribution's
 }
-float broken(float x, float spread) { return broken(x, spread, pixel_noise.border, pixel_noise.border_left); }
-float patched(float x, float spread) { return broken(x, spread, pixel_noise.patches, pixel_noise.patches_left); }
+float broken(float x, float spread) { return broken(x, spread, pixel_noise.border, pixel_noise.border_sharp); }
+float patched(float x, float spread) { return broken(x, spread, pixel_noise.patches, pixel_noise.patches_sharp); }
 
 // Layers of rock, by height, bent by noise: of mean 0.
 float strata(float H_m, float foot_m) {
@@ -79,7 +78,7 @@ MaterialShares shares_by_rule(SurfacePoint point) {
     float snow = broken(above_m + 10.0 * point.hollow_m, 170.0) * broken(FRAME.style.materials.snow_to_deg - slope, 6.0);
     float left = 1.0 - snow;
     float high = smoothstep(0.75 * forest_m, 0.3 * forest_m, above_m);
-    float rock = left * broken(slope - middle_deg - held_deg(above_m) + 6.0 * high, 5.0, -pixel_noise.border, pixel_noise.border_left);
+    float rock = left * broken(slope - middle_deg - held_deg(above_m) + 6.0 * high, 5.0, -pixel_noise.border, pixel_noise.border_sharp);
     left -= rock;
     float dry = dry_share(point);
     // On slopes more than on level ground, which is tilled or grazed.
@@ -106,11 +105,13 @@ MaterialShares shares_by_rule(SurfacePoint point) {
     return shares;
 }
 
-// How much lower a place is than the ground of some 200 m around it.
-float hollow_m_at(SurfacePoint point) {
+// How much lower a place is than the ground of some 200 m around it. Pixels that are larger show hollows and crests at once.
+float hollow_m_at(SurfacePoint point, float pixel_m) {
+    float seen = clamp(2.0 - pixel_m / 60.0, 0.0, 1.0);
+    if (seen == 0.0) return 0.0;
     MeansPage page = page_over(means_page(point.page), uint(max(log2(250.0 / point.post_m), 0.0)), point.region);
     GroundSum around = no_ground();
     add_squares(around, means_of(page), among_squares(page, point.region), point.h_m / FRAME.exaggeration, false);
-    return around.share > 0.0 ? clamp(around.h_m / around.share, -40.0, 40.0) : 0.0;
+    return around.share > 0.0 ? seen * clamp(around.h_m / around.share, -40.0, 40.0) : 0.0;
 }
 #endif

@@ -8,15 +8,15 @@
 namespace oro {
 namespace {
 
-constexpr int side_px = 128;
+constexpr int material_side_px = 128;
 
 class MaterialPictures : public test::StyleTest {
   protected:
     // Ground that rises towards the north by `rise`, with square cells, 1,200 m high in its middle.
-    static Region slope(double post_m, double rise) {
+    static Region slope(double cell_m, double rise) {
         Region region{std::vector<RegionGrid>(1)};
         region.grids[0].field = test::square_field(
-            46.5, 8.0, post_m, 129, [&](int row, int) { return 1200.0 + rise * post_m * (64 - row); });
+            46.5, 8.0, cell_m, 129, [&](int row, int) { return 1200.0 + rise * cell_m * (64 - row); });
         return region;
     }
 
@@ -36,9 +36,9 @@ class MaterialPictures : public test::StyleTest {
     // Straight down, so that a pixel has px_m of ground.
     static Camera down(const Region& region, double px_m) {
         const HeightField& field = region.grids[0].field;
-        Camera camera = test::straight_down(field, px_m, side_px, side_px);
+        Camera camera = test::straight_down(field, px_m, material_side_px, material_side_px);
         camera.eye.h_m = 1200.0 + 1000.0 * px_m;
-        camera.vertical_fov_deg = 2.0 * std::atan(0.5 * side_px / 1000.0) * 180.0 / std::numbers::pi;
+        camera.vertical_fov_deg = 2.0 * std::atan(0.5 * material_side_px / 1000.0) * 180.0 / std::numbers::pi;
         return camera;
     }
 
@@ -48,7 +48,8 @@ class MaterialPictures : public test::StyleTest {
         style.frame = frame;
         auto found = drawn(region, camera, style, true);
         EXPECT_TRUE(found.has_value());
-        return found ? std::move(found->rgba) : std::vector<std::uint8_t>(4 * side_px * side_px);
+        return found ? std::move(found->rgba)
+                     : std::vector<std::uint8_t>(4 * material_side_px * material_side_px);
     }
 
     static std::array<double, 3> mean(const std::vector<std::uint8_t>& rgba) {
@@ -91,7 +92,9 @@ TEST_F(MaterialPictures, HaveTheTablesMeanColour) {
             px_m, one[0], one[1], one[2], other[0], other[1], other[2], contrast(with), contrast(without));
         for (std::size_t i = 0; i < 3; ++i)
             EXPECT_NEAR(one[i], other[i], 1.0) << "codes, " << px_m << " m a pixel";
-        if (px_m < 100.0) EXPECT_GT(contrast(with), contrast(without) + 2.0) << px_m << " m a pixel";
+        if (px_m < 100.0) {
+            EXPECT_GT(contrast(with), contrast(without) + 2.0) << px_m << " m a pixel";
+        }
     }
 }
 
@@ -106,11 +109,11 @@ TEST_F(MaterialPictures, StayWhereTheyAre) {
     there.eye.lon_deg += moved_px / test::metres_per_degree(46.5, 1200.0).lon;
     const auto one = picture(region, here, style), other = picture(region, there, style);
     double sum = 0.0, still = 0.0, count = 0.0;
-    for (int row = 8; row < side_px - 8; ++row) {
-        for (int column = 8; column < side_px - moved_px - 8; ++column) {
+    for (int row = 8; row < material_side_px - 8; ++row) {
+        for (int column = 8; column < material_side_px - moved_px - 8; ++column) {
             for (int c = 0; c < 3; ++c) {
                 const auto at = [&](int of) {
-                    return static_cast<std::size_t>(4 * (side_px * row + of) + c);
+                    return static_cast<std::size_t>(4 * (material_side_px * row + of) + c);
                 };
                 sum += std::abs(other[at(column)] - one[at(column + moved_px)]);
                 still += std::abs(other[at(column)] - one[at(column)]);
@@ -132,11 +135,11 @@ TEST_F(MaterialPictures, AreSampledFinelyEnough) {
     there.eye.lon_deg += 0.5 / test::metres_per_degree(46.5, 1200.0).lon;
     const auto one = picture(region, here, style), other = picture(region, there, style);
     double sum = 0.0, count = 0.0;
-    for (int row = 8; row < side_px - 8; ++row) {
-        for (int column = 8; column < side_px - 8; ++column) {
+    for (int row = 8; row < material_side_px - 8; ++row) {
+        for (int column = 8; column < material_side_px - 8; ++column) {
             for (int c = 0; c < 3; ++c) {
                 const auto at = [&](int of) {
-                    return static_cast<std::size_t>(4 * (side_px * row + of) + c);
+                    return static_cast<std::size_t>(4 * (material_side_px * row + of) + c);
                 };
                 sum += std::abs(other[at(column)] - 0.5 * (one[at(column)] + one[at(column + 1)]));
                 count += 1.0;

@@ -134,6 +134,19 @@ void put_map(const MapFrame& map, const PictureFiles& files, ordered_json& json)
                     "pixel", json_list(m[1], m[5]), "world_file", world_file_path(files.picture));
 }
 
+// What the ground's colours are made from.
+void put_style(const ShotResult& shot, const Style& style, ordered_json& json) {
+    json["footprint"] = !shot.has_means                                  ? "point"
+                        : style.frame.footprint == gpu::footprint_finest ? "finest"
+                                                                         : "mean";
+    // What says which materials the ground's colours are of; null: they are of none.
+    json["cover"] = nullptr;
+    if (style.frame.colour_by == gpu::colour_by_cover)
+        json["cover"] = shot.view.cover ? "files, and a rule where they hold nothing" : "rule";
+    json["contour_interval_m"] = nullptr;
+    if (style.frame.contours.interval_m > 0.0F) json["contour_interval_m"] = style.frame.contours.interval_m;
+}
+
 // The files by what is in them.
 void put_layers(const LayersReport& layers, bool covers, const ShotTimes& times, const PictureFiles& files,
                 ordered_json& json) {
@@ -175,15 +188,7 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
                               "direct_light", direct_light(style.sun), "time", nullptr);
     if (style.sun.time) json["sun"]["time"] = style.sun.time->text;
     json["sun"]["usual"] = style.sun.is_usual;
-    json["footprint"] = !shot.has_means                                  ? "point"
-                        : style.frame.footprint == gpu::footprint_finest ? "finest"
-                                                                         : "mean";
-    // What says which materials the ground's colours are of; null: they are of none.
-    json["cover"] = nullptr;
-    if (style.frame.colour_by == gpu::colour_by_cover)
-        json["cover"] = shot.view.cover ? "files, and a rule where they hold nothing" : "rule";
-    json["contour_interval_m"] = nullptr;
-    if (style.frame.contours.interval_m > 0.0F) json["contour_interval_m"] = style.frame.contours.interval_m;
+    put_style(shot, style, json);
     json["labels"] = labels_json(shot.labels);
     if (shot.view.vectors_read) {
         json["names"] = names_json(shot.names);
