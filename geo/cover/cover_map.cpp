@@ -58,13 +58,15 @@ Result<CoverTable> chosen_table(const std::vector<CoverSource>& sources,
                                 const std::vector<CoverTable>& tables, const CoverTable* named) {
     if (named) {
         for (const CoverSource& source : sources) {
-            const auto is_known = [&](int code) {
-                return named->is_none(code) || named->class_of(code) != nullptr;
-            };
-            if (std::ranges::none_of(source.codes, is_known) && !source.codes.empty())
-                return Error{
-                    ErrorKind::failed, source.file,
-                    "holds none of the codes of " + named->name + ", but " + codes_words(source.codes)};
+            std::set<int> unknown;
+            bool any = false;
+            for (const int code : source.codes) {
+                any = any || named->class_of(code) != nullptr;
+                if (!named->is_none(code)) unknown.insert(code);
+            }
+            if (!any && !unknown.empty())
+                return Error{ErrorKind::failed, source.file,
+                             "holds none of the codes of " + named->name + ", but " + codes_words(unknown)};
         }
         return *named;
     }
