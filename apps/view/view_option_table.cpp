@@ -200,7 +200,7 @@ void add_style_and_images(Rows looks) {
                  "reflectance, linear light that is stretched from its darkest to its brightest. auto: bytes "
                  "are codes; other numbers are what their ICC profile says, and reflectance without one. "
                  "Needs --drape.");
-    looks.add({"--landcover FILE", shown_first | changes_looks}, &ViewOptions::landcover,
+    looks.add({"--landcover FILE", changes_looks}, &ViewOptions::landcover,
               "Colour the ground by land cover: a raster whose pixels are codes of classes, in any CRS. "
               "FILE,TABLE says of which product: worldcover, corine, nlcd, cci, or a .json file of your own; "
               "without TABLE the codes tell. Several files of one table are drawn one over the other, the "
