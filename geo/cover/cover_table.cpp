@@ -48,10 +48,10 @@ std::vector<CoverGround> grounds_of(const CoverTable& table) {
 std::string codes_words(const std::set<int>& codes) {
     constexpr std::size_t most = 8;
     std::string words;
-    std::size_t told = 0;
+    std::size_t named = 0;
     for (const int code : codes) {
-        if (told == most) return words + " and " + std::to_string(codes.size() - most) + " more";
-        words += (told++ == 0 ? "" : ", ") + std::to_string(code);
+        if (named == most) return words + " and " + std::to_string(codes.size() - most) + " more";
+        words += (named++ == 0 ? "" : ", ") + std::to_string(code);
     }
     return words;
 }

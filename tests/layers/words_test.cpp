@@ -99,6 +99,7 @@ std::set<std::string> names_in(const std::string& text) {
         return found == std::string::npos ? text.size() : found + std::string_view(mark).size();
     };
     int names_of_test = 0;
+    bool is_of_imgui = false;
     for (std::size_t at = 0; at < text.size();) {
         if (text.compare(at, 2, "//") == 0) {
             at = behind("\n", at);
@@ -117,7 +118,8 @@ std::set<std::string> names_in(const std::string& text) {
             }
             at = end;
             // Names of Dear ImGui are its own.
-            const bool is_own = !name.starts_with("ImGui");
+            const bool is_own = !name.starts_with("ImGui") && !is_of_imgui;
+            is_of_imgui = name == "ImGui" && text.compare(end, 2, "::") == 0;
             if ((names_of_test == 0 || --names_of_test > 0) && is_own) names.insert(name);
             if (name == "TEST" || name == "TEST_F" || name == "TEST_P" || name == "TYPED_TEST")
                 names_of_test = 2;
