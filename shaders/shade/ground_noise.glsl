@@ -30,8 +30,8 @@ vec2 lattice_noise(uvec3 cell, vec3 part, uint octave) {
     return 2.0 * mix(low, high, on.z) - 3.0;
 }
 
-// Of a place in view coordinates, as it is seen; foot_m: the side of a pixel on the ground.
-GroundNoise ground_noise(vec3 view, float foot_m) {
+// Of a place in view coordinates, as it is seen; foot_m: the side of a pixel on the ground; least: variance that borders have anyhow.
+GroundNoise ground_noise(vec3 view, float foot_m, float least) {
     if (FRAME.refraction_per_m != 0.0) view -= (0.5 * FRAME.refraction_per_m * squared_across(view)) * FRAME.up_view;
     vec3 at = (view * FRAME.view_from_ecef) / FRAME.noise[0].cell_m;
     GroundNoise noise = GroundNoise(0.0, 0.0, 0.0, 0.0, 0.0);
@@ -50,7 +50,7 @@ GroundNoise ground_noise(vec3 view, float foot_m) {
         noise.grain += FRAME.noise[i].grain * both.y;
         at = noise_lacunarity / 3.0 * vec3(2.0 * at.x - 2.0 * at.y + at.z, at.x + 2.0 * at.y + 2.0 * at.z, 2.0 * at.x + at.y - 2.0 * at.z);
     }
-    vec2 sharp = inversesqrt(max(left, 0.0) + 0.0005);
+    vec2 sharp = inversesqrt(max(left, 0.0) + least);
     noise.border_sharp = sharp.x;
     noise.patches_sharp = sharp.y;
     return noise;

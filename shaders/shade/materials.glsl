@@ -38,7 +38,8 @@ void find_pixel_materials(SurfacePoint point) {
     vec3 to_eye = normalize(-point.view) * axes_at(point.view);
     // A square of as much ground as the pixel's: where that is seen at a grazing angle its longer side alone would leave nothing.
     float foot_m = length(point.view) * inversesqrt(max(dot(point.normal, to_eye), 0.04)) / FRAME.pixels_per_tangent;
-    pixel_noise = ground_noise(point.view, foot_m);
+    // A part of a footprint has a few places for all the slopes and heights that are in it: sharp borders between these would be chance.
+    pixel_noise = ground_noise(point.view, foot_m, point.parts > 0 ? 0.04 : 0.0005);
     float patches = clamp(pixel_noise.patches, -2.0, 2.0);
     for (uint i = 0u; i < material_count; ++i) {
         vec3 colour = FRAME.style.materials.of[i].colour + patches * FRAME.style.materials.of[i].patches;

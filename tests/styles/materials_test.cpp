@@ -8,15 +8,15 @@
 namespace oro {
 namespace {
 
-constexpr int material_side_px = 128;
+constexpr int picture_px = 128;
 
 class MaterialPictures : public test::StyleTest {
   protected:
     // Ground that rises towards the north by `rise`, with square cells, 1,200 m high in its middle.
-    static Region slope(double cell_m, double rise) {
+    static Region slope(double spacing_m, double rise) {
         Region region{std::vector<RegionGrid>(1)};
         region.grids[0].field = test::square_field(
-            46.5, 8.0, cell_m, 129, [&](int row, int) { return 1200.0 + rise * cell_m * (64 - row); });
+            46.5, 8.0, spacing_m, 129, [&](int row, int) { return 1200.0 + rise * spacing_m * (64 - row); });
         return region;
     }
 
@@ -36,9 +36,9 @@ class MaterialPictures : public test::StyleTest {
     // Straight down, so that a pixel has px_m of ground.
     static Camera down(const Region& region, double px_m) {
         const HeightField& field = region.grids[0].field;
-        Camera camera = test::straight_down(field, px_m, material_side_px, material_side_px);
+        Camera camera = test::straight_down(field, px_m, picture_px, picture_px);
         camera.eye.h_m = 1200.0 + 1000.0 * px_m;
-        camera.vertical_fov_deg = 2.0 * std::atan(0.5 * material_side_px / 1000.0) * 180.0 / std::numbers::pi;
+        camera.vertical_fov_deg = 2.0 * std::atan(0.5 * picture_px / 1000.0) * 180.0 / std::numbers::pi;
         return camera;
     }
 
@@ -48,8 +48,7 @@ class MaterialPictures : public test::StyleTest {
         style.frame = frame;
         auto found = drawn(region, camera, style, true);
         EXPECT_TRUE(found.has_value());
-        return found ? std::move(found->rgba)
-                     : std::vector<std::uint8_t>(4 * material_side_px * material_side_px);
+        return found ? std::move(found->rgba) : std::vector<std::uint8_t>(4 * picture_px * picture_px);
     }
 
     static std::array<double, 3> mean(const std::vector<std::uint8_t>& rgba) {
@@ -70,13 +69,13 @@ class MaterialPictures : public test::StyleTest {
 
 // Patches and grain take from the one place what they give to the other.
 TEST_F(MaterialPictures, HaveTheTablesMeanColour) {
-    for (const double px_m : {0.3, 4.0, 600.0}) {
-        const Region region = slope(px_m < 100.0 ? 30.0 : 1500.0, 0.0);
+    for (const double px_m : {20.0, 40.0, 2000.0}) {
+        const Region region = slope(1.5 * px_m, 0.0);
         gpu::FrameStyle of_one = natural(region);
         const gpu::Material meadow = of_one.materials.of[gpu::material_meadow];
         for (gpu::Material& material : of_one.materials.of) {
             material = meadow;
-            // Patches are kilometres wide: of a small piece of ground the mean is that of its patch.
+            // Patches are kilometres wide, grain up to 400 m: of less ground the mean is that of its patch.
             if (px_m < 100.0) material.patches = gpu::vec3(0.0F);
         }
         gpu::FrameStyle flat = of_one;
@@ -109,11 +108,11 @@ TEST_F(MaterialPictures, StayWhereTheyAre) {
     there.eye.lon_deg += moved_px / test::metres_per_degree(46.5, 1200.0).lon;
     const auto one = picture(region, here, style), other = picture(region, there, style);
     double sum = 0.0, still = 0.0, count = 0.0;
-    for (int row = 8; row < material_side_px - 8; ++row) {
-        for (int column = 8; column < material_side_px - moved_px - 8; ++column) {
+    for (int row = 8; row < picture_px - 8; ++row) {
+        for (int column = 8; column < picture_px - moved_px - 8; ++column) {
             for (int c = 0; c < 3; ++c) {
                 const auto at = [&](int of) {
-                    return static_cast<std::size_t>(4 * (material_side_px * row + of) + c);
+                    return static_cast<std::size_t>(4 * (picture_px * row + of) + c);
                 };
                 sum += std::abs(other[at(column)] - one[at(column + moved_px)]);
                 still += std::abs(other[at(column)] - one[at(column)]);
@@ -135,11 +134,11 @@ TEST_F(MaterialPictures, AreSampledFinelyEnough) {
     there.eye.lon_deg += 0.5 / test::metres_per_degree(46.5, 1200.0).lon;
     const auto one = picture(region, here, style), other = picture(region, there, style);
     double sum = 0.0, count = 0.0;
-    for (int row = 8; row < material_side_px - 8; ++row) {
-        for (int column = 8; column < material_side_px - 8; ++column) {
+    for (int row = 8; row < picture_px - 8; ++row) {
+        for (int column = 8; column < picture_px - 8; ++column) {
             for (int c = 0; c < 3; ++c) {
                 const auto at = [&](int of) {
-                    return static_cast<std::size_t>(4 * (material_side_px * row + of) + c);
+                    return static_cast<std::size_t>(4 * (picture_px * row + of) + c);
                 };
                 sum += std::abs(other[at(column)] - 0.5 * (one[at(column)] + one[at(column + 1)]));
                 count += 1.0;
@@ -179,7 +178,7 @@ TEST_F(MaterialPictures, RefuseWhatIsAmiss) {
               std::string::npos);
     EXPECT_NE(line_of("\"lat_deg\": [28.7, 40]", "\"lat_deg\": [40, 28.7]").find("'lat_deg' must ascend"),
               std::string::npos);
-    EXPECT_NE(line_of("\"grain\": 0.1 }", "\"grain\": 0.1, \"hue\": 1 }").find("hue"), std::string::npos);
+    EXPECT_NE(line_of("\"grain\": 0.015 }", "\"grain\": 0.015, \"hue\": 1 }").find("hue"), std::string::npos);
 }
 
 }  // namespace
