@@ -37,8 +37,8 @@ GroundNoise ground_noise(vec3 view, float foot_m, float least) {
     GroundNoise noise = GroundNoise(0.0, 0.0, 0.0, 0.0, 0.0);
     vec2 left = vec2(1.0);  // variance
     for (uint i = 0u; i < noise_octaves; ++i) {
-        // Its waves are two cells long: it fades in from 2.4 pixels a wave on.
-        float kept = min(FRAME.noise[i].cell_m / foot_m - 1.2, 1.0);
+        // From two to three pixels long it fades in.
+        float kept = min(FRAME.noise[i].cell_m / foot_m - 2.0, 1.0);
         if (kept <= 0.0) break;
         vec3 from_cell = at + FRAME.noise[i].part, whole = floor(from_cell);
         vec2 both = kept * lattice_noise(FRAME.noise[i].cell + uvec3(ivec3(whole)), from_cell - whole, i);

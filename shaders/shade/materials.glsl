@@ -35,7 +35,7 @@ float strata(float H_m, float foot_m) {
 void find_pixel_materials(SurfacePoint point) {
     vec3 to_eye = normalize(-point.view) * axes_at(point.view);
     // A square of as much ground as the pixel's: where that is seen at a grazing angle its longer side alone would leave nothing.
-    float foot_m = length(point.view) * inversesqrt(max(dot(point.normal, to_eye), 0.04)) / FRAME.pixels_per_tangent;
+    float foot_m = length(point.view) * inversesqrt(max(dot(point.normal, to_eye), 0.15)) / FRAME.pixels_per_tangent;
     // A part of a footprint has a few places for all the slopes and heights that are in it: sharp borders between these would be chance.
     pixel_noise = ground_noise(point.view, foot_m, point.parts > 0 ? 0.04 : 0.0005);
     float patches = clamp(pixel_noise.patches, -2.0, 2.0);
@@ -63,21 +63,21 @@ MaterialShares shares_by_rule(SurfacePoint point) {
     float above_m = above_snow_line_m(point), slope = slope_deg(point), forest_m = FRAME.style.cover.forest_m;
     float middle_deg = 0.5 * (FRAME.style.cover.rock_from_deg + FRAME.style.cover.rock_to_deg);
     // Snow lies longest in hollows, and slides from walls.
-    float snow = broken(above_m + 10.0 * point.hollow_m, 170.0) * broken(FRAME.style.materials.snow_to_deg - slope, 6.0);
+    float snow = broken(above_m + 10.0 * point.hollow_m, 210.0) * broken(FRAME.style.materials.snow_to_deg - slope, 8.0);
     float left = 1.0 - snow;
     float high = smoothstep(0.75 * forest_m, 0.3 * forest_m, above_m);
-    float rock = left * broken(slope - middle_deg - held_deg(above_m) + 6.0 * high, 5.0, -pixel_noise.border, pixel_noise.border_sharp);
+    float rock = left * broken(slope - middle_deg - held_deg(above_m) + 6.0 * high, 7.0, -pixel_noise.border, pixel_noise.border_sharp);
     left -= rock;
     float dry = dry_share(point);
     // On slopes more than on level ground, which is tilled or grazed.
-    float wooded = min((forest_m - above_m) / 130.0, clamp(0.045 * (slope - 10.0) + 0.025 * point.hollow_m, -0.7, 0.9));
+    float wooded = min((forest_m - above_m) / 160.0, clamp(0.04 * (slope - 10.0) + 0.025 * point.hollow_m, -0.7, 0.9));
     float forest = left * (1.0 - dry) * broken(wooded, 1.0);
     left -= forest;
     float broad = patched((1.9 * forest_m - above_m) / 220.0, 1.0);
-    float green = broken((0.5 * forest_m - above_m) / 150.0 - max(slope - 30.0, 0.0) / 5.0 + clamp(0.04 * point.hollow_m, -1.0, 1.0), 1.0);
+    float green = broken((0.5 * forest_m - above_m) / 150.0 - max(slope - 30.0, 0.0) / 6.0 + clamp(0.04 * point.hollow_m, -1.0, 1.0), 1.0);
     float grown = left * green * (1.0 - dry);
     float shrub = grown * patched(0.2 - abs(above_m - 0.85 * forest_m) / 120.0, 1.0);
-    float crops = (grown - shrub) * patched(min(0.2 - 0.4 * (slope - 3.0), (2.0 * forest_m - above_m) / 300.0), 1.0);
+    float crops = (grown - shrub) * patched(min(0.2 - 0.3 * (slope - 3.0), (2.0 * forest_m - above_m) / 300.0), 1.0);
     float bare = left * green * dry;
     MaterialShares shares;
     shares.of[material_rock] = rock;
