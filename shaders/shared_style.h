@@ -138,7 +138,7 @@ struct NoiseOctave {
     float cell_m;   // its edge
     float border;   // the octave's amplitude in what moves borders; the sum of their variances is 1,
     float patches;  // ... in patches of colour, the same,
-    float grain;    // ... and in grain: 0 or what gives the octave a root mean square of 1
+    float grain;    // ... and in grain: 0 to what gives the octave a root mean square of 1.5
 };
 
 // Water in the ground's heights, in air. 0 in `on`: none is looked for. Level areas are water: see

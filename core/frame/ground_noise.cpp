@@ -25,7 +25,7 @@ Amplitudes amplitudes(double cell_m) {
     return {band(cell_m, 1100.0, 0.55, 0.3), band(cell_m, 1500.0, 0.25, 0.2),
             cell_m > 400.0   ? 0.0
             : cell_m > 100.0 ? 0.6
-                             : 1.0};
+                             : 1.5};
 }
 
 }  // namespace

@@ -75,8 +75,8 @@ float dry_share(SurfacePoint point) {
 MaterialShares shares_by_rule(SurfacePoint point) {
     float above_m = above_snow_line_m(point), slope = slope_deg(point), forest_m = FRAME.style.cover.forest_m;
     float middle_deg = 0.5 * (FRAME.style.cover.rock_from_deg + FRAME.style.cover.rock_to_deg);
-    // Snow lies longest in hollows, and slides from walls.
-    float snow = broken(above_m + 10.0 * point.hollow_m, 210.0) * broken(FRAME.style.materials.snow_to_deg - slope, 8.0);
+    // Snow lies longest in hollows, and slides from walls; where trees grow it has gone.
+    float snow = smoothstep(0.8 * forest_m, 0.5 * forest_m, above_m) * broken(above_m + 4.0 * point.hollow_m, 210.0) * broken(FRAME.style.materials.snow_to_deg - slope, 8.0);
     float left = 1.0 - snow;
     float high = smoothstep(0.75 * forest_m, 0.3 * forest_m, above_m);
     float rock = left * broken(slope - middle_deg - held_deg(above_m) + 6.0 * high, 7.0, -pixel_noise.border, pixel_noise.border_sharp);
