@@ -201,7 +201,9 @@ void add_style_and_images(Rows looks) {
                  "are codes; other numbers are what their ICC profile says, and reflectance without one. "
                  "Needs --drape.");
     looks.add({"--landcover FILE", changes_looks}, &ViewOptions::landcover,
-              "Colour the ground by land cover: a raster whose pixels are codes of classes, in any CRS. "
+              "Colour the ground by land cover: a raster whose pixels are codes of classes, in any CRS, or "
+              "polygons "
+              "with a field of codes. "
               "FILE,TABLE says of which product: worldcover, corine, nlcd, cci, or a .json file of your own; "
               "without TABLE the codes tell. Several files of one table are drawn one over the other, the "
               "last on top. "

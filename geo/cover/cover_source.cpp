@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "geo/cover/cover_polygons.h"
 #include "geo/drape/raster_opening.h"
 #include "geo/drape/window_read.h"
 #include "geo/files/guarded_files.h"
@@ -85,6 +86,7 @@ Result<void> describe_cover(CoverSource& source, const GdalMessages& messages, F
 }  // namespace
 
 Result<CoverSource> open_cover_source(const std::string& file) {
+    if (is_vector_file(file)) return open_cover_polygons(file);
     start_gdal();
     const GdalMessages messages;
     FileWatch watch(opening_limit_s);

@@ -20,6 +20,7 @@ struct CoverSource : PlacedRaster {
 // Looks at a raster in a format that terrain is read from: where it lies, and which codes it holds. Errors:
 // those of open_image(); numbers that are no whole ones, and colours, which are no classes; more than 4096
 // different codes.
+// Of a file of vectors: open_cover_polygons().
 Result<CoverSource> open_cover_source(const std::string& file);
 
 }  // namespace oro

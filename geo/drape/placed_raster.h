@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct PlacedRaster {
     std::vector<std::string> files;  // that it is made of, for those who must not write over them
     std::uint64_t fingerprint{};     // fingerprint of these files (files_fingerprint)
     std::vector<std::string> notes;  // what a user must know, one line each
+    // The pixels of what is no raster in its file, row by row; else null.
+    std::shared_ptr<std::vector<std::uint16_t>> held;
 };
 
 // XXH64 of the bytes of some files, each with its length; of one longer than 256 MiB its length, its ends,

@@ -40,6 +40,10 @@ Result<Dataset> open_dataset(PlacedRaster& raster, const GdalMessages& messages)
     return dataset;
 }
 
+Dataset held_dataset(const PlacedRaster& raster) {
+    return dataset_over(raster.held->data(), GDT_UInt16, raster.columns, raster.rows);
+}
+
 Result<void> place_raster(PlacedRaster& raster, GDALDatasetH dataset) {
     ORO_TRY(const SpatialReference crs, crs_of(dataset));
     auto& m = raster.crs_from_pixel;

@@ -13,6 +13,8 @@ namespace oro {
 // and what is doubtful of them. Errors (a reason, without the file's name): as inspect_raster's for what a
 // raster names; a format that is not accepted.
 Result<Dataset> open_dataset(PlacedRaster& raster, const GdalMessages& messages);
+// Over the pixels that a raster holds itself, to be read; null where there is no memory.
+Dataset held_dataset(const PlacedRaster& raster);
 // Fills in where it lies. Errors (a reason, without the file's name): no CRS; a georeference that is no map
 // from pixels to places.
 Result<void> place_raster(PlacedRaster& raster, GDALDatasetH dataset);

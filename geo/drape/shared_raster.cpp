@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "geo/drape/raster_opening.h"
 #include "geo/files/guarded_files.h"
 
 namespace oro {
@@ -21,9 +22,11 @@ Result<OpenRaster> SharedRaster::take() const {
     if (!placing)
         return Error{ErrorKind::failed, raster_->file,
                      "PROJ knows no way from WGS84 to its CRS, " + raster_->crs};
-    Dataset dataset(GDALOpenEx(raster_->file.c_str(),
-                               GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, trusted_drivers(),
-                               nullptr, nullptr));
+    Dataset dataset = raster_->held
+                          ? held_dataset(*raster_)
+                          : Dataset(GDALOpenEx(raster_->file.c_str(),
+                                               GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                                               trusted_drivers(), nullptr, nullptr));
     if (!dataset || !watch.fault().empty())
         return Error{ErrorKind::failed, raster_->file,
                      watch.fault().empty() ? "cannot be opened: " + messages.last("the file is damaged")

@@ -180,6 +180,19 @@ std::string GdalMessages::warning() const {
     return in_one_line(warning_);
 }
 
+Dataset dataset_over(void* pixels, GDALDataType type, int columns, int rows) {
+    const GDALDriverH memory = GDALGetDriverByName("MEM");
+    if (!memory) return nullptr;
+    Dataset dataset(GDALCreate(memory, "", columns, rows, 0, type, nullptr));
+    if (!dataset) return nullptr;
+    std::array<char, 64> pointer{};
+    CPLPrintPointer(pointer.data(), pixels, static_cast<int>(pointer.size()) - 1);
+    const std::string option = std::string("DATAPOINTER=") + pointer.data();
+    const char* const options[] = {option.c_str(), nullptr};
+    if (GDALAddBand(dataset.get(), type, const_cast<char**>(options)) != CE_None) return nullptr;
+    return dataset;
+}
+
 SpatialReference wgs84_degrees() {
     SpatialReference reference(OSRNewSpatialReference(nullptr));
     OSRImportFromEPSG(reference.get(), 4326);

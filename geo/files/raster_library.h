@@ -47,6 +47,9 @@ struct CloseDataset {
 };
 using Dataset = std::unique_ptr<void, CloseDataset>;
 
+// A raster of one band over memory that outlives it, row by row; null where the library has no memory for it.
+Dataset dataset_over(void* pixels, GDALDataType type, int columns, int rows);
+
 struct FreeXml {
     void operator()(CPLXMLNode* node) const { CPLDestroyXMLNode(node); }
 };

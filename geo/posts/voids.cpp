@@ -15,20 +15,6 @@ constexpr double reach_posts = 100.0;
 // What a post holds that GDALFillNodata found no neighbour for.
 constexpr float not_filled = -32768.0F;
 
-// A raster over memory that is ours.
-Dataset over(void* data, GDALDataType type, const PostGrid& grid) {
-    const GDALDriverH memory = GDALGetDriverByName("MEM");
-    if (!memory) return nullptr;
-    Dataset dataset(GDALCreate(memory, "", grid.columns(), grid.rows(), 0, type, nullptr));
-    if (!dataset) return nullptr;
-    std::array<char, 64> pointer{};
-    CPLPrintPointer(pointer.data(), data, static_cast<int>(pointer.size()) - 1);
-    const std::string option = std::string("DATAPOINTER=") + pointer.data();
-    const char* const options[] = {option.c_str(), nullptr};
-    if (GDALAddBand(dataset.get(), type, const_cast<char**>(options)) != CE_None) return nullptr;
-    return dataset;
-}
-
 }  // namespace
 
 Result<std::uint64_t> fill_voids(JoinedSurface& surface, const PostGrid& grid) {
@@ -40,8 +26,8 @@ Result<std::uint64_t> fill_voids(JoinedSurface& surface, const PostGrid& grid) {
         known[i] = is_void(heights[i]) ? 0 : 255;
         if (!known[i]) heights[i] = not_filled;
     }
-    const Dataset target = over(heights.data(), GDT_Float32, grid);
-    const Dataset mask = over(known.data(), GDT_Byte, grid);
+    const Dataset target = dataset_over(heights.data(), GDT_Float32, grid.columns(), grid.rows());
+    const Dataset mask = dataset_over(known.data(), GDT_Byte, grid.columns(), grid.rows());
     const char* const options[] = {"TEMP_FILE_DRIVER=MEM", "NODATA=-32768", nullptr};
     if (!target || !mask ||
         GDALFillNodata(GDALGetRasterBand(target.get(), 1), GDALGetRasterBand(mask.get(), 1), reach_posts, 0,
