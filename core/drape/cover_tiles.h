@@ -23,6 +23,10 @@ inline constexpr std::size_t cover_pairs = 4;
 struct GroundColour {
     glm::vec3 colour{};         // linear light, Rec. 709 primaries
     std::uint32_t materials{};  // numbers of one or two materials, in the low and the next byte; alike of one
+    // What is steeper, lower or higher is rock or scree instead: known to a degree and to 50 m.
+    float steepest_deg{90.0F};
+    float lowest_H_m{-12000.0F};
+    float highest_H_m{9000.0F};
 };
 
 // Safe to ask from several threads. load() fills texels as above; the finest level has one ground a texel,

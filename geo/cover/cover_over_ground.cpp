@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "core/base/srgb.h"
 #include "core/terrain/level_grid.h"
 #include "geo/drape/shared_raster.h"
 #include "geo/drape/tile_sampling.h"
@@ -17,10 +18,8 @@ namespace {
 constexpr int texels_along = gpu::drape_stride;
 using CoverShares = CoverTexels::Shares;
 
-// Light of a colour's code. Source: IEC 61966-2-1:1999, 5.2.
 float light_of_code(std::uint8_t code) {
-    const double share = code / 255.0;
-    return static_cast<float>(share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4));
+    return static_cast<float>(light_of_srgb(code / 255.0));
 }
 
 std::vector<GroundColour> colours_of(const CoverTable& table) {
@@ -31,6 +30,9 @@ std::vector<GroundColour> colours_of(const CoverTable& table) {
                       light_of_code(ground.colour[2])};
         one.materials = static_cast<std::uint32_t>(ground.materials.front()) |
                         static_cast<std::uint32_t>(ground.materials.back()) << 8U;
+        one.steepest_deg = static_cast<float>(ground.steepest_deg);
+        one.lowest_H_m = static_cast<float>(ground.lowest_H_m);
+        one.highest_H_m = static_cast<float>(ground.highest_H_m);
     }
     return colours;
 }
@@ -74,7 +76,8 @@ class CoverOverGround final : public CoverTiles {
         : grid_(grid), map_(std::move(map)), finest_(finest), colours_(colours_of(map_->table())) {
         const std::vector<CoverGround> grounds = grounds_of(map_->table());
         for (const CoverClass& one : map_->table().classes) {
-            const auto at = std::ranges::find(grounds, CoverGround{one.colour, one.materials});
+            const auto at =
+                std::ranges::find_if(grounds, [&](const CoverGround& ground) { return ground.is_of(one); });
             for (const int code : one.codes)
                 ground_of_[code] = static_cast<std::uint8_t>(at - grounds.begin());
         }
@@ -101,15 +104,13 @@ class CoverOverGround final : public CoverTiles {
 void CoverOverGround::add_samples(const CoverSource& source, const TilePlacing& placing,
                                   const PixelPlace& moved, const Sampling& sampling,
                                   const CoverPixels& pixels, std::vector<CoverShares>& shares) const {
-    const float share = 1.0F / static_cast<float>(sampling.columns * sampling.rows);
+    const float share = 1.0F / static_cast<float>(sampling.count());
     float before = NAN;
     std::size_t ground = unknown_ground;  // of the code before: most are alike
     for (int i = 0; i < texels_along * texels_along; ++i) {
         const int row = i / texels_along, column = i % texels_along;
-        for (int k = 0; k < sampling.rows * sampling.columns; ++k) {
-            const double u = column - 1 + (k % sampling.columns + 0.5) / sampling.columns - 0.5;
-            const double v = row - 1 + (k / sampling.columns + 0.5) / sampling.rows - 0.5;
-            const PixelPlace place = placing.at(u, v);
+        for (int k = 0; k < sampling.count(); ++k) {
+            const PixelPlace at = sampling.place_in(column, row, k), place = placing.at(at.column, at.row);
             if (!place.there()) continue;
             const float code = pixels.at(place.column + moved.column, place.row + moved.row);
             if (std::isnan(code)) continue;

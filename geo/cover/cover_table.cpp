@@ -39,8 +39,15 @@ bool CoverTable::is_none(int code) const {
 std::vector<CoverGround> grounds_of(const CoverTable& table) {
     std::vector<CoverGround> grounds;
     for (const CoverClass& one : table.classes) {
-        const CoverGround ground{one.colour, one.materials};
-        if (std::ranges::find(grounds, ground) == grounds.end()) grounds.push_back(ground);
+        const auto found =
+            std::ranges::find_if(grounds, [&](const CoverGround& ground) { return ground.is_of(one); });
+        if (found == grounds.end()) {
+            grounds.push_back({one.colour, one.materials, one.steepest_deg, one.lowest_H_m, one.highest_H_m});
+            continue;
+        }
+        found->steepest_deg = std::max(found->steepest_deg, one.steepest_deg);
+        found->lowest_H_m = std::min(found->lowest_H_m, one.lowest_H_m);
+        found->highest_H_m = std::max(found->highest_H_m, one.highest_H_m);
     }
     return grounds;
 }

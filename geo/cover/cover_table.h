@@ -8,27 +8,9 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/drape/materials.h"
 
 namespace oro {
-
-// What the ground is made of. The numbers are those of material_names.
-enum class Material : std::uint8_t {
-    rock,
-    scree,
-    meadow,
-    shrub,
-    needle_forest,
-    broad_forest,
-    crops,
-    bare,
-    snow,
-    water,
-    built,
-    wetland
-};
-inline constexpr std::array material_names{"rock",          "scree",        "meadow", "shrub",
-                                           "needle forest", "broad forest", "crops",  "bare",
-                                           "snow",          "water",        "built",  "wetland"};
 
 // A class of a product. Its heights and numbers are means of such places, and stand where its table has their
 // sources.
@@ -62,11 +44,16 @@ struct CoverTable {
 // Different colours and materials that a table may have together: a texel of cover tiles counts them with
 // four bits.
 inline constexpr std::size_t most_grounds = 15;
-// A colour with its materials, that one or several classes have.
+// A colour with its materials, that one or several classes have, and the widest of their limits.
 struct CoverGround {
     std::array<std::uint8_t, 3> colour{};
     std::vector<Material> materials;
-    bool operator==(const CoverGround&) const = default;
+    double steepest_deg{};
+    double lowest_H_m{};
+    double highest_H_m{};
+    [[nodiscard]] bool is_of(const CoverClass& one) const {
+        return colour == one.colour && materials == one.materials;
+    }
 };
 // Those of a table, in the order of its classes, each once.
 std::vector<CoverGround> grounds_of(const CoverTable& table);

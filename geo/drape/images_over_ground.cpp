@@ -27,14 +27,12 @@ struct SharedImage {
 
 void add_samples(const TilePlacing& tile, const PixelPlace& moved, const Sampling& sampling,
                  const ImagePixels& pixels, std::vector<Colour>& texels) {
-    const float share = 1.0F / static_cast<float>(sampling.columns * sampling.rows);
+    const float share = 1.0F / static_cast<float>(sampling.count());
     for (int row = 0; row < side; ++row) {
         for (int column = 0; column < side; ++column) {
             Colour& sum = texels[static_cast<std::size_t>(row * side + column)];
-            for (int i = 0; i < sampling.rows * sampling.columns; ++i) {
-                const double u = column - 1 + (i % sampling.columns + 0.5) / sampling.columns - 0.5;
-                const double v = row - 1 + (i / sampling.columns + 0.5) / sampling.rows - 0.5;
-                const PixelPlace place = tile.at(u, v);
+            for (int i = 0; i < sampling.count(); ++i) {
+                const PixelPlace at = sampling.place_in(column, row, i), place = tile.at(at.column, at.row);
                 if (!place.there()) continue;
                 const Colour one = pixels.at(place.column + moved.column, place.row + moved.row);
                 for (std::size_t k = 0; k < 4; ++k) sum[k] += share * one[k];

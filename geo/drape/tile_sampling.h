@@ -16,6 +16,12 @@ struct Sampling {
     int step{1};
     int columns{1};
     int rows{1};
+    [[nodiscard]] int count() const { return columns * rows; }
+    // The number-th place of a texel, to be asked of TilePlacing::at.
+    [[nodiscard]] PixelPlace place_in(int texel_column, int texel_row, int number) const {
+        return {texel_column - 1 + (number % columns + 0.5) / columns - 0.5,
+                texel_row - 1 + (number / columns + 0.5) / rows - 0.5};
+    }
 };
 // per_texel: TilePlacing::per_texel().
 Sampling sampling_of(const PixelPlace& per_texel);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -170,6 +171,17 @@ void DrapeStore::forget_empty() {
     std::erase_if(empty_, [&](const auto& one) { return one.second < cache_.items().frame(); });
 }
 
+// As shaders/shade/materials.glsl reads them: degrees in the low 7 bits, then heights over -12,000 m in steps
+// of 50 m, 9 bits each.
+std::uint32_t limits_of(const GroundColour& ground) {
+    const auto whole = [](float value, float most) {
+        return static_cast<std::uint32_t>(std::lround(std::clamp(value, 0.0F, most)));
+    };
+    const auto steps = [&](float H_m) { return whole((H_m + 12000.0F) / 50.0F, 511.0F); };
+    return whole(ground.steepest_deg, 90.0F) | steps(ground.lowest_H_m) << 7U |
+           steps(ground.highest_H_m) << 16U;
+}
+
 // As shaders/shade/cover_tiles.glsl reads them.
 void DrapeStore::put_grounds(std::vector<gpu::DrapeTile>& places) const {
     gpu::DrapeTile& head = places[table_places];
@@ -181,7 +193,7 @@ void DrapeStore::put_grounds(std::vector<gpu::DrapeTile>& places) const {
         const GroundColour& ground = cover_->grounds()[i];
         const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
         places[table_places + 1 + i] = {bits(ground.colour.x), bits(ground.colour.y), bits(ground.colour.z),
-                                        gpu::uvec2(ground.materials, 0U)};
+                                        gpu::uvec2(ground.materials, limits_of(ground))};
     }
 }
 

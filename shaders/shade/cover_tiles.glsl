@@ -50,8 +50,8 @@ void cover_tap(SurfacePoint point, DrapeFootprint footprint, int tap, ivec2 leve
 }
 
 #ifdef IN_AIR
-// Of a ground's mean colour and its materials (DrapeStore): what that place of it has (materials.glsl).
-vec3 textured(vec3 colour, uint materials);
+// Of a ground's mean colour, its materials and limits (DrapeStore): what that place of it has (materials.glsl).
+vec3 textured(vec3 colour, uint materials, uint limits);
 #endif
 
 // Colour, linear light, times the share of what is known, and that share.
@@ -63,7 +63,7 @@ vec4 cover_of_texel(uint texel) {
         DrapeTile entry = DrapeTiles(FRAME.drape.tiles).at[FRAME.drape.tile_mask + 2u + ground];
         vec3 colour = uintBitsToFloat(uvec3(entry.name, entry.row, entry.column));
 #ifdef IN_AIR
-        if (of_materials) colour = textured(colour, entry.texels.x);
+        if (of_materials) colour = textured(colour, entry.texels.x, entry.texels.y);
 #endif
         sum += float((texel >> 4u) & 15u) / 15.0 * vec4(colour, 1.0);
     }

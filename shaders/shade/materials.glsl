@@ -11,6 +11,8 @@ GroundNoise pixel_noise;
 vec3 pixel_materials[12];  // the materials' colours there
 float pixel_second;        // the share of the second of two materials that a map does not tell apart
 float pixel_rock;          // the share of bare ground that is rock
+float pixel_slope_deg;
+float pixel_H_m;
 
 // The share of ground on the one side of a border: x from it, in units in which noise moves the border by `spread` (root mean square). Of noise
 // that a pixel is too large for the mean: shares of large areas are those of small ones.
@@ -34,6 +36,9 @@ float strata(float H_m, float foot_m) {
     return sum;
 }
 
+// Ground this steep is rock in half of all places.
+float half_rock_deg() { return 0.5 * (FRAME.style.cover.rock_from_deg + FRAME.style.cover.rock_to_deg); }
+
 void find_pixel_materials(SurfacePoint point) {
     vec3 to_eye = normalize(-point.view) * axes_at(point.view);
     // A square of as much ground as the pixel's: where that is seen at a grazing angle its longer side alone would leave nothing.
@@ -47,16 +52,27 @@ void find_pixel_materials(SurfacePoint point) {
     }
     pixel_materials[material_rock] *= 1.0 + 0.3 * strata(point.mean_H_m, foot_m);
     pixel_second = patched(0.0, 1.0);
-    float middle_deg = 0.5 * (FRAME.style.cover.rock_from_deg + FRAME.style.cover.rock_to_deg);
-    pixel_rock = broken(slope_deg(point) - middle_deg, 7.0);
+    pixel_slope_deg = slope_deg(point);
+    pixel_H_m = point.mean_H_m;
+    pixel_rock = broken(pixel_slope_deg - half_rock_deg(), 7.0);
 }
 
-// The materials' noise on a map's own colour, whose mean it stays. Bare ground that is steep is rock, whatever a map's colour of it.
-vec3 textured(vec3 colour, uint materials) {
+// The share of ground that is neither steeper nor lower nor higher than a map's class of it can be (DrapeStore).
+float share_within(uint limits) {
+    float steepest_deg = float(limits & 127u);
+    vec2 H_m = 50.0 * vec2((limits >> 7u) & 511u, (limits >> 16u) & 511u) - 12000.0;
+    return broken(steepest_deg - pixel_slope_deg, 4.0) * broken(pixel_H_m - H_m.x, 100.0) * broken(H_m.y - pixel_H_m, 100.0);
+}
+
+// The materials' noise on a map's own colour, whose mean it stays. Bare ground that is steep is rock, whatever a map's colour of it; rock or
+// scree is other ground beyond its limits.
+vec3 textured(vec3 colour, uint materials, uint limits) {
     uint first = materials & 255u, second = (materials >> 8u) & 255u;
     vec3 mean = 0.5 * (FRAME.style.materials.of[first].colour + FRAME.style.materials.of[second].colour);
     vec3 own = colour * mix(pixel_materials[first], pixel_materials[second], pixel_second) / max(mean, vec3(0.001));
-    return first == material_bare ? mix(own, pixel_materials[material_rock], pixel_rock) : own;
+    vec3 rock = pixel_materials[material_rock];
+    if (first == material_bare) return mix(own, rock, pixel_rock);
+    return mix(mix(pixel_materials[material_scree], rock, pixel_rock), own, share_within(limits));
 }
 
 vec3 colour_of_shares(MaterialShares shares) {
@@ -74,12 +90,11 @@ float dry_share(SurfacePoint point) {
 
 MaterialShares shares_by_rule(SurfacePoint point) {
     float above_m = above_snow_line_m(point), slope = slope_deg(point), forest_m = FRAME.style.cover.forest_m;
-    float middle_deg = 0.5 * (FRAME.style.cover.rock_from_deg + FRAME.style.cover.rock_to_deg);
     // Snow lies longest in hollows, and slides from walls; where trees grow it has gone.
     float snow = smoothstep(0.8 * forest_m, 0.5 * forest_m, above_m) * broken(above_m + 4.0 * point.hollow_m, 210.0) * broken(FRAME.style.materials.snow_to_deg - slope, 8.0);
     float left = 1.0 - snow;
     float high = smoothstep(0.75 * forest_m, 0.3 * forest_m, above_m);
-    float rock = left * broken(slope - middle_deg - held_deg(above_m) + 6.0 * high, 7.0, -pixel_noise.border, pixel_noise.border_sharp);
+    float rock = left * broken(slope - half_rock_deg() - held_deg(above_m) + 6.0 * high, 7.0, -pixel_noise.border, pixel_noise.border_sharp);
     left -= rock;
     float dry = dry_share(point);
     // On slopes more than on level ground, which is tilled or grazed.
