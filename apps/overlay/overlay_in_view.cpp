@@ -13,11 +13,6 @@
 namespace oro {
 namespace {
 
-struct Stroke {
-    InkedText::Colour colour;
-    double width_px;
-};
-
 Stroke stroke_of(const VectorLayer& layer, const VectorShape& shape, const VectorChoices& choices) {
     Stroke stroke{ink_of(choices.overlay_colour), choices.overlay_width_px};
     if (const auto colour = colour_from(std::string(layer.text(shape, "stroke"))))
@@ -36,28 +31,33 @@ double length_px(const std::vector<glm::dvec2>& places_px) {
 
 }  // namespace
 
-OverlayInView overlay_in_view(const View& view, const TrueGround& ground, const PointsInView& in_view,
-                              double finer) {
-    const auto start = Clock::now();
-    OverlayInView overlay;
-    std::vector<const VectorShape*> shapes;
-    std::vector<Stroke> strokes;
+OverlayShapes overlay_shapes(const View& view) {
+    OverlayShapes all;
     for (const VectorFile& file : view.vectors_read->overlay) {
         for (const VectorLayer& layer : file.layers) {
             for (const VectorShape& shape : layer.shapes) {
                 if (shape.kind == VectorKind::point) continue;
-                overlay.lines += shape.paths.size();
-                shapes.push_back(&shape);
-                strokes.push_back(stroke_of(layer, shape, view.vectors));
+                all.lines += shape.paths.size();
+                all.shapes.push_back(&shape);
+                all.strokes.push_back(stroke_of(layer, shape, view.vectors));
             }
         }
     }
+    return all;
+}
+
+OverlayInView overlay_in_view(const View& view, const TrueGround& ground, const PointsInView& in_view,
+                              double finer) {
+    const auto start = Clock::now();
+    OverlayInView overlay;
+    const OverlayShapes all = overlay_shapes(view);
+    overlay.lines = all.lines;
     const Camera& camera = view.camera;
     const double margin_px = view_limits::overlay_width_px.high;
     std::vector<InkedText::Colour> order;
     std::map<InkedText::Colour, LineMask> masks;
-    for (const SeenLine& line : seen_lines(shapes, ground, in_view, camera, margin_px)) {
-        const Stroke& stroke = strokes[line.shape];
+    for (const SeenLine& line : seen_lines(all.shapes, ground, in_view, camera, margin_px)) {
+        const Stroke& stroke = all.strokes[line.shape];
         const auto [mask, is_new] =
             masks.try_emplace(stroke.colour, LineMask(camera.width_px, camera.height_px));
         if (is_new) order.push_back(stroke.colour);

@@ -11,8 +11,9 @@
 namespace oro {
 namespace {
 
-constexpr double farthest_apart_px = 1.0;
-constexpr double nearest_apart_px = 0.35;  // those nearer to the last place stand for nothing of their own
+constexpr double usual_apart_px = 1.0;
+constexpr double nearest_share =
+    0.35;  // of that: those nearer to the last place stand for nothing of their own
 constexpr double seen_above_px = 1.0 / 3.0;
 constexpr double least_above_m = 0.05;
 constexpr int asked_at_once = 256;
@@ -40,8 +41,9 @@ Geodetic between(const Geodetic& a, const Geodetic& b, double share) {
 // Turns the straight pieces of lines on the ground into samples.
 class Sampler {
   public:
-    Sampler(const PointsInView& in_view, const Camera& camera, double margin_px)
+    Sampler(const PointsInView& in_view, const Camera& camera, double margin_px, double apart_px)
         : in_view_(in_view),
+          apart_px_(apart_px),
           low_(-margin_px),
           high_(camera.width_px + margin_px, camera.height_px + margin_px) {}
 
@@ -76,7 +78,7 @@ class Sampler {
         }
         if (first > 0.0) begins_ = true;
         const double length_px = (last - first) * glm::length(to - from);
-        const int steps = std::max(1, static_cast<int>(std::ceil(length_px / farthest_apart_px)));
+        const int steps = std::max(1, static_cast<int>(std::ceil(length_px / apart_px_)));
         for (int i = begins_ ? 0 : 1; i <= steps; ++i)
             add(a, b, std::lerp(first, last, static_cast<double>(i) / steps));
         if (last < 1.0) begins_ = true;
@@ -87,7 +89,7 @@ class Sampler {
         const double in_space = share * near_m / ((1.0 - share) * far_m + share * near_m);
         const glm::dvec3 view_m = glm::mix(a.view_m, b.view_m, in_space);
         const glm::dvec2 at_px = in_view_.projected_px(view_m);
-        if (!begins_ && glm::length(at_px - samples.back().at_px) < nearest_apart_px) return;
+        if (!begins_ && glm::length(at_px - samples.back().at_px) < nearest_share * apart_px_) return;
         samples.push_back({between(a.place, b.place, in_space), at_px, -view_m.z, shape_, begins_});
         begins_ = false;
     }
@@ -123,6 +125,7 @@ class Sampler {
     }
 
     const PointsInView& in_view_;
+    double apart_px_;
     glm::dvec2 low_, high_;
     std::size_t shape_{};
     std::optional<ViewPlace> last_;
@@ -155,23 +158,20 @@ std::vector<SeenLine> joined(const std::vector<Sample>& samples, const std::vect
     return lines;
 }
 
-}  // namespace
-
-std::vector<SeenLine> seen_lines(const std::vector<const VectorShape*>& shapes, const TrueGround& ground,
-                                 const PointsInView& in_view, const Camera& camera, double margin_px) {
-    Sampler sampler(in_view, camera, margin_px);
-    const PlaceSink take = [&](const std::optional<Geodetic>& place) { sampler.take(place); };
-    for (std::size_t i = 0; i < shapes.size(); ++i) {
-        const VectorShape& shape = *shapes[i];
-        if (shape.kind == VectorKind::point) continue;
-        for (const auto& path : shape.paths) {
-            sampler.start(i);
-            for (std::size_t at = 0; at + 1 < path.size(); ++at)
-                follow_ground(ground, path[at], path[at + 1], take);
-            if (shape.kind == VectorKind::polygon) follow_ground(ground, path.back(), path.front(), take);
-        }
+// Follows what is not a point of a shape: start() is asked before each line or ring.
+template <class Start>
+void follow(const VectorShape& shape, const TrueGround& ground, const Start& start, const PlaceSink& take) {
+    if (shape.kind == VectorKind::point) return;
+    for (const auto& path : shape.paths) {
+        start();
+        for (std::size_t at = 0; at + 1 < path.size(); ++at)
+            follow_ground(ground, path[at], path[at + 1], take);
+        if (shape.kind == VectorKind::polygon) follow_ground(ground, path.back(), path.front(), take);
     }
-    const std::vector<Sample>& samples = sampler.samples;
+}
+
+std::vector<SeenLine> seen_of(const std::vector<Sample>& samples, const PointsInView& in_view,
+                              const Camera& camera) {
     const double metres_per_px_m = 2.0 * camera.half_fov_tangent().y / camera.height_px;
     std::vector<char> is_seen(samples.size());
     const auto parts = static_cast<int>((samples.size() + asked_at_once - 1) / asked_at_once);
@@ -184,6 +184,47 @@ std::vector<SeenLine> seen_lines(const std::vector<const VectorShape*>& shapes, 
         }
     });
     return joined(samples, is_seen);
+}
+
+}  // namespace
+
+std::vector<SeenLine> seen_lines(const std::vector<const VectorShape*>& shapes, const TrueGround& ground,
+                                 const PointsInView& in_view, const Camera& camera, double margin_px) {
+    Sampler sampler(in_view, camera, margin_px, usual_apart_px);
+    const PlaceSink take = [&](const std::optional<Geodetic>& place) { sampler.take(place); };
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+        follow(
+            *shapes[i], ground, [&] { sampler.start(i); }, take);
+    return seen_of(sampler.samples, in_view, camera);
+}
+
+std::optional<std::vector<GroundLine>> ground_lines(const std::vector<const VectorShape*>& shapes,
+                                                    const TrueGround& ground, std::size_t most) {
+    std::vector<GroundLine> lines;
+    std::size_t places = 0;
+    const PlaceSink take = [&](const std::optional<Geodetic>& place) {
+        if (++places <= most) lines.back().places.push_back(place);
+    };
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        follow(
+            *shapes[i], ground,
+            [&] {
+                lines.push_back({{}, i});
+            },
+            take);
+        if (places > most) return std::nullopt;
+    }
+    return lines;
+}
+
+std::vector<SeenLine> seen_lines(const std::vector<GroundLine>& lines, const PointsInView& in_view,
+                                 const Camera& camera, double margin_px, double apart_px) {
+    Sampler sampler(in_view, camera, margin_px, apart_px);
+    for (const GroundLine& line : lines) {
+        sampler.start(line.shape);
+        for (const auto& place : line.places) sampler.take(place);
+    }
+    return seen_of(sampler.samples, in_view, camera);
 }
 
 }  // namespace oro

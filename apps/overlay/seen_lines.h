@@ -22,10 +22,21 @@ using PlaceSink = std::function<void(const std::optional<Geodetic>& place)>;
 void follow_ground(const TrueGround& ground, const VectorPlace& from, const VectorPlace& to,
                    const PlaceSink& sink);
 
+// A line or ring on the ground, as follow_ground() gives it.
+struct GroundLine {
+    std::vector<std::optional<Geodetic>> places;
+    std::size_t shape{};  // number of the shape, as they were given
+};
+
+// Shapes' lines and rings on the ground, `most` places at most; nothing where they have more. Points are left
+// out.
+std::optional<std::vector<GroundLine>> ground_lines(const std::vector<const VectorShape*>& shapes,
+                                                    const TrueGround& ground, std::size_t most);
+
 // A part of a line that is seen without a break, from pixel to pixel: places half a pixel to one apart.
 struct SeenLine {
     std::vector<glm::dvec2> places_px;  // from the picture's top left corner
-    std::size_t shape{};                // number of the shape, as they were given
+    std::size_t shape{};
 };
 
 // Follows shapes' lines and rings on the ground, and asks the oracle about each place: a place is seen when
@@ -33,5 +44,9 @@ struct SeenLine {
 // too. The same for the same shapes. Points are left out.
 std::vector<SeenLine> seen_lines(const std::vector<const VectorShape*>& shapes, const TrueGround& ground,
                                  const PointsInView& in_view, const Camera& camera, double margin_px);
+// The same of lines that were followed before, with places up to `apart_px` apart: where they end is known to
+// half of that.
+std::vector<SeenLine> seen_lines(const std::vector<GroundLine>& lines, const PointsInView& in_view,
+                                 const Camera& camera, double margin_px, double apart_px);
 
 }  // namespace oro

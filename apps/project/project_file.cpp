@@ -29,11 +29,12 @@ Error not_a_project(const std::string& file, const std::string& reason) {
 
 // Files as a view has them, so that their paths are written and read as those of a view are.
 View as_view(const std::vector<std::string>& names, const std::vector<std::string>& overlay,
-             const std::vector<std::string>& images) {
+             const std::vector<std::string>& images, const std::vector<std::string>& cover) {
     View view;
     view.vectors.names = names;
     view.vectors.overlay = overlay;
     view.drape = images;
+    view.cover_choice.files = cover;
     return view;
 }
 
@@ -56,10 +57,11 @@ std::vector<std::string> paths_in(const json& from, const char* name) {
 
 Result<ordered_json> layers_json(const Project& project, const std::string& file) {
     ORO_TRY(const View layers,
-            view_as_written_in(as_view(project.names, project.overlay, project.images), file));
-    ORO_TRY(const View gazetteers, view_as_written_in(as_view(project.gazetteers, {}, {}), file));
+            view_as_written_in(as_view(project.names, project.overlay, project.images, project.cover), file));
+    ORO_TRY(const View gazetteers, view_as_written_in(as_view(project.gazetteers, {}, {}, {}), file));
     return json_object("names", paths_json(layers.vectors.names), "overlay",
-                       paths_json(layers.vectors.overlay), "images", paths_json(layers.drape), "gazetteers",
+                       paths_json(layers.vectors.overlay), "images", paths_json(layers.drape), "landcover",
+                       paths_json(layers.cover_choice.files), "gazetteers",
                        paths_json(gazetteers.vectors.names));
 }
 
@@ -115,6 +117,7 @@ void read_rest(const json& from, Project& project) {
     project.names = paths_in(layers, "names");
     project.overlay = paths_in(layers, "overlay");
     project.images = paths_in(layers, "images");
+    project.cover = paths_in(layers, "landcover");
     project.gazetteers = paths_in(layers, "gazetteers");
     project.tells_paths = json_flag(from, "tells_paths");
     project.bookmarks = bookmarks_in(from);
@@ -124,14 +127,15 @@ void read_rest(const json& from, Project& project) {
 
 // From the project's folder to the working folder.
 Result<void> lead_layers(const std::string& file, Project& project) {
-    View layers = as_view(project.names, project.overlay, project.images);
-    View gazetteers = as_view(project.gazetteers, {}, {});
+    View layers = as_view(project.names, project.overlay, project.images, project.cover);
+    View gazetteers = as_view(project.gazetteers, {}, {}, {});
     layers.paths_from_own_file = gazetteers.paths_from_own_file = project.view.paths_from_own_file;
     ORO_CHECK(lead_from_working_folder(layers, file));
     ORO_CHECK(lead_from_working_folder(gazetteers, file));
     project.names = layers.vectors.names;
     project.overlay = layers.vectors.overlay;
     project.images = layers.drape;
+    project.cover = layers.cover_choice.files;
     project.gazetteers = gazetteers.vectors.names;
     return lead_from_working_folder(project.view, file);
 }
@@ -158,7 +162,8 @@ Result<std::string> project_to_json(const Project& project, const std::string& f
     ORO_TRY(all["layers"], layers_json(project, file));
     all["tells_paths"] = project.tells_paths;
     all["bookmarks"] = ordered_json::array();
-    for (const Bookmark& bookmark : project.bookmarks) all["bookmarks"].push_back(ordered_json(bookmark_to_json(bookmark)));
+    for (const Bookmark& bookmark : project.bookmarks)
+        all["bookmarks"].push_back(ordered_json(bookmark_to_json(bookmark)));
     if (!project.film.empty()) {
         std::vector<CameraKey> keys;
         for (const WrittenKey& written : project.film) keys.push_back(written.key);

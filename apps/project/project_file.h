@@ -26,6 +26,7 @@ struct Project {
     std::vector<std::string> names;       // files of names that are loaded, shown or not
     std::vector<std::string> overlay;     // of lines and areas, likewise
     std::vector<std::string> images;      // over the ground, likewise
+    std::vector<std::string> cover;       // of land cover, likewise
     std::vector<std::string> gazetteers;  // in which places are found by name
     bool tells_paths{true};               // its pictures do
     std::vector<Bookmark> bookmarks;

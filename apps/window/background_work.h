@@ -4,6 +4,8 @@
 #include <atomic>
 #include <functional>
 #include <future>
+#include <memory>
+#include <optional>
 #include <stop_token>
 #include <utility>
 
@@ -48,5 +50,16 @@ class BackgroundWork {
     std::atomic<double> share_{0.0};
     std::future<Result<T>> done_;  // last: it ends before what its thread uses
 };
+
+// What a piece of work has come to, once it is done: then it is gone. Nothing while it goes on, where there
+// is none, and of one that was stopped, which goes likewise.
+template <class T>
+std::optional<Result<T>> take_finished(std::unique_ptr<BackgroundWork<T>>& work) {
+    if (!work || !work->ready()) return std::nullopt;
+    const auto done = std::move(work);
+    Result<T> result = done->take();
+    if (done->is_stopped()) return std::nullopt;
+    return result;
+}
 
 }  // namespace oro

@@ -139,7 +139,7 @@ Result<void> choose_graticule(Viewer& viewer, std::optional<Graticule> graticule
 Result<void> choose_exaggeration(Viewer& viewer, double factor) {
     if (factor == viewer.view.exaggeration) return {};
     const double before = std::exchange(viewer.view.exaggeration, factor);
-    viewer.ground.reset();
+    forget_ground(viewer);
     viewer.way_home = {};
     viewer.under_pointer.reset();
     viewer.picked.reset();
@@ -183,6 +183,23 @@ Result<void> choose_drape(Viewer& viewer, const std::vector<std::string>& files,
     viewer.view.drape_opacity = opacity;
     viewer.view.images = std::move(*images);
     if (viewer.view.fingerprints) viewer.view.fingerprints->images = std::move(fingerprints);
+    viewer.wants_picture = true;
+    ORO_CHECK(lay_over_ground(viewer));
+    return follow_first_view(viewer);
+}
+
+Result<void> choose_cover(Viewer& viewer, const std::vector<std::string>& files) {
+    CoverChoice choice{files, files.empty() ? "" : viewer.view.cover_choice.table};
+    std::vector<Fingerprints::OfSource> fingerprints;
+    Result<std::shared_ptr<const CoverMap>> cover = open_cover(choice, fingerprints);
+    if (!cover.ok()) {
+        tell(viewer, cover.error());
+        return {};
+    }
+    viewer.view.cover_choice = std::move(choice);
+    viewer.view.cover = std::move(*cover);
+    if (viewer.view.fingerprints) viewer.view.fingerprints->cover = std::move(fingerprints);
+    viewer.under_pointer.reset();
     viewer.wants_picture = true;
     ORO_CHECK(lay_over_ground(viewer));
     return follow_first_view(viewer);

@@ -27,6 +27,9 @@ Result<void> choose_exaggeration(Viewer& viewer, double factor);
 Result<bool> choose_vectors(Viewer& viewer, const VectorChoices& choices);
 // Which images lie over the ground, and how opaque they are.
 Result<void> choose_drape(Viewer& viewer, const std::vector<std::string>& files, double opacity);
+// Which files of land cover colour the ground, the last on top, by the table that was chosen or that knows
+// their codes. What cannot be read is said, and what is shown stays.
+Result<void> choose_cover(Viewer& viewer, const std::vector<std::string>& files);
 
 // Another scene of the first view, as it asks for now: coarse at first where measuring levels takes long.
 // Errors: those of open_scene().

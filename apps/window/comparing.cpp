@@ -26,16 +26,13 @@ void stop_comparing(Viewer& viewer) {
 
 Result<void> take_difference(Viewer& viewer) {
     Comparing& comparing = viewer.comparing;
-    if (!comparing.work || !comparing.work->ready()) return {};
-    const bool is_stopped = comparing.work->is_stopped();
-    Result<SourceDifference> found = comparing.work->take();
-    comparing.work.reset();
-    if (is_stopped) return {};
-    if (!found.ok()) {
-        tell(viewer, found.error());
+    auto found = take_finished(comparing.work);
+    if (!found) return {};
+    if (!found->ok()) {
+        tell(viewer, found->error());
         return {};
     }
-    comparing.found = std::move(*found);
+    comparing.found = std::move(**found);
     char text[100];
     std::snprintf(text, sizeof text, ": mean %.2f m, RMS %.2f m", comparing.found->found.mean_m,
                   comparing.found->found.rms_m);
@@ -59,7 +56,7 @@ void save_difference(Viewer& viewer) {
     if (!viewer.comparing.found) return;
     const std::string file = free_picture_name(time_now_s(), "-difference.tif");
     const Result<void> written = write_post_raster(file, false, viewer.comparing.found->raster);
-    tell(viewer, written.ok() ? "wrote " + file : written.error().line(), !written.ok());
+    tell_written(viewer, file, written);
 }
 
 }  // namespace oro

@@ -99,7 +99,7 @@ void save_film(Viewer& viewer) {
                : keys_to_json(film.keys);
     const Result<void> written = write_whole_file(film.file, text, film.file == film.own_file);
     if (written.ok()) film.own_file = film.file;
-    tell(viewer, written.ok() ? "wrote " + film.file : written.error().line(), !written.ok());
+    tell_written(viewer, film.file, written);
 }
 
 void follow_file(Viewer& viewer, const std::string& file, int line) {

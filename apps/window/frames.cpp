@@ -121,6 +121,13 @@ Result<FramePlan> plan_now(Viewer& viewer, const Camera& camera, double tau_px) 
     return plan;
 }
 
+// The overlay's lines over the next frame, unless they come to be written into it. Of one view alone.
+std::vector<StrokedLine> lines_over_next(Viewer& viewer) {
+    if (!viewer.follows_eye) viewer.lines_in_motion.rest();
+    if (!viewer.follows_eye || !viewer.ground || viewer.two.second || viewer.view.show) return {};
+    return viewer.lines_in_motion.find(viewer.view, viewer.ground->ground());
+}
+
 // What a frame that is done tells. Where several are under way, a frame takes the time since the one before
 // it.
 void take_report(Viewer& viewer, SubmittedFrame frame, FrameReport report) {
@@ -133,7 +140,8 @@ void take_report(Viewer& viewer, SubmittedFrame frame, FrameReport report) {
     viewer.scene->apply_feedback(viewer.report.feedback);
     viewer.is_settled =
         frame.is_settled && viewer.report.images_settled && !is_coarse(viewer) && frame.step.is_whole();
-    viewer.to_trace = frame;
+    viewer.lines = std::exchange(frame.lines, {});
+    viewer.to_trace = std::move(frame);
 }
 
 // Of an eye that rests: waits for it.
@@ -210,6 +218,7 @@ Result<bool> draw_frame(Viewer& viewer, bool& changed) {
     frame.times.begun = Clock::now();
     frame.is_of_moving_eye = is_moving(viewer);
     follow_sun(viewer);
+    frame.lines = lines_over_next(viewer);
     frame.step = step_now(viewer);
     const Camera camera = scaled_camera(viewer.view.camera, frame.step.scale);
     ORO_TRY(FramePlan plan, plan_now(viewer, camera, viewer.view.tau_px * frame.step.tau_factor));

@@ -39,16 +39,13 @@ void stop_looking_around(Viewer& viewer) {
 
 Result<void> take_seen_around(Viewer& viewer) {
     LookingAround& looking = viewer.looking;
-    if (!looking.work || !looking.work->ready()) return {};
-    const bool is_stopped = looking.work->is_stopped();
-    Result<SeenAround> around = looking.work->take();
-    looking.work.reset();
-    if (is_stopped) return {};
-    if (!around.ok()) {
-        tell(viewer, around.error());
+    auto around = take_finished(looking.work);
+    if (!around) return {};
+    if (!around->ok()) {
+        tell(viewer, around->error());
         return {};
     }
-    looking.found = std::move(*around);
+    looking.found = std::move(**around);
     tell(viewer, looking.found->seen);
     return show_seen_around(viewer, true);
 }
@@ -68,7 +65,7 @@ void save_seen_around(Viewer& viewer) {
     if (!viewer.looking.found) return;
     const std::string file = free_picture_name(time_now_s(), "-viewshed.tif");
     const Result<void> written = write_post_raster(file, false, viewer.looking.found->raster);
-    tell(viewer, written.ok() ? "wrote " + file : written.error().line(), !written.ok());
+    tell_written(viewer, file, written);
 }
 
 bool is_tinted(const Viewer& viewer) {

@@ -90,6 +90,25 @@ bool is_image(const std::string& path) {
     return image->bands.size() > 1 || image->palette || is_of_bytes || ends_in_one_of(path, of_pictures);
 }
 
+// Whether the values of what would else be an image are codes of one of the tables of land cover.
+bool is_cover(const std::string& path) {
+    CoverChoice choice{{path}, ""};
+    std::vector<Fingerprints::OfSource> fingerprints;
+    return open_cover(choice, fingerprints).ok();
+}
+
+// Colours the ground by files of land cover, over those that do.
+Result<void> add_cover(Viewer& viewer, const std::vector<std::string>& files) {
+    std::vector<std::string> all = viewer.view.cover_choice.files;
+    for (const std::string& file : files)
+        if (std::ranges::find(all, file) == all.end()) all.push_back(file);
+    ORO_CHECK(choose_cover(viewer, all));
+    if (viewer.view.cover_choice.files != all) return {};
+    if (viewer.style.frame.materials.on == 0) ORO_CHECK(choose_style(viewer, "natural"));
+    tell(viewer, name_of_paths(files) + " colours the ground: Layers shows and hides it");
+    return {};
+}
+
 // Lays images over the ground that is shown, over those that lie there.
 Result<void> add_images(Viewer& viewer, const std::vector<std::string>& images) {
     std::vector<std::string> all = viewer.view.drape;
@@ -109,7 +128,7 @@ void forget_region(Viewer& viewer) {
     viewer.certificates.forget();
     viewer.scene.reset();
     viewer.way_home = {};
-    viewer.ground.reset();
+    forget_ground(viewer);
     viewer.under_pointer.reset();
     viewer.in_middle.reset();
     viewer.picked.reset();
@@ -201,7 +220,7 @@ void remember_opened(Viewer& viewer, const std::vector<std::string>& paths) {
 }
 
 Result<void> open_paths(Viewer& viewer, const std::vector<std::string>& paths) {
-    std::vector<std::string> vectors, images, others;
+    std::vector<std::string> vectors, cover, images, others;
     for (const std::string& path : paths) {
         if (is_vector_path(path)) {
             vectors.push_back(path);
@@ -221,8 +240,9 @@ Result<void> open_paths(Viewer& viewer, const std::vector<std::string>& paths) {
         if (there)
             fly_to(viewer, *there, "where " + std::filesystem::path(path).filename().string() + " was taken");
         else
-            (is_image(path) ? images : others).push_back(path);
+            (!is_image(path) ? others : is_cover(path) ? cover : images).push_back(path);
     }
+    if (!cover.empty()) ORO_CHECK(add_cover(viewer, cover));
     if (!images.empty()) ORO_CHECK(add_images(viewer, images));
     if (!others.empty())
         begin_opening(viewer, options_for_other_region(viewer.options, view_alone(viewer), others), {});

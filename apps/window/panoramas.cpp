@@ -34,13 +34,10 @@ void stop_panorama(Viewer& viewer) {
 
 void take_panorama(Viewer& viewer) {
     PanoramaAround& around = viewer.panorama;
-    if (!around.work || !around.work->ready()) return;
-    const bool is_stopped = around.work->is_stopped();
-    Result<DrawnPanorama> drawn = around.work->take();
-    around.work.reset();
-    if (is_stopped) return;
-    if (!drawn.ok()) return tell(viewer, drawn.error());
-    around.drawn = std::move(*drawn);
+    auto drawn = take_finished(around.work);
+    if (!drawn) return;
+    if (!drawn->ok()) return tell(viewer, drawn->error());
+    around.drawn = std::move(**drawn);
     around.is_shown = true;
     around.picture = nullptr;
     around.zoom = 1.0;
@@ -52,7 +49,7 @@ void save_panorama(Viewer& viewer, const std::string& ending) {
     if (!viewer.panorama.drawn) return;
     const std::string file = free_picture_name(time_now_s(), "-panorama" + ending);
     const Result<void> written = write_drawn_panorama(file, *viewer.panorama.drawn, viewer.region);
-    tell(viewer, written.ok() ? "wrote " + file : written.error().line(), !written.ok());
+    tell_written(viewer, file, written);
 }
 
 bool shows_panorama(const Viewer& viewer) {

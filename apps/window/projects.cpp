@@ -63,6 +63,7 @@ Project project_of(const Viewer& viewer) {
     project.names = joined_files(known.names, shown.names);
     project.overlay = joined_files(known.overlay, shown.overlay);
     project.images = joined_files(viewer.images_known, viewer.view.drape);
+    project.cover = joined_files(viewer.cover_known, viewer.view.cover_choice.files);
     project.gazetteers = viewer.options.gazetteers;
     project.tells_paths = viewer.view.tells_paths;
     project.bookmarks = bookmarks_in_region(viewer.region);
@@ -81,6 +82,7 @@ Result<void> take_project(Viewer& viewer, const Project& project, const std::str
     known.overlay = joined_files(project.overlay, known.overlay);
     viewer.vectors_known = std::move(known);
     viewer.images_known = joined_files(project.images, viewer.view.drape);
+    viewer.cover_known = joined_files(project.cover, viewer.view.cover_choice.files);
     auto keys = eyes_over_region(project.film, viewer.region, viewer.view.exaggeration, file);
     if (keys.ok())
         viewer.film.keys = std::move(*keys);

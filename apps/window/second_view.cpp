@@ -152,9 +152,9 @@ Result<bool> change_second(Viewer& viewer, const SecondChoice& choice) {
                 renderer_for(viewer.gpu, view, style, viewer.path, second.renderer.extent()));
         second.has_picture = false;
     }
-    const bool other_images = view.drape != second.view.drape ||
-                              view.drape_opacity != second.view.drape_opacity ||
-                              view.drape_values != second.view.drape_values;
+    const bool other_images =
+        view.drape != second.view.drape || view.drape_opacity != second.view.drape_opacity ||
+        view.drape_values != second.view.drape_values || view.cover != second.view.cover;
     second.choice = choice;
     second.view = std::move(view);
     second.style = style;
@@ -270,19 +270,17 @@ Result<void> choose_next_layout(Viewer& viewer) {
 
 Result<void> take_second(Viewer& viewer) {
     TwoViews& two = viewer.two;
-    if (!two.work || !two.work->ready()) return {};
-    const bool is_stopped = two.work->is_stopped();
-    Result<SecondGround> ground = two.work->take();
-    two.work.reset();
-    viewer.wants_picture = true;
-    if (is_stopped) return {};
+    const bool had_work = two.work != nullptr;
+    auto ground = take_finished(two.work);
+    if (had_work && !two.work) viewer.wants_picture = true;
+    if (!ground) return {};
     const auto refuse = [&](const Error& why) {
         tell(viewer, why);
         if (two.second) two.choice = two.second->choice;
         return viewer.region.health();
     };
-    if (!ground.ok()) return refuse(ground.error());
-    Result<std::unique_ptr<SecondView>> made = second_of(viewer, std::move(*ground));
+    if (!ground->ok()) return refuse(ground->error());
+    Result<std::unique_ptr<SecondView>> made = second_of(viewer, std::move(**ground));
     if (!made.ok()) return refuse(made.error());
     ORO_CHECK(finish_frames(viewer));
     if (two.second && !have_same_data(two.second->choice, (*made)->choice))

@@ -58,10 +58,7 @@ std::shared_ptr<const PostColours> colours_of_difference(const HeightDifference&
     colours.grid = grid;
     // Of no region alone: places decide.
     colours.grid_number = std::numeric_limits<std::size_t>::max();
-    colours.first_row = found.window.first_row;
-    colours.rows = found.window.rows;
-    colours.first_column = found.window.first_column;
-    colours.columns = found.window.columns;
+    colours.part = found.window;
     colours.rgba.reserve(found.difference_m.size());
     for (const float m : found.difference_m) {
         if (is_void(m)) {
@@ -80,10 +77,7 @@ PostRaster raster_of_difference(const SourceDifference& difference, const Region
     PostRaster raster;
     raster.grid = grid.field.grid;
     raster.crs = grid.posts_crs;
-    raster.first_row = found.window.first_row;
-    raster.rows = found.window.rows;
-    raster.first_column = found.window.first_column;
-    raster.columns = found.window.columns;
+    raster.part = found.window;
     raster.no_value = void_height_m;
     raster.bands.push_back({difference.title + ", metres", found.difference_m});
     raster.tags.emplace_back("FIRST_SOURCE", one.name);

@@ -52,6 +52,12 @@ Result<const RegionGround*> ground_of(Viewer& viewer) {
     return viewer.ground.get();
 }
 
+void forget_ground(Viewer& viewer) {
+    viewer.ground.reset();
+    viewer.lines_in_motion.forget();
+    viewer.lines.clear();
+}
+
 Result<std::optional<SeenPlace>> seen_at(Viewer& viewer, glm::dvec2 point_px) {
     ORO_TRY(const RegionGround* const ground, ground_of(viewer));
     return place_seen(viewer.view, *ground, point_px);
@@ -135,6 +141,10 @@ void tell(Viewer& viewer, const std::string& text, bool is_error) {
 void tell(Viewer& viewer, const Error& why) {
     tell(viewer, why.line(), true);
     say(false, viewer.message);
+}
+
+void tell_written(Viewer& viewer, const std::string& file, const Result<void>& written) {
+    tell(viewer, written.ok() ? "wrote " + file : written.error().line(), !written.ok());
 }
 
 void trace_state(Viewer& viewer) {

@@ -17,6 +17,7 @@
 #include "apps/legend/colour_key.h"
 #include "apps/navigation/gestures.h"
 #include "apps/navigation/home.h"
+#include "apps/overlay/lines_in_motion.h"
 #include "apps/search/gazetteer_reading.h"
 #include "apps/search/search_index.h"
 #include "apps/settings/window_settings.h"
@@ -106,6 +107,7 @@ struct SubmittedFrame {
     DetailStep step{};
     bool is_settled{};  // what it was planned from is as fine as the view asks
     bool is_of_moving_eye{};
+    std::vector<StrokedLine> lines{};  // over the ground, until they are in the picture itself
 };
 
 // Which panels are open.
@@ -172,6 +174,7 @@ struct Viewer {
     std::string folder{};                            // that the panel of files lists
     std::optional<VectorChoices> vectors_known{};    // all files of names and lines, shown or not
     std::vector<std::string> images_known{};         // likewise
+    std::vector<std::string> cover_known{};          // of land cover, likewise
     bool is_missing{};                               // something that the last frame should have had
     std::unique_ptr<const RegionGround> ground{};    // made when it is first asked, for all questions after
     // The levels that the view asks for, until they are here.
@@ -206,6 +209,8 @@ struct Viewer {
     Clock::time_point polled{};              // when the user's input was asked for last
     Clock::time_point drawn{};               // when the last frame was that is done
     FrameReport report{};                    // of that
+    std::vector<StrokedLine> lines{};        // over that
+    LinesInMotion lines_in_motion{};
     double frame_s{};  // that it took: since it was begun, or since the one before it was drawn
     std::optional<SubmittedFrame> to_trace{};  // that was drawn and not shown yet
     std::string traced{};                      // the line that trace_state() printed last
@@ -218,8 +223,10 @@ struct Viewer {
 
 // The finest grid below the eye.
 const HeightField& field_below(const Viewer& viewer);
-// Made when it is first asked. Errors: damage in a baked region.
+// Made when it is first asked, and after forget_ground(). Errors: damage in a baked region.
 Result<const RegionGround*> ground_of(Viewer& viewer);
+// The region is another, or its heights are.
+void forget_ground(Viewer& viewer);
 Result<std::optional<SeenPlace>> seen_at(Viewer& viewer, glm::dvec2 point_px);
 // The same with how the ground lies there.
 Result<PickedPlace> picked_at(Viewer& viewer, glm::dvec2 point_px);
@@ -238,6 +245,8 @@ std::string progress_words(const Viewer& viewer);
 void tell(Viewer& viewer, const std::string& text, bool is_error = false);
 // The same of an error, which is printed, too.
 void tell(Viewer& viewer, const Error& why);
+// Says that a file was written, or why not.
+void tell_written(Viewer& viewer, const std::string& file, const Result<void>& written);
 
 // With OROGRAPH_TRACE_WINDOW set, prints "state: ..." where that has changed: what was said last, and where
 // the eye is. For programs that play a user.

@@ -65,6 +65,31 @@ TEST(WindowProjects, AreSavedAndOpenedAgain) {
         EXPECT_EQ(shown[field], view[field]) << field;
 }
 
+// A raster of codes colours the ground, in a style that shows it; the project holds it.
+TEST(WindowProjects, HoldLandCoverThatWasOpened) {
+    const fs::path folder = oro::test::scratch_folder();
+    std::ofstream grid(folder / "cover.asc");
+    grid << "ncols 20\nnrows 20\nxllcorner -84.5\nyllcorner 36.4\ncellsize 0.02\n";
+    for (int i = 0; i < 400; ++i) grid << (i % 3 == 0 ? "10 " : "30 ");
+    grid.close();
+    const auto made = oro::test::run_program({"gdal_translate", "-q", "-ot", "Byte", "-a_srs", "EPSG:4326",
+                                              folder / "cover.asc", folder / "cover.tif"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    fs::copy_file(oro::test::bundled_data() / "jacksboro.tif", folder / "jacksboro.tif");
+    const auto outcome = on_display(
+        folder, waits +
+                    "\"$1\" view jacksboro.tif --size 320x240 2>said.txt & viewer=$!; comes; "
+                    "xdotool key ctrl+o; sleep 1; xdotool type cover.tif; xdotool key Return; "
+                    "says 'cover.tif colours the ground'; xdotool key ctrl+s; sleep 1; xdotool key Return; "
+                    "says 'saved project.json'; xdotool key ctrl+q; wait $viewer; echo ended $?");
+    EXPECT_TRUE(outcome.out.ends_with("ended 0\n")) << outcome.out << outcome.err;
+    const json project = json::parse(oro::test::bytes_of(folder / "project.json"), nullptr, false);
+    ASSERT_TRUE(project.is_object()) << outcome.out << outcome.err;
+    EXPECT_EQ(project["layers"]["landcover"], json::array({"cover.tif"}));
+    EXPECT_EQ(project["view"]["landcover"]["files"], json::array({"cover.tif"}));
+    EXPECT_EQ(project["view"].value("style", ""), "natural");
+}
+
 TEST(WindowProjects, WhatIsNoneEndsInOneLine) {
     const fs::path folder = oro::test::scratch_folder();
     std::ofstream(folder / "newer.json") << R"({"orograph_project": 9})";

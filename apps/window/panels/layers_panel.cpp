@@ -178,6 +178,19 @@ void image_choice(Viewer& viewer) {
         });
 }
 
+void cover_choice(Viewer& viewer) {
+    const std::vector<std::string>& shown = viewer.view.cover_choice.files;
+    for (const std::string& file : shown)
+        if (std::ranges::find(viewer.cover_known, file) == viewer.cover_known.end())
+            viewer.cover_known.push_back(file);
+    if (viewer.cover_known.empty()) return;
+    heading("Land cover");
+    tip("Colours the ground in styles that go by cover: natural");
+    std::vector<std::string> chosen = shown;
+    if (file_switches(viewer.cover_known, chosen, true))
+        viewer.wishes.push_back([chosen](Viewer& v) { return choose_cover(v, chosen); });
+}
+
 }  // namespace
 
 void build_layers_panel(Viewer& viewer) {
@@ -200,6 +213,7 @@ void build_layers_panel(Viewer& viewer) {
         graticule_choice(viewer);
         vector_choice(viewer);
         image_choice(viewer);
+        cover_choice(viewer);
         ImGui::Separator();
         show_choice(viewer);
         bool imperial = viewer.settings.units == UnitSystem::imperial;

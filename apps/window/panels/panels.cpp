@@ -2,9 +2,25 @@
 
 namespace oro {
 
+namespace {
+
+void build_panels_of_start(Viewer& viewer) {
+    build_search_field(viewer);
+    build_status_bar(viewer);
+    build_buttons(viewer);
+    build_toasts(viewer);
+    build_opening_bar(viewer);
+    build_messages_panel(viewer);
+    build_files_panel(viewer);
+    build_keys_panel(viewer);
+}
+
+}  // namespace
+
 void build_panels(Viewer& viewer) {
-    // Until there is ground a sheet says that it comes; a field that was asked for is there at once.
-    if (!viewer.has_picture && !viewer.is_shown && !viewer.search.is_open) return;
+    // Until there is ground a sheet says that it comes: what can be asked for before is there at once.
+    if (!viewer.has_picture && !viewer.is_shown) return build_panels_of_start(viewer);
+    build_moving_lines(viewer);
     if (viewer.panels.hidden && !viewer.search.is_open) return build_toasts(viewer);
     build_search_field(viewer);
     if (viewer.panels.hidden) return;

@@ -15,6 +15,7 @@ void build_search_field(Viewer& viewer);  // in the upper left corner
 void build_buttons(Viewer& viewer);       // of panels, beside it
 void build_compass(Viewer& viewer);       // in the upper right corner: a click turns north up
 void build_home_arrow(Viewer& viewer);    // to a region that is out of the picture
+void build_moving_lines(Viewer& viewer);  // over the ground, while the eye moves
 void build_legend(Viewer& viewer);        // what the colours of --show stand for
 void build_toasts(Viewer& viewer);        // what was said just now
 bool has_toasts(const Viewer& viewer);

@@ -30,6 +30,7 @@ std::string in_crs(const Viewer& viewer, const SeenPlace& seen) {
 
 // Where the pointer is, or the picture's middle where it is elsewhere.
 void place_words(const Viewer& viewer) {
+    if (!viewer.has_picture && !viewer.is_shown) return ImGui::TextDisabled("loading the ground");
     const bool pointed = viewer.under_pointer.has_value();
     const auto& place = reported_place(viewer);
     if (!place || !place->seen) {
@@ -111,6 +112,7 @@ void scale_bar(const Viewer& viewer) {
 
 std::string certificate_words(const Viewer& viewer) {
     if (const std::string progress = progress_words(viewer); !progress.empty()) return progress + " …";
+    if (!viewer.has_picture && !viewer.is_shown) return "";
     const DetailStep& step = viewer.drawn_at;
     const double within_px = viewer.view.tau_px * step.tau_factor / step.scale;
     char text[80];

@@ -134,8 +134,7 @@ void build_sun_panel(Viewer& viewer) {
         tip("Year-month-day");
         ImGui::SameLine();
         ImGui::SetNextItemWidth(scaled_px(110.0F));
-        const int step_h = 1;
-        if (ImGui::InputScalar("##zone", ImGuiDataType_S32, &clock.zone_h, &step_h, nullptr, "UTC%+d")) {
+        if (ImGui::InputInt("h from UTC", &clock.zone_h)) {
             clock.zone_h = std::clamp(clock.zone_h, -12, 14);
             changed = true;
         }

@@ -74,7 +74,7 @@ struct ViewerState {
     std::deque<Message> log{};
     std::vector<std::vector<std::string>> recent{};
     std::optional<VectorChoices> vectors_known{};
-    std::vector<std::string> images_known{};
+    std::vector<std::string> images_known{}, cover_known{};
 };
 
 Result<void> say_notes_of(const WindowOptions& options, const View& view, const Region& region,
@@ -133,6 +133,7 @@ void move_session(From& from, To& to) {
     to.recent = std::move(from.recent);
     to.vectors_known = std::move(from.vectors_known);
     to.images_known = std::move(from.images_known);
+    to.cover_known = std::move(from.cover_known);
 }
 
 // What is known without a device, for another one.
@@ -147,7 +148,7 @@ void keep(Viewer& viewer, ViewerState& state) {
     viewer.coming.reset();
     viewer.finer.reset();
     viewer.scene.reset();
-    viewer.ground.reset();
+    forget_ground(viewer);
     state.options = viewer.options;
     state.view = std::move(viewer.view);
     state.region = std::move(viewer.region);

@@ -244,6 +244,39 @@ TEST(SeenLines, LieWhereTheirPlacesAreSeenAndNowhereElse) {
     EXPECT_GT(hidden, 30U);
 }
 
+// Lines that were followed once are seen as those that are followed for each picture; places farther apart
+// know to half of that where a line ends.
+TEST(SeenLines, OfLinesThatWereFollowedAreTheSame) {
+    const auto alps = ground("alps/N46E007.SRTMGL3.hgt.zip");
+    if (!alps || !test::real_data("vector/RundwanderungBeimOeschinensee.gpx"))
+        GTEST_SKIP() << "needs alps/N46E007 and vector/RundwanderungBeimOeschinensee.gpx";
+    const VectorShape track = track_over_alps();
+    const std::vector<const VectorShape*> shapes{&track};
+    Camera camera;
+    camera.eye = {46.49, 7.67, *alps->surface->h_m(46.49, 7.67) + 500.0};
+    camera.attitude = {70.0, -5.0, 0.0};
+    camera.width_px = 960, camera.height_px = 540;
+    const WorldModel model{Earth::ellipsoid, standard_air, {}};
+    const PointsInView in_view(*alps->surface, camera, model);
+    const auto lines = ground_lines(shapes, *alps->surface, 100'000);
+    ASSERT_TRUE(lines);
+    EXPECT_FALSE(ground_lines(shapes, *alps->surface, lines->front().places.size() - 1));
+    const auto each = seen_lines(shapes, *alps->surface, in_view, camera, 4.0);
+    const auto kept = seen_lines(*lines, in_view, camera, 4.0, 1.0);
+    ASSERT_EQ(kept.size(), each.size());
+    ASSERT_GT(each.size(), 2U);
+    for (std::size_t i = 0; i < each.size(); ++i) EXPECT_EQ(kept[i].places_px, each[i].places_px) << i;
+    double coarse_px = 0.0, farthest_px = 0.0;
+    for (const SeenLine& line : seen_lines(*lines, in_view, camera, 4.0, 6.0)) {
+        for (const glm::dvec2& at_px : line.places_px) {
+            coarse_px += 1.0;
+            farthest_px = std::max(farthest_px, distance_px(at_px, each));
+        }
+    }
+    EXPECT_GT(coarse_px, 20.0);
+    EXPECT_LT(farthest_px, 3.5);
+}
+
 // Within a tenth, at any angle: pixels are covered by how far their middles are from the line.
 TEST(LineMask, CoversAsMuchAsItsWidth) {
     for (const double angle_deg : {0.0, 30.0, 45.0, 77.0, 90.0}) {

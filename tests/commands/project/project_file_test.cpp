@@ -22,8 +22,9 @@ void touch(const fs::path& file) {
 
 // In a folder with a track, an image and names; the elevation lies beside it.
 Project made_project(const fs::path& folder) {
-    for (const char* const name : {"work/track.gpx", "work/places.geojson", "work/far.geojson",
-                                   "work/old.tif", "work/image.tif", "data/N46E008.hgt", "work/names.txt"})
+    for (const char* const name :
+         {"work/track.gpx", "work/places.geojson", "work/far.geojson", "work/old.tif", "work/image.tif",
+          "work/cover.tif", "data/N46E008.hgt", "work/names.txt"})
         touch(folder / name);
     Project project;
     View& view = project.view;
@@ -43,6 +44,7 @@ Project made_project(const fs::path& folder) {
     project.overlay = view.vectors.overlay;
     project.names = {(folder / "work/places.geojson").string(), (folder / "work/far.geojson").string()};
     project.images = {(folder / "work/old.tif").string(), (folder / "work/image.tif").string()};
+    project.cover = {(folder / "work/cover.tif").string()};
     project.gazetteers = {(folder / "work/names.txt").string()};
     project.tells_paths = false;
     project.bookmarks = {{"Hut", 46.6, 8.02, std::nullopt},
@@ -90,6 +92,7 @@ TEST(Projects, AreReadAsTheyWereWritten) {
     leads(read->names[1], "work/far.geojson");
     ASSERT_EQ(read->images.size(), 2U);
     leads(read->images[0], "work/old.tif");
+    leads(read->cover.at(0), "work/cover.tif");
     leads(read->overlay.at(0), "work/track.gpx");
     leads(read->gazetteers.at(0), "work/names.txt");
     leads(read->view.drape.at(0), "work/image.tif");

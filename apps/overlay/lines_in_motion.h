@@ -1,0 +1,34 @@
+// The lines of a view's --overlay files while its eye moves.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "apps/overlay/overlay_in_view.h"
+
+namespace oro {
+
+// A part of a line that is seen, from pixel to pixel.
+struct StrokedLine {
+    std::vector<glm::dvec2> places_px;
+    Stroke stroke{};
+};
+
+// Follows lines over the ground once, and asks which parts of them are seen at places some pixels apart.
+// Where even that takes long it gives none until the eye has rested: a frame of an eye that moves must not
+// wait.
+class LinesInMotion {
+  public:
+    // `ground`: of the view's region and exaggeration, the same one until forget() is called.
+    std::vector<StrokedLine> find(const View& view, const TrueGround& ground);
+    // The eye rests: the next frame of one that moves may try again.
+    void rest() { is_slow_ = false; }
+    void forget() { *this = {}; }
+
+  private:
+    std::shared_ptr<const VectorsRead> of_;  // whose lines they are
+    std::vector<GroundLine> lines_;
+    bool is_slow_{};
+};
+
+}  // namespace oro
