@@ -253,6 +253,7 @@ set_tests_properties(
   Window.ShowsACoarsePictureWhileLevelsAreMeasured
   WindowFaults.AtAnyCallEndItWithALine
   WindowFaults.EndItWithALine
+  WindowFlight.AMinuteOverTheAlps
   WindowFlight.MinutesOverPoland
   WindowTour.LooksAsItDid
   WindowTwoViews.ThatAreTheSameShowTheSame

@@ -9,6 +9,7 @@ namespace {
 
 // Some 0.1 s of work on one processor (core/lod/pyramid.h).
 constexpr std::size_t posts_in_a_moment = 1'000'000;
+constexpr std::size_t posts_too_many_to_wait_for = 4 * posts_in_a_moment;
 
 // Once some are asked for all are there.
 Result<void> measure_means(const RegionPages& pages) {
@@ -32,12 +33,13 @@ bool measures_long(const Region& region) {
     // Of posts on a net, and of several grids, nothing coarser is made: their levels are waited for.
     const RegionGrid& first = region.grids.front();
     return region.grids.size() == 1 && !first.file && !first.field.posts && !first.field.grid.net &&
-           first.field.grid.post_count() > 4 * posts_in_a_moment;
+           first.field.grid.post_count() > posts_too_many_to_wait_for;
 }
 
 bool measures_means_long(const Region& region) {
     const RegionGrid& first = region.grids.front();
-    return region.grids.size() == 1 && first.file && first.field.grid.post_count() > 4 * posts_in_a_moment;
+    return region.grids.size() == 1 && first.file &&
+           first.field.grid.post_count() > posts_too_many_to_wait_for;
 }
 
 int coarse_step(const HeightField& field) {

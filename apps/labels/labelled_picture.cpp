@@ -13,6 +13,7 @@
 #include "apps/text/inked_rows.h"
 #include "apps/text/text_face.h"
 #include "core/base/parallel.h"
+#include "core/base/srgb.h"
 
 namespace oro {
 namespace {
@@ -20,10 +21,7 @@ namespace {
 constexpr double halo_share = 0.2;  // of the figures' size
 
 std::uint8_t code_of(float linear) {
-    // Source: IEC 61966-2-1:1999, 5.2.
-    const double value = static_cast<double>(linear);
-    const double encoded = value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::lround(255.0 * encoded));
+    return static_cast<std::uint8_t>(std::lround(255.0 * srgb_of_light(static_cast<double>(linear))));
 }
 
 // The line below a label is interrupted between its letters, too, where their halos leave a gap.

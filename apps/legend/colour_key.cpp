@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "apps/legend/legend.h"
+#include "core/base/srgb.h"
+#include "core/drape/materials.h"
 #include "core/frame/frame_colours.h"
 #include "core/terrain/level_grid.h"
 
@@ -12,10 +14,6 @@ namespace {
 
 std::uint8_t code_of(double value) {
     return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
-}
-// Source: IEC 61966-2-1:1999, 5.2.
-double encoded(double light) {
-    return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055;
 }
 
 double snow_line_m(const gpu::GroundCover& cover, double lat_deg) {
@@ -80,7 +78,7 @@ ColourKey key_of_materials(const gpu::MaterialTable& materials) {
         StripColour colour{};
         for (int c = 0; c < 3; ++c)
             colour[static_cast<std::size_t>(c)] =
-                code_of(encoded(static_cast<double>(materials.of[i].colour[c])));
+                code_of(srgb_of_light(static_cast<double>(materials.of[i].colour[c])));
         key.names.push_back({colour, material_names[i]});
     }
     return key;
@@ -118,7 +116,7 @@ StripColour ColourKey::colour(double value) const {
     for (int c = 0; c < 3; ++c) {
         const double light = (1.0 - share) * static_cast<double>(before.colour[c]) +
                              share * static_cast<double>(after.colour[c]);
-        mixed[static_cast<std::size_t>(c)] = code_of(codes ? light : encoded(light));
+        mixed[static_cast<std::size_t>(c)] = code_of(codes ? light : srgb_of_light(light));
     }
     return mixed;
 }

@@ -8,6 +8,7 @@
 
 #include "apps/labels/labelled_picture.h"
 #include "core/base/parallel.h"
+#include "core/base/srgb.h"
 
 namespace oro {
 namespace {
@@ -19,19 +20,15 @@ int finer_by(int samples) {
     return std::max(2, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(samples)) - 1.0e-9)));
 }
 
-// Source: IEC 61966-2-1:1999, 5.2.
 std::array<float, 256> linear_lights() {
     std::array<float, 256> lights{};
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        const double code = static_cast<double>(i) / 255.0;
-        lights[i] =
-            static_cast<float>(code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4));
+        lights[i] = static_cast<float>(light_of_srgb(static_cast<double>(i) / 255.0));
     }
     return lights;
 }
 std::uint8_t code_of(double light) {
-    const double code = light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(code, 0.0, 1.0)));
+    return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(srgb_of_light(light), 0.0, 1.0)));
 }
 
 // A drawn picture, to be asked for light between its pixels.

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "core/base/srgb.h"
 #include "shaders/shared.h"
 
 namespace oro {
@@ -22,13 +23,9 @@ inline gpu::vec3 unit_codes(const ColourCodes& colour) {
     return gpu::vec3(colour.red, colour.green, colour.blue) / 255.0F;
 }
 
-// Linear light. Source: IEC 61966-2-1:1999, 5.2.
+// Linear light.
 inline gpu::vec3 linear_light(const ColourCodes& colour) {
-    const auto linear = [](int value) {
-        const double encoded = value / 255.0;
-        return static_cast<float>(encoded <= 0.04045 ? encoded / 12.92
-                                                     : std::pow((encoded + 0.055) / 1.055, 2.4));
-    };
+    const auto linear = [](int value) { return static_cast<float>(light_of_srgb(value / 255.0)); };
     return {linear(colour.red), linear(colour.green), linear(colour.blue)};
 }
 

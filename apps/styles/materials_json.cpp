@@ -1,10 +1,14 @@
 // The materials of a style: "materials" in its file.
+#include <algorithm>
+#include <array>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "apps/report/json_fields.h"
-#include "apps/styles/material_names.h"
 #include "apps/styles/style_fields.h"
 #include "apps/styles/style_json.h"
+#include "core/drape/materials.h"
 
 namespace oro {
 namespace {
@@ -38,21 +42,30 @@ gpu::vec2 from_to(const json& object, const char* name, double low, double high)
     return {both[0].get<float>(), both[1].get<float>()};
 }
 
+// "needle_forest" of needle forest.
+std::string field_of(const char* name) {
+    std::string field = name;
+    std::ranges::replace(field, ' ', '_');
+    return field;
+}
+
 }  // namespace
 
 gpu::MaterialTable materials_of(const json& object) {
     gpu::MaterialTable table{};
     table.on = 1;
-    for (std::size_t i = 0; i < material_fields.size(); ++i)
-        table.of[i] = material_of(json_field(object, material_fields[i]));
+    std::array<std::string, gpu::material_count> fields;
+    std::ranges::transform(material_names, fields.begin(), field_of);
+    for (std::size_t i = 0; i < fields.size(); ++i)
+        table.of[i] = material_of(json_field(object, fields[i].c_str()));
     const auto& dry = json_field(object, "dry");
     table.dry_lat_deg = from_to(dry, "lat_deg", 0.0, 90.0);
     table.dry_H_m = from_to(dry, "H_m", -1e4, 1e4);
     refuse_unknown(dry, "'dry'", {"lat_deg", "H_m"});
     table.snow_to_deg = style_number(object, "snow_to_deg", 0.0, 90.0);
-    refuse_unknown(object, "'materials'",
-                   {"rock", "scree", "meadow", "shrub", "needle_forest", "broad_forest", "crops", "bare",
-                    "snow", "water", "built", "wetland", "dry", "snow_to_deg"});
+    std::vector<std::string_view> known(fields.begin(), fields.end());
+    known.insert(known.end(), {"dry", "snow_to_deg"});
+    refuse_unknown(object, "'materials'", known);
     return table;
 }
 

@@ -26,10 +26,9 @@ float positive(const nlohmann::json& object, const char* name) {
     return value;
 }
 
-void refuse_unknown(const nlohmann::json& object, const char* what,
-                    std::initializer_list<std::string_view> known) {
+void refuse_unknown(const nlohmann::json& object, const char* what, std::span<const std::string_view> known) {
     for (const auto& [name, value] : object.items()) {
-        if (std::ranges::find(known, name) != known.end()) continue;
+        if (std::ranges::find(known, std::string_view(name)) != known.end()) continue;
         std::string all;
         for (const std::string_view one : known) all += (all.empty() ? "" : ", ") + std::string(one);
         throw JsonFault{std::string(what) + " has no field '" + name + "'; there is: " + all};

@@ -20,8 +20,11 @@ float style_number(const nlohmann::json& object, const char* name, double low, d
 // Above 0.
 float positive(const nlohmann::json& object, const char* name);
 
-void refuse_unknown(const nlohmann::json& object, const char* what,
-                    std::initializer_list<std::string_view> known);
+void refuse_unknown(const nlohmann::json& object, const char* what, std::span<const std::string_view> known);
+inline void refuse_unknown(const nlohmann::json& object, const char* what,
+                           std::initializer_list<std::string_view> known) {
+    refuse_unknown(object, what, std::span(known.begin(), known.size()));
+}
 
 // One of some words, each with its number on the GPU; the first where nothing is said.
 struct StyleChoice {

@@ -91,14 +91,19 @@ void read_sources(const nlohmann::json& json, View& view) {
 }
 
 // Views of before there was any have none.
+std::vector<std::string> rasters_from(const nlohmann::json& object, const char* name) {
+    const nlohmann::json& files = json_field(object, "files");
+    if (!files.is_array() || files.empty() || files.size() > most_images)
+        throw JsonFault{"'files' of '" + std::string(name) + "' must be a list of 1 to " +
+                        std::to_string(most_images)};
+    std::vector<std::string> paths;
+    for (const nlohmann::json& file : files) paths.push_back(path_from(as_field("files", file), "files"));
+    return paths;
+}
 void read_drape(const nlohmann::json& json, View& view) {
     if (!json.contains("drape")) return;
     const nlohmann::json& drape = json_field(json, "drape");
-    const nlohmann::json& files = json_field(drape, "files");
-    if (!files.is_array() || files.empty() || files.size() > most_images)
-        throw JsonFault{"'files' of 'drape' must be a list of 1 to " + std::to_string(most_images)};
-    for (const nlohmann::json& file : files)
-        view.drape.push_back(path_from(as_field("files", file), "files"));
+    view.drape = rasters_from(drape, "drape");
     view.drape_opacity = number(drape, "opacity", limits::drape_opacity);
     read_choice(drape, "values", image_value_names, view.drape_values);
 }
@@ -107,11 +112,7 @@ void read_drape(const nlohmann::json& json, View& view) {
 void read_cover(const nlohmann::json& json, View& view) {
     if (!json.contains("landcover")) return;
     const nlohmann::json& cover = json_field(json, "landcover");
-    const nlohmann::json& files = json_field(cover, "files");
-    if (!files.is_array() || files.empty() || files.size() > most_images)
-        throw JsonFault{"'files' of 'landcover' must be a list of 1 to " + std::to_string(most_images)};
-    for (const nlohmann::json& file : files)
-        view.cover_choice.files.push_back(path_from(as_field("files", file), "files"));
+    view.cover_choice.files = rasters_from(cover, "landcover");
     view.cover_choice.table = path_from(cover, "table");
 }
 

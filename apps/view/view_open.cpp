@@ -74,8 +74,8 @@ Result<void> open_files(View& view) {
 // A file of land cover that is not there, perhaps because what follows its comma is no table.
 Error no_such_cover(const std::string& file) {
     const std::size_t comma = file.rfind(',');
-    if (comma != std::string::npos && is_there(file.substr(0, comma)).ok() &&
-        *is_there(file.substr(0, comma)))
+    const Result<bool> there = is_there(file.substr(0, comma));
+    if (comma != std::string::npos && there.ok() && *there)
         return refused("--landcover", file,
                        "there is no table " + file.substr(comma + 1) + ": choose " +
                            listed(cover_table_names()) + ", or name a .json file");

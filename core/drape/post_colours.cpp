@@ -69,14 +69,15 @@ std::uint32_t ColoursOverGround::at(double row, double column) const {
         post = colours_->grid.post_at(place.lat_deg, place.lon_deg);
     }
     if (!std::isfinite(post.row) || !std::isfinite(post.column)) return 0;
-    const double down = std::floor(post.row + half) - colours_->first_row;
-    double right = std::floor(post.column + half) - colours_->first_column;
+    const double down = std::floor(post.row + half) - colours_->part.first_row;
+    double right = std::floor(post.column + half) - colours_->part.first_column;
     if (colours_->grid.wraps_longitude()) {
         const double turn = colours_->grid.columns() - 1;
         right -= turn * std::floor(right / turn);
     }
-    if (!(down >= 0.0 && down < colours_->rows && right >= 0.0 && right < colours_->columns)) return 0;
-    return colours_->rgba[static_cast<std::size_t>(down) * static_cast<std::size_t>(colours_->columns) +
+    if (!(down >= 0.0 && down < colours_->part.rows && right >= 0.0 && right < colours_->part.columns))
+        return 0;
+    return colours_->rgba[static_cast<std::size_t>(down) * static_cast<std::size_t>(colours_->part.columns) +
                           static_cast<std::size_t>(right)];
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/drape/ground_image.h"
+#include "core/terrain/grid_part.h"
 
 namespace oro {
 
@@ -15,8 +16,7 @@ namespace oro {
 struct PostColours {
     PostGrid grid;              // whose posts they are
     std::size_t grid_number{};  // that grid, of its region's
-    int first_row{}, rows{};
-    int first_column{}, columns{};  // columns may run past the grid's last, where longitudes go round
+    GridPart part;
     std::vector<std::uint32_t> rgba;
 };
 

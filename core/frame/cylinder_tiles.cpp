@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "core/base/parallel.h"
+#include "core/base/srgb.h"
 
 namespace oro {
 namespace {
@@ -18,24 +19,17 @@ constexpr double rad_per_deg = std::numbers::pi / 180.0;
 constexpr int margin_px = 4;  // around what a tile is for: its pixels' means reach over its borders
 constexpr int parts = 3;      // of a pixel, along each side
 
-// Light of an sRGB code, 0 .. 1. Source: IEC 61966-2-1.
-double light_of(double code) {
-    return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
-}
-
 std::array<float, 256> lights() {
     std::array<float, 256> all{};
     for (std::size_t i = 0; i < all.size(); ++i)
-        all[i] = static_cast<float>(light_of(static_cast<double>(i) / 255.0));
+        all[i] = static_cast<float>(light_of_srgb(static_cast<double>(i) / 255.0));
     return all;
 }
 
 // The code whose light is nearest, in codes.
 std::uint8_t code_of(float light) {
-    const double shown = light <= 0.0031308F
-                             ? 12.92 * static_cast<double>(light)
-                             : 1.055 * std::pow(static_cast<double>(light), 1.0 / 2.4) - 0.055;
-    return static_cast<std::uint8_t>(std::clamp(std::lround(255.0 * shown), 0L, 255L));
+    const double code = srgb_of_light(static_cast<double>(light));
+    return static_cast<std::uint8_t>(std::clamp(std::lround(255.0 * code), 0L, 255L));
 }
 
 // Cuts a length into parts of much the same length, `most` at most.

@@ -9,6 +9,7 @@ namespace oro {
 namespace {
 
 constexpr double largest_cell_m = 9500.0;
+constexpr double lacunarity = static_cast<double>(gpu::noise_lacunarity);
 // Of noise between random numbers, evenly spread from -1 to 1, at a lattice's points: a third there; on
 // average over a cell (181 + 50) / 462 per axis of that, with the fade 6 t^5 - 15 t^4 + 10 t^3.
 constexpr double octave_variance = 0.4810 / 3.0;
@@ -28,11 +29,11 @@ Amplitudes amplitudes(double cell_m) {
                              : 1.5};
 }
 
-}  // namespace
+using Shapes = std::array<Amplitudes, gpu::noise_octaves>;
 
-void set_ground_noise(const Ecef& eye, gpu::FrameConstants& constants) {
-    constexpr double lacunarity = static_cast<double>(gpu::noise_lacunarity);
-    std::array<Amplitudes, gpu::noise_octaves> shapes{};
+// So that border and patches have a variance of 1, and an octave of the grain.
+Shapes noise_shapes() {
+    Shapes shapes{};
     Amplitudes variance{};
     double cell_m = largest_cell_m;
     for (Amplitudes& shape : shapes) {
@@ -41,8 +42,20 @@ void set_ground_noise(const Ecef& eye, gpu::FrameConstants& constants) {
         variance.patches += octave_variance * shape.patches * shape.patches;
         cell_m /= lacunarity;
     }
+    for (Amplitudes& shape : shapes) {
+        shape.border /= std::sqrt(variance.border);
+        shape.patches /= std::sqrt(variance.patches);
+        shape.grain /= std::sqrt(octave_variance);
+    }
+    return shapes;
+}
+
+}  // namespace
+
+void set_ground_noise(const Ecef& eye, gpu::FrameConstants& constants) {
+    static const Shapes shapes = noise_shapes();
     glm::dvec3 at = eye.m;
-    cell_m = largest_cell_m;
+    double cell_m = largest_cell_m;
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         gpu::NoiseOctave& octave = constants.noise[i];
         for (int axis = 0; axis < 3; ++axis) {
@@ -51,9 +64,9 @@ void set_ground_noise(const Ecef& eye, gpu::FrameConstants& constants) {
             octave.part[axis] = static_cast<float>(cells - whole);
         }
         octave.cell_m = static_cast<float>(cell_m);
-        octave.border = static_cast<float>(shapes[i].border / std::sqrt(variance.border));
-        octave.patches = static_cast<float>(shapes[i].patches / std::sqrt(variance.patches));
-        octave.grain = static_cast<float>(shapes[i].grain / std::sqrt(octave_variance));
+        octave.border = static_cast<float>(shapes[i].border);
+        octave.patches = static_cast<float>(shapes[i].patches);
+        octave.grain = static_cast<float>(shapes[i].grain);
         // A rotation: rows of a third of (2 -2 1), (1 2 2), (2 1 -2). As shaders/shade/ground_noise.glsl.
         at = glm::dvec3(2.0 * at.x - 2.0 * at.y + at.z, at.x + 2.0 * at.y + 2.0 * at.z,
                         2.0 * at.x + at.y - 2.0 * at.z) /

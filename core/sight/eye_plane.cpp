@@ -23,8 +23,7 @@ int grid_column(const PostGrid& grid, int column) {
 
 }  // namespace
 
-EyePlane::EyePlane(const TrueSurface& surface, const Observer& observer, const ViewshedWindow& window,
-                   int threads)
+EyePlane::EyePlane(const TrueSurface& surface, const Observer& observer, const GridPart& window, int threads)
     : window_(window),
       stride_(window.columns + 2),
       posts_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(window.rows + 2),

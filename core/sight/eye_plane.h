@@ -31,7 +31,7 @@ inline double along(const PlanePost& a, const PlanePost& b) {
 // and NaN for a height. Numbers count through rows of the rimmed window.
 class EyePlane {
   public:
-    EyePlane(const TrueSurface& surface, const Observer& observer, const ViewshedWindow& window, int threads);
+    EyePlane(const TrueSurface& surface, const Observer& observer, const GridPart& window, int threads);
 
     [[nodiscard]] const PlanePost& post(std::int64_t number) const {
         return posts_[static_cast<std::size_t>(number)];
@@ -103,7 +103,7 @@ class EyePlane {
     void measure(const PostGrid& grid, int threads);
     void set_error(double up_m, double sideways_m, double steepest2);
 
-    ViewshedWindow window_;
+    GridPart window_;
     std::int64_t stride_;
     std::vector<PlanePost> posts_;
     std::vector<char> sw_ne_;  // of the cell south-east of each; those that the window has not wholly: nw_se

@@ -28,7 +28,7 @@ struct Entry {
 
 class Sweep {
   public:
-    Sweep(const TrueSurface& surface, const ViewshedRequest& request, const ViewshedWindow& window)
+    Sweep(const TrueSurface& surface, const ViewshedRequest& request, const GridPart& window)
         : surface_(surface),
           request_(request),
           window_(window),
@@ -64,7 +64,7 @@ class Sweep {
 
     const TrueSurface& surface_;
     const ViewshedRequest& request_;
-    ViewshedWindow window_;
+    GridPart window_;
     double target_m_;
     Observer observer_;
     EyePlane plane_;
@@ -338,7 +338,7 @@ Viewshed Sweep::result(const ViewshedProgress& progress) {
 bool others_reach(const TrueGround& ground, std::size_t grid, const ViewshedRequest& request) {
     for (std::size_t other = 0; other < ground.grids(); ++other) {
         if (other == grid) continue;
-        const ViewshedWindow window =
+        const GridPart window =
             window_around(ground.surface(other).field().grid, request.eye, request.radius_m);
         if (window.rows > 0 && window.columns > 0) return true;
     }
@@ -422,7 +422,7 @@ Viewshed viewshed(const TrueGround& ground, std::size_t grid, const ViewshedRequ
                   const ViewshedProgress& progress) {
     const TrueSurface& surface = ground.surface(grid);
     Viewshed viewshed{window_around(surface.field().grid, request.eye, request.radius_m), {}, 0};
-    const ViewshedWindow& window = viewshed.window;
+    const GridPart& window = viewshed.window;
     if (window.rows < 1 || window.columns < 1) return {};
     // A sweep takes 0.4 microseconds a post (docs/commands/viewshed.md), where a line of sight asks the
     // oracle.

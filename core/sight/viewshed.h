@@ -7,25 +7,12 @@
 #include <vector>
 
 #include "core/sight/observer.h"
+#include "core/terrain/grid_part.h"
 
 namespace oro {
 
-// A part of a grid's posts. Of a region that goes round the Earth its columns may begin before the first and
-// end behind the last: column c is then that of c a turn on.
-struct ViewshedWindow {
-    int first_row{};
-    int rows{};
-    int first_column{};
-    int columns{};
-    [[nodiscard]] std::size_t number(int row, int column) const {
-        return static_cast<std::size_t>(row - first_row) * static_cast<std::size_t>(columns) +
-               static_cast<std::size_t>(column - first_column);
-    }
-    bool operator==(const ViewshedWindow&) const = default;
-};
-
 // The posts within a radius around a place, and a few beyond; empty where there are none.
-ViewshedWindow window_around(const PostGrid& grid, const Geodetic& place, double radius_m);
+GridPart window_around(const PostGrid& grid, const Geodetic& place, double radius_m);
 
 // What is looked at over a post of a window: target_m over its ground, least_above_m at least.
 Geodetic target_over_post(const TrueSurface& surface, int row, int column, double target_m);
@@ -34,7 +21,7 @@ struct Viewshed {
     // The value of a post that is void, or farther than the radius.
     static constexpr float unknown = -9999.0F;
 
-    ViewshedWindow window;
+    GridPart window;
     // For each post of the window: 0 where a target over it is seen, else how much higher (metres) it would
     // have to be, infinite where no height would do; or unknown.
     std::vector<float> clearance_deficit_m;

@@ -11,7 +11,7 @@ namespace {
 constexpr double least_radius_m = 6.33e6, spare_cells = 3.0;  // no radius of curvature is smaller
 
 // Of a grid on a net: what holds a circle around the place.
-ViewshedWindow window_on_net(const LatticeGeoreference& net, const Geodetic& place, double reach) {
+GridPart window_on_net(const LatticeGeoreference& net, const Geodetic& place, double reach) {
     constexpr int bearings = 256;
     constexpr double between = 1.001;  // a circle's reach beyond the chords from bearing to bearing, and more
     const glm::dmat3 enu = ecef_from_enu(place.lat_deg, place.lon_deg);
@@ -41,7 +41,7 @@ ViewshedWindow window_on_net(const LatticeGeoreference& net, const Geodetic& pla
     const auto held = [](double number, double last) {
         return static_cast<int>(std::clamp(number, 0.0, last));
     };
-    ViewshedWindow window;
+    GridPart window;
     window.first_row = held(std::floor(row - tall), last_row);
     window.first_column = held(std::floor(column - wide), last_column);
     window.rows = held(std::ceil(row + tall), last_row) - window.first_row + 1;
@@ -51,13 +51,13 @@ ViewshedWindow window_on_net(const LatticeGeoreference& net, const Geodetic& pla
 
 }  // namespace
 
-ViewshedWindow window_around(const PostGrid& grid, const Geodetic& place, double radius_m) {
+GridPart window_around(const PostGrid& grid, const Geodetic& place, double radius_m) {
     const double reach = radius_m / least_radius_m;
     if (grid.net) return window_on_net(*grid.net, place, reach);
     const double reach_deg = deg_from_radians(Radians{reach});
     const double middle = grid.lat.index_at(place.lat_deg);
     const double rows = reach_deg * grid.lat.posts_per_deg + spare_cells;
-    ViewshedWindow window;
+    GridPart window;
     window.first_row = static_cast<int>(std::clamp(std::floor(middle - rows), 0.0, grid.rows() - 1.0));
     const int last_row = static_cast<int>(std::clamp(std::ceil(middle + rows), 0.0, grid.rows() - 1.0));
     if (middle + rows < 0.0 || middle - rows > grid.rows() - 1.0) return {};

@@ -7,18 +7,11 @@
 #include <stop_token>
 #include <vector>
 
+#include "core/terrain/grid_part.h"
 #include "core/terrain/post_grid.h"
 
 namespace oro {
 
-// A part of a grid's posts. Empty where rows or columns is 0.
-struct GridPart {
-    int first_row{}, rows{};
-    int first_column{}, columns{};
-    [[nodiscard]] std::size_t count() const {
-        return static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
-    }
-};
 // The posts of a grid that lie in the box of another one, and those next to them; all columns of a grid that
 // goes round the Earth or meets one wider than half of it, all posts of a grid on a net.
 GridPart part_within(const PostGrid& grid, const PostGrid& other);

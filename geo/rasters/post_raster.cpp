@@ -16,13 +16,13 @@ namespace {
 std::array<double, 6> corners_of(const PostRaster& raster) {
     if (raster.crs) {
         const auto& m = raster.crs->crs_from_post;
-        const double column = raster.first_column - 0.5, row = raster.first_row - 0.5;
+        const double column = raster.part.first_column - 0.5, row = raster.part.first_row - 0.5;
         return {m[0] + m[1] * column + m[2] * row, m[1], m[2], m[3] + m[4] * column + m[5] * row, m[4], m[5]};
     }
     const PostGrid& grid = raster.grid;
     const double wide_deg = grid.lon.spacing_deg(), tall_deg = grid.lat.spacing_deg();
-    return {grid.lon.at_deg(raster.first_column) - 0.5 * wide_deg, wide_deg, 0.0,
-            grid.lat.at_deg(raster.first_row) + 0.5 * tall_deg,    0.0,      -tall_deg};
+    return {grid.lon.at_deg(raster.part.first_column) - 0.5 * wide_deg, wide_deg, 0.0,
+            grid.lat.at_deg(raster.part.first_row) + 0.5 * tall_deg,    0.0,      -tall_deg};
 }
 
 Result<void> fill(GDALDatasetH dataset, const PostRaster& raster, const GdalMessages& messages,
@@ -46,8 +46,8 @@ Result<void> fill(GDALDatasetH dataset, const PostRaster& raster, const GdalMess
         const GDALRasterBandH band = GDALGetRasterBand(dataset, static_cast<int>(i) + 1);
         // GDAL writes from it, and takes no pointer to const.
         auto* const values = const_cast<float*>(raster.bands[i].values.data());
-        if (GDALRasterIO(band, GF_Write, 0, 0, raster.columns, raster.rows, values, raster.columns,
-                         raster.rows, GDT_Float32, 0, 0) != CE_None)
+        if (GDALRasterIO(band, GF_Write, 0, 0, raster.part.columns, raster.part.rows, values,
+                         raster.part.columns, raster.part.rows, GDT_Float32, 0, 0) != CE_None)
             return failed();
     }
     GDALFlushCache(dataset);
@@ -66,8 +66,9 @@ Result<void> write_post_raster(const std::string& path, bool overwrite, const Po
     for (const char* option :
          {"COMPRESS=DEFLATE", "ZLEVEL=1", "PREDICTOR=3", "TILED=YES", "BIGTIFF=IF_SAFER"})
         options.AddString(option);
-    Dataset dataset(GDALCreate(GDALGetDriverByName("GTiff"), nameless.c_str(), raster.columns, raster.rows,
-                               static_cast<int>(raster.bands.size()), GDT_Float32, options.List()));
+    Dataset dataset(GDALCreate(GDALGetDriverByName("GTiff"), nameless.c_str(), raster.part.columns,
+                               raster.part.rows, static_cast<int>(raster.bands.size()), GDT_Float32,
+                               options.List()));
     if (!dataset)
         return Error{ErrorKind::failed, path, "cannot be written: " + messages.last("GDAL says no more")};
     ORO_CHECK(fill(dataset.get(), raster, messages, path));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/terrain/grid_part.h"
 #include "core/terrain/post_grid.h"
 #include "geo/region/region.h"
 
@@ -20,9 +21,7 @@ struct PostRaster {
     };
     PostGrid grid;
     std::optional<PostsCrs> crs;  // where its posts lie in it; of a grid on a net
-    // The part of the grid that it has; columns may run past its last, and longitudes past 180.
-    int first_row{}, rows{};
-    int first_column{}, columns{};
+    GridPart part;                // that it has; longitudes may run past 180
     std::vector<Band> bands;
     float no_value{};
     std::vector<std::pair<std::string, std::string>> tags;  // of the file, for people: names in capitals

@@ -141,8 +141,7 @@ void put_style(const ShotResult& shot, const Style& style, ordered_json& json) {
                                                                          : "mean";
     // What says which materials the ground's colours are of; null: they are of none.
     json["cover"] = nullptr;
-    if (style.frame.colour_by == gpu::colour_by_cover)
-        json["cover"] = shot.view.cover ? "files, and a rule where they hold nothing" : "rule";
+    if (style.frame.colour_by == gpu::colour_by_cover) json["cover"] = shot.view.cover ? "files" : "rule";
     json["contour_interval_m"] = nullptr;
     if (style.frame.contours.interval_m > 0.0F) json["contour_interval_m"] = style.frame.contours.interval_m;
 }

@@ -19,7 +19,7 @@ namespace {
 constexpr double most_posts = 2.0e8;
 
 // A window moved by whole turns so that its columns are nearest to those of another.
-ViewshedWindow turned_near(ViewshedWindow window, const ViewshedWindow& other, const PostGrid& grid) {
+GridPart turned_near(GridPart window, const GridPart& other, const PostGrid& grid) {
     if (!grid.wraps_longitude() || window.columns == 0) return window;
     const int turn = grid.columns() - 1;
     while (window.first_column - other.first_column > turn / 2) window.first_column -= turn;
@@ -27,10 +27,10 @@ ViewshedWindow turned_near(ViewshedWindow window, const ViewshedWindow& other, c
     return window;
 }
 
-ViewshedWindow around_both(const ViewshedWindow& one, const ViewshedWindow& other) {
+GridPart around_both(const GridPart& one, const GridPart& other) {
     if (one.rows == 0 || one.columns == 0) return other;
     if (other.rows == 0 || other.columns == 0) return one;
-    ViewshedWindow both;
+    GridPart both;
     both.first_row = std::min(one.first_row, other.first_row);
     both.first_column = std::min(one.first_column, other.first_column);
     both.rows = std::max(one.first_row + one.rows, other.first_row + other.rows) - both.first_row;
@@ -63,7 +63,7 @@ Result<void> make_window(const RegionGround& ground, ViewshedReport& report) {
 }
 
 void take_in(const Viewshed& shed, const PostGrid& grid, ViewshedReport& report) {
-    const ViewshedWindow window = turned_near(shed.window, report.window, grid);
+    const GridPart window = turned_near(shed.window, report.window, grid);
     for (int row = window.first_row; row < window.first_row + window.rows; ++row) {
         for (int column = window.first_column; column < window.first_column + window.columns; ++column) {
             const float missed_m = shed.clearance_deficit_m[window.number(row, column)];
@@ -138,10 +138,7 @@ PostRaster raster_of(ViewshedReport& report, const RegionGround& ground) {
     const RegionGrid& grid = ground.grid(report.grid);
     raster.grid = grid.field.grid;
     raster.crs = grid.posts_crs;
-    raster.first_row = report.window.first_row;
-    raster.rows = report.window.rows;
-    raster.first_column = report.window.first_column;
-    raster.columns = report.window.columns;
+    raster.part = report.window;
     raster.no_value = Viewshed::unknown;
     std::vector<float> seen(report.count.size(), Viewshed::unknown);
     for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -168,10 +165,7 @@ PostColours colours_of(const ViewshedReport& report, const RegionGround& ground)
     PostColours colours;
     colours.grid = ground.grid(report.grid).field.grid;
     colours.grid_number = report.grid;
-    colours.first_row = report.window.first_row;
-    colours.rows = report.window.rows;
-    colours.first_column = report.window.first_column;
-    colours.columns = report.window.columns;
+    colours.part = report.window;
     colours.rgba.reserve(report.count.size());
     for (const float count : report.count)
         colours.rgba.push_back(count == Viewshed::unknown ? 0 : count > 0.0F ? seen : hidden);

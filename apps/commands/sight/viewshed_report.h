@@ -27,7 +27,7 @@ struct ViewshedQuestion {
 struct ViewshedReport {
     ViewshedQuestion question;
     std::size_t grid{};  // whose posts `window` has
-    ViewshedWindow window;
+    GridPart window;
     std::vector<float> clearance_deficit_m;  // of the eye that misses it least
     std::vector<float> count;                // of eyes that see it
     std::size_t cells{}, seen{};             // posts within the radius, and those of them that are seen
@@ -49,8 +49,8 @@ std::string eye_text(const Geodetic& eye, const TrueGround& ground);
 // The file whose posts a report has.
 std::string source_of_posts(const ViewshedReport& report, const RegionGround& ground);
 
-// What the command's GeoTIFF holds (write_post_raster() writes it). The report's values of posts move into it;
-// all else of the report stays.
+// What the command's GeoTIFF holds (write_post_raster() writes it). The report's values of posts move into
+// it; all else of the report stays.
 PostRaster raster_of(ViewshedReport& report, const RegionGround& ground);
 // Its posts as colours over the ground: those that are seen bright, those that are hidden dark, all others
 // none.

@@ -59,10 +59,9 @@ TEST(SourceDifferences, HaveColoursWhereTheFileHasValues) {
     const std::vector<float>& values = raster.bands.front().values;
     const std::vector<std::uint32_t>& colours = found->colours->rgba;
     ASSERT_EQ(values.size(), colours.size());
-    ASSERT_EQ(values.size(),
-              static_cast<std::size_t>(raster.rows) * static_cast<std::size_t>(raster.columns));
-    EXPECT_EQ(raster.rows, found->colours->rows);
-    EXPECT_EQ(raster.first_column, found->colours->first_column);
+    ASSERT_EQ(values.size(), raster.part.count());
+    EXPECT_EQ(raster.part.rows, found->colours->part.rows);
+    EXPECT_EQ(raster.part.first_column, found->colours->part.first_column);
     EXPECT_EQ(raster.no_value, void_height_m);
     std::uint64_t posts = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {

@@ -31,9 +31,9 @@ class Plain final : public GroundImage {
 PostColours nine_posts() {
     PostColours colours;
     colours.grid = test::made_field(47.0, 8.0, 10.0, 41, 51, [](double, double) { return 100.0F; }).grid;
-    colours.first_row = 3;
-    colours.first_column = 7;
-    colours.rows = colours.columns = 3;
+    colours.part.first_row = 3;
+    colours.part.first_column = 7;
+    colours.part.rows = colours.part.columns = 3;
     for (std::uint32_t i = 1; i <= 9; ++i) colours.rgba.push_back(0xFF000000U | i);
     return colours;
 }
@@ -96,8 +96,8 @@ TEST(PostColours, LieWhereTheyAreOverCoarserPosts) {
 TEST(PostColours, AreMixedInCoarseLevels) {
     PostColours colours = nine_posts();
     // Four posts along a side of a texel, from post 4 on: half of them, those of even columns.
-    colours.first_row = colours.first_column = 4;
-    colours.rows = colours.columns = 4;
+    colours.part.first_row = colours.part.first_column = 4;
+    colours.part.rows = colours.part.columns = 4;
     colours.rgba.clear();
     for (int i = 0; i < 16; ++i) colours.rgba.push_back(i % 2 == 0 ? 0xFF0000C8U : 0U);
     const PostGrid grid = colours.grid;

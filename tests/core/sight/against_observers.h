@@ -23,7 +23,7 @@ struct Tally {
 inline Tally held_against_observer(const TrueSurface& surface, const ViewshedRequest& request,
                                    const Viewshed& shed, int stride) {
     const Observer observer(surface, request.eye, request.air);
-    const ViewshedWindow& window = shed.window;
+    const GridPart& window = shed.window;
     std::vector<Tally> rows(static_cast<std::size_t>(window.rows));
     in_parallel(window.rows, thread_count(), [&](int i) {
         Tally& tally = rows[static_cast<std::size_t>(i)];

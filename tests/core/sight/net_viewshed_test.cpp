@@ -60,7 +60,7 @@ TEST(NetViewshed, WindowsHoldTheCircle) {
         const PostPlace at = plane.place_of((2.0 * unit(random) - 0.5) * plane.rows,
                                             (2.0 * unit(random) - 0.5) * plane.columns);
         const double radius_m = 60000.0 * unit(random);
-        const ViewshedWindow window = window_around(field.grid, {at.lat_deg, at.lon_deg, 0.0}, radius_m);
+        const GridPart window = window_around(field.grid, {at.lat_deg, at.lon_deg, 0.0}, radius_m);
         empty += window.rows < 1 ? 1 : 0;
         const glm::dvec3 eye = ecef_from_enu(at.lat_deg, at.lon_deg)[2];
         for (int row = 0; row < plane.rows; ++row) {

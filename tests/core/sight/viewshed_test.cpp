@@ -120,7 +120,7 @@ TEST(Viewshed, WindowsHoldTheCircle) {
     EXPECT_EQ(window_around(field.grid, {10.0, 8.4, 0.0}, 20e3).rows, 0);
     EXPECT_EQ(window_around(field.grid, {46.5, 100.0, 0.0}, 20e3).columns, 0);
     // 1,000 m are 10.8 rows of 92.6 m and 15.6 columns of 63.9 m at 46.5 N, and 3 to spare.
-    const ViewshedWindow window = window_around(field.grid, {46.5, 8.5, 0.0}, 1000.0);
+    const GridPart window = window_around(field.grid, {46.5, 8.5, 0.0}, 1000.0);
     EXPECT_NEAR(window.rows, 2 * 10.8 + 7.0, 2.0);
     EXPECT_NEAR(window.columns, 2 * 15.6 + 7.0, 2.0);
 }

@@ -179,7 +179,7 @@ Verdicts seen_by_oracle(const TrueSurface& surface, const Geodetic& eye, const C
 Verdicts seen_by_viewshed(const PostGrid& grid, const Viewshed& shed, const Cells& cells,
                           const Verdicts& reached) {
     Verdicts verdicts(reached.size(), beyond_reach);
-    const ViewshedWindow& window = shed.window;
+    const GridPart& window = shed.window;
     for (std::size_t i = 0; i < reached.size(); ++i) {
         if (reached[i] == beyond_reach) continue;
         const auto row = static_cast<int>(std::lround(grid.lat.index_at(cells.lat_deg[i])));
