@@ -22,6 +22,8 @@ struct ViewshedQuestion {
     Air air;
     double target_m{};  // height of targets over the ground
     double radius_km{usual_radius_km};
+    // What targets stand on, where that is not what hides them (ViewshedRequest); outlives the question.
+    const TrueGround* footing{nullptr};
 };
 
 struct ViewshedReport {
@@ -49,8 +51,8 @@ std::string eye_text(const Geodetic& eye, const TrueGround& ground);
 // The file whose posts a report has.
 std::string source_of_posts(const ViewshedReport& report, const RegionGround& ground);
 
-// What the command's GeoTIFF holds (write_post_raster() writes it). The report's values of posts move into it;
-// all else of the report stays.
+// What the command's GeoTIFF holds (write_post_raster() writes it). The report's values of posts move into
+// it; all else of the report stays.
 PostRaster raster_of(ViewshedReport& report, const RegionGround& ground);
 // Its posts as colours over the ground: those that are seen bright, those that are hidden dark, all others
 // none.
