@@ -115,7 +115,8 @@ Result<void> raise_around_eye(const View& view, const ViewOptions& options, Regi
     return refused("--at", *options.at,
                    "the eye stands in the canopy, " + metres_words(-above_canopy_m) +
                        " below its top, and sees nothing: --above " +
-                       figure(std::ceil(10.0 * (above_ground_m - above_canopy_m)) / 10.0) + " looks over it");
+                       figure(std::ceil(10.0 * (above_ground_m - above_canopy_m) + 0.01) / 10.0) +
+                       " looks over it");
 }
 
 // Over which place the sun stands as a view's light says: the eye's, or the middle of a map.

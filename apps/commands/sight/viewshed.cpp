@@ -66,7 +66,7 @@ Result<void> check_eyes(const ViewshedOptions& options, const ViewshedQuestion& 
         return refused("--at", options.at[i],
                        "the observer stands in the canopy, " + metres_words(*below_m) +
                            " below its top, and sees nothing: --above " +
-                           figure(std::ceil(10.0 * (above_m + *below_m)) / 10.0) + " looks over it");
+                           figure(std::ceil(10.0 * (above_m + *below_m) + 0.01) / 10.0) + " looks over it");
     }
     return {};
 }

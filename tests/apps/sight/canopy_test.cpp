@@ -41,7 +41,7 @@ class CanopyCommand : public testing::Test {
                                       const std::function<double(int row, int column)>& value) const {
         std::ofstream grid(path(name + ".asc"));
         grid << "ncols " << columns << "\nnrows " << rows
-             << "\nxllcorner 500000\nyllcorner 5149190\ncellsize 10\nNODATA_value -32768\n";
+             << "\nxllcorner 500000\nyllcorner 5149190\ncellsize 10\n";
         for (int row = 0; row < rows; ++row)
             for (int column = 0; column < columns; ++column)
                 grid << value(row, column) << (column + 1 < columns ? ' ' : '\n');
@@ -81,8 +81,9 @@ TEST_F(CanopyCommand, SaysThatSixMetresOfSpruceHideTheTarget) {
     EXPECT_FALSE(report["visible"].get<bool>());
     EXPECT_NEAR(report["target_missed_by_m"].get<double>(), 6.04, 0.02);
     EXPECT_EQ(report["obstacle"]["is"], "canopy");
-    // Where the line enters the trees, which rise from post to post: at 16.7 m.
-    EXPECT_NEAR(report["obstacle"]["canopy_m"].get<double>(), 16.7, 0.2);
+    // Where the line enters the trees, which rise by 2 m a metre to the post of 20 m: there the line is
+    // 2 + 0.03 * 498.5 - 0.02 m over the ground.
+    EXPECT_NEAR(report["obstacle"]["canopy_m"].get<double>(), 16.93, 0.03);
     EXPECT_TRUE(report["to"]["canopy_m"].is_null());
     EXPECT_EQ(report["canopy"]["from"], "file");
     EXPECT_FALSE(report["canopy"]["invented"].get<bool>());
@@ -95,7 +96,7 @@ TEST_F(CanopyCommand, SaysThatSixMetresOfSpruceHideTheTarget) {
                      "\nCanopy: data of spruce.tif, up to 20.0 m; 0 of it is taken to be in the "
                      "data already\n"))
         << printed.out;
-    // A share that the data hold is not added: 20 m less 3 m are 17 m, which touch the line.
+    // A share that the data hold is not added: trees of 18 m hide the line at 16.98 m, those of 16 m do not.
     EXPECT_FALSE(
         object_said_by(sight({"-q", "--json", "--canopy", spruce, "--canopy-held", "0.1"}))["visible"]);
     EXPECT_TRUE(
@@ -243,7 +244,7 @@ TEST_F(CanopyCommand, PanoramasNameWhatIsSeenOverIt) {
     std::ofstream(path("names.geojson"))
         << R"({"type":"FeatureCollection","features":[)"
            R"({"type":"Feature","properties":{"name":"Near"},"geometry":{"type":"Point","coordinates":[9.00463,46.49992]}},)"
-           R"({"type":"Feature","properties":{"name":"Far"},"geometry":{"type":"Point","coordinates":[9.01310,46.49992]}}]})";
+           R"({"type":"Feature","properties":{"name":"Far"},"geometry":{"type":"Point","coordinates":[9.01310,46.50172]}}]})";
     const auto named = [&](const Words& more) {
         const json report = object_said_by(
             joined({"panorama", plain, "--coordinates", "EPSG:32632", "--at", at(10), "--names",
