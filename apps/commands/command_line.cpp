@@ -344,6 +344,21 @@ void add_sun(CLI::App& app, SunOptions& options) {
     list_first(command, {"--altitude", "--on-summit"});
 }
 
+// What grows on the ground of commands without a picture.
+void add_canopy(OptionGroup& group, ViewOptions& options) {
+    group
+        .option(
+            "--canopy", options.canopy, "FILE",
+            "Let what grows on the ground hide, as a closed surface: a raster of canopy heights in metres, "
+            "in any CRS, or several; or class: heights of the classes of --landcover, which are invented. "
+            "Heights are counted from the ground.")
+        .allow_extra_args(false);
+    group.number(
+        "--canopy-held", options.canopy_held, "SHARE",
+        "How much of the canopy's height the elevation data hold already, 0 to 1 (default 0.5 of SRTM, "
+        "else 0): so much is not added. Needs --canopy.");
+}
+
 void add_sight(CLI::App& app, SightOptions& options) {
     CLI::App& command =
         *app.add_subcommand("sight", "Tell whether one place is seen from another, and by how many metres");
@@ -363,6 +378,7 @@ void add_sight(CLI::App& app, SightOptions& options) {
     line.option("--landcover", options.view.landcover, "FILE",
                 "Name the land cover at both ends and at the obstacle: as shot --landcover.")
         .allow_extra_args(false);
+    add_canopy(line, options.view);
     add_region_options(command, options.region);
     add_air_options(command, options.view);
     add_json(command, options.json);
@@ -413,6 +429,14 @@ void add_viewshed(CLI::App& app, ViewshedOptions& options) {
     shed.flag("--on-summit", options.on_summit, on_summit_sentence("each observer stands", "its --at"));
     shed.number("--target", options.target_m, "METRES",
                 "Height of what is looked at over the ground of each post (default 0: the ground itself).");
+    shed.option("--landcover", options.view.landcover, "FILE",
+                "Land cover for --canopy class: as shot --landcover.")
+        .allow_extra_args(false);
+    add_canopy(shed, options.view);
+    shed.choice(
+        "--target-on", options.target_on, {"ground", "canopy"},
+        "What targets stand on: the ground, under trees too, or the top of the canopy (default ground). "
+        "Needs --canopy.");
     shed.number("--radius", options.radius_km, "KM", "How far to look, 0.01 to 1000 (default 20).");
     shed.option("--out", options.out, "FILE", "The GeoTIFF to write (.tif).");
     shed.flag("--overwrite", options.overwrite, "Replace a file that is there.");

@@ -5,6 +5,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/plan_text.h"
+#include "apps/cover/canopy_words.h"
 #include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/eye/asked_summit.h"
@@ -19,6 +20,7 @@
 #include "apps/view/view_changes.h"
 #include "core/base/parallel.h"
 #include "core/terrain/ground.h"
+#include "geo/canopy/raised_region.h"
 
 namespace oro {
 namespace {
@@ -114,6 +116,8 @@ ordered_json plan_json(const Budget& budget, const View& view, const AccuracyCho
     json["unseen"] = unseen_json(unseen);
     // None where the region's posts are its sources' own.
     if (budget.resampling) json["resampling"] = size_json(*budget.resampling);
+    // Of views with a canopy alone.
+    if (budget.vegetation) json["vegetation"] = size_json(*budget.vegetation);
     json["meshes"] = nullptr;
     if (meshes)
         json["meshes"] =
@@ -137,7 +141,9 @@ PlanEye eye_of(const View& view, const Region& region) {
     const Geodetic& eye = view.camera.eye;
     PlanEye place{eye.h_m - region.grids.front().field.undulation.at_m(eye.lat_deg, eye.lon_deg), {}};
     const auto ground = ground_h_m(region.grids.front().field, eye.lat_deg, eye.lon_deg, view.exaggeration);
-    if (ground) place.above_ground_m = eye.h_m - *ground;
+    const double canopy_m =
+        canopy_over_ground_m(region.grids.front(), eye.lat_deg, eye.lon_deg).value_or(0.0);
+    if (ground) place.above_ground_m = eye.h_m - *ground + view.exaggeration * canopy_m;
     return place;
 }
 
@@ -190,11 +196,13 @@ Result<void> run_plan(const PlanOptions& options) {
     ORO_TRY(const std::optional<MeshForecasts> meshes, mesh_forecasts(view, region, *pages.front()));
     if (options.json) {
         ordered_json json = plan_json(budget, view, choice, unseen, meshes);
+        if (view.canopy) json["canopy"] = canopy_json(*view.canopy, region);
         json["notes"] = all_notes(region);
         std::printf("%s\n", json_text(json, true).c_str());
         return {};
     }
     std::fputs(plan_text(budget, view, eye_of(view, region), choice, unseen, meshes).c_str(), stdout);
+    if (view.canopy) std::printf("%s.\n", canopy_words(*view.canopy, region).c_str());
     return {};
 }
 

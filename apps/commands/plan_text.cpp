@@ -124,6 +124,13 @@ std::string resampling_row(const Budget& budget) {
                budget.resampling, "");
 }
 
+// What grows on the ground, of views that have it: judged as parts of the model are.
+std::string vegetation_row(const Budget& budget) {
+    if (!budget.vegetation) return {};
+    return row("vegetation", "yes", yes_or_no(budget.vegetation->worst_px > budget.tolerance_px),
+               budget.vegetation, "no --canopy");
+}
+
 // What can be drawn of a region that has clusters.
 std::string meshes_text(const std::optional<MeshForecasts>& meshes, const View& view) {
     if (!meshes) return {};
@@ -250,7 +257,7 @@ std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye
         estimates_text(budget) + "\n";
     out += "Switch off one part of the model to see how much error that causes:\n";
     out += headings("part of the model", "needed", "for " + limit, "left out by");
-    out += rows(budget, EffectGroup::model, view);
+    out += rows(budget, EffectGroup::model, view) + vegetation_row(budget);
     out += "\nWhat drawing itself rounds off:\n" + headings("error", "within", limit, "");
     out += rows(budget, EffectGroup::drawing, view);
     out += "\nWhat the data do not tell, and no setting can help:\n" + headings("error", "within", limit, "");

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/truth/oracle.h"
+#include "geo/canopy/raised_region.h"
 #include "geo/places/geodesic.h"
 #include "geo/posts/source_at.h"
 
@@ -23,6 +24,9 @@ Result<std::optional<SeenPlace>> place_seen(const View& view, const RegionGround
     const RegionGrid& grid = ground.grid(hit->grid);
     const double N_m = grid.field.undulation.at_m(place.lat_deg, place.lon_deg);
     place.H_m = (hit->point.h_m - N_m) / view.exaggeration;
+    place.canopy_m = canopy_over_ground_m(grid, place.lat_deg, place.lon_deg);
+    place.canopy_invented = place.canopy_m && view.canopy && view.canopy->is_invented();
+    place.H_m -= place.canopy_m.value_or(0.0);
     place.h_m = place.H_m + N_m;
     const GeodesicPath path =
         geodesic_between(camera.eye.lat_deg, camera.eye.lon_deg, place.lat_deg, place.lon_deg);
@@ -44,6 +48,19 @@ Result<std::optional<SeenPlace>> place_in_middle(const View& view, const RegionG
     return place_seen(view, ground, {0.5 * view.camera.width_px, 0.5 * view.camera.height_px});
 }
 
+namespace {
+
+// "  canopy 21.0 m over the ground, invented by class"
+std::string canopy_text(const SeenPlace& place) {
+    if (!place.canopy_m) return "";
+    char text[80];
+    std::snprintf(text, sizeof text, "  canopy %.1f m over the ground%s", *place.canopy_m,
+                  place.canopy_invented ? ", invented by class" : "");
+    return text;
+}
+
+}  // namespace
+
 std::string line_of(const std::optional<SeenPlace>& place) {
     if (!place) return "no terrain at this point: it shows sky, or a place without data";
     char text[240];
@@ -55,7 +72,7 @@ std::string line_of(const std::optional<SeenPlace>& place) {
         place->row, place->column);
     const std::string name = std::filesystem::path(place->source).filename().string();
     const std::string cover = place->cover ? "  " + one_line(place->cover->name) : "";
-    return text + (name.empty() ? "an unknown source" : one_line(name)) + cover;
+    return text + (name.empty() ? "an unknown source" : one_line(name)) + cover + canopy_text(*place);
 }
 
 }  // namespace oro

@@ -28,6 +28,10 @@ struct SeenPlace {
         int code{};
         std::string name;  // of its class: "tree cover"
     };
+    // How high the canopy's top is over the ground there, where the view has a canopy: then that is what is
+    // seen, and the heights above are the ground's below it.
+    std::optional<double> canopy_m;
+    bool canopy_invented{};      // by classes of land cover
     std::optional<Cover> cover;  // its land cover, where the view has some and the files know any
     std::string source;  // path of the source that it comes from; empty where no source's box holds it
 };
@@ -43,7 +47,7 @@ Result<std::optional<SeenPlace>> place_seen(const View& view, const RegionGround
 Result<std::optional<SeenPlace>> place_in_middle(const View& view, const RegionGround& ground);
 
 // On one line for people: latitude and longitude with 6 decimals, both heights, distance along the sight
-// line, bearing, cell, land cover and the source's file name; or that there is nothing.
+// line, bearing, cell, the source's file name, land cover and canopy; or that there is nothing.
 std::string line_of(const std::optional<SeenPlace>& place);
 
 }  // namespace oro

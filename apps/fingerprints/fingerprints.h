@@ -30,6 +30,7 @@ struct Fingerprints {
     std::uint64_t undulation{};                  // N over the region
     std::vector<OfSource> images;                // over the ground, as the view names them
     std::vector<OfSource> cover;                 // land cover: the files, likewise, and their table
+    std::vector<OfSource> canopy;                // files of canopy heights, likewise
     std::vector<OfSource> vectors;               // names and lines, likewise
     std::optional<std::uint64_t> style;          // colours and light; of drawn pictures alone, as
     std::optional<std::uint64_t> pixels;         // what was drawn, before a JPEG's loss

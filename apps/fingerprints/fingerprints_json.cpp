@@ -97,6 +97,7 @@ ordered_json fingerprints_json(const Fingerprints& fingerprints) {
     json["geoid"] = json_object("name", fingerprints.geoid, "undulation", digits_of(fingerprints.undulation));
     if (!fingerprints.images.empty()) json["images"] = sources_json(fingerprints.images);
     if (!fingerprints.cover.empty()) json["landcover"] = sources_json(fingerprints.cover);
+    if (!fingerprints.canopy.empty()) json["canopy"] = sources_json(fingerprints.canopy);
     if (!fingerprints.vectors.empty()) json["vectors"] = sources_json(fingerprints.vectors);
     put(json, "style", fingerprints.style);
     put(json, "pixels", fingerprints.pixels);
@@ -112,6 +113,7 @@ Fingerprints fingerprints_from(const nlohmann::json& json) {
     fingerprints.sources = sources_from(json, "sources");
     if (json.contains("images")) fingerprints.images = sources_from(json, "images");
     if (json.contains("landcover")) fingerprints.cover = sources_from(json, "landcover");
+    if (json.contains("canopy")) fingerprints.canopy = sources_from(json, "canopy");
     if (json.contains("vectors")) fingerprints.vectors = sources_from(json, "vectors");
     const nlohmann::json& geoid = json_field(json, "geoid");
     fingerprints.geoid = json_string(geoid, "name");

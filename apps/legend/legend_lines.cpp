@@ -4,10 +4,12 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 
+#include "apps/cover/canopy_words.h"
 #include "apps/legend/legend.h"
 #include "apps/report/figures.h"
 #include "apps/report/region_json.h"
 #include "core/terrain/ground.h"
+#include "geo/canopy/raised_region.h"
 
 namespace oro {
 namespace {
@@ -45,8 +47,10 @@ std::string eye_line(const View& view, const Region& region) {
     std::string line =
         "Eye: " + place_text(eye.lat_deg, eye.lon_deg) + ", " + height_text(H_m) + " above sea level";
     const auto ground_m = ground_h_m(region.grids.front().field, eye.lat_deg, eye.lon_deg, view.exaggeration);
+    const double canopy_m =
+        canopy_over_ground_m(region.grids.front(), eye.lat_deg, eye.lon_deg).value_or(0.0);
     if (ground_m && eye.h_m >= *ground_m)
-        line += ", " + height_text(eye.h_m - *ground_m) + " above the ground";
+        line += ", " + height_text(eye.h_m - *ground_m + view.exaggeration * canopy_m) + " above the ground";
     const Attitude& attitude = camera.attitude;
     line += text_of("; looking %s (%.0f°)", wind_of(attitude.heading_deg), attitude.heading_deg);
     if (std::abs(attitude.pitch_deg) >= 0.05)
@@ -121,6 +125,7 @@ std::vector<std::string> legend_lines(const View& view, const Region& region, co
                                 static_cast<double>(style.frame.contours.interval_m)));
     lines.push_back(data_line(view, region));
     if (view.cover && style.frame.colour_by == gpu::colour_by_cover) lines.push_back(cover_line(view));
+    if (view.canopy) lines.push_back(canopy_words(*view.canopy, region, view.tells_paths));
     std::string images;
     for (const std::string& file : view.drape)
         if (view.tells_paths)

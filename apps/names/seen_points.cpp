@@ -102,7 +102,7 @@ bool PointsInView::sees_or_moves(SeenPoint& point) const {
     put_at(*summit, point);
     if (!point.tells_H) {
         const double N_m = ground_.N_m(summit->lat_deg, summit->lon_deg);
-        point.H_m = H_over(summit->h_m, N_m, ground_.exaggeration());
+        point.H_m = H_over(summit->h_m, N_m, ground_.exaggeration()) - (canopy_m_ ? canopy_m_(*summit) : 0.0);
     }
     return in_picture(point);
 }
@@ -116,6 +116,7 @@ std::optional<SeenPoint> PointsInView::placed(const NamedPoint& point, PointCoun
     const double N_m = ground_.N_m(point.lat_deg, point.lon_deg), exaggeration = ground_.exaggeration(),
                  ground_H_m = H_over(*ground_h_m, N_m, exaggeration);
     SeenPoint seen{point.name, point.lat_deg, point.lon_deg, {}, ground_H_m, false, 0.0, 0.0, {}};
+    if (canopy_m_) seen.H_m -= canopy_m_({point.lat_deg, point.lon_deg, 0.0});
     double h_m = *ground_h_m;
     const auto tell = [&](double H_m) {
         seen.H_m = H_m;

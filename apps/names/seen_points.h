@@ -1,9 +1,11 @@
 // Which named points a view sees, and where on its picture.
 #pragma once
 
+#include <functional>
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/vectors/named_points.h"
@@ -55,6 +57,11 @@ class PointsInView {
     PointsInView(const TrueGround& ground, const Camera& camera, const WorldModel& model,
                  const Cylinder& around);
 
+    // The ground has a canopy of so many metres at a place: points stand on it, and the H that is written of
+    // those that tell none is that of the ground below.
+    void count_from_below_canopy(std::function<double(const Geodetic&)> canopy_m) {
+        canopy_m_ = std::move(canopy_m);
+    }
     // Where a place is on the picture; nothing behind the eye.
     [[nodiscard]] std::optional<glm::dvec2> place_px(const Geodetic& point) const;
     // The two steps of place_px: in view coordinates (x right, y up, z backwards), where light shows it; and
@@ -84,6 +91,7 @@ class PointsInView {
     glm::dmat3 view_from_ecef_;
     glm::dmat3 enu_from_ecef_;
     Oracle oracle_;
+    std::function<double(const Geodetic&)> canopy_m_;  // null: there is none
 };
 
 }  // namespace oro

@@ -40,6 +40,8 @@ struct ViewOptions : ViewSettings<OnCommandLine> {
     std::optional<std::string> sun_time;
     bool legend{false};                  // a strip below the picture
     std::vector<std::string> landcover;  // rasters of land cover, each FILE or FILE,TABLE
+    std::vector<std::string> canopy;     // rasters of canopy heights, or "class" alone
+    std::optional<double> canopy_held;   // share of it that the data hold already
     bool takes_maps{false};              // not an option: whether a view that is a map may be opened
     bool on_summit{false};               // the eye stands on the highest post near --at
     bool stands_at_place{false};         // not an option: whether --at alone is where the eye stands
@@ -160,7 +162,7 @@ struct SunOptions {
 
 struct SightOptions {
     RegionOptions region;
-    ViewOptions view;  // the air and land cover alone
+    ViewOptions view;  // the air, land cover and the canopy alone
     std::string from;
     std::string to;
     std::optional<double> above_m;
@@ -185,13 +187,14 @@ struct ProfileOptions {
 
 struct ViewshedOptions {
     RegionOptions region;
-    ViewOptions view;  // the air alone
+    ViewOptions view;  // the air, land cover and the canopy alone
     std::vector<std::string> at;
     std::optional<double> above_m;
     std::optional<double> altitude_m;
     std::optional<double> target_m;
     std::optional<double> radius_km;
-    bool on_summit{false};  // each observer stands on the highest post near its place
+    std::optional<std::string> target_on;  // ground, canopy
+    bool on_summit{false};                 // each observer stands on the highest post near its place
     std::string out;
     bool overwrite{false};
     bool json{false};

@@ -32,6 +32,9 @@ FilesToSpare files_of_picture(const View& view, const Region& region) {
     if (view.cover)
         for (const CoverSource& source : view.cover->sources())
             picture.files.insert(picture.files.end(), source.files.begin(), source.files.end());
+    if (view.canopy)
+        for (const CanopySource& source : view.canopy->sources())
+            picture.files.insert(picture.files.end(), source.files.begin(), source.files.end());
     VectorChoices vectors = view.vectors;
     for (const std::string* const file : vectors.paths()) picture.files.push_back(*file);
     return picture;

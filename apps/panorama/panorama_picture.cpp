@@ -6,6 +6,7 @@
 
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
+#include "apps/eye/standpoint.h"
 #include "apps/fingerprints/fingerprints.h"
 #include "apps/names/names_in_view.h"
 #include "apps/output/picture_file.h"
@@ -13,6 +14,7 @@
 #include "apps/report/region_json.h"
 #include "apps/view/view_paths.h"
 #include "core/base/parallel.h"
+#include "geo/canopy/raised_region.h"
 #include "geo/files/letter_case.h"
 #include "geo/pictures/picture.h"
 #include "geo/pixels/picture_difference.h"
@@ -31,14 +33,17 @@ std::string angle_words(double deg, int decimals, char positive, char negative) 
     return text;
 }
 
-// "Finsteraarhorn, 46.53722° N, 8.12611° E, 4276 m above sea level"
+// "Finsteraarhorn, 46.53722° N, 8.12611° E, 4276 m above sea level"; over a canopy it is told, too.
 std::string eye_words(const View& view, const Region& region, const std::string& standpoint) {
     const Geodetic& eye = view.camera.eye;
     const double H_m = eye.h_m - region.grids.front().field.undulation.at_m(eye.lat_deg, eye.lon_deg);
     char height[80];
     std::snprintf(height, sizeof height, ", %ld m above sea level", std::lround(H_m));
     return standpoint + (standpoint.empty() ? "" : ", ") + angle_words(eye.lat_deg, 5, 'N', 'S') + ", " +
-           angle_words(eye.lon_deg, 5, 'E', 'W') + height;
+           angle_words(eye.lon_deg, 5, 'E', 'W') + height +
+           (!view.canopy                 ? ""
+            : view.canopy->is_invented() ? "; canopy invented by class"
+                                         : "; with canopy");
 }
 
 std::string source_words(const Region& region) {
@@ -132,7 +137,12 @@ Result<PanoramaSheet> lay_out(const View& view, const Region& region, const True
     laid.rulers = rulers_of(laid.around, em_px);
     laid.names.em_px = em_px;
     if (view.vectors_read) {
-        const PointsInView in_view(ground, view.camera, view.model, laid.around);
+        PointsInView in_view(ground, view.camera, view.model, laid.around);
+        if (view.canopy)
+            in_view.count_from_below_canopy([&](const Geodetic& place) {
+                const RegionGrid& grid = grid_at(region, place.lat_deg, place.lon_deg);
+                return canopy_over_ground_m(grid, place.lat_deg, place.lon_deg).value_or(0.0);
+            });
         const std::vector<NamedPoint> points = points_of(view);
         ORO_TRY(laid.names, panorama_names(points, in_view, laid.around, face, em_px));
         ORO_TRY(laid.standpoint, standpoint_name(points, view.camera.eye, face));

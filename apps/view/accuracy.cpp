@@ -37,11 +37,26 @@ std::vector<HeightsOff> resampled_of(const Region& region) {
     return any ? off : std::vector<HeightsOff>{};
 }
 
+// How much the posts around a sample were raised by a canopy, at most: of what a picture without it is off.
+double raised_by_m(const Region& region, const ViewSample& sample) {
+    const RegionGrid& grid = region.grids[sample.grid];
+    if (!grid.canopy) return 0.0;
+    const PostGrid& posts = grid.field.grid;
+    float most_m = 0.0F;
+    for (int row = sample.row; row <= std::min(sample.row + 1, posts.rows() - 1); ++row)
+        for (int column = sample.column; column <= std::min(sample.column + 1, posts.columns() - 1); ++column)
+            most_m = std::max(most_m, grid.canopy->added_m[static_cast<std::size_t>(row) *
+                                                               static_cast<std::size_t>(posts.columns()) +
+                                                           static_cast<std::size_t>(column)]);
+    return most_m;
+}
+
 // With its options written out.
 AccuracyBundle bundle_of(Bundle kind, const char* name, double tau_px, HeightStorage heights,
                          const Air& air) {
     char text[100];
-    std::snprintf(text, sizeof text, "--tau %g --heights %s ", tau_px, name_in(height_storage_names, heights));
+    std::snprintf(text, sizeof text, "--tau %g --heights %s ", tau_px,
+                  name_in(height_storage_names, heights));
     return {kind, name, tau_px, heights, air, text + air_option(air)};
 }
 
@@ -156,6 +171,9 @@ Result<Budget> plan_view(const View& view, const Region& region, const TrueGroun
     }
     if (const std::vector<HeightsOff> resampled = resampled_of(region); !resampled.empty() && !budget.empty)
         budget.resampling = prediction.heights_off(resampled);
+    if (region.grids.front().canopy && !budget.empty)
+        budget.vegetation = prediction.heights_off_by(
+            [&](const ViewSample& sample) { return view.exaggeration * raised_by_m(region, sample); });
     ORO_TRY(budget.total, prediction.total(drawing));
     return budget;
 }

@@ -60,6 +60,8 @@ struct Budget {
     EffectSize total;
     // Of the data, measured when the region was opened; nothing where none were resampled.
     std::optional<EffectSize> resampling;
+    // What a picture without the view's canopy would be off by; nothing where it has none.
+    std::optional<EffectSize> vegetation;
     std::optional<EffectKind> dominant;  // the largest in the picture, in pixels
     bool empty{};                        // nothing is in view
     Air air;                             // of the true world

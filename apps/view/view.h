@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/cover/canopy_choice.h"
 #include "apps/cover/cover_tables.h"
 #include "apps/fingerprints/fingerprints.h"
 #include "apps/light/sun.h"
@@ -19,6 +20,7 @@
 #include "core/earth/world_model.h"
 #include "core/frame/height_quantization.h"
 #include "core/terrain/page.h"
+#include "geo/canopy/canopy_map.h"
 #include "geo/cover/cover_map.h"
 #include "geo/drape/image_source.h"
 #include "geo/rasters/map_frame.h"
@@ -66,10 +68,12 @@ struct View : ViewSettings<OfView> {
     // An option of this command says it, and not the view's file alone, which names both for any style.
     bool sea_asked{};
     bool rim_asked{};
-    std::vector<ImageSource> images;                  // the files of drape, from open_view on
-    CoverChoice cover_choice;                         // the files of land cover, and their table
-    std::shared_ptr<const CoverMap> cover;            // what is in them, from open_view on; null: none
-    VectorChoices vectors;                            // names and lines from files
+    std::vector<ImageSource> images;          // the files of drape, from open_view on
+    CoverChoice cover_choice;                 // the files of land cover, and their table
+    std::shared_ptr<const CoverMap> cover;    // what is in them, from open_view on; null: none
+    CanopyChoice canopy_choice;               // what stands on the ground, and hides what is behind it
+    std::shared_ptr<const CanopyMap> canopy;  // what is known of it, from open_view on; null: none
+    VectorChoices vectors;                    // names and lines from files
     std::shared_ptr<const VectorsRead> vectors_read;  // what is in them, from open_view on; null: no files
     // The CRS of a projected graticule, as CrsPlaces::of() takes it, from open_view on.
     std::string graticule_crs;
@@ -154,6 +158,12 @@ Result<std::vector<ImageSource>> open_images(const std::vector<std::string>& fil
 // open_cover_source(), of a table and of CoverMap::of().
 Result<std::shared_ptr<const CoverMap>> open_cover(CoverChoice& choice,
                                                    std::vector<Fingerprints::OfSource>& fingerprints);
+
+// Opens the canopy that is chosen; null where none is. cover: the land cover of the view, for a canopy of
+// classes. Adds fingerprints of files. Errors: a file that is not there, and those of open_canopy_source().
+Result<std::shared_ptr<const CanopyMap>> open_canopy(const CanopyChoice& choice,
+                                                     const std::shared_ptr<const CoverMap>& cover,
+                                                     std::vector<Fingerprints::OfSource>& fingerprints);
 
 // Finds the CRS of a view's graticule, where it has a projected one. Errors (usage): the data are in none, or
 // in several.

@@ -150,6 +150,7 @@ std::vector<Change> changes_of(const View& view) {
     add_geoid(recorded, here, view.recorded->file, changes);
     add_files(recorded.images, here.images, "image", view.recorded->file, changes);
     add_files(recorded.cover, here.cover, "land cover", view.recorded->file, changes);
+    add_files(recorded.canopy, here.canopy, "canopy", view.recorded->file, changes);
     add_files(recorded.vectors, here.vectors, "vector file", view.recorded->file, changes);
     if (recorded.program != here.program)
         changes.push_back({ChangeOf::program,

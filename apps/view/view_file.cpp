@@ -116,6 +116,34 @@ void read_cover(const nlohmann::json& json, View& view) {
     view.cover_choice.table = path_from(cover, "table");
 }
 
+// Likewise.
+void read_canopy(const nlohmann::json& json, View& view) {
+    if (!json.contains("canopy")) return;
+    const nlohmann::json& canopy = json_field(json, "canopy");
+    CanopyChoice& choice = view.canopy_choice;
+    choice.by_class = json_string(canopy, "from") == "class";
+    if (choice.by_class && view.cover_choice.files.empty())
+        throw JsonFault{"'canopy' is of classes, and there is no 'landcover'"};
+    if (!choice.by_class) {
+        const nlohmann::json& files = json_field(canopy, "files");
+        if (!files.is_array() || files.empty() || files.size() > most_images)
+            throw JsonFault{"'files' of 'canopy' must be a list of 1 to " + std::to_string(most_images)};
+        for (const nlohmann::json& file : files)
+            choice.files.push_back(path_from(as_field("files", file), "files"));
+    }
+    if (canopy.contains("held")) choice.held = json_number(canopy, "held", 0.0, 1.0);
+}
+
+ordered_json canopy_choice_json(const CanopyChoice& choice) {
+    ordered_json json = json_object("from", choice.by_class ? "class" : "file");
+    if (!choice.by_class) {
+        json["files"] = ordered_json::array();
+        for (const std::string& file : choice.files) json["files"].push_back(path_json(file));
+    }
+    if (choice.held) json["held"] = *choice.held;
+    return json;
+}
+
 ordered_json cover_json(const CoverChoice& choice) {
     ordered_json files = ordered_json::array();
     for (const std::string& file : choice.files) files.push_back(path_json(file));
@@ -231,6 +259,7 @@ void read_settings(const nlohmann::json& json, View& view) {
     view.style = present_name(path_from(json, "style"));
     read_drape(json, view);
     read_cover(json, view);
+    read_canopy(json, view);
     view.vectors = vectors_from(json);
     read_choice(json, "labels", label_switch_names, view.labels);
     read_air(json, view.model.air);
@@ -287,10 +316,11 @@ namespace {
 // The keys of settings in the order that views have had them in since the first. Those that are not listed
 // follow in the order of the table.
 constexpr std::array keys_in_order{
-    "samples",  "exaggeration", "sun",   "visibility_km", "style",       "sea",        "rim",
-    "drape",    "landcover",    "names", "overlay",       "names_field", "shadows",    "sky_openness",
-    "labels",   "show",         "edges", "pipeline",      "mesh",        "mesh_level", "tau_px",
-    "accuracy", "earth",        "geoid", "refraction",    "air",         "precision",  "heights"};
+    "samples",     "exaggeration", "sun",          "visibility_km", "style",    "sea",
+    "rim",         "drape",        "landcover",    "canopy",        "names",    "overlay",
+    "names_field", "shadows",      "sky_openness", "labels",        "show",     "edges",
+    "pipeline",    "mesh",         "mesh_level",   "tau_px",        "accuracy", "earth",
+    "geoid",       "refraction",   "air",          "precision",     "heights"};
 
 void move_field(ordered_json& from, const char* key, ordered_json& to) {
     const auto found = from.find(key);
@@ -309,6 +339,7 @@ ordered_json settings_json(const View& view) {
     json["style"] = path_json(view.style);
     if (!view.drape.empty()) json["drape"] = drape_json(view);
     if (!view.cover_choice.files.empty()) json["landcover"] = cover_json(view.cover_choice);
+    if (view.canopy_choice.asked()) json["canopy"] = canopy_choice_json(view.canopy_choice);
     put_vectors(view.vectors, json);
     json["labels"] = name_in(label_switch_names, view.labels);
     json["accuracy"] = view.accuracy;
@@ -372,7 +403,12 @@ bool asks_for_same_region(const View& one, const View& other) {
         view.paths_from_own_file = false;
         return json_text(begun_with_region(view), false);
     };
-    return one.has_geoid == other.has_geoid && region_of(one) == region_of(other);
+    // Heights of classes are those of the land cover's files and table.
+    const auto is_raised_alike = [&] {
+        return one.canopy_choice == other.canopy_choice &&
+               (!one.canopy_choice.by_class || one.cover_choice == other.cover_choice);
+    };
+    return one.has_geoid == other.has_geoid && is_raised_alike() && region_of(one) == region_of(other);
 }
 
 Result<View> view_from_json(const std::string& text, const std::string& where) {

@@ -1,15 +1,20 @@
 // From options, or from a view's file, to a view and its region: what shot and view begin with.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
 #include "apps/command_line/refusals.h"
+#include "apps/cover/canopy_words.h"
 #include "apps/eye/standpoint.h"
+#include "apps/report/figures.h"
 #include "apps/report/option_words.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "apps/view/view_option_table.h"
 #include "core/base/file_there.h"
+#include "core/terrain/ground.h"
+#include "geo/canopy/raised_region.h"
 #include "geo/coordinates/crs_places.h"
 #include "geo/coordinates/source_crs.h"
 #include "geo/opening/open_region.h"
@@ -67,6 +72,7 @@ Result<void> check_kind(const View& view, const std::string& view_file, PictureK
 Result<void> open_files(View& view) {
     ORO_TRY(view.images, open_images(view.drape, view.drape_values, view.fingerprints->images));
     ORO_TRY(view.cover, open_cover(view.cover_choice, view.fingerprints->cover));
+    ORO_TRY(view.canopy, open_canopy(view.canopy_choice, view.cover, view.fingerprints->canopy));
     ORO_TRY(view.vectors_read, open_vectors(view.vectors, view.fingerprints->vectors));
     return {};
 }
@@ -80,6 +86,37 @@ Error no_such_cover(const std::string& file) {
                        "there is no table " + file.substr(comma + 1) + ": choose " +
                            listed(cover_table_names()) + ", or name a .json file");
     return {ErrorKind::failed, file, "no such raster of land cover"};
+}
+
+// Raises the region of a view by its canopy, unless it is raised already.
+Result<void> raise_by_canopy_of(const View& view, Region& region) {
+    if (!view.canopy || region.grids.front().canopy) return {};
+    ORO_CHECK(raise_by_canopy(region, *view.canopy, view.canopy_choice.held));
+    std::vector<std::string>& notes = region.grids.front().notes;
+    for (const std::string& note : view.canopy->notes()) notes.push_back(note);
+    for (const std::string& note : notes_of_canopy(region)) notes.push_back(note);
+    return {};
+}
+
+// Raises the region under an eye that options placed over its ground. Errors: an eye that comes to be in the
+// canopy (usage), where it sees nothing.
+Result<void> raise_around_eye(const View& view, const ViewOptions& options, Region& region) {
+    if (!view.canopy) return {};
+    const auto above_m = [&] {
+        const Geodetic& eye = view.camera.eye;
+        const auto ground_m = ground_h_m(grid_at(region, eye.lat_deg, eye.lon_deg).field, eye.lat_deg,
+                                         eye.lon_deg, view.exaggeration);
+        return ground_m ? eye.h_m - *ground_m : 0.0;
+    };
+    const double above_ground_m = above_m();
+    ORO_CHECK(raise_by_canopy_of(view, region));
+    const double above_canopy_m = above_m();
+    if (!options.at || view.map || above_ground_m < 0.0 || above_canopy_m >= 0.0) return {};
+    return refused("--at", *options.at,
+                   "the eye stands in the canopy, " + metres_words(-above_canopy_m) +
+                       " below its top, and sees nothing: --above " +
+                       figure(std::ceil(10.0 * (above_ground_m - above_canopy_m) + 0.01) / 10.0) +
+                       " looks over it");
 }
 
 // Over which place the sun stands as a view's light says: the eye's, or the middle of a map.
@@ -147,6 +184,23 @@ Result<std::shared_ptr<const CoverMap>> open_cover(CoverChoice& choice,
     return cover;
 }
 
+Result<std::shared_ptr<const CanopyMap>> open_canopy(const CanopyChoice& choice,
+                                                     const std::shared_ptr<const CoverMap>& cover,
+                                                     std::vector<Fingerprints::OfSource>& fingerprints) {
+    if (!choice.asked()) return std::shared_ptr<const CanopyMap>();
+    if (choice.by_class) return CanopyMap::of_classes(cover);
+    std::vector<CanopySource> sources;
+    for (const std::string& file : choice.files) {
+        ORO_TRY(const bool there, is_there(file));
+        if (!there && !file.starts_with("/vsi"))
+            return Error{ErrorKind::failed, file, "no such raster of canopy heights"};
+        ORO_TRY(CanopySource source, open_canopy_source(file));
+        fingerprints.push_back({std::filesystem::path(file).filename().string(), source.fingerprint});
+        sources.push_back(std::move(source));
+    }
+    return CanopyMap::of_files(std::move(sources));
+}
+
 Result<void> find_graticule_crs(View& view, const Region& region) {
     view.graticule_crs.clear();
     if (view.graticule != Graticule::projected) return {};
@@ -178,6 +232,7 @@ Result<void> open_region_of(const RegionOptions& region_options, const Progress&
         view.fingerprints = held->fingerprints;
         view.fingerprints->images.clear();
         view.fingerprints->cover.clear();
+        view.fingerprints->canopy.clear();
         view.fingerprints->vectors.clear();
         view.first_grid = held->first_grid;
         begin_with_grid_at(view.camera.eye, view, region);
@@ -226,10 +281,13 @@ Result<void> open_recorded_view(const std::string& where, const ViewOptions& vie
         view.recorded->fingerprints->images.clear();
     if (!view_options.landcover.empty() && view.recorded->fingerprints)
         view.recorded->fingerprints->cover.clear();
+    if (!view_options.canopy.empty() && view.recorded->fingerprints)
+        view.recorded->fingerprints->canopy.clear();
     if ((!view_options.names.empty() || !view_options.overlay.empty()) && view.recorded->fingerprints)
         view.recorded->fingerprints->vectors.clear();
     ORO_CHECK(find_graticule_crs(view, region));
-    return open_files(view);
+    ORO_CHECK(open_files(view));
+    return raise_by_canopy_of(view, region);
 }
 
 Result<void> open_view(const std::string& view_file, const ViewOptions& view_options,
@@ -259,7 +317,8 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     if (placed.ok()) aim_sun(view.sun, view.camera.eye);
     // Ground that could not be read is no ground to stand on, but that is not why there is none.
     ORO_CHECK(region.grids.front().field.health());
-    return placed;
+    ORO_CHECK(placed);
+    return raise_around_eye(view, view_options, region);
 }
 
 }  // namespace oro

@@ -208,6 +208,15 @@ void add_style_and_images(Rows looks) {
               "without TABLE the codes tell. Several files of one table are drawn one over the other, the "
               "last on top. "
               "Layers and read-outs name the class. For styles that are coloured by cover: natural.");
+    looks.add(
+        {"--canopy FILE", no_trait}, &ViewOptions::canopy,
+        "Raise the ground to the top of what grows on it, as a closed surface that is seen, casts shadows "
+        "and hides: a raster of canopy heights in metres, in any CRS, or several, the last on top; or "
+        "class: heights of the classes of --landcover, which are invented. The eye stands on the ground.");
+    looks.add({"--canopy-held SHARE", no_trait, "0.5 of SRTM, else 0", "", {0.0, 1.0}},
+              &ViewOptions::canopy_held,
+              "How much of the canopy's height the elevation data hold already, {}: so much is not added. "
+              "Needs --canopy.");
 }
 
 void add_vectors(Rows looks) {

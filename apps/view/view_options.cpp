@@ -96,6 +96,12 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
     if (!options.landcover.empty()) {
         ORO_TRY(view.cover_choice, cover_choice_from(options.landcover));
     }
+    if (!options.canopy.empty() || options.canopy_held) {
+        const std::vector<std::string> words =
+            options.canopy.empty() ? words_of(view.canopy_choice) : options.canopy;
+        ORO_TRY(view.canopy_choice,
+                canopy_choice_from(words, options.canopy_held, !view.cover_choice.files.empty()));
+    }
     if (view.show && view.samples > 1)
         return refused("--show", "", "is for pictures of one sample, not together with --samples");
     ORO_CHECK(choose_mesh_level(view, options));

@@ -87,11 +87,12 @@ Result<std::string> from_folder(const fs::path& folder, const std::string& named
     return absolute.empty() ? named : absolute.string();
 }
 
-// The paths of a view's land cover: its files, and its table where that is a user's own.
+// The paths of a view's land cover and canopy: their files, and a table that is a user's own.
 std::vector<std::string*> cover_paths(View& view) {
     std::vector<std::string*> paths;
     for (std::string& file : view.cover_choice.files) paths.push_back(&file);
     if (is_table_path(view.cover_choice.table)) paths.push_back(&view.cover_choice.table);
+    for (std::string& file : view.canopy_choice.files) paths.push_back(&file);
     return paths;
 }
 
@@ -106,6 +107,7 @@ Result<View> view_as_written_in(const View& view, const std::string& picture) {
             for (Fingerprints::OfSource& source : written.fingerprints->sources) source.name.clear();
             for (Fingerprints::OfSource& image : written.fingerprints->images) image.name.clear();
             for (Fingerprints::OfSource& cover : written.fingerprints->cover) cover.name.clear();
+            for (Fingerprints::OfSource& canopy : written.fingerprints->canopy) canopy.name.clear();
             for (Fingerprints::OfSource& vectors : written.fingerprints->vectors) vectors.name.clear();
         }
         for (std::string& image : written.drape) image = fs::path(image).filename().string();

@@ -70,6 +70,8 @@ class EffectPrediction {
     [[nodiscard]] EffectSize interpolation(int apart) const;
     // one of each grid.
     [[nodiscard]] EffectSize heights_off(std::span<const HeightsOff> of_grids) const;
+    // Of heights that are off by so much at each sample: metres, 0 or more.
+    [[nodiscard]] EffectSize heights_off_by(const std::function<double(const ViewSample&)>& height_m) const;
     // An estimate of what lies between posts, with a margin: nobody has looked there.
     [[nodiscard]] EffectSize interpolation_estimate(int apart) const;
 

@@ -126,4 +126,19 @@ EffectSize EffectPrediction::heights_off(std::span<const HeightsOff> of_grids) c
     return size;
 }
 
+EffectSize EffectPrediction::heights_off_by(const std::function<double(const ViewSample&)>& height_m) const {
+    EffectSize size = lifted(height_m);
+    Sizes off;
+    size.worst_m = 0.0;
+    for (const Sample& sample : samples_) {
+        const double off_m = height_m(sample);
+        size.worst_m = std::max(size.worst_m, off_m);
+        off.add(off_m, vertical_px(sample, off_m), sample.even);
+    }
+    const EffectSize usual = off.size(1.0);
+    size.typical_m = usual.typical_m;
+    size.typical_px = usual.typical_px;
+    return size;
+}
+
 }  // namespace oro

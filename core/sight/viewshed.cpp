@@ -28,10 +28,13 @@ struct Entry {
 
 class Sweep {
   public:
-    Sweep(const TrueSurface& surface, const ViewshedRequest& request, const GridPart& window)
+    // footing: what targets stand on; null: the surface.
+    Sweep(const TrueSurface& surface, const TrueSurface* footing, const ViewshedRequest& request,
+          const GridPart& window)
         : surface_(surface),
           request_(request),
           window_(window),
+          footing_(footing),
           target_m_(std::max(request.target_m, least_above_m)),
           observer_(surface, request.eye, request.air),
           plane_(surface, observer_, window, request.threads) {
@@ -54,18 +57,24 @@ class Sweep {
     template <class Take>
     void for_entries_of_row(int row, const Take& take) const;
     void sweep_sector(int sector, Viewshed& viewshed, std::size_t& asked) const;
+    [[nodiscard]] double target_over_surface_m(const Entry& entry) const;
     [[nodiscard]] float clearance_deficit_m(const Entry& entry, const HorizonSector& sector, double shell_m,
                                             std::size_t& asked) const;
+    [[nodiscard]] float deficit_over_surface_m(const Entry& entry, double target_m,
+                                               const HorizonSector& sector, double shell_m,
+                                               std::size_t& asked) const;
     [[nodiscard]] bool walk(std::int64_t from, const PlanePost& target, double until_m,
                             Horizon& horizon) const;
     [[nodiscard]] bool in_reach(const PlanePost& post) const;
     void add_edges(std::int64_t number, HorizonSector& sector) const;
-    [[nodiscard]] float ask_oracle(const Entry& entry, double rise_m, std::size_t& asked) const;
+    [[nodiscard]] float ask_oracle(const Entry& entry, double target_m, double rise_m,
+                                   std::size_t& asked) const;
 
     const TrueSurface& surface_;
     const ViewshedRequest& request_;
     GridPart window_;
-    double target_m_;
+    const TrueSurface* footing_;
+    double target_m_;  // over what targets stand on
     Observer observer_;
     EyePlane plane_;
     Shells shells_;
@@ -225,11 +234,36 @@ bool Sweep::walk(std::int64_t from, const PlanePost& target, double until_m, Hor
     }
 }
 
-float Sweep::ask_oracle(const Entry& entry, double rise_m, std::size_t& asked) const {
+// The column of a grid's own posts that a window's column is.
+int own_column(const PostGrid& grid, int column) {
+    if (!grid.wraps_longitude()) return column;
+    const int turn_columns = grid.columns() - 1;
+    return ((column % turn_columns) + turn_columns) % turn_columns;
+}
+
+// Height of a post's target over the surface that hides; of one that stands within that, below 0.
+double Sweep::target_over_surface_m(const Entry& entry) const {
+    if (!footing_) return target_m_;
+    const int row = window_.first_row + entry.row;
+    const int column = own_column(surface_.field().grid, window_.first_column + entry.column);
+    const std::optional<double> top_m = surface_.post_h_m(row, column),
+                                foot_m = footing_->post_h_m(row, column);
+    return top_m && foot_m ? target_m_ - (*top_m - *foot_m) : target_m_;
+}
+
+// A target within the surface would have to be out of it at least, and then as high as is seen.
+float Sweep::clearance_deficit_m(const Entry& entry, const HorizonSector& sector, double shell_m,
+                                 std::size_t& asked) const {
+    const double over_m = target_over_surface_m(entry), target_m = std::max(over_m, least_above_m);
+    const float missed_m = deficit_over_surface_m(entry, target_m, sector, shell_m, asked);
+    return over_m < target_m ? missed_m + static_cast<float>(target_m - over_m) : missed_m;
+}
+
+float Sweep::ask_oracle(const Entry& entry, double target_m, double rise_m, std::size_t& asked) const {
     ++asked;
     const int row = window_.first_row + entry.row;
     const int column = window_.first_column + entry.column;
-    const Geodetic target = target_over_post(surface_, row, column, target_m_);
+    const Geodetic target = target_over_post(surface_, row, column, target_m);
     if (observer_.sees(target)) return 0.0F;
     constexpr double certain_rise_m = 1.0e-4;
     if (rise_m > certain_rise_m) return static_cast<float>(rise_m);
@@ -238,8 +272,8 @@ float Sweep::ask_oracle(const Entry& entry, double rise_m, std::size_t& asked) c
                 : std::numeric_limits<float>::infinity();
 }
 
-float Sweep::clearance_deficit_m(const Entry& entry, const HorizonSector& sector, double shell_m,
-                                 std::size_t& asked) const {
+float Sweep::deficit_over_surface_m(const Entry& entry, double target_m, const HorizonSector& sector,
+                                    double shell_m, std::size_t& asked) const {
     const int row = entry.row, column = entry.column;
     const std::int64_t number = plane_.number(row, column);
     const PlanePost& post = plane_.post(number);
@@ -260,7 +294,8 @@ float Sweep::clearance_deficit_m(const Entry& entry, const HorizonSector& sector
         const PlanePost aside_post{post.x - aside * post.y, post.y + aside * post.x, post.z, s_m,
                                    post.tangent};
         horizon = {};
-        if (!(s_m > 1.0e-3 && walk(number, aside_post, 0.0, horizon))) return ask_oracle(entry, -1.0, asked);
+        if (!(s_m > 1.0e-3 && walk(number, aside_post, 0.0, horizon)))
+            return ask_oracle(entry, target_m, -1.0, asked);
     }
     // The target, and how it moves as it is raised along the ellipsoid's normal there.
     const glm::dvec3 up = plane_.normal(row, column);
@@ -278,16 +313,16 @@ float Sweep::clearance_deficit_m(const Entry& entry, const HorizonSector& sector
         }
         return t_m;
     };
-    if (horizon.tangent == Horizon::none) return in_doubt ? ask_oracle(entry, -1.0, asked) : 0.0F;
-    const double rise_m = needed_m(horizon.tangent) - target_m_;
-    if (in_doubt) return ask_oracle(entry, rise_m, asked);
+    if (horizon.tangent == Horizon::none) return in_doubt ? ask_oracle(entry, target_m, -1.0, asked) : 0.0F;
+    const double rise_m = needed_m(horizon.tangent) - target_m;
+    if (in_doubt) return ask_oracle(entry, target_m, rise_m, asked);
     // What a target's own way up turns from the line of sight, and what is rounded.
     const double aside = std::abs(up.x * post.y - up.y * post.x) / s_m;
-    const double slack_m = 1.0e-5 + 1.0e-9 * s_m + 10.0 * aside * target_m_;
-    if (needed_m(horizon.highest) - target_m_ < -slack_m) return 0.0F;
+    const double slack_m = 1.0e-5 + 1.0e-9 * s_m + 10.0 * aside * target_m;
+    if (needed_m(horizon.highest) - target_m < -slack_m) return 0.0F;
     // Below ground that ends a line may run free.
-    if (!horizon.has_rim && needed_m(horizon.lowest) - target_m_ > slack_m) return static_cast<float>(rise_m);
-    return ask_oracle(entry, rise_m, asked);
+    if (!horizon.has_rim && needed_m(horizon.lowest) - target_m > slack_m) return static_cast<float>(rise_m);
+    return ask_oracle(entry, target_m, rise_m, asked);
 }
 
 void Sweep::sweep_sector(int sector, Viewshed& viewshed, std::size_t& asked) const {
@@ -384,12 +419,7 @@ Geodetic target_over_post(const TrueSurface& surface, int row, int column, doubl
     }
     const double lat_deg = row_lat_deg(grid, row);
     const double lon_deg = normalised_lon_deg(grid.lon.at_deg(column));
-    int there = column;
-    if (grid.wraps_longitude()) {
-        const int turn_columns = grid.columns() - 1;
-        there = ((column % turn_columns) + turn_columns) % turn_columns;
-    }
-    const std::optional<double> ground_m = surface.post_h_m(row, there);
+    const std::optional<double> ground_m = surface.post_h_m(row, own_column(grid, column));
     return {lat_deg, lon_deg, ground_m.value_or(0.0) + std::max(target_m, least_above_m)};
 }
 
@@ -426,7 +456,10 @@ Viewshed viewshed(const TrueGround& ground, std::size_t grid, const ViewshedRequ
     if (window.rows < 1 || window.columns < 1) return {};
     // A sweep takes 0.4 microseconds a post (docs/commands/viewshed.md), where a line of sight asks the
     // oracle.
-    if (!others_reach(ground, grid, request)) return Sweep(surface, request, window).result(progress);
+    const TrueGround& footing = request.footing ? *request.footing : ground;
+    const TrueSurface* const stood_on = request.footing ? &footing.surface(grid) : nullptr;
+    if (!others_reach(ground, grid, request))
+        return Sweep(surface, stood_on, request, window).result(progress);
     viewshed.clearance_deficit_m.assign(
         static_cast<std::size_t>(window.rows) * static_cast<std::size_t>(window.columns), Viewshed::unknown);
     const Observer observer(ground, request.eye, request.air);
@@ -439,7 +472,7 @@ Viewshed viewshed(const TrueGround& ground, std::size_t grid, const ViewshedRequ
         const int row = window.first_row + number;
         for (int column = window.first_column; column < window.first_column + window.columns; ++column) {
             Geodetic target = target_over_post(surface, row, column, 0.0);
-            const std::optional<double> ground_m = ground.h_m(target.lat_deg, target.lon_deg);
+            const std::optional<double> ground_m = footing.h_m(target.lat_deg, target.lon_deg);
             if (!ground_m) continue;
             target.h_m = *ground_m;
             if (!reach.holds(target)) continue;

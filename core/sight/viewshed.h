@@ -35,6 +35,9 @@ struct ViewshedRequest {
     double radius_m{};  // over the ground, 1,000 km at most; of a post that is seen at its edge to 1e-5 of it
     int threads{1};
     std::stop_token stop{};  // asked to stop, what comes back is not whole, and comes soon
+    // What targets stand on, where that is not what hides them: the ground under a canopy. Its grids have the
+    // posts of those that hide, which are as high or higher; it outlives the request. null: on what hides.
+    const TrueGround* footing{nullptr};
 };
 
 // Told how far it is, 0..1; from any thread, one at a time.

@@ -35,6 +35,17 @@ struct PostsCrs {
 // How the note begins of a grid that is a part of a baked one: of what is known of its sources.
 inline constexpr const char* clipped_from = "cut out of ";
 
+// What grows on the ground of a grid whose posts were raised to its top (geo/canopy).
+struct GridCanopy {
+    std::vector<float>
+        added_m;            // to H of each post, row by row; 0 where nothing grows and where nothing is known
+    double held_share{};    // of the canopy's height that the data hold already: it was not added
+    std::string held_by;    // whose heights hold it: "SRTM"; "" where somebody said the share, or it is 0
+    float highest_m{};      // of the whole canopy over the posts, with what the data hold
+    std::uint64_t posts{};  // that were raised
+    std::uint64_t unknown{};  // over which no canopy is known
+};
+
 // One grid of a region: the height field that some sources make together.
 struct RegionGrid {
     HeightField field;
@@ -68,6 +79,7 @@ struct RegionGrid {
     // finest, or the one named first.
     int rank{};
     std::optional<Feathered> feathered;
+    std::optional<GridCanopy> canopy;  // nothing: the field is the ground as its sources have it
 };
 
 // What a request opens: grids that lie over each other, next to each other or far apart; one where their

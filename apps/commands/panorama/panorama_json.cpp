@@ -1,5 +1,6 @@
 #include "apps/commands/panorama/panorama_json.h"
 
+#include "apps/cover/canopy_words.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/region_json.h"
@@ -74,6 +75,7 @@ ordered_json panorama_json(const PanoramaReport& report, const std::string& file
     json["sun"]["usual"] = style.sun.is_usual;
     json["time"] = time_text(view.time_utc_s);
     json["attribution"] = attribution_of(report.region);
+    if (view.canopy) json["canopy"] = canopy_json(*view.canopy, report.region);
     json["models"] = models_json(view);
     json["light"] = light_json(view.model.air, view.camera.eye.h_m);
     json["tau_px"] = view.tau_px;

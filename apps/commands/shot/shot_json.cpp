@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "apps/cover/canopy_words.h"
 #include "apps/layers/picture_layers.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
@@ -29,6 +30,7 @@ ordered_json destination_json(const std::optional<SeenPlace>& place) {
     json["cell"] = json_object("row", place->row, "column", place->column);
     json["source"] = nullptr;
     if (!place->source.empty()) json["source"] = place->source;
+    if (place->canopy_m) json["canopy_m"] = *place->canopy_m;
     if (place->cover) json["cover"] = json_object("code", place->cover->code, "name", place->cover->name);
     return json;
 }
@@ -200,6 +202,7 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     if (shot.view.cover)
         json["landcover"] =
             json_object("table", shot.view.cover->table().name, "title", shot.view.cover->table().title);
+    if (shot.view.canopy) json["canopy"] = canopy_json(*shot.view.canopy, shot.region);
     put_counts(shot, json);
     json["tau_px"] = shot.view.tau_px;
     json["mesh_level"] = nullptr;

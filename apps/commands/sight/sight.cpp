@@ -5,6 +5,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/sight/look_along.h"
+#include "apps/cover/canopy_words.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
@@ -34,6 +35,38 @@ Result<void> name_cover(const CoverMap& cover, SightReport& report) {
     return report.obstacle ? name(report.obstacle->point, report.obstacle_cover) : Result<void>();
 }
 
+// An eye in a canopy sees nothing, whatever line leads out of it: the leaves before it hide all.
+void hide_in_canopy(const SightGround& ground, SightReport& report) {
+    const std::optional<double> below_m = ground.in_canopy_m(report.from);
+    if (!below_m) return;
+    report.obstacle = SightHit{};
+    report.obstacle->point = report.from;
+    report.obstacle_distance_m = 0.0;
+    report.target_clearance_deficit_m.reset();
+    Geodetic over = report.from;
+    over.h_m += *below_m + least_above_m;
+    report.eye_clearance_deficit_m = eye_clearance_deficit_m(ground.hiding(), over, report.air, report.to);
+    if (report.eye_clearance_deficit_m) *report.eye_clearance_deficit_m += over.h_m - report.from.h_m;
+}
+
+// What grows at the places that are told of, and whether it is what hides.
+void measure_canopy(const SightGround& ground, SightReport& report) {
+    if (!ground.canopy) return;
+    hide_in_canopy(ground, report);
+    report.from_canopy_m = ground.canopy_m(report.from);
+    report.to_canopy_m = ground.canopy_m(report.to);
+    if (report.obstacle) report.obstacle_canopy_m = ground.canopy_m(report.obstacle->point);
+}
+
+void say_canopy(const SightGround& ground, const SightReport& report, bool quiet) {
+    if (!ground.canopy) return;
+    for (const std::string& note : ground.canopy->map->notes()) say(quiet, "note: " + note);
+    for (const std::string& note : notes_of_canopy(ground.canopy->region)) say(quiet, "note: " + note);
+    if (const auto below_m = ground.in_canopy_m(report.from))
+        say(quiet, "note: the eye stands in the canopy, " + metres_words(*below_m) +
+                       " below its top, and sees nothing: a larger --above looks over it");
+}
+
 }  // namespace
 
 Result<void> run_sight(const SightOptions& options) {
@@ -45,13 +78,13 @@ Result<void> run_sight(const SightOptions& options) {
         if (const auto place = place_at(option, text); !place.ok()) return place.error();
     }
     ORO_TRY(const Air air, air_asked_for(options.view.refraction_k, options.view.air, standard_air));
-    ORO_TRY(CoverChoice choice, cover_choice_from(options.view.landcover));
-    std::vector<Fingerprints::OfSource> ignored;
-    ORO_TRY(const std::shared_ptr<const CoverMap> cover, open_cover(choice, ignored));
+    ORO_TRY(const SightCover asked, open_sight_cover(options.view));
+    const std::shared_ptr<const CoverMap>& cover = asked.cover;
     ProgressBar bar(options.quiet);
-    ORO_TRY(const auto ground, open_sight_ground(options.region, [&](double share, const std::string& what) {
-                bar.show(share, "reading " + what);
-            }));
+    ORO_TRY(const auto ground,
+            open_sight_ground(
+                options.region,
+                [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, asked));
     Standing standing{"--from", options.from, "--above", options.above_m, 2.0, options.altitude_m};
     standing.on_summit = options.on_summit;
     ORO_TRY(const Standpoint from, stand_over_ground(standing, *ground));
@@ -60,8 +93,9 @@ Result<void> run_sight(const SightOptions& options) {
                                                        *ground));
     const Geodetic& to = target.eye;
     bar.show(1.0, "looking");
-    SightReport report = look_along(from.eye, to, air, ground->ground());
+    SightReport report = look_along(from.eye, to, air, ground->hiding());
     report.moved = from.moved;
+    measure_canopy(*ground, report);
     ORO_CHECK(ground->region.health());
     if (cover) ORO_CHECK(name_cover(*cover, report));
     bar.clear();
@@ -70,6 +104,7 @@ Result<void> run_sight(const SightOptions& options) {
     say_notes(ground->region, options.quiet);
     if (cover)
         for (const std::string& note : cover->notes()) say(options.quiet, "note: " + note);
+    say_canopy(*ground, report, options.quiet);
     say_walls(from, target, options);
     if (report.line.without_data_m > 0.5) {
         char note[160];

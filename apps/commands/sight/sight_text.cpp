@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "apps/cover/canopy_words.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 #include "apps/report/summit_words.h"
@@ -24,10 +25,13 @@ std::string cover_text(const std::string& cover) {
 }
 
 std::string end_text(const char* name, const Geodetic& point, const std::string& cover,
-                     const SightGround& ground) {
+                     const std::optional<double>& canopy_m, const SightGround& ground) {
     std::string text =
         printed("%s %.6f %.6f, H %.1f m", name, point.lat_deg, point.lon_deg, ground.H_m(point));
     if (const auto above_m = ground.above_m(point)) text += printed(", %.1f m above the ground", *above_m);
+    if (canopy_m)
+        text += printed(ground.in_canopy_m(point) ? ", in a canopy of %.1f m" : ", over a canopy of %.1f m",
+                        *canopy_m);
     return text + cover_text(cover) + "\n";
 }
 
@@ -54,8 +58,12 @@ std::string hidden_text(const SightReport& report, const SightGround& ground) {
         text += printed(report.target_clearance_deficit_m ? ", or the eye %.2f m"
                                                           : ": the eye would have to be %.2f m higher",
                         *report.eye_clearance_deficit_m);
-    return text +
-           "\nFirst obstacle: " + ground_text(report.obstacle->point, report.obstacle_distance_m, ground) +
+    text += "\nFirst obstacle: ";
+    if (report.obstacle_canopy_m)
+        text += printed("canopy, %.1f m over the ground, at ", *report.obstacle_canopy_m);
+    else if (ground.canopy)
+        text += "the ground at ";
+    return text + ground_text(report.obstacle->point, report.obstacle_distance_m, ground) +
            cover_text(report.obstacle_cover) + "\n";
 }
 
@@ -63,19 +71,21 @@ ordered_json or_null(const std::optional<double>& value) {
     return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
-ordered_json end_json(const Geodetic& point, const std::string& cover, const SightGround& ground) {
+ordered_json end_json(const Geodetic& point, const std::string& cover, const std::optional<double>& canopy_m,
+                      const SightGround& ground) {
     ordered_json json = point_json(ground, point);
     json["above_ground_m"] = or_null(ground.above_m(point));
     if (!cover.empty()) json["cover"] = cover;
+    if (ground.canopy) json["canopy_m"] = or_null(canopy_m);
     return json;
 }
 
 }  // namespace
 
 std::string sight_text(const SightReport& report, const SightGround& ground) {
-    std::string text = end_text("From:", report.from, report.from_cover, ground);
+    std::string text = end_text("From:", report.from, report.from_cover, report.from_canopy_m, ground);
     if (report.moved) text += "Summit: " + summit_words("the eye stands", *report.moved) + "\n";
-    text += end_text("To:  ", report.to, report.to_cover, ground);
+    text += end_text("To:  ", report.to, report.to_cover, report.to_canopy_m, ground);
     text += report.obstacle ? hidden_text(report, ground) : "Visible\n";
     if (report.line.without_data_m < report.slant_m)
         text += printed("Least clearance: %.2f m, over ", report.line.clearance_m) +
@@ -84,14 +94,15 @@ std::string sight_text(const SightReport& report, const SightGround& ground) {
                     report.slant_m);
     text += printed("Direction: azimuth %.4f degrees, elevation %.4f degrees\n", report.path.bearing_deg,
                     report.elevation_deg);
-    return text + "Light: " + light_words(report.air, report.from.h_m) + "\n";
+    text += "Light: " + light_words(report.air, report.from.h_m) + "\n";
+    return ground.canopy ? text + canopy_words(*ground.canopy->map, ground.canopy->region) + "\n" : text;
 }
 
 ordered_json sight_json(const SightReport& report, const SightGround& ground) {
     ordered_json json = json_object("visible", !report.obstacle);
-    json["from"] = end_json(report.from, report.from_cover, ground);
+    json["from"] = end_json(report.from, report.from_cover, report.from_canopy_m, ground);
     if (report.moved) json["on_summit"] = summit_json(*report.moved);
-    json["to"] = end_json(report.to, report.to_cover, ground);
+    json["to"] = end_json(report.to, report.to_cover, report.to_canopy_m, ground);
     json["target_missed_by_m"] =
         report.obstacle ? or_null(report.target_clearance_deficit_m) : ordered_json(0.0);
     json["eye_missed_by_m"] = report.obstacle ? or_null(report.eye_clearance_deficit_m) : ordered_json(0.0);
@@ -101,6 +112,10 @@ ordered_json sight_json(const SightReport& report, const SightGround& ground) {
         obstacle["distance_m"] = report.obstacle_distance_m;
         obstacle["slant_m"] = report.obstacle->distance_m;
         if (!report.obstacle_cover.empty()) obstacle["cover"] = report.obstacle_cover;
+        if (ground.canopy) {
+            obstacle["is"] = report.obstacle_canopy_m ? "canopy" : "ground";
+            obstacle["canopy_m"] = or_null(report.obstacle_canopy_m);
+        }
     }
     json["clearance"] = nullptr;
     if (report.line.without_data_m < report.slant_m) {
@@ -114,6 +129,7 @@ ordered_json sight_json(const SightReport& report, const SightGround& ground) {
     json["slant_m"] = report.slant_m;
     json["without_data_m"] = report.line.without_data_m;
     json["light"] = light_json(report.air, report.from.h_m);
+    if (ground.canopy) json["canopy"] = canopy_json(*ground.canopy->map, ground.canopy->region);
     return json;
 }
 

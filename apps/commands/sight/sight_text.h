@@ -28,6 +28,8 @@ struct SightReport {
     std::optional<double> eye_clearance_deficit_m;
     // Land cover at the eye, at the target and at the obstacle: names of classes; "" where none is known.
     std::string from_cover, to_cover, obstacle_cover;
+    // How high the canopy is over the ground at the same places; nothing where there is none.
+    std::optional<double> from_canopy_m, to_canopy_m, obstacle_canopy_m;
 };
 
 std::string sight_text(const SightReport& report, const SightGround& ground);

@@ -9,6 +9,7 @@
 #include "apps/commands/commands.h"
 #include "apps/commands/sight/sight_ground.h"
 #include "apps/commands/sight/viewshed_report.h"
+#include "apps/cover/canopy_words.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
@@ -47,6 +48,42 @@ Result<void> check_words(const ViewshedOptions& options) {
     return check_may_write(options.out, options.overwrite);
 }
 
+constexpr const char* on_canopy = "canopy";
+
+Result<void> check_target_on(const ViewshedOptions& options) {
+    if (options.target_on && options.view.canopy.empty())
+        return refused("--target-on", *options.target_on, "needs --canopy");
+    return {};
+}
+
+// An observer in a canopy sees nothing: a viewshed of that is a mistake.
+Result<void> check_eyes(const ViewshedOptions& options, const ViewshedQuestion& question,
+                        const SightGround& ground) {
+    for (std::size_t i = 0; i < question.eyes.size(); ++i) {
+        const std::optional<double> below_m = ground.in_canopy_m(question.eyes[i]);
+        if (!below_m) continue;
+        const double above_m = ground.above_m(question.eyes[i]).value_or(0.0);
+        return refused("--at", options.at[i],
+                       "the observer stands in the canopy, " + metres_words(*below_m) +
+                           " below its top, and sees nothing: --above " +
+                           figure(std::ceil(10.0 * (above_m + *below_m) + 0.01) / 10.0) + " looks over it");
+    }
+    return {};
+}
+
+// What the file says of the canopy, and of what targets stand on.
+void add_canopy_tags(const ViewshedOptions& options, const SightGround& ground, PostRaster& raster) {
+    if (!ground.canopy) return;
+    raster.tags.emplace_back("CANOPY", canopy_words(*ground.canopy->map, ground.canopy->region));
+    raster.tags.emplace_back("TARGETS_STAND_ON", options.target_on.value_or("ground"));
+}
+
+void say_canopy_notes(const SightGround& ground, bool quiet) {
+    if (!ground.canopy) return;
+    for (const std::string& note : ground.canopy->map->notes()) say(quiet, "note: " + note);
+    for (const std::string& note : notes_of_canopy(ground.canopy->region)) say(quiet, "note: " + note);
+}
+
 void tell(const ViewshedOptions& options, const ViewshedReport& report, const Standpoints& stood,
           const SightGround& ground) {
     const ViewshedQuestion& question = report.question;
@@ -68,6 +105,10 @@ void tell(const ViewshedOptions& options, const ViewshedReport& report, const St
         json["asked_of_the_oracle"] = report.asked;
         json["looking_s"] = report.looking_s;
         json["light"] = light_json(question.air, question.eyes.front().h_m);
+        if (ground.canopy) {
+            json["canopy"] = canopy_json(*ground.canopy->map, ground.canopy->region);
+            json["target_on"] = options.target_on.value_or("ground");
+        }
         json["notes"] = all_notes(ground.region);
         std::printf("%s\n", json_text(json, true).c_str());
         return;
@@ -79,6 +120,10 @@ void tell(const ViewshedOptions& options, const ViewshedReport& report, const St
             std::printf("Summit: %s\n", summit_words("the observer stands", stood.moved[i]).c_str());
     }
     std::printf("Light: %s\n", light.c_str());
+    if (ground.canopy)
+        std::printf("%s; targets stand on the %s\n",
+                    canopy_words(*ground.canopy->map, ground.canopy->region).c_str(),
+                    options.target_on.value_or("ground").c_str());
 }
 
 // The sides on which a circle leaves the box of the data.
@@ -139,25 +184,34 @@ void say_walls(const Standpoints& standpoints, std::size_t eyes, bool quiet) {
 
 Result<void> run_viewshed(const ViewshedOptions& options) {
     ORO_CHECK(check_words(options));
+    ORO_CHECK(check_target_on(options));
     ViewshedQuestion question;
     question.at = options.at.front();
     question.target_m = options.target_m.value_or(0.0);
     question.radius_km = options.radius_km.value_or(usual_radius_km);
     ORO_TRY(question.air, air_asked_for(options.view.refraction_k, options.view.air, standard_air));
+    ORO_TRY(const SightCover cover, open_sight_cover(options.view));
     ProgressBar bar(options.quiet);
-    ORO_TRY(const auto ground, open_sight_ground(options.region, [&](double share, const std::string& what) {
-                bar.show(share, "reading " + what);
-            }));
-    ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, ground->region)}));
+    ORO_TRY(const auto ground,
+            open_sight_ground(
+                options.region,
+                [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, cover));
+    ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, ground->region),
+                                           {files_of_cover(cover), "which is land cover or a canopy"}}));
     Standpoints standpoints;
     ORO_CHECK(place_eyes(options, *ground, question, standpoints));
-    ORO_TRY(ViewshedReport report, viewshed_report(question, *ground->grids, [&](double share) {
-                bar.show(share, "looking around");
-            }));
+    ORO_CHECK(check_eyes(options, question, *ground));
+    if (ground->canopy && options.target_on.value_or("") != on_canopy) question.footing = &ground->ground();
+    const RegionGround& hiding = ground->canopy ? *ground->canopy->grids : *ground->grids;
+    ORO_TRY(ViewshedReport report,
+            viewshed_report(question, hiding, [&](double share) { bar.show(share, "looking around"); }));
     bar.show(1.0, "writing");
-    ORO_CHECK(write_post_raster(options.out, options.overwrite, raster_of(report, *ground->grids)));
+    PostRaster raster = raster_of(report, *ground->grids);
+    add_canopy_tags(options, *ground, raster);
+    ORO_CHECK(write_post_raster(options.out, options.overwrite, raster));
     bar.clear();
     say_notes(ground->region, options.quiet);
+    say_canopy_notes(*ground, options.quiet);
     say_walls(standpoints, question.eyes.size(), options.quiet);
     if (ground->ground().grids() > 1)
         say(options.quiet, "note: the file has the posts of " + source_of_posts(report, *ground->grids) +

@@ -91,9 +91,9 @@ Result<ViewshedReport> viewshed_report(const ViewshedQuestion& question, const R
     const PostGrid& grid = ground.grid(report.grid).field.grid;
     const auto looking = Clock::now();
     for (std::size_t i = 0; i < question.eyes.size(); ++i) {
-        const ViewshedRequest request{question.eyes[i],  question.air,
-                                      question.target_m, question.radius_km * 1000.0,
-                                      thread_count(),    stop};
+        const ViewshedRequest request{
+            question.eyes[i], question.air, question.target_m, question.radius_km * 1000.0,
+            thread_count(),   stop,         question.footing};
         const auto of_all = static_cast<double>(question.eyes.size());
         take_in(viewshed(ground.ground(), report.grid, request,
                          [&](double share) {

@@ -22,6 +22,8 @@ struct ViewshedQuestion {
     Air air;
     double target_m{};  // height of targets over the ground
     double radius_km{usual_radius_km};
+    // What targets stand on, where that is not what hides them (ViewshedRequest); outlives the question.
+    const TrueGround* footing{nullptr};
 };
 
 struct ViewshedReport {

@@ -66,6 +66,10 @@ void all_about(const Viewer& viewer, const PickedPlace& picked) {
     if (seen.cover)
         value_line("Land cover", written("%s (%d)", seen.cover->name.c_str(), seen.cover->code),
                    "The class that the file of land cover has there, and its code");
+    if (seen.canopy_m)
+        value_line("Canopy", written("%.1f m", *seen.canopy_m),
+                   seen.canopy_invented ? "Top of what grows there, over the ground: invented by its class"
+                                        : "Top of what grows there, over the ground");
     ImGui::Separator();
     value_line("Distance", written("%.2f m", seen.seen_distance_m), "Along the line of sight");
     value_line("On the map", written("%.2f m", seen.distance_m), "Along the ellipsoid, from under the eye");
