@@ -42,8 +42,9 @@ gpu::GrassField grass_field(std::uint32_t blades);
 // bottom. The ground lies around 26 m, as the dissertation's times tell that its own did.
 gpu::GrassView grass_view_down(float eye_height_m, std::uint32_t width_px, std::uint32_t height_px);
 
-// How far beside the picture a clump's foot may lie, so that it is drawn all the same, metres: where clumps
-// are left out by their feet. As large as makes the blades that are drawn as many as in Table 1.
-inline constexpr float grass_published_margin_m = 14.9F;
+// How far beyond the planes of the picture's sides a clump's foot may lie, so that it is drawn all the same,
+// metres: where clumps are left out by their feet. As large as makes the blades that are drawn as many as in
+// Table 1.
+inline constexpr float grass_published_margin_m = 13.8F;
 
 }  // namespace oro

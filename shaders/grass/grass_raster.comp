@@ -41,7 +41,8 @@ void main() {
         vec4 next_left = grass_clip(grass.view, blade_vertex(shape, i, vertices));
         vec4 next_right = grass_clip(grass.view, blade_vertex(shape, i + 1u, vertices));
         draw_triangle(left, right, next_left, id);
-        draw_triangle(right, next_left, next_right, id);
+        // At the tip both are one place.
+        if (i + 2u < vertices) draw_triangle(right, next_left, next_right, id);
         left = next_left;
         right = next_right;
     }
