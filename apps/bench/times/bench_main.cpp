@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "apps/bench/times/bench_grass.h"
 #include "apps/bench/times/bench_random.h"
 #include "apps/bench/times/bench_region.h"
 #include "apps/bench/times/bench_tables.h"
@@ -281,6 +282,48 @@ void add_modes(CLI::App& app, BenchOptions& options) {
     app.add_flag("--json", options.json, "Print one JSON object");
 }
 
+// Options of --grass; whether it is asked for.
+struct GrassWords {
+    bool grass{};
+    GrassBenchOptions options;
+};
+
+void add_grass(CLI::App& app, GrassWords& words) {
+    CLI::Option* const grass = app.add_flag(
+        "--grass", words.grass,
+        "Time a field of grass seen straight down, by the vertex pipeline, by mesh shaders with a clump a "
+        "group "
+        "and packed, and by compute: eyes 50 to 300 m up, blades finer up to 100 to 300 m; 1291x1026 pixels "
+        "unless --size says otherwise. Takes --frames, --warm-up, --size and --json, too");
+    app.add_option("--blades", words.options.blades,
+                   "Of that field, in the same area; the eye 300 m up sees all")
+        ->check(CLI::Range(1000U, grass_blades_max))
+        ->needs(grass);
+    app.add_flag("--boxes", words.options.by_boxes,
+                 "Of that field: leave clumps out by boxes around all that they may cover, not by their feet")
+        ->needs(grass);
+    app.add_flag("--thin", words.options.thins,
+                 "Of that field: no blade is narrower than a pixel; the farther, the fewer and wider")
+        ->needs(grass);
+    app.add_flag("--wind", words.options.wind, "Of that field: blades lean in wind")->needs(grass);
+}
+
+Result<void> run_grass(const CLI::App& app, const BenchOptions& options, GrassBenchOptions grass) {
+#ifndef NDEBUG
+    return Error{ErrorKind::failed, "orograph-bench",
+                 "is a debug build; times would mean nothing (use the release preset)"};
+#endif
+    if (app.count("--size") > 0) {
+        grass.width_px = static_cast<std::uint32_t>(options.width_px);
+        grass.height_px = static_cast<std::uint32_t>(options.height_px);
+    }
+    if (app.count("--warm-up") > 0) grass.warm_up_s = options.warm_up_s;
+    grass.frames = options.frames;
+    grass.json = options.json;
+    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
+    return print_grass(*gpu, grass);
+}
+
 }  // namespace
 }  // namespace oro
 
@@ -288,9 +331,11 @@ int main(int argc, char** argv) {
     CLI::App app{"Times how fast this machine's GPU draws: medians of GPU timestamps.", "orograph-bench"};
     oro::BenchOptions options;
     oro::BenchWords words;
+    oro::GrassWords grass;
     oro::add_what_is_drawn(app, options, words);
     oro::add_ways_of_drawing(app, options, words);
     oro::add_modes(app, options);
+    oro::add_grass(app, grass);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -307,7 +352,7 @@ int main(int argc, char** argv) {
                                                  : oro::MeshletSplit::by_device;
     oro::Result<void> done = oro::set_size(words.size, options);
     if (done.ok()) done = oro::read_style(options);
-    if (done.ok()) done = oro::run_bench(options);
+    if (done.ok()) done = grass.grass ? oro::run_grass(app, options, grass.options) : oro::run_bench(options);
     if (done.ok()) return 0;
     std::fprintf(stderr, "orograph-bench: %s\n", done.error().line().c_str());
     return static_cast<int>(done.error().kind);
