@@ -86,9 +86,11 @@ Crown crown_at(vec3 view, uint hash, uint stands) {
     Crown crown;
     crown.foot = view;
     crown.axes = mat3(east, cross(along, east), along);
-    crown.low_m = tree.crown_m * FRAME.exaggeration;
+    // Where it stands alone its crown is wider and begins lower.
+    bool alone = (stands & site_in_forest) == 0u;
+    crown.low_m = (alone ? 0.4 : 1.0) * tree.crown_m * FRAME.exaggeration;
     crown.high_m = tree.height_m * FRAME.exaggeration;
-    crown.radius_m = tree.radius_m;
+    crown.radius_m = (alone ? 1.25 : 1.0) * tree.radius_m;
     crown.colour = tree.colour;
     crown.kind = stands & 3u;
     crown.hash = hash;

@@ -57,14 +57,15 @@ void keep_colour(ivec2 pixel, vec3 colour) {
 }
 
 // A crown in the sun is lighter than a forest's mean, which holds the shade between crowns.
-const float crown_lighter = 1.6;
+const float needle_lighter = 3.1, broad_lighter = 2.3;
 
 // What leaves send back of the sun's light and the sky's.
 GroundLight light_of_crown(Crown crown, CrownHit hit, uint stands, vec3 sun, vec3 to_eye, float pixel_m) {
     uint material = crown.kind == site_needle ? material_needle_forest : material_broad_forest;
     vec3 albedo = FRAME.style.materials.of[material].colour + crown.colour * FRAME.style.materials.of[material].patches;
     // Trees of a kind differ: some are older, drier, of another species.
-    albedo *= crown_lighter * (1.0 + 0.3 * crown.colour) * mix(vec3(1.0), vec3(1.16, 1.0, 0.8), clamp(crown.colour + 0.25, 0.0, 1.0));
+    float lighter = crown.kind == site_needle ? needle_lighter : broad_lighter;
+    albedo *= lighter * (1.0 + 0.3 * crown.colour) * mix(vec3(1.0), vec3(1.1, 1.0, 0.85), clamp(crown.colour + 0.25, 0.0, 1.0));
     if (hit.is_stem) albedo = vec3(0.085, 0.07, 0.055);
     float detail = detail_at(pixel_m);
     vec3 normal = hit.is_stem ? normalize(vec3(hit.at.xy, 0.01)) : normal_of_crown(crown, hit.at, detail, leaves_at(pixel_m));
