@@ -46,7 +46,8 @@ struct GrowthTable {
 ORO_CONST uint site_needle = 1u;    // kind: the lowest two bits
 ORO_CONST uint site_broad = 2u;
 ORO_CONST uint site_in_forest = 4u;  // among others
-ORO_CONST uint site_sun_bit = 8u;   // eight bits: the share of the sun that the terrain leaves
+ORO_CONST uint site_sun_bit = 8u;   // eight bits: the sun's light on a stand, of most_sun
+ORO_CONST float most_sun = 1.5f;    // times that on level ground
 ORO_CONST uint site_size_bit = 16u; // eight bits: the share of a grown tree's height
 
 #ifdef __cplusplus

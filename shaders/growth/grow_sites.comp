@@ -148,6 +148,12 @@ float sun_on_tree(SitePlace place, SurfacePoint point, float height_m) {
     return disc_share(search.least);
 }
 
+// What of the sun's light falls on a closed canopy, which lies as its ground does: that on level ground is 1.
+float sun_on_canopy(SurfacePoint point) {
+    vec3 sun = sun_at(point.view);
+    return clamp(dot(steeper(point.normal, FRAME.style.relief), sun) / max(sun.z, 0.15), 0.08, most_sun);
+}
+
 // Lower towards where trees end, and where they are few.
 float size_at(SurfacePoint point, bool in_open, uint hash) {
     float above_m = above_snow_line_m(point), below_limit_m = FRAME.style.cover.forest_m - above_m;
@@ -183,7 +189,8 @@ uint what_stands(GrowthTile tile, uint site) {
     float size = size_at(point, !in_forest, hash) * smoothstep(0.0, grows_in, kept - rank);
     uint size_code = uint(clamp(size, 0.0, 1.0) * 255.0 + 0.5);
     if (size_code < 20u) return 0u;
-    uint sun_code = uint(sun_on_tree(place, point, size * tree_height_m(hash)) * 255.0 + 0.5);
+    float sun = sun_on_tree(place, point, size * tree_height_m(hash)) * (in_forest ? sun_on_canopy(point) : 1.0);
+    uint sun_code = uint(sun / most_sun * 255.0 + 0.5);
     return kind | (in_forest ? site_in_forest : 0u) | sun_code << site_sun_bit | size_code << site_size_bit;
 }
 

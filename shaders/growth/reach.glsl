@@ -4,7 +4,7 @@
 
 // Metres: while what a crown rises above a smooth canopy, 12 m, is at least so many pixels, and no farther than 12 km.
 ORO_CONST float tree_above_canopy_m = 12.0f;
-ORO_CONST float tree_least_px = 4.0f;
+ORO_CONST float tree_least_px = 2.0f;
 ORO_CONST float tree_reach_most_m = 12000.0f;
 ORO_FUNCTION float tree_reach_m(float pixels_per_tangent, float tau_px) {
     float least_px = tau_px > 1.0f ? tree_least_px * tau_px : tree_least_px;

@@ -4,7 +4,7 @@
 #define IN_AIR
 const bool as_map = false;
 const bool in_air = true;
-layout(constant_id = 1) const bool casts = false;  // FrameStyle.shadows
+const bool casts = false;  // sites have their share of the sun
 layout(constant_id = 2) const bool opens = false;  // FrameStyle.sky_openness
 const bool draped = false;
 const bool by_means = false;
@@ -57,7 +57,7 @@ void keep_colour(ivec2 pixel, vec3 colour) {
 }
 
 // A crown in the sun is lighter than a forest's mean, which holds the shade between crowns.
-const float needle_lighter = 3.1, broad_lighter = 2.3;
+const float needle_lighter = 3.6, broad_lighter = 2.7;
 
 // What leaves send back of the sun's light and the sky's.
 GroundLight light_of_crown(Crown crown, CrownHit hit, uint stands, vec3 sun, vec3 to_eye, float pixel_m) {
@@ -83,9 +83,10 @@ GroundLight light_of_crown(Crown crown, CrownHit hit, uint stands, vec3 sun, vec
     float through = crown.kind == site_needle ? 0.12 : 0.3;
     float rim = pow(1.0 - clamp(dot(smooth_normal, to_eye), 0.0, 1.0), 2.0), before_sun = max(-dot(to_eye, sun), 0.0);
     GroundLight light;
-    light.colour = albedo;
+    // All that comes from around, of which the sky is the upper part.
+    light.colour = 0.6 * albedo * outside * mix(0.25, 1.0, in_forest ? up : 0.5 + 0.5 * up);
+    light.open = light.colour * (0.55 + 0.45 * normal.z);
     light.lit = albedo * (reached * outside * (facing_sun + through * rim * before_sun * before_sun * step(0.0, sun.z)));
-    light.open = albedo * ((0.55 + 0.45 * normal.z) * outside * mix(0.25, 1.0, in_forest ? up : 0.5 + 0.5 * up));
     return light;
 }
 
@@ -112,7 +113,7 @@ void shade(ivec2 pixel) {
         hit.is_stem = false;
     }
     vec3 view = ray * hit.depth_m, sun = sun_at(view);
-    shown_share = float((stands >> site_sun_bit) & 255u) / 255.0;
+    float site_sun = most_sun * float((stands >> site_sun_bit) & 255u) / 255.0;
     if (opens) {
         SurfacePoint ground;
         ground.view = place.view;
@@ -120,7 +121,9 @@ void shade(ivec2 pixel) {
         ground.shaded_post = place.post;
         open_share = sky_openness(ground);
     }
-    LitPlace lit = LitPlace(light_of_crown(crown, hit, stands, sun, normalize(-ray * crown.axes), pixel_m), view, place.h_m + hit.at.z, sun, 0.0);
+    GroundLight light = light_of_crown(crown, hit, stands, sun, normalize(-ray * crown.axes), pixel_m);
+    light.lit *= site_sun;
+    LitPlace lit = LitPlace(light, view, place.h_m + hit.at.z, sun, 0.0);
     keep_depth(pixel, FRAME.near_m / hit.depth_m);
     keep_colour(pixel, shown(through_air(sent_by(lit), view)));
 }
