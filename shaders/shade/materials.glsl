@@ -48,7 +48,7 @@ void find_pixel_materials(SurfacePoint point) {
     }
     if (FRAME.style.materials.on > 1u) {
         // Where trees stand their floor is seen, in their shade; the mean of both is the forest's colour.
-        float floor_light = mix(1.0, 0.55, trees_at(length(point.view), tree_reach_m(FRAME.pixels_per_tangent, FRAME.tau_px)));
+        float floor_light = mix(1.0, 0.65, trees_at(length(point.view), tree_reach_m(FRAME.pixels_per_tangent, FRAME.tau_px)));
         pixel_materials[material_needle_forest] *= floor_light;
         pixel_materials[material_broad_forest] *= floor_light;
     }
