@@ -120,6 +120,8 @@ std::vector<std::string> legend_lines(const View& view, const Region& region, co
         lines.emplace_back(view.cover ? "Ground cover: of " + view.cover->table().title +
                                             "; where that holds nothing invented, by a rule"
                                       : "Ground cover: invented, by a rule of height, slope and latitude");
+    if ((style.frame.materials.on & gpu::materials_with_trees) != 0)
+        lines.emplace_back("Trees: invented, by a rule, where the ground cover is forest");
     if (style.frame.contours.interval_m > 0.0F)
         lines.push_back(text_of("Contour lines: every %.6g m, every fifth thicker",
                                 static_cast<double>(style.frame.contours.interval_m)));

@@ -69,4 +69,10 @@ gpu::MaterialTable materials_of(const json& object) {
     return table;
 }
 
+bool has_trees(const json& object) {
+    const bool trees = json_flag(object, "trees");
+    refuse_unknown(object, "'growth'", {"trees"});
+    return trees;
+}
+
 }  // namespace oro

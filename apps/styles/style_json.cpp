@@ -10,6 +10,7 @@
 #include "apps/report/json_fields.h"
 #include "apps/styles/colours.h"
 #include "apps/styles/style_fields.h"
+#include "shaders/shared_growth.h"
 
 namespace oro {
 namespace {
@@ -70,10 +71,15 @@ void read_ground(const json& object, gpu::FrameStyle& style) {
     } else if (object.contains("cover")) {
         throw JsonFault{"'cover' is for 'colour_by': 'cover'"};
     }
-    if (!object.contains("materials")) return;
+    if (!object.contains("materials")) {
+        if (object.contains("growth")) throw JsonFault{"'growth' is for a style with 'materials'"};
+        return;
+    }
     if (style.colour_by != gpu::colour_by_cover || !object.contains("air"))
         throw JsonFault{"'materials' is for 'colour_by': 'cover', with 'air'"};
     style.materials = materials_of(json_field(object, "materials"));
+    if (object.contains("growth") && has_trees(json_field(object, "growth")))
+        style.materials.on |= gpu::materials_with_trees;
 }
 
 SunDirection read_light(const json& object, gpu::FrameStyle& style) {
@@ -202,11 +208,11 @@ Style style_of_json(const json& object) {
     const bool of_means = style.frame.footprint == gpu::footprint_mean;
     style.frame.smooth_edges =
         choice(object, "edges", std::array{of_means ? smooth : steps, of_means ? steps : smooth});
-    refuse_unknown(object, "a style",
-                   {"name",     "licence",    "colour_by", "tints",        "flat",      "light",
-                    "sun",      "ambient",    "relief",    "relief_light", "shadows",   "sky_openness",
-                    "contours", "background", "haze",      "sky",          "air",       "no_data",
-                    "cover",    "materials",  "water",     "voids",        "footprint", "edges"});
+    refuse_unknown(object, "a style", {"name",    "licence",      "colour_by", "tints",      "flat",
+                                       "light",   "sun",          "ambient",   "relief",     "relief_light",
+                                       "shadows", "sky_openness", "contours",  "background", "haze",
+                                       "sky",     "air",          "no_data",   "cover",      "materials",
+                                       "growth",  "water",        "voids",     "footprint",  "edges"});
     return style;
 }
 

@@ -13,6 +13,7 @@
 #include "core/frame/casters.h"
 #include "core/frame/height_quantization.h"
 #include "core/frame/region_pages.h"
+#include "core/growth/growth_plan.h"
 #include "shaders/shared.h"
 
 namespace oro {
@@ -61,6 +62,7 @@ struct GridPlan {
     std::size_t pages_beyond_horizon{};
     ClusterPlan clusters;     // off until draw_clusters()
     CasterPlan casters;       // none until plan_casters()
+    GrowthPlan growth;        // none until plan_growth()
     bool request_feedback{};  // the frame tells which of its nodes or clusters show
                               // (core/frame/visibility_feedback.h)
     // Of whose heights the pages' blocks are: one number, one set of heights. 0: nobody says so.

@@ -26,18 +26,26 @@ Result<OwnedQueryPool> create_timestamps(const Gpu& gpu) {
     return OwnedQueryPool(gpu.device(), handle);
 }
 
-// Ids of triangles go on from one grid to the next.
-Result<void> number_pages(FramePlan& plan) {
-    std::size_t first = 0;
+// Ids of triangles go on from one grid to the next, and then over the tiles of trees of each: these are
+// others to all grids.
+Result<void> number_pages(FramePlan& plan, bool draws_growth) {
+    std::size_t first = 0, others = plan.grids.size() - 1;
     for (GridPlan& grid : plan.grids) {
+        if (!draws_growth) grid.growth = {};
+        if (!grid.growth.tiles.empty()) ++others;
         grid.constants.first_page = static_cast<gpu::uint>(first);
-        grid.constants.other_grids = static_cast<gpu::uint>(plan.grids.size() - 1);
         first += grid.pages.size();
     }
+    for (GridPlan& grid : plan.grids) grid.constants.other_grids = static_cast<gpu::uint>(others);
     if (first > gpu::pages_max)
         return Error{ErrorKind::failed, "picture",
                      "needs " + std::to_string(first) + " pages of all its grids; a frame numbers " +
                          std::to_string(gpu::pages_max) + " at most: a larger --tau takes fewer"};
+    for (GridPlan& grid : plan.grids) {
+        grid.growth.tiles.resize(std::min(grid.growth.tiles.size(), gpu::pages_max - first));
+        grid.growth.first_page = static_cast<gpu::uint>(first);
+        first += grid.growth.tiles.size();
+    }
     return {};
 }
 
@@ -169,6 +177,7 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
                                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                                      VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
                                  MemoryKind::device, "triangles over pixels"));
+    ORO_CHECK(reserve_growth(plan));
     const VkDeviceSize triangles =
         VkDeviceSize{triangle_rows()} * options_.extent.width * sizeof(gpu::DrawnTriangle);
     if (options_.keep_triangles && triangles_.size < triangles)
@@ -200,6 +209,7 @@ Result<void> FrameRenderer::upload(std::size_t number, GridPlan& plan, const Fra
     if (options_.record_positions) constants.recorded = address_words(recorded_.address);
     constants.record_view = options_.record_view ? 1U : 0U;
     constants.style = asked.style;
+    if (plan.growth.tiles.empty()) constants.style.materials.on &= ~gpu::materials_with_trees;
     constants.show = options_.show;
     constants.overdraw = address_words(overdraw_.address);
     if (plan.clusters.on)
@@ -213,8 +223,10 @@ Result<void> FrameRenderer::upload(std::size_t number, GridPlan& plan, const Fra
         ORO_CHECK(grid.casters.prepare(*gpu_, how, *pipelines_, plan, shared_shares_, slot_, constants));
         ORO_CHECK(choose_shading(grid, constants));
     }
+    ORO_CHECK(choose_growth(grid, plan));
     grid.address(plan);
     if (compute_) compute_->address(constants);
+    if (!compute_ && visibility_.handle) constants.visibility = address_words(visibility_.address);
     grid.fill(plan);
     return {};
 }
@@ -276,7 +288,7 @@ Result<void> FrameRenderer::begin(FramePlan plan, const FrameAsked& asked) {
     while (std::ranges::find(under_way_, slot_) != under_way_.end()) ++slot_;
     Slot& slot = slots_[slot_];
     ORO_CHECK(create_slot(slot));
-    ORO_CHECK(number_pages(plan));
+    ORO_CHECK(number_pages(plan, draws_growth()));
     ORO_CHECK(choose_pipelines(plan));
     ORO_CHECK(reserve(plan));
     occlusion_->begin(plan, remembers(plan));

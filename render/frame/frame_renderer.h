@@ -175,6 +175,13 @@ class FrameRenderer {
     [[nodiscard]] bool has_images(const FramePlan& plan) const;
     void record_casters(VkCommandBuffer commands, const FramePlan& plan);
     void record_shade(VkCommandBuffer commands, const FramePlan& plan);
+    [[nodiscard]] bool draws_growth() const;
+    [[nodiscard]] bool has_growth(const FramePlan& plan) const;
+    Result<void> reserve_growth(const FramePlan& plan);
+    Result<void> choose_growth(GridFrame& grid, const GridPlan& plan);
+    void record_growth(VkCommandBuffer commands, const FramePlan& plan) const;
+    using GrowthPass = void (GrowthFrame::*)(VkCommandBuffer, const Pipelines&, gpu::uint, gpu::uint) const;
+    void record_growth_pixels(VkCommandBuffer commands, const FramePlan& plan, GrowthPass record) const;
     void record_show(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_ids_alone(VkCommandBuffer commands) const;
     void record_tile_feedback(VkCommandBuffer commands, const FramePlan& plan) const;
@@ -197,7 +204,8 @@ class FrameRenderer {
     Image ids_, depth_, sum_, picture_;
     Buffer depths_;
     Buffer tiles_in_parts_;
-    Buffer overdraw_;  // FrameConstants::overdraw, where it is shown
+    Buffer visibility_;  // mesh path: FrameConstants::visibility of frames with trees
+    Buffer overdraw_;    // FrameConstants::overdraw, where it is shown
     Buffer triangles_;
     Buffer counts_;  // on the device
     Buffer recorded_;

@@ -83,6 +83,7 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
                                    : as_colour,
                   shader_read);
     record_casters(commands, plan);
+    record_growth(commands, plan);
     const bool first = plan.grids.front().constants.sample_index == 0;
     image_barrier(commands, sum_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, first ? unused : shader_write,
                   shader_write);
@@ -107,7 +108,9 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
         pass(grids_[i], grids_[i].shade);
         pass(grids_[i], grids_[i].shade_parts);
     }
+    record_growth_pixels(commands, plan, &GrowthFrame::record_shade);
     for (std::size_t i = 0; options_.smooth_edges && i < plan.grids.size(); ++i) pass(grids_[i], edges_);
+    record_growth_pixels(commands, plan, &GrowthFrame::record_smooth);
     if (options_.show != gpu::show_colours) record_show(commands, plan);
 }
 

@@ -9,6 +9,7 @@
 #include "core/frame/frame_plan.h"
 #include "core/frame/visibility_feedback.h"
 #include "render/device/resources.h"
+#include "render/growth/growth_frame.h"
 #include "render/pipelines/pipelines.h"
 #include "render/shading/caster_buffers.h"
 #include "render/shading/texture_tile_feedback.h"
@@ -56,6 +57,7 @@ class GridFrame {
 
     CasterBuffers casters;
     TextureTileFeedback drape;
+    GrowthFrame growth;
     VkPipeline shade{VK_NULL_HANDLE}, shade_parts{VK_NULL_HANDLE};  // of the frame
 
   private:

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -90,6 +91,10 @@ struct Pipelines {
     OwnedPipeline cluster_terrain, cluster_ties;                 // mesh path: mesh, fragment; as terrain_ties
     OwnedPipeline cluster_raster, cluster_clip;                  // compute path; then raster_large
     OwnedPipeline cluster_triangles;
+    // Of frames with trees (render/growth): what stands on sites and what colours it, by what they ask for;
+    // what draws them and softens their outlines; mesh path: copies of its images before that, and back.
+    std::map<std::size_t, std::array<OwnedPipeline, 2>> growth;
+    OwnedPipeline draw_crowns, smooth_crowns, seed_visibility, keep_ids;
 };
 
 // What a renderer is asked for besides triangle ids.

@@ -119,6 +119,20 @@ Result<void> GridScene::add_casters(const FrameView& view, GridPlan& plan) {
     return {};
 }
 
+// The records are those that the choice of pages has read.
+Result<void> GridScene::add_growth(const FrameView& view, GridPlan& plan) const {
+    if (!has_trees_ || view.model.earth != Earth::ellipsoid || plan.pages.empty()) return {};
+    std::vector<GroundRange> ranges;
+    for (const PageIndex& page : plan.page_indices) {
+        ORO_TRY(const PageRecord record, pages_->record(page));
+        ranges.push_back({record.summary.lowest_h_m, record.summary.highest_h_m});
+    }
+    plan.growth =
+        plan_growth(pages_->facts().grid, plan.page_indices, [&](std::size_t page) { return ranges[page]; },
+                    {view.camera, view.tile, view.tau_px});
+    return {};
+}
+
 Result<void> GridScene::add_clusters(const FrameView& view, Clusters clusters, GridPlan& plan) {
     const auto& [camera, tile, tau_px, model] = view;
     // A plan with no page shows nothing.
@@ -144,6 +158,7 @@ Result<GridPlan> GridScene::begun_plan(const FrameView& view, Clusters clusters)
 
 Result<void> GridScene::end_plan(const FrameView& view, GridPlan& plan) {
     if (cast_.any()) ORO_CHECK(add_casters(view, plan));
+    ORO_CHECK(add_growth(view, plan));
     full_for_hidden_ = false;
     missed_ = plan.missing;
     const auto missing_hidden = std::span(plan.missing).last(plan.missing_hidden);
@@ -285,7 +300,13 @@ void Scene::set_footprint_spacing(double spacing_px) {
         if (spacing_px != grid.asked_means_px_) grid.means_spacing_px_ = grid.asked_means_px_ = spacing_px;
 }
 
+// What lies between grids is as wide as a gap: no tree stands there.
+void Scene::set_trees(bool on) {
+    for (GridScene& grid : grids_) grid.has_trees_ = on && !grid.pages_->is_seam();
+}
+
 void Scene::require_fields(const gpu::FrameStyle& style) {
+    set_trees((style.materials.on & gpu::materials_with_trees) != 0);
     set_shadow_request(shadow_request(style));
     set_footprint_spacing(means_spacing_px(style));
 }

@@ -67,6 +67,7 @@ class GridScene {
     Result<bool> load_pages(std::span<const PageIndex> pages);
     Result<GridPlan> plan_of_pages(const FrameView& view);
     Result<void> add_casters(const FrameView& view, GridPlan& plan);
+    Result<void> add_growth(const FrameView& view, GridPlan& plan) const;
     // Those of missing pages that may show.
     [[nodiscard]] std::vector<PageIndex> shown_of(std::span<const PageIndex> missing) const;
     [[nodiscard]] bool is_hidden(const PageIndex& page) const;
@@ -93,6 +94,7 @@ class GridScene {
     std::set<PageIndex> hidden_;     // of those
     bool full_{false};               // of the last frame's pages
     bool full_for_hidden_{false};    // at least for those
+    bool has_trees_{false};          // whether plans have sites of trees
     bool can_evict_hidden_{false};   // hidden pages of the last plan could, for missing ones
     ShadowRequest cast_;
     double asked_means_px_{gpu::means_spacing_px}, means_spacing_px_{gpu::means_spacing_px};
@@ -125,7 +127,9 @@ class Scene {
     // ... and squares of means that are at most so large on the screen (core/lod/ground_means.h), where it
     // has any; once the GPU has no room for them, as large as other styles take.
     void set_footprint_spacing(double spacing_px);
-    // Both, as a style asks for them.
+    // ... and the sites of trees around the eye (core/growth/growth_plan.h), on WGS84.
+    void set_trees(bool on);
+    // All three, as a style asks for them.
     void require_fields(const gpu::FrameStyle& style);
     // What a frame draws with the pages and clusters that are on the GPU now.
     Result<FramePlan> plan(const FrameView& view);

@@ -2,6 +2,7 @@
 // shares: here by a rule of height, slope, hollows and latitude. What says it otherwise (a map of land cover) gives such shares, too.
 #ifdef IN_AIR
 #include "shaders/shade/ground_noise.glsl"
+#include "shaders/growth/reach.glsl"
 
 // By number (material_rock and so on); together 1.
 struct MaterialShares { float of[12]; };
@@ -49,6 +50,12 @@ void find_pixel_materials(SurfacePoint point) {
     for (uint i = 0u; i < material_count; ++i) {
         vec3 colour = FRAME.style.materials.of[i].colour + patches * FRAME.style.materials.of[i].patches;
         pixel_materials[i] = colour * max(1.0 + FRAME.style.materials.of[i].grain * pixel_noise.grain, 0.1);
+    }
+    if (FRAME.style.materials.on > 1u) {
+        // Where trees stand their floor is seen, in their shade; the mean of both is the forest's colour.
+        float floor_light = mix(1.0, 0.65, trees_at(length(point.view), tree_reach_m(FRAME.pixels_per_tangent, FRAME.tau_px)));
+        pixel_materials[material_needle_forest] *= floor_light;
+        pixel_materials[material_broad_forest] *= floor_light;
     }
     pixel_materials[material_rock] *= 1.0 + 0.3 * strata(point.mean_H_m, foot_m);
     pixel_second = patched(0.0, 1.0);

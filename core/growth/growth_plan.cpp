@@ -1,0 +1,165 @@
+#include "core/growth/growth_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <tuple>
+
+#include "core/growth/tree_sites.h"
+
+namespace oro::gpu {
+namespace {
+#define ORO_FUNCTION [[maybe_unused]]
+#include "shaders/growth/reach.glsl"
+#undef ORO_FUNCTION
+}  // namespace
+}  // namespace oro::gpu
+
+namespace oro {
+namespace {
+
+constexpr double tile_circle_m = 185.0;  // around a tile's middle: holds it
+
+using PageNumbers = std::map<std::tuple<int, int, int>, gpu::uint>;
+
+// The finest page that covers all posts between two.
+std::optional<gpu::uint> covering_page(const PageNumbers& numbers, glm::ivec2 low, glm::ivec2 high) {
+    constexpr int page_bits = 7, levels_max = 24;
+    static_assert(1U << page_bits == gpu::page_quads);
+    for (int level = 0; level < levels_max; ++level) {
+        const int shift = level + page_bits;
+        if (low.x >> shift != high.x >> shift || low.y >> shift != high.y >> shift) continue;
+        const auto found = numbers.find({level, low.x >> shift, low.y >> shift});
+        if (found != numbers.end()) return found->second;
+    }
+    return {};
+}
+
+// A tile of the lattice on the grid; none where not all of it is there.
+std::optional<gpu::GrowthTile> tile_on_grid(const PostGrid& grid, const PageNumbers& numbers,
+                                            std::uint32_t row, std::uint32_t column) {
+    std::array<PostNumber, 4> corners{};
+    for (std::uint32_t i = 0; i < 4; ++i)
+        corners[i] = grid.post_at(site_tile_south_deg(row + i / 2),
+                                  site_tile_west_deg(row, column) + (i % 2) * 360.0 / site_tile_columns(row));
+    glm::dvec2 low{corners[0].row, corners[0].column}, high = low;
+    for (const PostNumber& corner : corners) {
+        low = glm::min(low, glm::dvec2(corner.row, corner.column));
+        high = glm::max(high, glm::dvec2(corner.row, corner.column));
+    }
+    // A tree may stand a little beside its tile. Round the Earth a tile has its columns on one side, or is
+    // left out.
+    const glm::dvec2 beyond = 0.02 * (high - low);
+    low -= beyond;
+    high += beyond;
+    if (!(low.x >= 0.0 && low.y >= 0.0 && high.x < grid.rows() - 1 && high.y < grid.columns() - 1)) return {};
+    const auto page = covering_page(numbers, glm::ivec2(low), glm::ivec2(high));
+    if (!page) return {};
+    gpu::GrowthTile tile{row, column, *page, {}, {}};
+    const glm::dvec2 base = glm::floor(glm::dvec2(corners[0].row, corners[0].column));
+    tile.post[0] = static_cast<int>(base.x);
+    tile.post[1] = static_cast<int>(base.y);
+    for (std::size_t i = 0; i < 4; ++i)
+        tile.corners[i] = gpu::vec2(glm::dvec2(corners[i].row, corners[i].column) - base);
+    return tile;
+}
+
+// A tile of the lattice near the eye.
+struct NearTile {
+    double distance_m;
+    std::uint32_t row, column;
+};
+
+// Those within reach, nearest first. None near a pole.
+std::vector<NearTile> tiles_around(const Geodetic& eye, double reach_m) {
+    constexpr double m_per_deg = 111320.0;
+    const double cosine = std::cos(eye.lat_deg * std::numbers::pi / 180.0);
+    std::vector<NearTile> near;
+    if (cosine < 0.05) return near;
+    const double tile_deg = site_tile_south_deg(1) - site_tile_south_deg(0),
+                 reach_deg = reach_m / m_per_deg * 1.01;
+    const auto row_at = [&](double lat_deg) {
+        return static_cast<std::int64_t>(std::floor((lat_deg + 90.0) / tile_deg));
+    };
+    const std::int64_t first = std::max<std::int64_t>(row_at(eye.lat_deg - reach_deg), 0);
+    const std::int64_t last =
+        std::min<std::int64_t>(row_at(eye.lat_deg + reach_deg), gpu::site_tile_rows - 1);
+    for (std::int64_t row = first; row <= last; ++row) {
+        const auto tile_row = static_cast<std::uint32_t>(row);
+        const std::int64_t count = site_tile_columns(tile_row);
+        const double tiles_per_deg = static_cast<double>(count) / 360.0;
+        const double middle = (eye.lon_deg + 180.0) * tiles_per_deg;
+        const double north_m = (site_tile_south_deg(tile_row) + 0.5 * tile_deg - eye.lat_deg) * m_per_deg;
+        const auto across = static_cast<std::int64_t>(std::ceil(reach_deg / cosine * tiles_per_deg)) + 1;
+        for (std::int64_t i = -across; i <= across; ++i) {
+            const std::int64_t number = static_cast<std::int64_t>(std::floor(middle)) + i;
+            const double east_m =
+                (static_cast<double>(number) + 0.5 - middle) / tiles_per_deg * m_per_deg * cosine;
+            const double distance_m = std::hypot(north_m, east_m);
+            if (distance_m > reach_m + tile_circle_m) continue;
+            near.push_back(
+                {distance_m, tile_row, static_cast<std::uint32_t>((number % count + count) % count)});
+        }
+    }
+    std::ranges::sort(near, {},
+                      [](const NearTile& one) { return std::tuple(one.distance_m, one.row, one.column); });
+    return near;
+}
+
+// Which tiles the frustum does not leave out. Light that bends, lean and what a tile's trees reach beyond it
+// are within the slack.
+class TilesInView {
+  public:
+    TilesInView(const Camera& camera, const Tile& tile)
+        : eye_(camera.eye_ecef().m),
+          view_from_ecef_(camera.view_from_ecef()),
+          planes_(frustum_planes_view(projection_of_tile(camera, tile))) {}
+    [[nodiscard]] bool may_show(const gpu::GrowthTile& tile, const GroundRange& ground) const {
+        constexpr double tallest_m = 40.0, slack_m = tile_circle_m + 30.0;
+        const double lat_deg =
+            site_tile_south_deg(tile.row) + 0.5 * (site_tile_south_deg(1) - site_tile_south_deg(0));
+        const double lon_deg =
+            site_tile_west_deg(tile.row, tile.column) + 180.0 / site_tile_columns(tile.row);
+        const glm::dvec3 low = view_of({lat_deg, lon_deg, ground.low_m});
+        const glm::dvec3 high = view_of({lat_deg, lon_deg, ground.high_m + tallest_m});
+        return std::ranges::all_of(planes_, [&](const Plane& plane) {
+            const glm::dvec3 normal(plane);
+            return std::max(glm::dot(normal, low), glm::dot(normal, high)) + plane.w >= -slack_m;
+        });
+    }
+
+  private:
+    [[nodiscard]] glm::dvec3 view_of(const Geodetic& place) const {
+        return view_from_ecef_ * (ecef_from_geodetic(place).m - eye_);
+    }
+    glm::dvec3 eye_;
+    glm::dmat3 view_from_ecef_;
+    std::array<Plane, 5> planes_;
+};
+
+}  // namespace
+
+GrowthPlan plan_growth(const PostGrid& grid, std::span<const PageIndex> page_indices,
+                       const GroundRangeOf& ground, const GrowthView& view) {
+    GrowthPlan plan;
+    const double pixels_per_tangent = 0.5 * view.camera.height_px / view.camera.half_fov_tangent().y;
+    plan.reach_m = gpu::tree_reach_m(static_cast<float>(pixels_per_tangent), static_cast<float>(view.tau_px));
+    PageNumbers numbers;
+    for (std::size_t i = 0; i < page_indices.size(); ++i) {
+        const PageIndex& page = page_indices[i];
+        numbers[{page.level, page.row, page.column}] = static_cast<gpu::uint>(i);
+    }
+    if (numbers.empty()) return plan;
+    const TilesInView in_view(view.camera, view.tile);
+    for (const NearTile& near : tiles_around(view.camera.eye, static_cast<double>(plan.reach_m))) {
+        if (plan.tiles.size() == gpu::growth_tiles_max) break;
+        const auto tile = tile_on_grid(grid, numbers, near.row, near.column);
+        if (tile && in_view.may_show(*tile, ground(tile->page))) plan.tiles.push_back(*tile);
+    }
+    return plan;
+}
+
+}  // namespace oro

@@ -1,0 +1,80 @@
+// The part of FrameRenderer that draws trees, once the ground is drawn and what casts shadows is known, and
+// before pixels are coloured. Frames without trees have none of it.
+#include <algorithm>
+
+#include "render/frame/frame_layout.h"
+#include "render/frame/frame_renderer.h"
+
+namespace oro {
+
+// Who reads triangles, depths or positions asks for the ground.
+bool FrameRenderer::draws_growth() const {
+    return options_.shades && options_.show == gpu::show_colours && !options_.keep_triangles &&
+           !options_.keep_depths && !options_.record_positions;
+}
+
+bool FrameRenderer::has_growth(const FramePlan& plan) const {
+    return std::ranges::any_of(plan.grids, [](const GridPlan& grid) { return !grid.growth.tiles.empty(); });
+}
+
+Result<void> FrameRenderer::reserve_growth(const FramePlan& plan) {
+    if (compute_ || !has_growth(plan)) return {};
+    ORO_CHECK(add_visibility_copies(*gpu_, *pipelines_));
+    const VkDeviceSize bytes = VkDeviceSize{8} * options_.extent.width * options_.extent.height;
+    if (visibility_.size >= bytes) return {};
+    return replace_buffer(*gpu_, visibility_, bytes,
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                          MemoryKind::device, "visibility");
+}
+
+Result<void> FrameRenderer::choose_growth(GridFrame& grid, const GridPlan& plan) {
+    const gpu::FrameConstants& constants = plan.constants;
+    const GrowthKind kind{grid.casters.has_shadows(), grid.casters.opens(), grid.drape.is_on(),
+                          constants.has_means != 0, options_.smooth_edges};
+    return grid.growth.prepare(*gpu_, *pipelines_, plan.growth, plan.growth.first_page, kind, slot_);
+}
+
+void FrameRenderer::record_growth(VkCommandBuffer commands, const FramePlan& plan) const {
+    if (!has_growth(plan)) return;
+    const auto wait = [&] {
+        memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                       VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+    };
+    const auto copy = [&](const OwnedPipeline& pipeline) {
+        wait();
+        grids_.front().bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.get());
+        vkCmdDispatch(commands, (plan.view.width_px() + 7) / 8, (plan.view.height_px() + 7) / 8, 1);
+    };
+    if (!compute_) {
+        image_barrier(commands, depth_.handle.get(), VK_IMAGE_ASPECT_DEPTH_BIT, as_depth, depth_read);
+        copy(pipelines_->seed_visibility);
+    }
+    wait();
+    for (std::size_t i = 0; i < plan.grids.size(); ++i) {
+        if (!grids_[i].growth.is_on()) continue;
+        grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+        grids_[i].growth.record_draw(commands, *pipelines_);
+    }
+    if (!compute_) {
+        image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, shader_read, shader_write);
+        copy(pipelines_->keep_ids);
+        image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, shader_write, shader_read);
+    }
+    wait();
+}
+
+void FrameRenderer::record_growth_pixels(VkCommandBuffer commands, const FramePlan& plan,
+                                         GrowthPass record) const {
+    for (std::size_t i = 0; i < plan.grids.size(); ++i) {
+        if (!grids_[i].growth.is_on()) continue;
+        memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                       VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+        grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+        (grids_[i].growth.*record)(commands, *pipelines_, plan.view.width_px(), plan.view.height_px());
+    }
+}
+
+}  // namespace oro

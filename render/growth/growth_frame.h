@@ -1,0 +1,60 @@
+// The trees of one grid in a frame: its tiles of sites, what stands on them, and the programs that draw and
+// colour it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "core/growth/growth_plan.h"
+#include "render/device/resources.h"
+#include "render/pipelines/pipelines.h"
+
+namespace oro {
+
+// What of a frame decides which programs it takes.
+struct GrowthKind {
+    bool casts{};         // terrain casts shadows
+    bool opens{};         // the sky's light is that of the part of the sky that is seen
+    bool draped{};        // land cover lies over the ground
+    bool by_means{};      // pages have means
+    bool edges_follow{};  // the picture is left to `edges`
+};
+
+class GrowthFrame {
+  public:
+    // Takes the tiles of a plan, which may have none. first_page: of their triangle ids. slot: of
+    // frames_in_flight. Errors: the device.
+    Result<void> prepare(const Gpu& gpu, Pipelines& pipelines, const GrowthPlan& plan, gpu::uint first_page,
+                         const GrowthKind& kind, std::size_t slot);
+    [[nodiscard]] bool is_on() const { return tiles_ > 0; }
+    // What stands on its sites, and its trees into the visibility buffer. The grid's set is bound, and the
+    // nodes of its casters are there.
+    void record_draw(VkCommandBuffer commands, const Pipelines& pipelines) const;
+    // Colours its pixels; and, of pictures of one sample whose edges follow, softens its outlines once all
+    // pixels of the frame are coloured.
+    void record_shade(VkCommandBuffer commands, const Pipelines& pipelines, gpu::uint width_px,
+                      gpu::uint height_px) const {
+        record_pixels(commands, pipelines, shade_, width_px, height_px);
+    }
+    void record_smooth(VkCommandBuffer commands, const Pipelines& pipelines, gpu::uint width_px,
+                       gpu::uint height_px) const {
+        if (smooth_ != VK_NULL_HANDLE) record_pixels(commands, pipelines, smooth_, width_px, height_px);
+    }
+
+  private:
+    void push(VkCommandBuffer commands, const Pipelines& pipelines) const;
+    void record_pixels(VkCommandBuffer commands, const Pipelines& pipelines, VkPipeline pipeline,
+                       gpu::uint width_px, gpu::uint height_px) const;
+
+    std::array<Buffer, frames_in_flight> tables_;  // GrowthTable, then its tiles
+    Buffer sites_;
+    std::size_t slot_{};
+    gpu::uint tiles_{};
+    VkPipeline grow_{VK_NULL_HANDLE}, draw_{VK_NULL_HANDLE}, shade_{VK_NULL_HANDLE}, smooth_{VK_NULL_HANDLE};
+};
+
+// Mesh path: its images into a visibility buffer, and the ids back, around what draws trees. The images are
+// in shader_read and depth_read, and ids may be written. Errors: the device.
+Result<void> add_visibility_copies(const Gpu& gpu, Pipelines& pipelines);
+
+}  // namespace oro

@@ -1,0 +1,133 @@
+// Where a line of sight meets a tree: cones and ellipsoids with gaps between their leaves. Needs growth.glsl.
+
+// Smooth noise of 0 to 1.
+float leaf_noise(vec3 at, uint seed) {
+    vec3 cell = floor(at), part = at - cell, on = part * part * (3.0 - 2.0 * part);
+    uvec3 whole = uvec3(ivec3(cell));
+    float sum = 0.0;
+    for (uint i = 0u; i < 8u; ++i) {
+        uvec3 corner = uvec3(i & 1u, i >> 1u & 1u, i >> 2u);
+        uvec3 lattice = whole + corner;
+        uint h = lattice.x * 0x9e3779b1u + lattice.y * 0x85ebca77u + lattice.z * 0xc2b2ae3du + seed;
+        h ^= h >> 15u;
+        h *= 0x846ca68bu;
+        h ^= h >> 16u;
+        vec3 weight = mix(1.0 - on, on, vec3(corner));
+        sum += weight.x * weight.y * weight.z * float(h >> 8u);
+    }
+    return sum * (1.0 / 16777216.0);
+}
+
+struct CrownHit {
+    float depth_m;  // along the view
+    vec3 at;        // in the crown's frame, from its foot
+    float inside;   // 0: among its outermost leaves; 1: at its stem
+    bool is_stem;
+};
+
+// A line from p by d. The first place of a shell that it enters, as a multiple of d; no_hit: none.
+const float no_hit = 1.0e30;
+float enters_cone(vec3 p, vec3 d, float low_m, float high_m, float radius_m) {
+    float k = radius_m / (high_m - low_m), kk = k * k, down = high_m - p.z;
+    float a = dot(d.xy, d.xy) - kk * d.z * d.z, b = dot(p.xy, d.xy) + kk * down * d.z, c = dot(p.xy, p.xy) - kk * down * down;
+    float best = no_hit, square = b * b - a * c;
+    if (square > 0.0 && abs(a) > 1.0e-9) {
+        float root = sqrt(square);
+        for (int i = 0; i < 2; ++i) {
+            float s = (-b + (i == 0 ? -root : root)) / a, z = p.z + s * d.z;
+            if (z >= low_m && z <= high_m) best = min(best, s);
+        }
+    }
+    if (d.z > 0.0) {
+        float s = (low_m - p.z) / d.z;
+        vec2 at = p.xy + s * d.xy;
+        if (dot(at, at) <= radius_m * radius_m) best = min(best, s);
+    }
+    return best;
+}
+float enters_ellipsoid(vec3 p, vec3 d, float low_m, float high_m, float radius_m) {
+    vec3 scale = 1.0 / vec3(radius_m, radius_m, 0.5 * (high_m - low_m)), from = (p - vec3(0.0, 0.0, 0.5 * (low_m + high_m))) * scale, along = d * scale;
+    float a = dot(along, along), b = dot(from, along), c = dot(from, from) - 1.0, square = b * b - a * c;
+    return square > 0.0 ? (-b - sqrt(square)) / a : no_hit;
+}
+float enters_stem(vec3 p, vec3 d, float high_m, float radius_m) {
+    float a = dot(d.xy, d.xy), b = dot(p.xy, d.xy), c = dot(p.xy, p.xy) - radius_m * radius_m, square = b * b - a * c;
+    if (square <= 0.0 || a <= 0.0) return no_hit;
+    float s = (-b - sqrt(square)) / a, z = p.z + s * d.z;
+    return z >= 0.0 && z <= high_m ? s : no_hit;
+}
+
+// How far out a place is in its crown: 0 at the stem, 1 on the cone or the ellipsoid around all of it.
+float out_in_crown(Crown crown, vec3 at) {
+    float length_m = crown.high_m - crown.low_m;
+    if (crown.kind == site_needle) return length(at.xy) / max(crown.radius_m * (crown.high_m - at.z) / length_m, 0.05);
+    return length((at - vec3(0.0, 0.0, 0.5 * (crown.low_m + crown.high_m))) / vec3(crown.radius_m, crown.radius_m, 0.5 * length_m));
+}
+
+// Negative among leaves: these reach out as far as noise says. Broad-leaved trees have bunches of bunches of them, needle trees branches
+// that hang down. detail, leaves: 1 where bunches,
+// and where leaves, are larger than pixels, 0 where they are not; the crown's mean size stays.
+float outside_leaves(Crown crown, vec3 at, float detail, float leaves) {
+    float out_share = out_in_crown(crown, at);
+    if (detail <= 0.0) return out_share - 0.9;
+    float reach;
+    if (crown.kind == site_needle) {
+        vec3 branch = vec3(at.xy * 1.1, (at.z + 0.6 * length(at.xy)) * 1.7);
+        reach = 0.42 + 0.75 * leaf_noise(branch, crown.hash) + 0.3 * leaf_noise(branch * 3.3, crown.hash + 1u) - 0.1;
+    } else {
+        reach = 0.4 + 0.78 * leaf_noise(at * 0.62, crown.hash) + 0.36 * leaf_noise(at * 1.9, crown.hash + 1u) - 0.1;
+    }
+    if (leaves > 0.0) reach += leaves * 0.42 * (leaf_noise(at * 6.7, crown.hash + 2u) - 0.5);
+    return out_share - mix(0.9, reach, detail);
+}
+
+vec3 normal_of_crown(Crown crown, vec3 at, float detail, float leaves) {
+    float e = 0.12 + 0.3 * (1.0 - detail) - 0.08 * leaves, here = outside_leaves(crown, at, detail, leaves);
+    vec3 change = vec3(outside_leaves(crown, at + vec3(e, 0.0, 0.0), detail, leaves), outside_leaves(crown, at + vec3(0.0, e, 0.0), detail, leaves),
+                       outside_leaves(crown, at + vec3(0.0, 0.0, e), detail, leaves)) - here;
+    return dot(change, change) > 0.0 ? normalize(change) : vec3(0.0, 0.0, 1.0);
+}
+
+float detail_at(float pixel_m) { return clamp(1.5 - 1.15 * pixel_m, 0.0, 1.0); }
+float leaves_at(float pixel_m) { return clamp(1.4 - 18.0 * pixel_m, 0.0, 1.0); }
+
+const int crown_steps = 16;
+// pixel_m: what a pixel covers at the tree.
+bool hits_crown(Crown crown, vec3 ray, float pixel_m, out CrownHit hit) {
+    vec3 middle = crown.foot + 0.5 * crown.high_m * crown.axes[2];
+    float begin = dot(middle, ray) / dot(ray, ray);
+    vec3 p = (ray * begin - crown.foot) * crown.axes, d = ray * crown.axes;
+    float detail = detail_at(pixel_m), leaves = leaves_at(pixel_m), size = detail > 0.0 ? 1.0 : 0.9, best = no_hit;
+    bool is_needle = crown.kind == site_needle;
+    float s = is_needle ? enters_cone(p, d, crown.low_m, crown.high_m, crown.radius_m * size) : enters_ellipsoid(p, d, crown.low_m, crown.high_m, crown.radius_m);
+    hit.is_stem = false;
+    hit.inside = 0.0;
+    if (s < no_hit && detail <= 0.0) best = s;
+    // Along the line through what is convex, until it is among leaves.
+    float step_m = 0.5 * crown.radius_m / length(d), before = 1.0, last = s;
+    for (int i = 0; s < no_hit && detail > 0.0 && i < crown_steps; ++i) {
+        vec3 at = p + s * d;
+        float outside = outside_leaves(crown, at, detail, leaves);
+        if (outside < 0.0) {
+            best = mix(last, s, clamp(before / max(before - outside, 1.0e-6), 0.0, 1.0));
+            break;
+        }
+        if (i > 0 && (out_in_crown(crown, at) > 1.001 || at.z < crown.low_m || at.z > crown.high_m)) break;
+        before = outside;
+        last = s;
+        s += step_m * clamp(outside, 0.12, 0.5);
+    }
+    if (pixel_m < 0.25) {
+        float on_stem = enters_stem(p, d, crown.low_m + 0.3 * (crown.high_m - crown.low_m), 0.011 * crown.high_m);
+        if (on_stem < best) {
+            best = on_stem;
+            hit.is_stem = true;
+        }
+    }
+    if (best == no_hit) return false;
+    hit.at = p + best * d;
+    hit.inside = clamp((0.95 - out_in_crown(crown, hit.at)) / 0.55, 0.0, 1.0);
+    hit.depth_m = begin + best;
+    return hit.depth_m > 0.3;
+}
+float pixel_m_at(vec3 view) { return -view.z / FRAME.pixels_per_tangent; }

@@ -1,0 +1,202 @@
+#version 460
+// Decides what stands on each site: where the materials of the ground are forest, a tree; and how much of the sun the terrain leaves it.
+#extension GL_GOOGLE_include_directive : require
+#define IN_AIR
+const bool as_map = false;
+const bool in_air = true;
+layout(constant_id = 1) const bool casts = false;     // FrameStyle.shadows
+const bool opens = false;
+layout(constant_id = 3) const bool draped = false;    // FrameConstants.drape
+layout(constant_id = 4) const bool by_means = false;  // pages have PageMeans
+const bool parts_follow = false;
+const bool parts_alone = false;
+const bool of_materials = true;
+#include "shaders/place/frame.glsl"
+#include "shaders/choose/levels.glsl"
+#include "shaders/place/place.glsl"
+#include "shaders/place/net.glsl"
+#include "shaders/shade/surface.glsl"
+#include "shaders/air/air.glsl"
+#include "shaders/air/sky.glsl"
+#include "shaders/air/aerial.glsl"
+#include "shaders/cast/casters.glsl"
+#include "shaders/cast/shadow.glsl"
+#include "shaders/cast/start.glsl"
+#include "shaders/cast/shown.glsl"
+#include "shaders/shade/daylight.glsl"
+#include "shaders/shade/light.glsl"
+#include "shaders/shade/srgb.glsl"
+#include "shaders/shade/water.glsl"
+#include "shaders/shade/outside.glsl"
+#include "shaders/shade/drape.glsl"
+#include "shaders/shade/cover_tiles.glsl"
+#include "shaders/shade/ground.glsl"
+#include "shaders/growth/growth.glsl"
+
+layout(local_size_x = 128) in;  // site_group
+
+// What of a place is forest of needle trees and of broad-leaved ones; and what is open ground where single trees stand.
+struct Stands {
+    float needle;
+    float broad;
+    float open;
+};
+
+const float grows_in = 0.12;  // ranks over which a tree goes from nothing to its height
+const float foot_m = 4.0;  // borders are as sharp as sites are apart
+const float trees_in_meadows = 0.006, trees_in_crops = 0.002, trees_in_shrub = 0.07;
+
+Stands stands_of(MaterialShares shares) {
+    float open = trees_in_meadows * shares.of[material_meadow] + trees_in_crops * shares.of[material_crops] + trees_in_shrub * shares.of[material_shrub];
+    return Stands(shares.of[material_needle_forest], shares.of[material_broad_forest], open);
+}
+
+// The ground under a site, for the rule of materials.
+SurfacePoint ground_of(SitePlace place) {
+    FramePage page = frame_pages().at[place.page];
+    PageBlocks block = PageBlocks(page.block);
+    SurfacePoint point;
+    point.view = place.view;
+    point.post = place.post;
+    point.page = place.page;
+    point.region = vec2(place.whole) + place.part;
+    point.h_m = place.h_m;
+    point.H_m = point.mean_H_m = (place.h_m - undulation_at(point.region)) / FRAME.exaggeration;
+    point.normal = normal_at(block, page, place.post);
+    point.smooth_normal = point.normal;
+    RowTerms row = RowTable(FRAME.row_terms).at[page.row_terms + uint(place.post.x)];
+    point.lat_deg = degrees(atan(row.S, row.C));
+    point.snow_line_m = snow_line_m(point.lat_deg);
+    point.wide_level = 0.0;
+    point.parts = 0;
+    point.post_m = block.at[0].row_spacing_m;
+    point.hollow_m = by_means ? hollow_m_at(point, length(place.view) / FRAME.pixels_per_tangent) : 0.0;
+    return point;
+}
+
+// Of a map of land cover: the finest of its texels that is here.
+MaterialShares shares_of_texel(uint texel, inout float known) {
+    MaterialShares shares;
+    for (uint i = 0u; i < material_count; ++i) shares.of[i] = 0.0;
+    for (; texel != 0u; texel >>= 8u) {
+        uint ground = texel & 15u;
+        if (ground == cover_unknown) continue;
+        float share = float((texel >> 4u) & 15u) / 15.0;
+        uint materials = DrapeTiles(FRAME.drape.tiles).at[FRAME.drape.tile_mask + 2u + ground].texels.x;
+        shares.of[materials & 255u] += share * (1.0 - pixel_second);
+        shares.of[(materials >> 8u) & 255u] += share * pixel_second;
+        known += share;
+    }
+    return shares;
+}
+MaterialShares shares_by_map(SitePlace place, SurfacePoint point, out float known) {
+    point.drape_post = place.whole;
+    point.drape_part = place.part;
+    ivec2 levels = cover_levels(), whole;
+    vec2 part;
+    known = 0.0;
+    cover_tap(point, DrapeFootprint(1, vec2(0.0), levels.x, 0.0), 0, levels, whole, part);
+    for (int level = levels.x; level <= levels.y; ++level) {
+        DrapeSpot spot = cover_spot(whole, part, level);
+        uvec2 texels;
+        if (!drape_find(spot, texels)) continue;
+        if (texels == uvec2(0u)) break;
+        uvec2 at = uvec2(clamp(spot.texel + 1.0, vec2(0.0), vec2(float(drape_stride) - 1.0)));
+        return shares_of_texel(DrapeTexels(texels).at[at.x * drape_stride + at.y], known);
+    }
+    return shares_of_texel(0u, known);
+}
+
+Stands stands_at(SitePlace place, SurfacePoint point) {
+    pixel_noise = ground_noise(point.view, foot_m, 0.0005);
+    pixel_second = patched(0.0, 1.0);
+    float known = 0.0;
+    Stands by_map = Stands(0.0, 0.0, 0.0);
+    if (draped && has_cover()) by_map = stands_of(shares_by_map(place, point, known));
+    if (known >= 1.0) return by_map;
+    Stands by_rule = stands_of(shares_by_rule(point));
+    float left = 1.0 - known;
+    return Stands(by_map.needle + left * by_rule.needle, by_map.broad + left * by_rule.broad, by_map.open + left * by_rule.open);
+}
+
+// What a tree sees of the sun over the terrain, at some of its height.
+float sun_on_tree(SitePlace place, SurfacePoint point, float height_m) {
+    if (!casts) return 1.0;
+    CastPoint at_tree;
+    at_tree.post = place.whole;
+    at_tree.beyond = place.part;
+    at_tree.distance_m = length(place.view);
+    at_tree.level = frame_pages().at[place.page].level;
+    CastPoint shown_point = cast_point(place.page * (meshlets_per_page * meshlet_triangles), point);
+    at_tree.latitude = shown_point.latitude;
+    at_tree.longitude = shown_point.longitude;
+    CastStart start;
+    if (!starts_on_ground(at_tree, start)) return 1.0;
+    CastSearch search = search_from(start);
+    search.lift_m = 0.6 * height_m;
+    uint level = start.level;
+    SunLine line = sun_line(start.at);
+    CastPiece piece = CastPiece(0.0, 0.0, at_tree.beyond, line.a1.xy * line.per_m);
+    for (int i = 0; i < 500 && piece.from_m < line.length_m; ++i) {
+        piece.to_m = min(piece.from_m + cast_piece_m, line.length_m);
+        vec2 end = at_tree.beyond + along(line, piece.to_m).xy;
+        piece.per_m = (end - piece.at) / (piece.to_m - piece.from_m);
+        if (!look_along(line, piece, start.error_m, level, search) || search.least <= -sun_radius_rad) break;
+        piece.from_m = piece.to_m;
+        piece.at = end;
+    }
+    return disc_share(search.least);
+}
+
+// What of the sun's light falls on a closed canopy, which lies as its ground does: that on level ground is 1.
+float sun_on_canopy(SurfacePoint point) {
+    vec3 sun = sun_at(point.view);
+    return clamp(dot(steeper(point.normal, FRAME.style.relief), sun) / max(sun.z, 0.15), 0.08, most_sun);
+}
+
+// Lower towards where trees end, and where they are few.
+float size_at(SurfacePoint point, bool in_open, uint hash) {
+    float above_m = above_snow_line_m(point), below_limit_m = FRAME.style.cover.forest_m - above_m;
+    float size = mix(0.35, 1.0, smoothstep(-200.0, 350.0, below_limit_m));
+    return in_open ? size * (0.3 + 0.5 * site_number(hash, 10u)) : size;
+}
+
+bool may_show(SitePlace place) {
+    float distance_m = length(place.view);
+    if (distance_m > GROWTH.reach_m || distance_m < 6.0) return false;
+    vec3 middle = place.view + 15.0 * normalize(place.view + (FRAME.earth_radius_m + FRAME.eye_h_m) * FRAME.up_view);
+    float w = -middle.z, reach_m = 24.0;
+    if (w < -reach_m) return false;
+    vec2 side = FRAME.projection_scale * middle.xy + FRAME.projection_shift * w, slack = reach_m * (abs(FRAME.projection_scale) + 1.0 + abs(FRAME.projection_shift));
+    return all(lessThanEqual(abs(side), vec2(w) + slack));
+}
+
+uint what_stands(GrowthTile tile, uint site) {
+    uint hash = hash_of_site(tile, site);
+    float rank = site_rank(hash);
+    if (rank >= stocked_sites) return 0u;
+    SitePlace place;
+    if (!place_of_site(tile, site, hash, place) || !may_show(place)) return 0u;
+    float kept = trees_at(length(place.view), GROWTH.reach_m) * (stocked_sites + grows_in);
+    if (rank >= kept) return 0u;
+    SurfacePoint point = ground_of(place);
+    Stands stands = stands_at(place, point);
+    float forest = stands.needle + stands.broad, number = site_number(hash, 11u);
+    bool in_forest = number < forest;
+    if (!in_forest && number >= forest + stands.open) return 0u;
+    uint kind = site_number(hash, 12u) * max(forest, 1.0e-6) < stands.needle ? site_needle : site_broad;
+    // Where trees are left out the farther they are, the next of them are small already.
+    float size = size_at(point, !in_forest, hash) * smoothstep(0.0, grows_in, kept - rank);
+    uint size_code = uint(clamp(size, 0.0, 1.0) * 255.0 + 0.5);
+    if (size_code < 20u) return 0u;
+    float sun = sun_on_tree(place, point, size * tree_height_m(hash)) * (in_forest ? sun_on_canopy(point) : 1.0);
+    uint sun_code = uint(sun / most_sun * 255.0 + 0.5);
+    return kind | (in_forest ? site_in_forest : 0u) | sun_code << site_sun_bit | size_code << site_size_bit;
+}
+
+void main() {
+    uint group = folded(gl_WorkGroupID), tile = group / site_groups_per_tile;
+    if (tile >= GROWTH.tile_count) return;
+    uint site = group % site_groups_per_tile * site_group + gl_LocalInvocationIndex;
+    Words(GROWTH.sites).at[tile * sites_per_tile + site] = what_stands(GrowthTiles(GROWTH.tiles).at[tile], site);
+}

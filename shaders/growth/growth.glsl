@@ -1,0 +1,123 @@
+// The trees of a grid, and where their sites are on its ground. Needs frame.glsl, levels.glsl and place.glsl.
+#include "shaders/shared_growth.h"
+#include "shaders/growth/tree_rule.glsl"
+#include "shaders/growth/reach.glsl"
+
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer GrowthTables { GrowthTable at; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer GrowthTiles { GrowthTile at[]; };
+layout(push_constant, scalar) uniform Growth { uvec2 growth_table; };
+#define GROWTH GrowthTables(growth_table).at
+
+// Of a site in a tile.
+uint hash_of_site(GrowthTile tile, uint site) {
+    return site_hash(tile.row * sites_per_side + site / sites_per_side, tile.column * sites_per_side + site % sites_per_side);
+}
+
+// A site on the ground, as the finest page of the frame has that.
+struct SitePlace {
+    uint page;    // number in the frame
+    vec2 post;    // (row, column) in it, fractional
+    ivec2 whole;  // ... in the region: whole posts,
+    vec2 part;    // ... and the rest
+    vec3 view;    // metres
+    float h_m;    // above the ellipsoid, as drawn
+};
+
+// Down to the finest page over a post of the region.
+uint finest_page(uint number, ivec2 whole) {
+    for (int i = 0; i < 24; ++i) {
+        int quarter = int(page_quads / 2u) << frame_pages().at[number].level;
+        bvec2 on = greaterThanEqual(whole, ivec2(frame_pages().at[number].first_row, frame_pages().at[number].first_column) + quarter);
+        uint child = frame_pages().at[number].children[(on.x ? 2u : 0u) + (on.y ? 1u : 0u)];
+        if (child == no_page) break;
+        number = child;
+    }
+    return number;
+}
+
+// False where there is no ground.
+bool place_of_site(GrowthTile tile, uint site, uint hash, out SitePlace place) {
+    vec2 at = (vec2(site % sites_per_side, site / sites_per_side) + site_place(hash)) / float(sites_per_side);
+    vec2 off = mix(mix(tile.corners[0], tile.corners[1], at.x), mix(tile.corners[2], tile.corners[3], at.x), at.y), posts = floor(off);
+    place.whole = ivec2(tile.post[0], tile.post[1]) + ivec2(posts);
+    place.part = off - posts;
+    place.page = finest_page(tile.page, place.whole);
+    FramePage page = frame_pages().at[place.page];
+    PageBlocks block = PageBlocks(page.block);
+    ivec2 first = ivec2(page.first_row, page.first_column), last = ivec2(FRAME.last_row, FRAME.last_column);
+    ivec2 quad = clamp((place.whole - first) >> int(page.level), ivec2(0), ivec2(int(page_quads) - 1));
+    ivec2 from = first + (quad << int(page.level)), span = max(min(from + (1 << int(page.level)), last) - from, ivec2(1));
+    vec2 share = clamp((vec2(place.whole - from) + place.part) / vec2(span), 0.0, 1.0);
+    place.post = vec2(quad) + share;
+    bool sw_ne = sw_ne_at(block, uvec2(quad));
+    bool east = sw_ne ? share.x + share.y > 1.0 : share.y > share.x;
+    uvec2 corners[3];
+    quad_posts(uvec2(quad), sw_ne, east ? 1u : 0u, corners[0], corners[1], corners[2]);
+    vec3 shares = sw_ne ? (east ? vec3(1.0 - share.y, share.x + share.y - 1.0, 1.0 - share.x) : vec3(1.0 - share.x - share.y, share.x, share.y))
+                        : (east ? vec3(1.0 - share.y, share.x, share.y - share.x) : vec3(1.0 - share.x, share.x - share.y, share.y));
+    place.view = vec3(0.0);
+    place.h_m = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        int height = post_height(block, corners[i]);
+        if (height == void_height) return false;
+        place.view += shares[i] * place_in_view(page, corners[i], height);
+        place.h_m += shares[i] * float(height) * height_step_m;
+    }
+    return true;
+}
+
+// A crown and its stem, in a frame at the foot: east, north and along the stem, as columns in view coordinates.
+struct Crown {
+    vec3 foot;
+    mat3 axes;
+    float low_m;   // where the crown begins
+    float high_m;  // its top
+    float radius_m;
+    float colour;
+    uint kind;
+    uint hash;
+};
+Crown crown_at(vec3 view, uint hash, uint stands) {
+    Tree tree = tree_of_site(hash, stands & 3u, float((stands >> site_size_bit) & 255u) / 255.0);
+    vec3 up = normalize(view + (FRAME.earth_radius_m + FRAME.eye_h_m) * FRAME.up_view);
+    vec3 east = normalize(cross(FRAME.view_from_eye * vec3(0.0, 0.0, 1.0), up)), north = cross(up, east);
+    vec3 along = normalize(up + tree.lean.x * east + tree.lean.y * north);
+    east = normalize(east - dot(east, along) * along);
+    Crown crown;
+    crown.foot = view;
+    crown.axes = mat3(east, cross(along, east), along);
+    // Where it stands alone its crown is wider and begins lower.
+    bool alone = (stands & site_in_forest) == 0u;
+    crown.low_m = (alone ? 0.4 : 1.0) * tree.crown_m * FRAME.exaggeration;
+    crown.high_m = tree.height_m * FRAME.exaggeration;
+    crown.radius_m = (alone ? 1.25 : 1.0) * tree.radius_m;
+    crown.colour = tree.colour;
+    crown.kind = stands & 3u;
+    crown.hash = hash;
+    return crown;
+}
+
+// The pixels that may show a crown, of the picture: an empty box where there are none. From the balls around its top and its foot.
+ivec4 pixels_of_crown(Crown crown) {
+    vec2 low = vec2(1.0e30), high = vec2(-1.0e30), half_size = 0.5 * vec2(FRAME.width_px, FRAME.height_px);
+    for (int i = 0; i < 2; ++i) {
+        vec3 at = crown.foot + (i == 0 ? 0.0 : crown.high_m) * crown.axes[2];
+        float w = -at.z, near_m = w - crown.radius_m;
+        if (near_m < 0.5) return ivec4(0, 0, -1, -1);  // beside the eye or behind it
+        vec2 middle = at.xy / w, reach = crown.radius_m * (1.0 + abs(middle)) / near_m;
+        low = min(low, (middle - reach) * FRAME.projection_scale);
+        high = max(high, (middle + reach) * FRAME.projection_scale);
+        low = min(low, (middle + reach) * FRAME.projection_scale);
+        high = max(high, (middle - reach) * FRAME.projection_scale);
+    }
+    vec2 first = (low + FRAME.projection_shift + 1.0) * half_size, last = (high + FRAME.projection_shift + 1.0) * half_size, end = vec2(FRAME.width_px, FRAME.height_px);
+    ivec4 box = ivec4(ivec2(clamp(floor(first), vec2(-1.0), end)), ivec2(clamp(floor(last), vec2(-1.0), end)));
+    return ivec4(max(box.xy, ivec2(0)), min(box.zw, ivec2(end) - 1));
+}
+bool is_empty(ivec4 box) { return box.x > box.z || box.y > box.w; }
+
+// Through a pixel, of depth 1.
+vec3 ray_of_pixel(ivec2 pixel) {
+    vec2 clip = (vec2(pixel) + 0.5) * 2.0 / vec2(FRAME.width_px, FRAME.height_px) - 1.0;
+    return vec3((clip - FRAME.projection_shift) / FRAME.projection_scale, -1.0);
+}

@@ -1,0 +1,56 @@
+// Trees over a grid's ground as a frame has them on the GPU. Compiled as C++ and as GLSL; not a part of shared.h, for
+// only what draws trees needs it.
+#ifndef OROGRAPH_SHADERS_SHARED_GROWTH_H
+#define OROGRAPH_SHADERS_SHARED_GROWTH_H
+
+#ifdef __cplusplus
+#include "shaders/shared.h"
+namespace oro::gpu {
+#endif
+
+// A bit of MaterialTable.on: trees stand where the materials are forest.
+ORO_CONST uint materials_with_trees = 2u;
+
+// Sites where a tree may stand: rows of latitude from the south pole on, and in each tile of 64 rows a whole number of
+// columns round the Earth from 180 degrees west on. So a site has the same numbers in every dataset, and there is no
+// seam.
+ORO_CONST uint sites_per_side = 64u;      // of a tile
+ORO_CONST uint sites_per_tile = 4096u;
+ORO_CONST uint site_tile_rows = 78144u;   // from pole to pole: rows of sites are 3.9998 m apart at 45 degrees
+ORO_CONST uint site_group = 128u;         // sites that a workgroup goes through
+ORO_CONST uint site_groups_per_tile = 32u;
+ORO_CONST uint growth_tiles_max = 8192u;  // of a grid in a frame
+ORO_CONST uint ids_per_site = 8u;         // a tile takes as many triangle ids as a page
+
+// A tile of sites as a frame has it.
+struct GrowthTile {
+    uint row;  // of the lattice's tiles
+    uint column;
+    uint page;    // number in the frame of the finest page that covers all of it
+    int post[2];  // (row, column) of a post of the region near its south-west corner
+    // From there to its corners, rows and columns: south-west, south-east, north-west, north-east. Linear between.
+    vec2 corners[4];
+};
+
+// The trees of a grid in a frame.
+struct GrowthTable {
+    uvec2 tiles;  // device address of GrowthTile[tile_count]
+    uvec2 sites;  // ... of uint[sites_per_tile * tile_count]: what stands on each site
+    uint tile_count;
+    uint first_page;   // triangle ids of its tiles begin with those of that page of the frame
+    float reach_m;     // no tree is farther from the eye
+    float spacing_m;   // from a row of sites to the next
+};
+
+// What stands on a site: 0 for nothing, or kind and shares in 255ths.
+ORO_CONST uint site_needle = 1u;    // kind: the lowest two bits
+ORO_CONST uint site_broad = 2u;
+ORO_CONST uint site_in_forest = 4u;  // among others
+ORO_CONST uint site_sun_bit = 8u;   // eight bits: the sun's light on a stand, of most_sun
+ORO_CONST float most_sun = 1.5f;    // times that on level ground
+ORO_CONST uint site_size_bit = 16u; // eight bits: the share of a grown tree's height
+
+#ifdef __cplusplus
+}  // namespace oro::gpu
+#endif
+#endif

@@ -1,0 +1,99 @@
+// Which tiles of trees a frame takes.
+#include "core/growth/growth_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "core/growth/tree_sites.h"
+
+namespace oro {
+namespace {
+
+// Posts 1200 a degree, two degrees a side, around 46.5 N 8 E.
+PostGrid alps() {
+    PostGrid grid;
+    grid.lat = {1200.0, 47.5, 0, -1, 2401};
+    grid.lon = {1200.0, 7.0, 0, +1, 2401};
+    return grid;
+}
+
+GrowthView from_above(double heading_deg) {
+    GrowthView view;
+    view.camera.eye = {46.5, 8.0, 2500.0};
+    view.camera.attitude = {heading_deg, -5.0, 0.0};
+    view.camera.width_px = view.tile.width_px = 1280;
+    view.camera.height_px = view.tile.height_px = 720;
+    return view;
+}
+
+std::vector<PageIndex> all_pages(const PostGrid& grid) {
+    std::vector<PageIndex> pages;
+    for (int level = 0; level < 6; ++level) {
+        const int quads = 128 << level;
+        for (int row = 0; row * quads < grid.rows() - 1; ++row)
+            for (int column = 0; column * quads < grid.columns() - 1; ++column)
+                pages.push_back({row, column, level});
+    }
+    return pages;
+}
+
+GrowthPlan planned(const PostGrid& grid, const GrowthView& view) {
+    const std::vector<PageIndex> pages = all_pages(grid);
+    return plan_growth(
+        grid, pages,
+        [](std::size_t) {
+            return GroundRange{400.0, 3000.0};
+        },
+        view);
+}
+
+TEST(GrowthPlan, TakesTilesInFrontOfTheEye) {
+    const PostGrid grid = alps();
+    const GrowthPlan north = planned(grid, from_above(0.0)), south = planned(grid, from_above(180.0));
+    ASSERT_FALSE(north.tiles.empty());
+    ASSERT_FALSE(south.tiles.empty());
+    std::set<std::pair<gpu::uint, gpu::uint>> seen;
+    for (const gpu::GrowthTile& tile : north.tiles) {
+        // Beside and behind the eye there is the slack around tiles alone.
+        EXPECT_GT(site_tile_south_deg(tile.row), 46.5 - 0.01);
+        EXPECT_TRUE(seen.insert({tile.row, tile.column}).second);
+    }
+    for (const gpu::GrowthTile& tile : south.tiles) EXPECT_LT(site_tile_south_deg(tile.row), 46.5 + 0.01);
+}
+
+// A tile's corners are where the lattice has them, to a centimetre, and its page holds them.
+TEST(GrowthPlan, PlacesTilesAmongThePosts) {
+    const PostGrid grid = alps();
+    const std::vector<PageIndex> pages = all_pages(grid);
+    const GrowthPlan plan = planned(grid, from_above(0.0));
+    ASSERT_FALSE(plan.tiles.empty());
+    constexpr double centimetre_posts = 0.01 / 92.6;  // of the closer posts, along a meridian
+    for (const gpu::GrowthTile& tile : plan.tiles) {
+        const PageIndex& page = pages[tile.page];
+        for (unsigned i = 0; i < 4; ++i) {
+            const double row = tile.post[0] + static_cast<double>(tile.corners[i].x);
+            const double column = tile.post[1] + static_cast<double>(tile.corners[i].y);
+            EXPECT_NEAR(row, grid.lat.index_at(site_tile_south_deg(tile.row + i / 2)), centimetre_posts);
+            EXPECT_NEAR(column,
+                        grid.column_at(site_tile_west_deg(tile.row, tile.column) +
+                                       i % 2 * 360.0 / site_tile_columns(tile.row)),
+                        centimetre_posts);
+            EXPECT_EQ(static_cast<int>(row) >> (page.level + 7), page.row);
+            EXPECT_EQ(static_cast<int>(column) >> (page.level + 7), page.column);
+        }
+    }
+}
+
+TEST(GrowthPlan, HasNoneOffTheGridOrAtAPole) {
+    GrowthView view = from_above(0.0);
+    view.camera.eye = {52.0, 8.0, 300.0};
+    EXPECT_TRUE(planned(alps(), view).tiles.empty());
+    view.camera.eye = {89.9, 8.0, 300.0};
+    EXPECT_TRUE(planned(alps(), view).tiles.empty());
+}
+
+}  // namespace
+}  // namespace oro

@@ -1,0 +1,165 @@
+// Single trees: where they stand, that both ways of drawing show the same, and who does not see them.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/frame/picture_renderer.h"
+#include "tests/styles/drawn_style.h"
+
+namespace oro {
+namespace {
+
+class TreePictures : public test::StyleTest {
+  protected:
+    static constexpr int width_px = 192, height_px = 144;
+
+    // Ground that rises towards the north by `rise`, with square cells of 30 m, so high in its middle.
+    static Region slope(double middle_H_m, double rise) {
+        Region region{std::vector<RegionGrid>(1)};
+        region.grids[0].field = test::square_field(
+            46.5, 8.0, 30.0, 129, [&](int row, int) { return middle_H_m + rise * 30.0 * (64 - row); });
+        return region;
+    }
+
+    static std::string natural_text(bool trees) {
+        std::ifstream file(test::bundled_data() / "styles" / "natural.json");
+        std::string text((std::istreambuf_iterator<char>(file)), {});
+        if (trees) text.replace(text.find("\"materials\""), 0, "\"growth\": { \"trees\": true },\n  ");
+        return text;
+    }
+    static gpu::FrameStyle natural(const Region& region, bool trees) {
+        const auto style = style_of(natural_text(trees), ".json", Camera{}, region.grids[0].field,
+                                    SunDirection{180.0, 50.0});
+        EXPECT_TRUE(style.ok()) << style.error().line();
+        return style->frame;
+    }
+
+    // From the south, 60 m over the middle.
+    static Camera camera(double middle_H_m) {
+        Camera camera;
+        camera.eye = {46.4985, 8.0, middle_H_m + 60.0};
+        camera.attitude = {0.0, -5.0, 0.0};
+        camera.width_px = width_px;
+        camera.height_px = height_px;
+        return camera;
+    }
+
+    std::vector<std::uint8_t> picture(const Region& region, const Camera& camera,
+                                      const gpu::FrameStyle& style, RasterPath path, int samples = 1) {
+        auto scene = test::create_scene(*gpu_, region, {.means = true});
+        EXPECT_TRUE(scene.ok());
+        if (!scene.ok()) return {};
+        std::vector<std::uint8_t> rgb;
+        PictureOptions options;
+        options.path = path;
+        options.samples = samples;
+        const auto report =
+            render_picture(*gpu_, *scene, camera, style, options, [&](std::span<const std::uint8_t> row) {
+                rgb.insert(rgb.end(), row.begin(), row.end());
+                return Result<void>();
+            });
+        EXPECT_TRUE(report.ok()) << report.error().line();
+        return rgb;
+    }
+
+    static std::size_t unlike_px(const std::vector<std::uint8_t>& one,
+                                 const std::vector<std::uint8_t>& other) {
+        EXPECT_EQ(one.size(), other.size());
+        std::size_t count = 0;
+        for (std::size_t i = 0; i + 2 < std::min(one.size(), other.size()); i += 3)
+            count += std::equal(one.begin() + static_cast<std::ptrdiff_t>(i),
+                                one.begin() + static_cast<std::ptrdiff_t>(i + 3),
+                                other.begin() + static_cast<std::ptrdiff_t>(i))
+                         ? 0U
+                         : 1U;
+        return count;
+    }
+};
+
+// A slope of 30 degrees at 1,100 m is forest by the rule of materials, the snow line being at 2,990 m.
+TEST_F(TreePictures, ShowTreesOnForest) {
+    const Region region = slope(1100.0, 0.58);
+    const std::vector<std::uint8_t> without =
+        picture(region, camera(1100.0), natural(region, false), RasterPath::compute);
+    const std::vector<std::uint8_t> with =
+        picture(region, camera(1100.0), natural(region, true), RasterPath::compute);
+    EXPECT_GT(unlike_px(without, with), width_px * height_px / 3U);
+    // The same once more, to the byte.
+    EXPECT_EQ(with, picture(region, camera(1100.0), natural(region, true), RasterPath::compute));
+}
+
+// Above all forest not a byte changes.
+TEST_F(TreePictures, ShowNoneAboveTheForest) {
+    const Region region = slope(3300.0, 0.3);
+    EXPECT_EQ(picture(region, camera(3300.0), natural(region, false), RasterPath::compute),
+              picture(region, camera(3300.0), natural(region, true), RasterPath::compute));
+}
+
+// But for a pixel whose middle lies on an edge of two triangles.
+TEST_F(TreePictures, AreTheSameByBothWaysOfDrawing) {
+    const Region region = slope(1100.0, 0.58);
+    const gpu::FrameStyle style = natural(region, true);
+    for (const int samples : {1, 3})
+        EXPECT_LE(unlike_px(picture(region, camera(1100.0), style, RasterPath::mesh, samples),
+                            picture(region, camera(1100.0), style, RasterPath::compute, samples)),
+                  8U + width_px * height_px / 5000U);
+}
+
+// A picture in tiles has the trees of the whole one: they do not know of tiles.
+TEST_F(TreePictures, AreTheSameInTiles) {
+    const Region region = slope(1100.0, 0.58);
+    gpu::FrameStyle style = natural(region, true);
+    style.shadows = style.sky_openness = 0;
+    auto scene = test::create_scene(*gpu_, region, {.means = true});
+    ASSERT_TRUE(scene.ok());
+    PictureOptions options;
+    options.path = RasterPath::compute;
+    options.largest_tile_px = 96;
+    std::vector<std::uint8_t> tiled;
+    const auto report =
+        render_picture(*gpu_, *scene, camera(1100.0), style, options, [&](std::span<const std::uint8_t> row) {
+            tiled.insert(tiled.end(), row.begin(), row.end());
+            return Result<void>();
+        });
+    ASSERT_TRUE(report.ok()) << report.error().line();
+    EXPECT_GT(report->tiles, 1);
+    EXPECT_LE(unlike_px(tiled, picture(region, camera(1100.0), style, RasterPath::compute)),
+              width_px * height_px / 200U);
+}
+
+// Who asks for depths sees the ground, coloured as without trees.
+TEST_F(TreePictures, AreNoGround) {
+    const Region region = slope(1100.0, 0.58);
+    Style with{}, without{};
+    with.frame = natural(region, true);
+    without.frame = natural(region, false);
+    const auto one = drawn(region, camera(1100.0), with, true),
+               other = drawn(region, camera(1100.0), without, true);
+    ASSERT_TRUE(one && other);
+    EXPECT_EQ(one->rgba, other->rgba);
+    EXPECT_EQ(one->depths, other->depths);
+}
+
+TEST_F(TreePictures, AreRefusedWhereTheGroundHasNoMaterials) {
+    const Region region = slope(1100.0, 0.3);
+    const auto line_of = [&](std::string text, const std::string& from, const std::string& to) {
+        text.replace(text.find(from), from.size(), to);
+        const auto style = style_of(text, ".json", Camera{}, region.grids[0].field);
+        return style.ok() ? std::string() : style.error().line();
+    };
+    EXPECT_NE(line_of(natural_text(true), "\"trees\": true", "\"trees\": 1").find("trees"),
+              std::string::npos);
+    EXPECT_NE(line_of(natural_text(true), "\"trees\": true", "\"trees\": true, \"moss\": true").find("moss"),
+              std::string::npos);
+    std::ifstream file(test::bundled_data() / "styles" / "haze.json");
+    const std::string haze((std::istreambuf_iterator<char>(file)), {});
+    EXPECT_NE(line_of(haze, "{", "{ \"growth\": { \"trees\": true },").find("'growth'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace oro
