@@ -6,6 +6,7 @@
 #include <cstring>
 #include <iterator>
 
+#include "core/base/elapsed.h"
 #include "core/base/parallel.h"
 #include "core/frame/casters.h"
 #include "core/lod/ground_means.h"
@@ -150,14 +151,20 @@ Result<GridPlan> GridScene::plan(const FrameView& view, Clusters clusters) {
 }
 
 Result<GridPlan> GridScene::begun_plan(const FrameView& view, Clusters clusters) {
+    auto start = Clock::now();
     ORO_TRY(GridPlan plan, plan_of_pages(view));
     for (const PageIndex& page : plan.hidden) store_.mark_occluded(page);
+    times_.pages_s = seconds_since(start);
+    start = Clock::now();
     ORO_CHECK(add_clusters(view, clusters, plan));
+    times_.clusters_s = seconds_since(start);
     return plan;
 }
 
 Result<void> GridScene::end_plan(const FrameView& view, GridPlan& plan) {
+    const auto start = Clock::now();
     if (cast_.any()) ORO_CHECK(add_casters(view, plan));
+    times_.casters_s = seconds_since(start);
     ORO_CHECK(add_growth(view, plan));
     full_for_hidden_ = false;
     missed_ = plan.missing;
@@ -363,6 +370,16 @@ Result<FramePlan> Scene::plan(const FrameView& view) {
     ORO_CHECK(share_shadow_receivers(view, plan.grids));
     for (std::size_t i = 0; i < grids_.size(); ++i) ORO_CHECK(grids_[i].end_plan(view, plan.grids[i]));
     return plan;
+}
+
+PlanTimes Scene::times_of_plan() const {
+    PlanTimes all;
+    for (const GridScene& grid : grids_) {
+        all.pages_s += grid.times_.pages_s;
+        all.clusters_s += grid.times_.clusters_s;
+        all.casters_s += grid.times_.casters_s;
+    }
+    return all;
 }
 
 bool Scene::apply_feedback(std::span<const FrameFeedback> feedback) {

@@ -37,6 +37,13 @@ std::uint64_t main_bytes(std::uint64_t bytes);
 // gpu_bytes() to be shared.
 std::shared_ptr<MemoryBudget> page_budget(const Gpu& gpu, std::uint64_t bytes);
 
+// How long the processor took for the parts of a plan, seconds.
+struct PlanTimes {
+    double pages_s{};     // pages chosen, with the tables that place their posts
+    double clusters_s{};  // clusters chosen, with theirs
+    double casters_s{};   // what casts shadows and opens the sky
+};
+
 // One grid that is being drawn: its pages, and those of them that are on the GPU.
 class GridScene {
   public:
@@ -101,6 +108,7 @@ class GridScene {
     std::vector<ShadowReceiver> receivers_;  // shown by other grids of the frame
     std::optional<double> top_m_;            // of the region, once it was asked for
     std::optional<ClusterScene> clusters_;
+    PlanTimes times_;  // of the last plan
 };
 
 // Keeps on the GPU what a camera needs of a region's grids, as fine as tau asks for, within a budget of
@@ -133,6 +141,8 @@ class Scene {
     void require_fields(const gpu::FrameStyle& style);
     // What a frame draws with the pages and clusters that are on the GPU now.
     Result<FramePlan> plan(const FrameView& view);
+    // Of the last plan, all grids together.
+    [[nodiscard]] PlanTimes times_of_plan() const;
     // Lets the background read what the last plan misses, and sends what is ready: true when the next plan
     // may be better. Does not wait for what is not ready; asks for no pages of a grid once the frame's own
     // fill the GPU. Errors: what cannot be read, the device.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/bench/times/bench_grass.h"
+#include "apps/bench/times/bench_moving.h"
 #include "apps/bench/times/bench_random.h"
 #include "apps/bench/times/bench_region.h"
 #include "apps/bench/times/bench_tables.h"
@@ -42,17 +43,6 @@ void print_times(const std::string& name, const ordered_json& json) {
             value.is_number_float() ? (std::to_string(value.get<double>())).c_str() : value.dump().c_str());
     }
     std::printf("\n");
-}
-
-// The ways of drawing that are asked for.
-Result<std::vector<RasterPath>> paths_of(const BenchOptions& options, const DeviceReport& device) {
-    std::vector<RasterPath> paths;
-    for (const std::string& name : options.pipeline == "both" ? std::vector<std::string>{"compute", "mesh"}
-                                                              : std::vector<std::string>{options.pipeline}) {
-        ORO_TRY(const RasterPath path, raster_path_for(name, device));
-        paths.push_back(path);
-    }
-    return paths;
 }
 
 // Of all eyes: the median, 95 % of them and the worst, and which the worst are.
@@ -153,7 +143,9 @@ Result<void> run_bench(const BenchOptions& options) {
 #endif
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
     if (options.tables) return print_tables(*gpu, options);
-    ORO_TRY(const std::vector<RasterPath> paths, paths_of(options, gpu->report()));
+    if (options.moving > 0) return run_moving(*gpu, options);
+    if (options.mesh == "both") return Error{ErrorKind::usage, "--mesh both", "is for --moving alone"};
+    ORO_TRY(const std::vector<RasterPath> paths, raster_paths_of(options, gpu->report()));
     const auto opening = Clock::now();
     ORO_TRY(BenchRegion region, open_bench_region(options));
     const double open_s = seconds_since(opening);
@@ -229,8 +221,9 @@ void add_ways_of_drawing(CLI::App& app, BenchOptions& options, BenchWords& words
     paths.emplace_back("both");
     app.add_option("--pipeline", options.pipeline, "mesh, compute, auto, or both in turn")
         ->check(CLI::IsMember(paths));
-    app.add_option("--mesh", options.mesh, "What triangles are taken from: grid or clusters")
-        ->check(CLI::IsMember({"grid", "clusters"}));
+    app.add_option("--mesh", options.mesh,
+                   "What triangles are taken from: grid, clusters, or (with --moving) both in turn")
+        ->check(CLI::IsMember({"grid", "clusters", "both"}));
     app.add_flag("--as-window", options.as_window,
                  "Plan frames as a window does: of what is here, once that is all. Clusters come with those "
                  "above them, of which the GPU makes its own cut. The picture is the same");
@@ -262,7 +255,17 @@ void add_modes(CLI::App& app, BenchOptions& options) {
                    "So many eyes over posts of the region in place of --path: 2 m to 400 km above ground, "
                    "log-uniform, with any heading; tells the median, 95 % and the worst")
         ->check(CLI::Range(1, 100000));
-    app.add_option("--seed", options.seed, "Of random eyes: one seed, the same eyes");
+    app.add_option(
+           "--moving", options.moving,
+           "So many random flights of --frames frames each in place of eyes that rest, 50 m/s near the "
+           "ground to 5 km/s above, drawn as a window draws them; tells times of whole frames, "
+           "processor, GPU and waiting apart. With --style: by plain colours and by that style")
+        ->check(CLI::Range(1, 10000));
+    app.add_flag(
+        "--fingerprint", options.fingerprint,
+        "With --moving: tell a checksum of all plans in place of times, each made once all it asks for "
+        "is here. Programs that plan alike tell the same");
+    app.add_option("--seed", options.seed, "Of random eyes and flights: one seed, the same eyes");
     app.add_flag(
         "--tables", options.tables,
         "Print tables of the eyes of --path: triangles and times without level of detail, with it and with "

@@ -29,13 +29,15 @@ struct BenchOptions {
     bool compare_occlusion{false};
     double tau_px{1.0};
     int gpu_memory_mb{0};
-    std::string mesh{"grid"};
-    bool as_window{false};  // plans of what is here, as a window's, in place of those that wait
+    std::string mesh{"grid"};  // or "clusters"; of flights "both"
+    bool as_window{false};     // plans of what is here, as a window's, in place of those that wait
     HeightStorage heights{HeightStorage::f32};
     MeshletSplit split{MeshletSplit::by_device};
     bool leave_out_small{false};  // mesh path: triangles that cover no pixel's centre
     int random_eyes{0};           // 0: those of `path`
-    std::uint64_t seed{1};        // of these
+    int moving{0};                // flights; 0: eyes that rest
+    bool fingerprint{false};      // of flights: of their plans, in place of times
+    std::uint64_t seed{1};        // of random eyes and flights
     bool tables{false};
     bool floor{false};
     bool json{false};

@@ -6,7 +6,6 @@
 #include <memory>
 #include <numbers>
 #include <numeric>
-#include <random>
 
 #include "core/earth/ellipsoid.h"
 
@@ -14,32 +13,6 @@ namespace oro {
 namespace {
 
 constexpr double lowest_m = 2.0, highest_m = 400'000.0, steepest_deg = 30.0;
-
-// The same numbers on every machine; what the standard library makes of an engine is its own affair.
-class EvenNumbers {
-  public:
-    explicit EvenNumbers(std::uint64_t seed) : engine_(seed) {}
-    double between(double low, double high) {
-        return low + (high - low) * std::ldexp(static_cast<double>(engine_() >> 11U), -53);
-    }
-    int below(int count) { return std::min(count - 1, static_cast<int>(between(0.0, count))); }
-
-  private:
-    std::mt19937_64 engine_;
-};
-
-// Height of a post above the ellipsoid, as it is drawn; void_height_m where there is none.
-Result<double> post_h_m(const RegionPages& pages, gpu::PageBlock& block, int row, int column) {
-    constexpr int quads = static_cast<int>(gpu::page_quads), stride = static_cast<int>(gpu::height_stride);
-    const PageLayout layout = pages.layout(0);
-    const PageIndex page{std::min(row / quads, layout.rows - 1), std::min(column / quads, layout.columns - 1),
-                         0};
-    ORO_CHECK(pages.load(page, block));
-    const int at = (row - page.row * quads + 1) * stride + column - page.column * quads + 1;
-    const int steps = block.heights[at];
-    return steps == gpu::void_height ? static_cast<double>(void_height_m)
-                                     : steps * static_cast<double>(gpu::height_step_m);
-}
 
 std::string name_of(const Camera& camera, double above_m) {
     char text[128];
@@ -51,18 +24,42 @@ std::string name_of(const Camera& camera, double above_m) {
 
 }  // namespace
 
+double EvenNumbers::between(double low, double high) {
+    return low + (high - low) * std::ldexp(static_cast<double>(engine_() >> 11U), -53);
+}
+
+int EvenNumbers::below(int count) {
+    return std::min(count - 1, static_cast<int>(between(0.0, count)));
+}
+
+Result<double> DrawnPosts::h_m(int row, int column) {
+    constexpr int quads = static_cast<int>(gpu::page_quads), stride = static_cast<int>(gpu::height_stride);
+    const PageLayout layout = pages_.layout(0);
+    const PageIndex page{std::min(row / quads, layout.rows - 1), std::min(column / quads, layout.columns - 1),
+                         0};
+    if (!block_) block_ = std::make_unique<gpu::PageBlock>();
+    if (page_.row != page.row || page_.column != page.column) {
+        ORO_CHECK(pages_.load(page, *block_));
+        page_ = page;
+    }
+    const int at = (row - page.row * quads + 1) * stride + column - page.column * quads + 1;
+    const int steps = block_->heights[at];
+    return steps == gpu::void_height ? static_cast<double>(void_height_m)
+                                     : steps * static_cast<double>(gpu::height_step_m);
+}
+
 Result<std::vector<BenchEye>> random_eyes(const RegionPages& pages, int count, std::uint64_t seed,
                                           int width_px, int height_px) {
     const PostGrid& grid = pages.facts().grid;
     if (grid.net) return Error{ErrorKind::usage, "--random-eyes", "is not for posts in a CRS of their own"};
     EvenNumbers random(seed);
-    const auto block = std::make_unique<gpu::PageBlock>();
+    DrawnPosts posts(pages);
     std::vector<BenchEye> eyes;
     constexpr int most_voids = 100'000;
     for (int tries = 0; static_cast<int>(eyes.size()) < count; ++tries) {
         if (tries > most_voids + count) return Error{ErrorKind::failed, "--random-eyes", "finds no posts"};
         const int row = random.below(grid.rows()), column = random.below(grid.columns());
-        ORO_TRY(const double ground_m, post_h_m(pages, *block, row, column));
+        ORO_TRY(const double ground_m, posts.h_m(row, column));
         if (ground_m == static_cast<double>(void_height_m)) continue;
         const double above_m = std::exp(random.between(std::log(lowest_m), std::log(highest_m)));
         Camera camera;

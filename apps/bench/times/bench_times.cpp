@@ -25,10 +25,17 @@ double lanes_used(const gpu::FrameCounts& counts) {
 // Longer than all that a view asks for takes to come.
 constexpr double longest_wait_s = 60.0;
 
-// As a picture's, which waits for all that it asks for. Or as a window's: what is here, until that is all.
+// As a picture's, which waits for all that it asks for, or as a window's.
 Result<FramePlan> whole_plan(Scene& scene, const Camera& camera, const Tile& tile,
                              const BenchOptions& options) {
     if (!options.as_window) return scene.settled_plan({camera, tile, options.tau_px});
+    return settled_as_window(scene, camera, tile, options);
+}
+
+}  // namespace
+
+Result<FramePlan> settled_as_window(Scene& scene, const Camera& camera, const Tile& tile,
+                                    const BenchOptions& options) {
     for (const auto start = Clock::now(); seconds_since(start) < longest_wait_s;) {
         ORO_TRY(FramePlan plan, scene.plan({camera, tile, options.tau_px}));
         if (plan.is_settled()) return plan;
@@ -38,7 +45,15 @@ Result<FramePlan> whole_plan(Scene& scene, const Camera& camera, const Tile& til
     return Error{ErrorKind::failed, "--gpu-memory", "is too small for this view"};
 }
 
-}  // namespace
+Result<std::vector<RasterPath>> raster_paths_of(const BenchOptions& options, const DeviceReport& device) {
+    std::vector<RasterPath> paths;
+    for (const std::string& name : options.pipeline == "both" ? std::vector<std::string>{"compute", "mesh"}
+                                                              : std::vector<std::string>{options.pipeline}) {
+        ORO_TRY(const RasterPath path, raster_path_for(name, device));
+        paths.push_back(path);
+    }
+    return paths;
+}
 
 Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Camera& camera,
                                const BenchOptions& options) {

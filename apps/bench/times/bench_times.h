@@ -30,7 +30,13 @@ struct BenchTimes {
     std::size_t clusters_coarser{};   // and those above them, of which the GPU makes its own
 };
 
+// The ways of drawing that are asked for.
+Result<std::vector<RasterPath>> raster_paths_of(const BenchOptions& options, const DeviceReport& device);
 Result<FrameRenderer> renderer_for(const Gpu& gpu, RasterPath path, const BenchOptions& options);
+// A plan as a window makes it, of what is here, once that is all. Errors: --gpu-memory that is too small; the
+// device.
+Result<FramePlan> settled_as_window(Scene& scene, const Camera& camera, const Tile& tile,
+                                    const BenchOptions& options);
 // Errors: --gpu-memory that is too small for the view; the device.
 Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Camera& camera,
                                const BenchOptions& options);
