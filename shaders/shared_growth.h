@@ -39,8 +39,15 @@ struct GrowthTable {
     uint tile_count;
     uint first_page;   // triangle ids of its tiles begin with those of that page of the frame
     float reach_m;     // no tree is farther from the eye
-    float spacing_m;   // from a row of sites to the next
+    // uint[shade_map_side^2]: how far towards the sun the first leaves are, seen from there; 0: no shadows of trees.
+    uvec2 shade_map;
 };
+
+// The shadows of trees around the eye: a map in a plane across the sun's direction, whose middle is the eye.
+ORO_CONST uint shade_map_side = 2048u;
+ORO_CONST float shade_map_cell_m = 0.36f;
+ORO_CONST float shade_map_reach_m = 360.0f;  // to a cell less than its rim
+ORO_CONST float shade_map_base_m = 4096.0f;  // added to what it holds, which is positive so
 
 // What stands on a site: 0 for nothing, or kind and shares in 255ths.
 ORO_CONST uint site_needle = 1u;    // kind: the lowest two bits

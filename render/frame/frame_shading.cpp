@@ -100,6 +100,7 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
                            VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                            VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
         grid.bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+        if (grid.growth.is_on()) grid.growth.push(commands, *pipelines_);
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
         vkCmdDispatch(commands, tiles_of(plan.view.width_px()), tiles_of(plan.view.height_px()), 1);
         before = true;

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "spirv/draw_crowns_comp.h"
+#include "spirv/draw_shade_map_comp.h"
 #include "spirv/grow_sites_comp.h"
 #include "spirv/keep_ids_comp.h"
 #include "spirv/seed_visibility_comp.h"
@@ -56,7 +57,19 @@ Result<void> GrowthFrame::prepare(const Gpu& gpu, Pipelines& pipelines, const Gr
     const VkDeviceSize site_bytes = VkDeviceSize{tiles_} * gpu::sites_per_tile * sizeof(gpu::uint);
     if (sites_.size < site_bytes)
         ORO_CHECK(replace_buffer(gpu, sites_, site_bytes, usage, MemoryKind::device, "sites of trees"));
+    constexpr VkDeviceSize map_bytes =
+        VkDeviceSize{gpu::shade_map_side} * gpu::shade_map_side * sizeof(gpu::uint);
+    if (kind.casts && !shade_map_.handle) {
+        ORO_TRY(shade_map_, create_buffer(gpu, map_bytes, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                          MemoryKind::device, "shadows of trees"));
+    }
+    if (kind.casts && !pipelines.draw_shade_map) {
+        ORO_TRY(pipelines.draw_shade_map,
+                create_compute_pipeline(gpu, pipelines, draw_shade_map_comp_spirv, "shadows of trees"));
+    }
+    map_ = kind.casts ? pipelines.draw_shade_map.get() : VK_NULL_HANDLE;
     gpu::GrowthTable table{};
+    if (kind.casts) table.shade_map = address_words(shade_map_.address);
     table.tiles = address_words(tables_[slot].address + tiles_at);
     table.sites = address_words(sites_.address);
     table.tile_count = tiles_;
@@ -95,12 +108,17 @@ void GrowthFrame::push(VkCommandBuffer commands, const Pipelines& pipelines) con
 void GrowthFrame::record_draw(VkCommandBuffer commands, const Pipelines& pipelines) const {
     push(commands, pipelines);
     const std::uint32_t groups = tiles_ * gpu::site_groups_per_tile;
+    if (map_ != VK_NULL_HANDLE) vkCmdFillBuffer(commands, shade_map_.handle.get(), 0, VK_WHOLE_SIZE, 0);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, grow_);
     dispatch_groups(commands, groups);
-    memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+    memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT,
+                   VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT,
                    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                    VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, draw_);
+    dispatch_groups(commands, groups);
+    if (map_ == VK_NULL_HANDLE) return;
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, map_);
     dispatch_groups(commands, groups);
 }
 

@@ -30,6 +30,8 @@ class GrowthFrame {
     // What stands on its sites, and its trees into the visibility buffer. The grid's set is bound, and the
     // nodes of its casters are there.
     void record_draw(VkCommandBuffer commands, const Pipelines& pipelines) const;
+    // For the programs that colour the grid's ground, which look up the shadows of its trees.
+    void push(VkCommandBuffer commands, const Pipelines& pipelines) const;
     // Colours its pixels; and, of pictures of one sample whose edges follow, softens its outlines once all
     // pixels of the frame are coloured.
     void record_shade(VkCommandBuffer commands, const Pipelines& pipelines, gpu::uint width_px,
@@ -42,15 +44,16 @@ class GrowthFrame {
     }
 
   private:
-    void push(VkCommandBuffer commands, const Pipelines& pipelines) const;
     void record_pixels(VkCommandBuffer commands, const Pipelines& pipelines, VkPipeline pipeline,
                        gpu::uint width_px, gpu::uint height_px) const;
 
     std::array<Buffer, frames_in_flight> tables_;  // GrowthTable, then its tiles
     Buffer sites_;
+    Buffer shade_map_;  // GrowthTable::shade_map, where terrain casts shadows
     std::size_t slot_{};
     gpu::uint tiles_{};
-    VkPipeline grow_{VK_NULL_HANDLE}, draw_{VK_NULL_HANDLE}, shade_{VK_NULL_HANDLE}, smooth_{VK_NULL_HANDLE};
+    VkPipeline grow_{VK_NULL_HANDLE}, draw_{VK_NULL_HANDLE}, map_{VK_NULL_HANDLE}, shade_{VK_NULL_HANDLE},
+        smooth_{VK_NULL_HANDLE};
 };
 
 // Mesh path: its images into a visibility buffer, and the ids back, around what draws trees. The images are

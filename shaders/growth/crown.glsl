@@ -19,7 +19,7 @@ float leaf_noise(vec3 at, uint seed) {
 }
 
 struct CrownHit {
-    float depth_m;  // along the view
+    float depth_m;  // along the ray, of its length
     vec3 at;        // in the crown's frame, from its foot
     float inside;   // 0: among its outermost leaves; 1: at its stem
     bool is_stem;
@@ -92,11 +92,11 @@ float detail_at(float pixel_m) { return clamp(1.5 - 1.15 * pixel_m, 0.0, 1.0); }
 float leaves_at(float pixel_m) { return clamp(1.4 - 18.0 * pixel_m, 0.0, 1.0); }
 
 const int crown_steps = 16;
-// pixel_m: what a pixel covers at the tree.
-bool hits_crown(Crown crown, vec3 ray, float pixel_m, out CrownHit hit) {
-    vec3 middle = crown.foot + 0.5 * crown.high_m * crown.axes[2];
+// A line from a place along a ray, both in view coordinates. pixel_m: what a pixel covers at the tree.
+bool meets_crown(Crown crown, vec3 from, vec3 ray, float pixel_m, out CrownHit hit) {
+    vec3 middle = crown.foot + 0.5 * crown.high_m * crown.axes[2] - from;
     float begin = dot(middle, ray) / dot(ray, ray);
-    vec3 p = (ray * begin - crown.foot) * crown.axes, d = ray * crown.axes;
+    vec3 p = (ray * begin + (from - crown.foot)) * crown.axes, d = ray * crown.axes;
     float detail = detail_at(pixel_m), leaves = leaves_at(pixel_m), size = detail > 0.0 ? 1.0 : 0.9, best = no_hit;
     bool is_needle = crown.kind == site_needle;
     float s = is_needle ? enters_cone(p, d, crown.low_m, crown.high_m, crown.radius_m * size) : enters_ellipsoid(p, d, crown.low_m, crown.high_m, crown.radius_m);
@@ -128,6 +128,10 @@ bool hits_crown(Crown crown, vec3 ray, float pixel_m, out CrownHit hit) {
     hit.at = p + best * d;
     hit.inside = clamp((0.95 - out_in_crown(crown, hit.at)) / 0.55, 0.0, 1.0);
     hit.depth_m = begin + best;
-    return hit.depth_m > 0.3;
+    return true;
+}
+// Through a pixel.
+bool hits_crown(Crown crown, vec3 ray, float pixel_m, out CrownHit hit) {
+    return meets_crown(crown, vec3(0.0), ray, pixel_m, hit) && hit.depth_m > 0.3;
 }
 float pixel_m_at(vec3 view) { return -view.z / FRAME.pixels_per_tangent; }

@@ -37,17 +37,6 @@ void draw_pixel(Crown crown, ivec2 pixel, float pixel_m, uint id) {
     if (hits_crown(crown, ray_of_pixel(pixel), pixel_m, hit)) keep_nearest(pixel, FRAME.near_m / hit.depth_m, id);
 }
 
-bool crown_of_site(uint tile_number, uint site, out Crown crown) {
-    uint stands = Words(GROWTH.sites).at[tile_number * sites_per_tile + site];
-    if (stands == 0u) return false;
-    GrowthTile tile = GrowthTiles(GROWTH.tiles).at[tile_number];
-    uint hash = hash_of_site(tile, site);
-    SitePlace place;
-    if (!place_of_site(tile, site, hash, place)) return false;
-    crown = crown_at(place.view, hash, stands);
-    return true;
-}
-
 void main() {
     uint group = folded(gl_WorkGroupID), tile = group / site_groups_per_tile, lane = gl_LocalInvocationIndex;
     if (tile >= GROWTH.tile_count) return;

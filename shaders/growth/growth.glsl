@@ -1,12 +1,9 @@
 // The trees of a grid, and where their sites are on its ground. Needs frame.glsl, levels.glsl and place.glsl.
-#include "shaders/shared_growth.h"
+#include "shaders/growth/growth_table.glsl"
 #include "shaders/growth/tree_rule.glsl"
 #include "shaders/growth/reach.glsl"
 
-layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer GrowthTables { GrowthTable at; };
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer GrowthTiles { GrowthTile at[]; };
-layout(push_constant, scalar) uniform Growth { uvec2 growth_table; };
-#define GROWTH GrowthTables(growth_table).at
 
 // Of a site in a tile.
 uint hash_of_site(GrowthTile tile, uint site) {
@@ -95,6 +92,18 @@ Crown crown_at(vec3 view, uint hash, uint stands) {
     crown.kind = stands & 3u;
     crown.hash = hash;
     return crown;
+}
+
+// What stands on a site of the frame; false for nothing.
+bool crown_of_site(uint tile_number, uint site, out Crown crown) {
+    uint stands = Words(GROWTH.sites).at[tile_number * sites_per_tile + site];
+    if (stands == 0u) return false;
+    GrowthTile tile = GrowthTiles(GROWTH.tiles).at[tile_number];
+    uint hash = hash_of_site(tile, site);
+    SitePlace place;
+    if (!place_of_site(tile, site, hash, place)) return false;
+    crown = crown_at(place.view, hash, stands);
+    return true;
 }
 
 // The pixels that may show a crown, of the picture: an empty box where there are none. From the balls around its top and its foot.

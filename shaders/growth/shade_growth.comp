@@ -32,6 +32,7 @@ const bool of_materials = true;
 #include "shaders/shade/ground.glsl"
 #include "shaders/growth/growth.glsl"
 #include "shaders/growth/crown.glsl"
+#include "shaders/growth/shade_map.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 5) const bool edges_follow = false;  // edges.comp mixes what is in `sum`
@@ -57,7 +58,7 @@ void keep_colour(ivec2 pixel, vec3 colour) {
 }
 
 // A crown in the sun is lighter than a forest's mean, which holds the shade between crowns.
-const float needle_lighter = 3.6, broad_lighter = 2.7;
+const float needle_lighter = 3.3, broad_lighter = 2.2;
 
 // What leaves send back of the sun's light and the sky's.
 GroundLight light_of_crown(Crown crown, CrownHit hit, uint stands, vec3 sun, vec3 to_eye, float pixel_m) {
@@ -123,7 +124,8 @@ void shade(ivec2 pixel) {
         open_share = sky_openness(ground);
     }
     GroundLight light = light_of_crown(crown, hit, stands, sun, normalize(-ray * crown.axes), pixel_m);
-    light.lit *= site_sun;
+    // Its own leaves are told by how far inside they are.
+    light.lit *= site_sun * (0.25 + 0.75 * light_past_trees(view, 1.5 + crown.radius_m));
     LitPlace lit = LitPlace(light, view, place.h_m + hit.at.z, sun, 0.0);
     keep_depth(pixel, FRAME.near_m / hit.depth_m);
     keep_colour(pixel, shown(through_air(sent_by(lit), view)));

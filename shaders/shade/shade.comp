@@ -59,6 +59,10 @@ uint id_in(ivec2 pixel) {
     return from_compute ? id_of(VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)]) : imageLoad(ids, pixel).x;
 }
 #include "shaders/cast/cast_on.glsl"
+#ifdef IN_AIR
+#include "shaders/growth/growth_table.glsl"
+#include "shaders/growth/shade_map.glsl"
+#endif
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer TilesInParts { uint at[]; };
 uint tile_number() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
@@ -105,6 +109,7 @@ bool shade(ivec2 pixel) {
         cast_on(point, id, pixel);
         look_for_snow(point);
 #ifdef IN_AIR
+        if (casts && FRAME.style.materials.on > 1u) shown_share *= light_past_trees(point.view, 0.4);
         place = ground_place(point);
     }
     if (!is_sky) colour = through_air(sent_by(place), place.view);
