@@ -12,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <type_traits>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,19 @@ class MemoryBudget {
 
 struct NoValue {};
 
+template <class Key>
+concept HashedKey = requires(const Key& key) {
+    std::hash<Key>{}(key);
+};
+template <class Key, class Handle>
+struct CacheTable {
+    using Type = std::map<Key, Handle>;
+};
+template <HashedKey Key, class Handle>
+struct CacheTable<Key, Handle> {
+    using Type = std::unordered_map<Key, Handle>;
+};
+
 // A cache is a bin allocator: items lie in bins (buffers of a budget) one behind the other, each as long as
 // it is. An item is inserted where enough bytes are free, and where there are none others are evicted for it.
 //
@@ -44,8 +58,8 @@ struct NoValue {};
 // that inserted it or that used it last. Its bytes are given to another once the GPU has completed that
 // frame, and no sooner, whether it was evicted or erased: so several frames may be in flight.
 //
-// A key has an order, or is a whole number, which is the index of a table then. The cache keeps a Value with
-// each item for its owner. It is for one thread at a time.
+// A key has an order, or a hash (std::hash), or is a whole number, which is the index of a table then. The
+// cache keeps a Value with each item for its owner. It is for one thread at a time.
 template <class Key, class Value = NoValue>
 class GpuCache {
   public:
@@ -318,7 +332,8 @@ class GpuCache {
     std::vector<Slot> slots_;                          // items and free pieces
     std::vector<Handle> spare_;                        // of slots that are neither
     std::set<std::pair<std::uint64_t, Handle>> free_;  // by their positions
-    std::conditional_t<std::is_integral_v<Key>, std::vector<Handle>, std::map<Key, Handle>> table_;
+    std::conditional_t<std::is_integral_v<Key>, std::vector<Handle>, typename CacheTable<Key, Handle>::Type>
+        table_;
     std::size_t size_{};
     std::uint64_t frame_{1};
     std::uint64_t completed_{0};

@@ -1,8 +1,8 @@
 #include "core/cluster_frame/cluster_frame.h"
 
 #include <algorithm>
-#include <map>
-#include <tuple>
+#include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -11,49 +11,83 @@
 namespace oro {
 namespace {
 
-// The pages of a plan by where they are.
+// The pages of a plan by where they are: a table of each level, from its first row and column in the plan to
+// its last.
 class PagesOfPlan {
   public:
     explicit PagesOfPlan(const GridPlan& plan) {
+        for (const PageIndex& index : plan.page_indices) {
+            if (levels_.size() <= static_cast<std::size_t>(index.level))
+                levels_.resize(static_cast<std::size_t>(index.level) + 1);
+            Level& level = levels_[static_cast<std::size_t>(index.level)];
+            level.north = std::min(level.north, index.row);
+            level.south = std::max(level.south, index.row);
+            level.west = std::min(level.west, index.column);
+            level.east = std::max(level.east, index.column);
+        }
+        for (Level& level : levels_)
+            if (level.south >= level.north)
+                level.numbers.resize(static_cast<std::size_t>(level.south - level.north + 1) *
+                                         static_cast<std::size_t>(level.columns()),
+                                     gpu::no_page);
         for (std::size_t i = 0; i < plan.page_indices.size(); ++i) {
             const PageIndex& index = plan.page_indices[i];
-            numbers_[{index.level, index.row, index.column}] = static_cast<std::uint32_t>(i);
-            top_ = std::max(top_, index.level);
+            Level& level = levels_[static_cast<std::size_t>(index.level)];
+            level.numbers[level.place(index.row, index.column)] = static_cast<std::uint32_t>(i);
         }
     }
     // The finest that covers all of a cluster, or no_page.
-    [[nodiscard]] std::uint32_t over(const ResidentCluster& cluster) const {
+    [[nodiscard]] std::uint32_t over(const ClusterReach& cluster) const {
         constexpr int quads = static_cast<int>(gpu::page_quads);
         // What ends on a page's last post lies in it.
-        const std::int32_t last_row = std::max(cluster.first_row, cluster.last_row - 1);
-        const std::int32_t last_column = std::max(cluster.first_column, cluster.last_column - 1);
-        for (int level = 0; level <= top_; ++level) {
-            const int row = (cluster.first_row / quads) >> level;
-            const int column = (cluster.first_column / quads) >> level;
-            if ((last_row / quads) >> level != row || (last_column / quads) >> level != column) continue;
-            const auto found = numbers_.find({level, row, column});
-            if (found != numbers_.end()) return found->second;
+        int north = cluster.first_row / quads, west = cluster.first_column / quads;
+        int south = std::max(cluster.first_row, cluster.last_row - 1) / quads;
+        int east = std::max(cluster.first_column, cluster.last_column - 1) / quads;
+        for (const Level& level : levels_) {
+            if (south == north && east == west && north >= level.north && north <= level.south &&
+                west >= level.west && west <= level.east) {
+                const std::uint32_t number = level.numbers[level.place(north, west)];
+                if (number != gpu::no_page) return number;
+            }
+            north >>= 1;
+            south >>= 1;
+            west >>= 1;
+            east >>= 1;
         }
         return gpu::no_page;
     }
 
   private:
-    std::map<std::tuple<int, int, int>, std::uint32_t> numbers_;
-    int top_{0};
+    struct Level {
+        int north{std::numeric_limits<int>::max()}, south{-1};
+        int west{std::numeric_limits<int>::max()}, east{-1};
+        std::vector<std::uint32_t> numbers;  // row by row
+        [[nodiscard]] int columns() const { return east - west + 1; }
+        [[nodiscard]] std::size_t place(int row, int column) const {
+            return static_cast<std::size_t>(row - north) * static_cast<std::size_t>(columns()) +
+                   static_cast<std::size_t>(column - west);
+        }
+    };
+    std::vector<Level> levels_;
 };
 
 }  // namespace
 
 void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> clusters, const ClusterOffer& offer,
-                   const Camera& camera, GridPlan& plan) {
+                   const Camera& camera, GridPlan& plan, RowAngles* kept) {
     plan.clusters.on = true;
     const PagesOfPlan pages(plan);
     std::vector<FrameTables::Span> rows, columns;
     const glm::dmat3 view_from_ecef = camera.view_from_ecef();
     const Ecef eye = camera.eye_ecef();
+    plan.clusters.drawn.reserve(clusters.size());
+    plan.clusters.boxes.reserve(clusters.size());
+    rows.reserve(clusters.size());
+    columns.reserve(clusters.size());
     for (std::size_t i = 0; i < clusters.size(); ++i) {
         const ResidentCluster& cluster = clusters[i];
-        const std::uint32_t page = pages.over(cluster);
+        const ClusterReach& reach = *cluster.reach;
+        const std::uint32_t page = pages.over(reach);
         if (page == gpu::no_page) continue;
         plan.clusters.drawn.push_back(
             {{static_cast<gpu::uint>(cluster.address), static_cast<gpu::uint>(cluster.address >> 32U)},
@@ -64,10 +98,10 @@ void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> cluste
              cluster.offered.made_by,
              cluster.offered.used_by});
         if (i < offer.in_cut) plan.clusters.in_cut = plan.clusters.drawn.size();
-        rows.push_back({cluster.first_row, cluster.last_row});
-        columns.push_back({cluster.first_column, cluster.last_column});
+        rows.push_back({reach.first_row, reach.last_row});
+        columns.push_back({reach.first_column, reach.last_column});
         plan.clusters.boxes.push_back(
-            {gpu::vec3(view_from_ecef * (cluster.centre.m - eye.m)), cluster.half_axes_m});
+            {gpu::vec3(view_from_ecef * (reach.centre.m - eye.m)), reach.half_axes_m});
     }
     plan.clusters.asked = offer.asked;
     plan.constants.cut.rule = offer.rule;
@@ -76,7 +110,7 @@ void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> cluste
     plan.constants.clusters.count = static_cast<gpu::uint>(plan.clusters.drawn.size());
     plan.constants.clusters.rows = static_cast<gpu::uint>(plan.row_terms.size());
     plan.constants.clusters.columns = static_cast<gpu::uint>(plan.column_terms.size());
-    FrameTables tables(grid, camera.eye);
+    FrameTables tables(grid, camera.eye, Earth::ellipsoid, kept);
     tables.place_spans(rows, columns);
     const auto append = [](auto& to, const auto& more) { to.insert(to.end(), more.begin(), more.end()); };
     append(plan.row_terms, tables.take_rows());

@@ -7,25 +7,49 @@
 
 namespace oro {
 
-void OfferedCut::add_coarser(double distance_m, std::uint32_t cluster, std::uint32_t user, bool is_here) {
-    if (is_here) {
-        coarser_.emplace_back(distance_m, cluster, user);
-        return;
+OfferedCut::OfferedCut(const RegionClusters& clusters, const ClusterView& view, OfferMemory& memory)
+    : clusters_(clusters), view_(view), memory_(memory) {
+    memory_.must_be_deselected.resize(clusters.groups().size());
+    memory_.numbers.resize(clusters.groups().size(), gpu::no_asked_group);
+}
+
+OfferedCut::~OfferedCut() {
+    for (const std::uint32_t group : memory_.touched) {
+        memory_.must_be_deselected[group] = 0;
+        memory_.numbers[group] = gpu::no_asked_group;
     }
-    must_be_deselected_[clusters_.maker(cluster)] = true;
+    memory_.touched.clear();
+}
+
+void OfferedCut::deselect(std::uint32_t group) {
+    if (memory_.must_be_deselected[group] != 0) return;
+    memory_.touched.push_back(group);
+    memory_.must_be_deselected[group] = 1;
+}
+
+void OfferedCut::add_coarser(double distance_m, std::uint32_t cluster, std::uint32_t user, bool is_here) {
+    if (is_here)
+        coarser_.push_back({distance_m, cluster, user});
+    else
+        deselect(clusters_.maker(cluster));
 }
 
 std::uint32_t OfferedCut::ask(std::uint32_t group) {
-    if (group == no_group || must_be_deselected_[group]) return gpu::no_asked_group;
-    if (numbers_[group] == gpu::no_asked_group) {
-        numbers_[group] = static_cast<std::uint32_t>(offer_.asked.size());
+    if (group == no_group || memory_.must_be_deselected[group] != 0) return gpu::no_asked_group;
+    std::uint32_t& number = memory_.numbers[group];
+    if (number == gpu::no_asked_group) {
+        memory_.touched.push_back(group);
+        number = static_cast<std::uint32_t>(offer_.asked.size());
         offer_.asked.push_back(view_.measured(clusters_.groups()[group]));
     }
-    return numbers_[group];
+    return number;
 }
 
 void OfferedCut::offer(std::vector<Found>& found) {
-    std::ranges::sort(found);
+    // Distances are at least 0, and no number stands twice.
+    std::ranges::sort(found, [](const Found& a, const Found& b) {
+        return a.distance_m != b.distance_m ? a.distance_m < b.distance_m : a.cluster < b.cluster;
+    });
     for (const auto& [distance_m, cluster, user] : found) {
         const std::uint32_t maker = clusters_.maker(cluster);
         offer_.clusters.push_back(
@@ -36,13 +60,14 @@ void OfferedCut::offer(std::vector<Found>& found) {
 ClusterOffer OfferedCut::take(std::span<const std::uint32_t> opened) {
     // Where a group cannot stand none above it can.
     for (const std::uint32_t group : opened | std::views::reverse) {
-        if (!must_be_deselected_[group]) continue;
+        if (memory_.must_be_deselected[group] == 0) continue;
         for (const Cluster& made : clusters_.read_part(group)->made)
-            if (made.used_by != no_group) must_be_deselected_[made.used_by] = true;
+            if (made.used_by != no_group) deselect(made.used_by);
     }
     std::erase_if(coarser_, [&](const Found& found) {
-        return must_be_deselected_[clusters_.maker(std::get<1>(found))];
+        return memory_.must_be_deselected[clusters_.maker(found.cluster)] != 0;
     });
+    offer_.clusters.reserve(of_cut_.size() + coarser_.size());
     offer(of_cut_);
     offer_.in_cut = offer_.clusters.size();
     offer(coarser_);

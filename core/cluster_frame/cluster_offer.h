@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <tuple>
 #include <vector>
 
 #include "core/cluster_frame/cluster_view.h"
@@ -29,19 +28,25 @@ struct ClusterOffer {
     gpu::CutRule rule{};
 };
 
+// What offers of a region's clusters keep from one to the next: room alone.
+struct OfferMemory {
+    std::vector<char> must_be_deselected;  // of each group
+    std::vector<std::uint32_t> numbers;    // of each group among those that are asked, or no_asked_group
+    std::vector<std::uint32_t> touched;    // groups that have another entry than at the beginning
+};
+
 // Gathers one. Groups that do not give way are not asked: what they use is not offered.
 class OfferedCut {
   public:
-    // The clusters and the view outlive the cut.
-    OfferedCut(const RegionClusters& clusters, const ClusterView& view)
-        : clusters_(clusters),
-          view_(view),
-          must_be_deselected_(clusters.groups().size()),
-          numbers_(clusters.groups().size(), gpu::no_asked_group) {}
+    // The clusters, the view and the memory outlive the cut.
+    OfferedCut(const RegionClusters& clusters, const ClusterView& view, OfferMemory& memory);
+    ~OfferedCut();
+    OfferedCut(const OfferedCut&) = delete;
+    OfferedCut& operator=(const OfferedCut&) = delete;
 
     // A cluster of the cut that is seen. user: the group that uses it, which gives way; no_group: none does.
     void add_of_cut(double distance_m, std::uint32_t cluster, std::uint32_t user) {
-        of_cut_.emplace_back(distance_m, cluster, user);
+        of_cut_.push_back({distance_m, cluster, user});
     }
     // One that is seen whose maker gives way; is_here: on the GPU.
     void add_coarser(double distance_m, std::uint32_t cluster, std::uint32_t user, bool is_here);
@@ -49,16 +54,19 @@ class OfferedCut {
     [[nodiscard]] ClusterOffer take(std::span<const std::uint32_t> opened);
 
   private:
-    using Found = std::tuple<double, std::uint32_t, std::uint32_t>;  // distance, cluster, user
+    struct Found {
+        double distance_m;
+        std::uint32_t cluster, user;
+    };
     // Its number among those that are asked.
     std::uint32_t ask(std::uint32_t group);
     void offer(std::vector<Found>& found);
+    void deselect(std::uint32_t group);
 
     const RegionClusters& clusters_;
     const ClusterView& view_;
+    OfferMemory& memory_;
     std::vector<Found> of_cut_, coarser_;
-    std::vector<bool> must_be_deselected_;  // of each group
-    std::vector<std::uint32_t> numbers_;  // of each group among those that are asked, or gpu::no_asked_group
     ClusterOffer offer_;
 };
 

@@ -12,30 +12,48 @@ std::uint64_t held_bytes(const GroupPart& part) {
 }
 
 void GroupCache::make_places(std::size_t groups, std::size_t clusters, std::uint32_t leaves) {
-    held_.resize(groups);
+    parts_.resize(groups);
+    const auto ring = static_cast<std::uint32_t>(groups);
+    places_.assign(groups + 1, {0, ring, ring});
     reaches_.resize(clusters);
     users_.assign(leaves, no_group);
 }
 
+void GroupCache::put_before(std::uint32_t next, std::uint32_t group) {
+    const std::uint32_t before = places_[next].before;
+    places_[group].before = before;
+    places_[group].after = next;
+    places_[before].after = group;
+    places_[next].before = group;
+}
+
+void GroupCache::take_out(std::uint32_t group) {
+    const Place& place = places_[group];
+    places_[place.before].after = place.after;
+    places_[place.after].before = place.before;
+}
+
 void GroupCache::begin_frame() {
     ++frame_;
-    for (const std::uint32_t group : hidden_)
-        if (group < held_.size() && held_[group]) order_.splice(order_.begin(), order_, held_[group]->place);
+    for (const std::uint32_t group : hidden_) {
+        if (group >= parts_.size() || !parts_[group]) continue;
+        take_out(group);
+        put_before(places_[ring()].after, group);
+    }
 }
 
 const GroupPart* GroupCache::use(std::uint32_t group) {
-    Held* const held = held_[group].get();
-    if (held == nullptr) return nullptr;
-    if (held->used < frame_) {
-        held->used = frame_;
-        order_.splice(order_.end(), order_, held->place);
-    }
-    return held->part.get();
+    const GroupPart* const part = parts_[group].get();
+    if (part == nullptr || places_[group].used >= frame_) return part;
+    places_[group].used = frame_;
+    take_out(group);
+    put_before(ring(), group);
+    return part;
 }
 
 std::shared_ptr<const GroupPart> GroupCache::share(std::uint32_t group) const {
     const std::scoped_lock lock(mutex_);
-    return held_[group] ? held_[group]->part : nullptr;
+    return parts_[group];
 }
 
 const GroupPart* GroupCache::put(std::uint32_t group, std::unique_ptr<GroupPart> part) {
@@ -44,19 +62,18 @@ const GroupPart* GroupCache::put(std::uint32_t group, std::unique_ptr<GroupPart>
     evict_unused(bytes);
     for (const std::uint32_t member : part->members)
         if (member < users_.size()) users_[member] = group;
-    auto held = std::make_unique<Held>();
-    held->part = std::move(part);
-    held->used = frame_;
-    held->place = order_.insert(order_.end(), group);
+    places_[group].used = frame_;
+    put_before(ring(), group);
+    ++size_;
     bytes_ += bytes;
     const std::scoped_lock lock(mutex_);
-    held_[group] = std::move(held);
-    return held_[group]->part.get();
+    parts_[group] = std::move(part);
+    return parts_[group].get();
 }
 
 void GroupCache::put_reach(std::uint32_t cluster, std::uint32_t maker, const ClusterReach& reach) {
     if (const std::uint32_t group = keeper(cluster, maker);
-        group == no_group ? !held_.empty() : use(group) == nullptr)
+        group == no_group ? !parts_.empty() : use(group) == nullptr)
         return;
     if (reaches_[cluster]) return;
     evict_unused(held_reach_bytes);
@@ -66,22 +83,26 @@ void GroupCache::put_reach(std::uint32_t cluster, std::uint32_t maker, const Clu
 
 void GroupCache::evict_unused(std::uint64_t more) {
     // The frame's own are the last.
-    while (bytes_ + more > most_bytes_ && !order_.empty() && held_[order_.front()]->used < frame_)
-        drop(order_.front());
+    while (bytes_ + more > most_bytes_) {
+        const std::uint32_t first = places_[ring()].after;
+        if (first == ring() || places_[first].used >= frame_) return;
+        drop(first);
+    }
 }
 
 void GroupCache::drop(std::uint32_t group) {
-    std::unique_ptr<Held> held;
+    std::shared_ptr<const GroupPart> held;
     {
         const std::scoped_lock lock(mutex_);
-        held = std::move(held_[group]);
+        held = std::move(parts_[group]);
     }
-    const GroupPart& part = *held->part;
+    const GroupPart& part = *held;
     for (std::uint32_t i = 0; i < part.group.made; ++i) drop_reach(part.group.first_made + i);
     for (const std::uint32_t member : part.members)
         if (member < users_.size() && users_[member] == group) drop_reach(member);
     bytes_ -= held_bytes(part);
-    order_.erase(held->place);
+    take_out(group);
+    --size_;
 }
 
 void GroupCache::drop_reach(std::uint32_t cluster) {

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <limits>
-#include <list>
 #include <memory>
 #include <mutex>
 #include <utility>
@@ -51,9 +50,7 @@ class GroupCache {
     void end_frame() { evict_unused(0); }
 
     // Null where it is not here. The second is used by the frame.
-    [[nodiscard]] const GroupPart* find(std::uint32_t group) const {
-        return held_[group] ? held_[group]->part.get() : nullptr;
-    }
+    [[nodiscard]] const GroupPart* find(std::uint32_t group) const { return parts_[group].get(); }
     const GroupPart* use(std::uint32_t group);
     // The same for any thread, beside the one that uses the rest: whatever gives way, this stays.
     [[nodiscard]] std::shared_ptr<const GroupPart> share(std::uint32_t group) const;
@@ -71,28 +68,33 @@ class GroupCache {
     // groups keeps those of its leaves.)
     void put_reach(std::uint32_t cluster, std::uint32_t maker, const ClusterReach& reach);
 
-    [[nodiscard]] std::size_t size() const { return order_.size(); }
+    [[nodiscard]] std::size_t size() const { return size_; }
     // Of all that is here. (The graph's own tables are not counted: they are there whatever is read.)
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
     [[nodiscard]] std::uint64_t most_bytes() const { return most_bytes_; }
 
   private:
-    struct Held {
-        std::shared_ptr<const GroupPart> part;
+    // A group that is here is one of a ring: those that give way first come first, after the ring's own
+    // place, which is behind the last group's.
+    struct Place {
         std::uint64_t used;  // frame
-        std::list<std::uint32_t>::iterator place;
+        std::uint32_t before, after;
     };
+    [[nodiscard]] std::uint32_t ring() const { return static_cast<std::uint32_t>(parts_.size()); }
+    void put_before(std::uint32_t next, std::uint32_t group);
+    void take_out(std::uint32_t group);
     // Lets others give way until there is room for so much more, or no other can.
     void evict_unused(std::uint64_t more);
     void drop(std::uint32_t group);
     void drop_reach(std::uint32_t cluster);
 
-    mutable std::mutex mutex_;                            // of what held_ points to: other threads share it
-    std::vector<std::unique_ptr<Held>> held_;             // of each group; null: it is not here
-    std::vector<std::unique_ptr<ClusterReach>> reaches_;  // of each cluster, likewise
+    mutable std::mutex mutex_;                             // of parts_: other threads share them
+    std::vector<std::shared_ptr<const GroupPart>> parts_;  // of each group; null: it is not here
+    std::vector<Place> places_;                            // of each, and the ring's own
+    std::vector<std::unique_ptr<ClusterReach>> reaches_;   // of each cluster, likewise
     std::vector<std::uint32_t> users_;  // of each leaf: the group that uses it, once that was read
-    std::list<std::uint32_t> order_;    // of groups that are here: those that give way first
     std::vector<std::uint32_t> hidden_;
+    std::size_t size_{};
     std::uint64_t frame_{};
     std::uint64_t bytes_{};
     std::uint64_t most_bytes_{no_limit};

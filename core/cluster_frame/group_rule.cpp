@@ -1,6 +1,7 @@
 #include "core/cluster_frame/group_rule.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -22,6 +23,13 @@ namespace oro {
 namespace {
 
 constexpr std::uint32_t last_cut_level = gpu::no_cut_level - 1;
+
+// One over the largest power of two that is at most a length of 1 to 2^1000: what std::ldexp() by its negated
+// std::ilogb() multiplies by.
+double one_over_power_below(double length_m) {
+    constexpr std::uint64_t exponent_bits = 0x7ffULL << 52U, twice_the_bias = 2046ULL << 52U;
+    return std::bit_cast<double>(twice_the_bias - (std::bit_cast<std::uint64_t>(length_m) & exponent_bits));
+}
 
 }  // namespace
 
@@ -92,10 +100,8 @@ gpu::AskedGroup GroupRule::measured(const ClusterGroup& group) const {
     const double across_m =
         std::sqrt(sphere.centre_m.x * sphere.centre_m.x + sphere.centre_m.y * sphere.centre_m.y);
     const double distance_m = glm::length(sphere.centre_m);
-    const double largest_m = std::max({distance_m, radius_m, 1.0});
-    const auto scaled = [down = -std::ilogb(largest_m)](double length_m) {
-        return static_cast<float>(std::ldexp(length_m, down));
-    };
+    const double scale = one_over_power_below(std::min(std::max({distance_m, radius_m, 1.0}), 0x1p1000));
+    const auto scaled = [scale](double length_m) { return static_cast<float>(length_m * scale); };
     return {scaled(distance_m),
             scaled(-sphere.centre_m.z),
             scaled(across_m),

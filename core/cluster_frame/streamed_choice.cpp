@@ -1,7 +1,6 @@
 #include "core/cluster_frame/streamed_choice.h"
 
 #include <algorithm>
-#include <optional>
 #include <ranges>
 #include <utility>
 
@@ -10,104 +9,142 @@ namespace {
 
 // open: gives way, as far as is known. unread: would, and nobody knows to what. closed: would, and must not.
 enum class Answer : char { no, hidden, stands, unread, open, closed };
-// Whether it shows, as far as the last frame told.
+// Whether it shows, as far as the last frame reported.
 enum class Sight : char { unknown, hidden, shows };
 
-// Where in a list a number is.
-class Places {
-  public:
-    template <class T>
-    Places(const std::vector<T>& list, std::uint32_t T::*number) {
-        places_.reserve(list.size());
-        for (std::size_t i = 0; i < list.size(); ++i) places_.emplace_back(list[i].*number, i);
-        std::ranges::sort(places_);
-    }
-    [[nodiscard]] std::optional<std::size_t> find(std::uint32_t number) const {
-        const auto at = std::ranges::lower_bound(places_, std::pair(number, std::size_t{0}));
-        if (at == places_.end() || at->first != number) return std::nullopt;
-        return at->second;
-    }
-
-  private:
-    std::vector<std::pair<std::uint32_t, std::size_t>> places_;
+// A cluster that the rule comes to.
+struct Met {
+    double distance_m;  // ClusterView::Look
+    std::uint32_t cluster;
+    std::uint32_t user;   // the group that it comes from
+    std::uint32_t maker;  // the group that made it
+    ClusterView::Seen seen;
+    bool is_known;  // where it reaches; what nobody knows of may be seen
+    bool is_here;   // once find_here() was called, of what may be seen
 };
+struct Opened {
+    std::uint32_t group;
+    std::size_t first, last;  // of what it uses, among those that are met
+};
+
+}  // namespace
+
+// Of each group: an answer and what comes of it, as no choice had them; the groups that a choice has asked
+// are listed, and are put back when the next one begins.
+struct StreamedChoiceMemory::Kept {
+    std::vector<Answer> answers;
+    std::vector<Sight> group_sights;
+    std::vector<char> needed;
+    std::vector<std::uint32_t> asked;
+    std::vector<std::uint32_t> opened_numbers;  // of an opened group, among those
+    std::vector<std::uint32_t> met_numbers;     // of a cluster that is met, among those
+    std::vector<std::uint32_t> next, wave, closing;
+    std::vector<Opened> opened;
+    std::vector<Met> met;  // coarsest first
+    std::vector<Sight> sights;
+    std::vector<Sight> reported;  // of each cluster that a frame reported of, while sights are found
+    OfferMemory offer;
+
+    void begin(std::size_t groups) {
+        answers.resize(groups, Answer::no);
+        group_sights.resize(groups, Sight::unknown);
+        needed.resize(groups);
+        opened_numbers.resize(groups);
+        for (const std::uint32_t group : asked) {
+            answers[group] = Answer::no;
+            group_sights[group] = Sight::unknown;
+            needed[group] = 0;
+        }
+        asked.clear();
+        next.clear();
+        closing.clear();
+        opened.clear();
+        met.clear();
+        sights.clear();
+    }
+};
+
+namespace {
 
 class StreamedCut {
   public:
-    StreamedCut(RegionClusters& clusters, const ClusterView& view, const IsClusterHere& is_here)
-        : clusters_(clusters), view_(view), is_here_(is_here), asked_(clusters.groups().size(), Answer::no) {}
+    // One at a time has the memory.
+    StreamedCut(RegionClusters& clusters, const ClusterView& view, const IsClusterHere& is_here,
+                StreamedChoiceMemory::Kept& kept)
+        : clusters_(clusters), view_(view), is_here_(is_here), kept_(kept) {
+        kept_.begin(clusters.groups().size());
+    }
 
     // Finds what the rule says of all that is known.
     void walk() {
         meet(clusters_.roots(), no_group);
         // Users lie on the level above: wave after wave is level after level.
-        std::vector<std::uint32_t> wave;
-        while (!next_.empty()) {
-            wave.clear();
-            wave.swap(next_);
-            for (const std::uint32_t group : wave) {
-                const std::size_t first = met_.size();
+        while (!kept_.next.empty()) {
+            kept_.wave.clear();
+            kept_.wave.swap(kept_.next);
+            for (const std::uint32_t group : kept_.wave) {
+                const std::size_t first = kept_.met.size();
                 meet(clusters_.read_part(group)->members, group);
-                opened_.push_back({group, first, met_.size()});
+                kept_.opened_numbers[group] = static_cast<std::uint32_t>(kept_.opened.size());
+                kept_.opened.push_back({group, first, kept_.met.size()});
             }
         }
-        for (const Met& met : met_)
-            in_cut_ += is_of_cut(met) && met.is_known && is_seen(met) && met.user != no_group ? 1U : 0U;
+        for (const Met& met : kept_.met)
+            in_cut_ += met.user != no_group && met.is_known && is_seen(met) && is_of_cut(met) ? 1U : 0U;
     }
     // Clusters of the cut that can be seen, without the roots.
     [[nodiscard]] std::size_t in_cut() const { return in_cut_; }
 
     // What may not give way yet does not.
     void close_what_lacks() {
-        for (const Opened& opened : opened_)
-            if (asked_[opened.group] == Answer::open && !may_open(opened)) close(opened.group);
-        if (closing_.empty()) return;
-        const Places opened_at(opened_, &Opened::group), met_at(met_, &Met::cluster);
-        while (!closing_.empty()) {
-            const std::uint32_t group = closing_.back();
-            closing_.pop_back();
-            const Opened& opened = opened_[*opened_at.find(group)];
+        find_here();
+        for (const Opened& opened : kept_.opened)
+            if (answer(opened.group) == Answer::open && !may_open(opened)) close(opened.group);
+        if (kept_.closing.empty()) return;
+        number_met();
+        while (!kept_.closing.empty()) {
+            const std::uint32_t group = kept_.closing.back();
+            kept_.closing.pop_back();
+            const Opened& opened = kept_.opened[kept_.opened_numbers[group]];
             for (std::size_t i = opened.first; i < opened.last; ++i) {
-                const std::uint32_t maker = clusters_.maker(met_[i].cluster);
-                if (maker != no_group && asked_[maker] == Answer::open) close(maker);
+                const std::uint32_t maker = kept_.met[i].maker;
+                if (maker != no_group && answer(maker) == Answer::open) close(maker);
             }
             // Now it is drawn what it made, where that is met.
             const ClusterGroup& closed = clusters_.groups()[group];
             for (std::uint32_t made = closed.first_made; made < closed.first_made + closed.made; ++made) {
-                const auto at = met_at.find(made);
-                if (!at || !lacks(met_[*at])) continue;
-                const std::uint32_t user = met_[*at].user;
-                if (user != no_group && asked_[user] == Answer::open) close(user);
+                const Met* const met = find_met(made);
+                if (met == nullptr || !lacks(*met)) continue;
+                if (met->user != no_group && answer(met->user) == Answer::open) close(met->user);
             }
         }
     }
 
     Result<StreamedChoice> take(std::size_t room, const ShownClusters& shown) {
         want(room, shown);
-        OfferedCut offered(clusters_, view_);
-        for (const Met& met : met_) {
-            if (met.user != no_group && asked_[met.user] != Answer::open) continue;
-            const std::uint32_t maker = clusters_.maker(met.cluster);
-            if (maker != no_group && asked_[maker] == Answer::hidden) continue;
-            if (maker != no_group && asked_[maker] == Answer::open) {
-                if (is_seen(met))
-                    offered.add_coarser(met.look.distance_m, met.cluster, met.user, is_here_(met.cluster));
+        OfferedCut offered(clusters_, view_, kept_.offer);
+        for (const Met& met : kept_.met) {
+            if (met.user != no_group && answer(met.user) != Answer::open) continue;
+            const Answer made_by = met.maker == no_group ? Answer::stands : answer(met.maker);
+            if (made_by == Answer::hidden) continue;
+            if (made_by == Answer::open) {
+                if (is_seen(met)) offered.add_coarser(met.distance_m, met.cluster, met.user, met.is_here);
                 continue;
             }
-            ClusterView::Look look = met.look;
-            if (!met.is_known && is_here_(met.cluster)) {
+            ClusterView::Look look{met.seen, met.distance_m};
+            if (!met.is_known && met.is_here) {
                 ORO_TRY(const ClusterReach reach, clusters_.reach(met.cluster));
                 look = view_.look_at(reach);
             }
             ClusterChoice& drawn = choice_.drawn;
             drawn.beyond_frustum += look.seen == ClusterView::Seen::beyond_frustum ? 1U : 0U;
             drawn.beyond_horizon += look.seen == ClusterView::Seen::beyond_horizon ? 1U : 0U;
-            if (look.seen != ClusterView::Seen::yes || !is_here_(met.cluster)) continue;
+            if (look.seen != ClusterView::Seen::yes || !met.is_here) continue;
             offered.add_of_cut(look.distance_m, met.cluster, met.user);
         }
         std::vector<std::uint32_t> opened;
-        for (const Opened& group : opened_)
-            if (asked_[group.group] == Answer::open) opened.push_back(group.group);
+        for (const Opened& group : kept_.opened)
+            if (answer(group.group) == Answer::open) opened.push_back(group.group);
         choice_.offer = offered.take(opened);
         for (const OfferedCluster& cluster :
              choice_.offer.clusters | std::views::take(choice_.offer.in_cut)) {
@@ -118,171 +155,198 @@ class StreamedCut {
     }
 
   private:
-    // A cluster that the rule comes to.
-    struct Met {
-        std::uint32_t cluster;
-        std::uint32_t user;  // the group that it comes from
-        bool is_known;       // where it reaches; what nobody knows of may be seen
-        ClusterView::Look look;
-    };
-    struct Opened {
-        std::uint32_t group;
-        std::size_t first, last;  // of what it uses, in met_
-    };
+    [[nodiscard]] Answer answer(std::uint32_t group) const { return kept_.answers[group]; }
 
     void meet(std::span<const std::uint32_t> clusters, std::uint32_t user) {
         for (const std::uint32_t cluster : clusters) {
             const std::uint32_t maker = clusters_.maker(cluster);
-            if (maker != no_group && asked_[maker] == Answer::no) ask(maker);
-            if (maker != no_group && asked_[maker] == Answer::hidden) continue;
+            if (maker != no_group && answer(maker) == Answer::no) ask(maker);
+            if (maker != no_group && answer(maker) == Answer::hidden) continue;
             const ClusterReach* const reach = clusters_.known_reach(cluster);
-            met_.push_back(
-                {cluster, user, reach != nullptr,
-                 reach != nullptr ? view_.look_at(*reach) : ClusterView::Look{ClusterView::Seen::yes, 0.0}});
+            const ClusterView::Look look =
+                reach != nullptr ? view_.look_at(*reach) : ClusterView::Look{ClusterView::Seen::yes, 0.0};
+            kept_.met.push_back({look.distance_m, cluster, user, maker, look.seen, reach != nullptr, false});
         }
     }
 
     void ask(std::uint32_t number) {
         const ClusterGroup& group = clusters_.groups()[number];
+        kept_.asked.push_back(number);
         if (view_.is_beyond_frustum(group)) {
             ++choice_.drawn.beyond_frustum;
-            asked_[number] = Answer::hidden;
+            kept_.answers[number] = Answer::hidden;
             return;
         }
         const bool is_read = clusters_.use_part(number) != nullptr;
         if (!is_read) choice_.groups_wanted.push_back(number);
         if (view_.stands(group)) {
-            asked_[number] = Answer::stands;
+            kept_.answers[number] = Answer::stands;
         } else {
-            asked_[number] = is_read ? Answer::open : Answer::unread;
+            kept_.answers[number] = is_read ? Answer::open : Answer::unread;
             ++choice_.drawn.groups_opened;
-            if (is_read) next_.push_back(number);
+            if (is_read) kept_.next.push_back(number);
         }
     }
 
-    [[nodiscard]] static bool is_seen(const Met& met) { return met.look.seen == ClusterView::Seen::yes; }
-    [[nodiscard]] bool lacks(const Met& met) const { return is_seen(met) && !is_here_(met.cluster); }
+    [[nodiscard]] static bool is_seen(const Met& met) { return met.seen == ClusterView::Seen::yes; }
+    [[nodiscard]] static bool lacks(const Met& met) { return is_seen(met) && !met.is_here; }
     // Of the cut that the rule asks for, as far as groups are read.
     [[nodiscard]] bool is_of_cut(const Met& met) const {
-        const std::uint32_t maker = clusters_.maker(met.cluster);
-        return maker == no_group || asked_[maker] == Answer::stands || asked_[maker] == Answer::unread;
+        return met.maker == no_group || answer(met.maker) == Answer::stands ||
+               answer(met.maker) == Answer::unread;
+    }
+    void find_here() {
+        for (Met& met : kept_.met) met.is_here = is_seen(met) && is_here_(met.cluster);
+    }
+
+    // A cluster is met once. Numbers of those that are not met mean nothing.
+    void number_met() {
+        for (std::size_t i = 0; i < kept_.met.size(); ++i) {
+            const std::uint32_t cluster = kept_.met[i].cluster;
+            if (cluster >= kept_.met_numbers.size()) kept_.met_numbers.resize(cluster + std::size_t{1});
+            kept_.met_numbers[cluster] = static_cast<std::uint32_t>(i);
+        }
+    }
+    [[nodiscard]] const Met* find_met(std::uint32_t cluster) const {
+        if (cluster >= kept_.met_numbers.size()) return nullptr;
+        const std::uint32_t number = kept_.met_numbers[cluster];
+        if (number >= kept_.met.size() || kept_.met[number].cluster != cluster) return nullptr;
+        return &kept_.met[number];
     }
 
     // A group that uses what this one made and was not asked has none above it in view, or an unread one.
     [[nodiscard]] bool deselected(std::uint32_t user) const {
-        if (user == no_group || asked_[user] == Answer::open || asked_[user] == Answer::hidden) return true;
-        return asked_[user] == Answer::no && view_.is_beyond_frustum(clusters_.groups()[user]);
+        if (user == no_group || answer(user) == Answer::open || answer(user) == Answer::hidden) return true;
+        return answer(user) == Answer::no && view_.is_beyond_frustum(clusters_.groups()[user]);
     }
     [[nodiscard]] bool may_open(const Opened& opened) const {
         const GroupPart& part = *clusters_.read_part(opened.group);
-        return std::ranges::all_of(part.made,
-                                   [&](const Cluster& made) { return deselected(made.used_by); }) &&
-               std::none_of(met_.begin() + static_cast<std::ptrdiff_t>(opened.first),
-                            met_.begin() + static_cast<std::ptrdiff_t>(opened.last),
-                            [&](const Met& met) { return is_of_cut(met) && lacks(met); });
+        std::uint32_t last = no_group;  // most are used by the same group as that before
+        for (const Cluster& made : part.made)
+            if (made.used_by != last && !deselected(last = made.used_by)) return false;
+        return std::none_of(kept_.met.begin() + static_cast<std::ptrdiff_t>(opened.first),
+                            kept_.met.begin() + static_cast<std::ptrdiff_t>(opened.last),
+                            [&](const Met& met) { return lacks(met) && is_of_cut(met); });
     }
     void close(std::uint32_t group) {
-        asked_[group] = Answer::closed;
-        closing_.push_back(group);
+        kept_.answers[group] = Answer::closed;
+        kept_.closing.push_back(group);
     }
 
     // Of each cluster that was met what is known of it, or of what is drawn in its place. A group shows where
     // any does that it made, and is hidden where one is and none shows.
-    std::vector<Sight> find_sights(const ShownClusters& shown) {
-        std::vector<Sight> sights;
-        group_sights_.resize(asked_.size(), Sight::unknown);
-        for (const Met& met : met_) {
-            const auto known = shown.find(met.cluster);
-            Sight sight = Sight::unknown;
-            if (known != shown.end())
-                sight = known->second ? Sight::shows : Sight::hidden;
-            else if (is_seen(met))
-                sight = met.user != no_group && group_sights_[met.user] == Sight::hidden ? Sight::hidden
-                                                                                         : Sight::shows;
-            sights.push_back(sight);
-            const std::uint32_t maker = clusters_.maker(met.cluster);
-            if (maker != no_group) group_sights_[maker] = std::max(group_sights_[maker], sight);
+    void find_sights(const ShownClusters& shown) {
+        for (const auto& [cluster, shows] : shown) {
+            if (cluster >= kept_.reported.size())
+                kept_.reported.resize(cluster + std::size_t{1}, Sight::unknown);
+            kept_.reported[cluster] = shows ? Sight::shows : Sight::hidden;
         }
-        add_needed(sights);
-        return sights;
+        for (const Met& met : kept_.met) {
+            Sight sight = met.cluster < kept_.reported.size() ? kept_.reported[met.cluster] : Sight::unknown;
+            if (sight == Sight::unknown && is_seen(met))
+                sight = met.user != no_group && kept_.group_sights[met.user] == Sight::hidden ? Sight::hidden
+                                                                                              : Sight::shows;
+            kept_.sights.push_back(sight);
+            if (met.maker != no_group)
+                kept_.group_sights[met.maker] = std::max(kept_.group_sights[met.maker], sight);
+        }
+        for (const auto& [cluster, shows] : shown) kept_.reported[cluster] = Sight::unknown;
+        add_needed();
     }
 
     // What shows comes with what must be here before it may be drawn: all that the groups use that give way
     // with its own. Of what is below that no more.
-    void add_needed(std::vector<Sight>& sights) {
-        std::vector<bool> needed(asked_.size());
-        for (std::size_t i = met_.size(); i-- > 0;) {
-            const std::uint32_t maker = clusters_.maker(met_[i].cluster), user = met_[i].user;
-            const bool deselected = maker != no_group && asked_[maker] != Answer::stands && needed[maker];
-            if (user != no_group && (deselected || sights[i] == Sight::shows)) needed[user] = true;
+    void add_needed() {
+        const std::vector<Met>& met = kept_.met;
+        for (std::size_t i = met.size(); i-- > 0;) {
+            const std::uint32_t maker = met[i].maker, user = met[i].user;
+            const bool deselected =
+                maker != no_group && answer(maker) != Answer::stands && kept_.needed[maker] != 0;
+            if (user != no_group && (deselected || kept_.sights[i] == Sight::shows)) kept_.needed[user] = 1;
         }
-        for (std::size_t i = 0; i < met_.size(); ++i) {
-            if (met_[i].user == no_group || !needed[met_[i].user]) continue;
-            const std::uint32_t maker = clusters_.maker(met_[i].cluster);
-            sights[i] = Sight::shows;
-            if (maker != no_group) group_sights_[maker] = Sight::shows;
+        for (std::size_t i = 0; i < met.size(); ++i) {
+            if (met[i].user == no_group || kept_.needed[met[i].user] == 0) continue;
+            kept_.sights[i] = Sight::shows;
+            if (met[i].maker != no_group) kept_.group_sights[met[i].maker] = Sight::shows;
         }
     }
 
     void want(std::size_t room, const ShownClusters& shown) {
-        const std::vector<Sight> sights = find_sights(shown);
-        std::vector<std::uint32_t> hidden;
+        // Where nothing is known nothing is hidden.
+        const bool any_known = !shown.empty();
+        if (any_known) find_sights(shown);
+        std::vector<const Met*> hidden;
         std::size_t left = room - std::min(room, in_cut_);
-        for (std::size_t i = 0; i < met_.size(); ++i) {
-            const Met& met = met_[i];
+        for (std::size_t i = 0; i < kept_.met.size(); ++i) {
+            const Met& met = kept_.met[i];
             if (!is_seen(met)) continue;
             const bool of_cut = is_of_cut(met);
             if (of_cut && lacks(met)) ++choice_.missing;
             // Nobody can send what was not read.
-            const std::uint32_t maker = clusters_.maker(met.cluster);
-            if (maker != no_group && clusters_.read_part(maker) == nullptr) continue;
+            if (met.maker != no_group && clusters_.read_part(met.maker) == nullptr) continue;
             if (!of_cut && met.user != no_group) {
                 if (left == 0) continue;
                 --left;
             }
-            (sights[i] == Sight::hidden ? hidden : choice_.clusters_wanted).push_back(met.cluster);
+            if (any_known && kept_.sights[i] == Sight::hidden)
+                hidden.push_back(&met);
+            else
+                add_wanted(met);
         }
+        const std::size_t to_come = choice_.clusters_to_come.size();
+        for (const Met* const met : hidden) add_wanted(*met);
         choice_.clusters_hidden = hidden.size();
-        choice_.clusters_wanted.insert(choice_.clusters_wanted.end(), hidden.begin(), hidden.end());
+        choice_.to_come_hidden = choice_.clusters_to_come.size() - to_come;
         choice_.groups_hidden =
             std::ranges::stable_partition(choice_.groups_wanted, [&](std::uint32_t group) {
-                return group_sights_[group] != Sight::hidden;
+                return kept_.group_sights[group] != Sight::hidden;
             }).size();
-        for (const Answer asked : asked_)
-            choice_.missing += asked == Answer::unread || asked == Answer::closed ? 1U : 0U;
+        for (const std::uint32_t group : kept_.asked)
+            choice_.missing += answer(group) == Answer::unread || answer(group) == Answer::closed ? 1U : 0U;
+    }
+    void add_wanted(const Met& met) {
+        choice_.clusters_wanted.push_back(met.cluster);
+        if (!met.is_here) choice_.clusters_to_come.push_back(met.cluster);
     }
 
     RegionClusters& clusters_;
     const ClusterView& view_;
     const IsClusterHere& is_here_;
-    std::vector<Answer> asked_;        // of each group
-    std::vector<Sight> group_sights_;  // likewise
-    std::vector<std::uint32_t> next_, closing_;
-    std::vector<Opened> opened_;
-    std::vector<Met> met_;  // coarsest first
+    StreamedChoiceMemory::Kept& kept_;
     std::size_t in_cut_{};
     StreamedChoice choice_;
 };
 
 }  // namespace
 
+StreamedChoiceMemory::StreamedChoiceMemory() : kept_(std::make_unique<Kept>()) {}
+StreamedChoiceMemory::StreamedChoiceMemory(StreamedChoiceMemory&&) noexcept = default;
+StreamedChoiceMemory& StreamedChoiceMemory::operator=(StreamedChoiceMemory&&) noexcept = default;
+StreamedChoiceMemory::~StreamedChoiceMemory() = default;
+
 Result<StreamedChoice> select_resident_cut(RegionClusters& clusters, const ClusterView& view,
                                            std::size_t room, const IsClusterHere& is_here,
-                                           const ShownClusters& shown) {
-    const auto cut_for = [&](const ClusterView& asked) {
-        StreamedCut cut(clusters, asked, is_here);
+                                           const ShownClusters& shown, StreamedChoiceMemory* memory) {
+    StreamedChoiceMemory own;
+    StreamedChoiceMemory::Kept& kept = memory != nullptr ? memory->kept() : own.kept();
+    std::size_t without_room = 0;
+    {
+        StreamedCut cut(clusters, view, is_here, kept);
         cut.walk();
-        return cut;
-    };
-    StreamedCut cut = cut_for(view);
-    if (cut.in_cut() <= room) {
-        cut.close_what_lacks();
-        return cut.take(room, shown);
+        if (cut.in_cut() <= room) {
+            cut.close_what_lacks();
+            return cut.take(room, shown);
+        }
+        without_room = cut.in_cut() - room;
     }
-    const std::size_t without_room = cut.in_cut() - room;
-    const ClusterView coarser = view.coarser(
-        coarser_steps_until([&](unsigned steps) { return cut_for(view.coarser(steps)).in_cut() <= room; }));
-    StreamedCut fitting = cut_for(coarser);
+    const ClusterView coarser = view.coarser(coarser_steps_until([&](unsigned steps) {
+        const ClusterView asked = view.coarser(steps);
+        StreamedCut cut(clusters, asked, is_here, kept);
+        cut.walk();
+        return cut.in_cut() <= room;
+    }));
+    StreamedCut fitting(clusters, coarser, is_here, kept);
+    fitting.walk();
     fitting.close_what_lacks();
     ORO_TRY(StreamedChoice choice, fitting.take(room, shown));
     choice.without_room = without_room;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "core/cluster_frame/cluster_choice.h"
@@ -20,12 +21,31 @@ struct StreamedChoice {
     std::vector<std::uint32_t> groups_wanted;        // to be read
     std::vector<std::uint32_t> clusters_wanted;      // to be here, and to stay; as many as there is room for
     std::size_t groups_hidden{}, clusters_hidden{};  // so many
+    // Of clusters_wanted, in its order, those that are not here; the last so many are hidden.
+    std::vector<std::uint32_t> clusters_to_come;
+    std::size_t to_come_hidden{};
     std::size_t missing{};       // groups and clusters that the cut lacks; 0: it is that of choose_clusters()
     std::size_t without_room{};  // clusters that the cut has too many for the room: a coarser one is drawn
 };
 
 // Whether a cluster is on the GPU.
 using IsClusterHere = std::function<bool(std::uint32_t cluster)>;
+
+// What choices among one region's clusters keep from one to the next: room, so that none is made anew for
+// each frame. With one that is kept the choice is that with a new one. For one choice at a time.
+class StreamedChoiceMemory {
+  public:
+    StreamedChoiceMemory();
+    StreamedChoiceMemory(StreamedChoiceMemory&&) noexcept;
+    StreamedChoiceMemory& operator=(StreamedChoiceMemory&&) noexcept;
+    ~StreamedChoiceMemory();
+
+    struct Kept;
+    [[nodiscard]] Kept& kept() { return *kept_; }
+
+  private:
+    std::unique_ptr<Kept> kept_;
+};
 
 // A group gives way to what it uses where the rule says so, where all of that is here that would then be
 // drawn and may be seen, and where each group gives way that uses what it made. Of all sets of groups with
@@ -35,9 +55,11 @@ using IsClusterHere = std::function<bool(std::uint32_t cluster)>;
 // Reads nothing: what nobody has read is wanted. Wanted beside the cut are the clusters above it, so that
 // there is something to go back to when the eye moves; of these the coarsest, as far as there is room.
 // room: clusters that the GPU may hold beside the roots. shown: by the last frame; what comes in the place of
-// clusters that it hid is hidden, and comes last. It changes nothing else. Errors: damage.
+// clusters that it hid is hidden, and comes last. It changes nothing else. memory: null: of this choice
+// alone. Errors: damage.
 Result<StreamedChoice> select_resident_cut(RegionClusters& clusters, const ClusterView& view,
                                            std::size_t room, const IsClusterHere& is_here,
-                                           const ShownClusters& shown = {});
+                                           const ShownClusters& shown = {},
+                                           StreamedChoiceMemory* memory = nullptr);
 
 }  // namespace oro

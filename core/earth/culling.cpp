@@ -113,7 +113,17 @@ HorizonEye horizon_eye(const HorizonOccluder& occluder, const Ecef& eye) {
 
 bool beyond_horizon(const HorizonEye& eye, const HorizonCone& cone) {
     const double reach_rad = eye.angle_rad + cone.angle_rad + angle_slack_rad;
-    return reach_rad < std::numbers::pi && angle_between_rad(eye.direction, cone.direction) > reach_rad;
+    if (!(reach_rad < std::numbers::pi)) return false;
+    // Most answers are far from the limit. An angle is at least its chord c, and up to c = 1 at most
+    // c + c^3 / 20; the slack is more than directions that were rounded make of it.
+    constexpr double chord_slack = 1.0e-5;
+    const glm::dvec3 apart = eye.direction - cone.direction;
+    const double chord = std::sqrt(glm::dot(apart, apart));
+    const bool are_units = std::abs(glm::dot(cone.direction, cone.direction) - 1.0) < chord_slack / 10.0;
+    if (!are_units) return angle_between_rad(eye.direction, cone.direction) > reach_rad;
+    if (chord <= 1.0 && chord * (1.0 + chord * chord / 20.0) < reach_rad - chord_slack) return false;
+    if (chord > reach_rad + chord_slack) return true;
+    return angle_between_rad(eye.direction, cone.direction) > reach_rad;
 }
 
 bool beyond_frustum(std::span<const Plane> planes, const glm::dvec3& centre_m, double radius_m) {

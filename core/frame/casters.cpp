@@ -1,18 +1,17 @@
 #include "core/frame/casters.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
-#include <map>
-#include <set>
 
 #include "core/frame/cast_map.h"
 #include "core/frame/frame_plan.h"
 #include "core/frame/model_view.h"
+#include "core/frame/page_table.h"
+#include "core/frame/plan_memory.h"
 #include "core/lod/levels.h"
 #include "core/lod/levels_gpu.h"
 
@@ -24,8 +23,11 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 // Collects the pages.
 class CasterChoice {
   public:
-    CasterChoice(const RegionPages& pages, const std::function<std::uint64_t(const PageIndex&)>& residency)
-        : pages_(pages), residency_(residency) {}
+    CasterChoice(PlanMemory& memory, const std::function<std::uint64_t(const PageIndex&)>& residency)
+        : pages_(memory.pages()),
+          memory_(memory),
+          residency_(residency),
+          asked_(static_cast<std::size_t>(memory.pages().levels())) {}
 
     // A page and what a map of lines needs below it.
     Result<void> want(const CastMap& map, const PageIndex& index);
@@ -34,11 +36,23 @@ class CasterChoice {
     void list(GridPlan& plan) const;
 
   private:
+    using PageTables = std::vector<PageTable>;  // of each level
+    // False where a page is there already.
+    static bool insert(PageTables& tables, const PageIndex& page, std::uint32_t number);
+
     const RegionPages& pages_;
+    PlanMemory& memory_;
     const std::function<std::uint64_t(const PageIndex&)>& residency_;
-    std::set<std::array<int, 3>> asked_;
+    PageTables asked_;
     std::vector<std::pair<PageIndex, std::uint64_t>> wanted_;
 };
+
+bool CasterChoice::insert(PageTables& tables, const PageIndex& page, std::uint32_t number) {
+    PageTable& table = tables[static_cast<std::size_t>(page.level)];
+    if (table.find(page.row, page.column) != PageTable::none) return false;
+    table.insert(page.row, page.column, number);
+    return true;
+}
 
 Result<void> CasterChoice::want_around(const GridPlan& plan) {
     for (const PageIndex& page : plan.page_indices) {
@@ -47,18 +61,18 @@ Result<void> CasterChoice::want_around(const GridPlan& plan) {
             for (int column = std::max(0, page.column - 1);
                  column <= std::min(layout.columns - 1, page.column + 1); ++column) {
                 const PageIndex neighbour{row, column, page.level};
-                if (!asked_.insert({page.level, row, column}).second) continue;
-                ORO_TRY(const PageRecord record, pages_.record(neighbour));
-                if (record.reach_m >= 0.0) wanted_.emplace_back(neighbour, residency_(neighbour));
+                if (!insert(asked_, neighbour, 0)) continue;
+                ORO_TRY(const PageRecord* const record, memory_.record(neighbour));
+                if (record->reach_m >= 0.0) wanted_.emplace_back(neighbour, residency_(neighbour));
             }
     }
     return {};
 }
 
 Result<void> CasterChoice::want(const CastMap& map, const PageIndex& index) {
-    asked_.insert({index.level, index.row, index.column});
-    ORO_TRY(const PageRecord record, pages_.record(index));
-    if (record.reach_m < 0.0) return {};
+    insert(asked_, index, 0);
+    ORO_TRY(const PageRecord* const record, memory_.record(index));
+    if (record->reach_m < 0.0) return {};
     wanted_.emplace_back(index, residency_(index));
     if (index.level == 0) return {};
     const PageLayout below = pages_.layout(index.level - 1);
@@ -68,8 +82,8 @@ Result<void> CasterChoice::want(const CastMap& map, const PageIndex& index) {
         const std::int64_t posts = std::int64_t{gpu::page_quads} << child.level;
         const CastMap::Need need = map.need(map.patch(child.row * posts, child.column * posts, posts));
         const auto error_m =
-            static_cast<double>(record.quarters[static_cast<std::size_t>(i)].largest_error_m);
-        const double top_m = record.summary.highest_h_m + error_m + 1.0;
+            static_cast<double>(record->quarters[static_cast<std::size_t>(i)].largest_error_m);
+        const double top_m = record->summary.highest_h_m + error_m + 1.0;
         if (error_m > need.error_m && top_m >= need.low_m) ORO_CHECK(want(map, child));
     }
     return {};
@@ -80,10 +94,10 @@ void CasterChoice::list(GridPlan& plan) const {
     std::vector<PageIndex> low(static_cast<std::size_t>(pages_.levels()),
                                {std::numeric_limits<int>::max(), std::numeric_limits<int>::max(), 0});
     std::vector<PageIndex> high(low.size(), {-1, -1, 0});
-    std::map<std::array<int, 3>, gpu::uint> numbers;
+    PageTables numbers(low.size()), missing;
     const auto add = [&](const PageIndex& index, const gpu::uvec2& block) {
         const auto number = static_cast<gpu::uint>(casters.pages.size());
-        if (!numbers.try_emplace({index.level, index.row, index.column}, number).second) return;
+        if (!insert(numbers, index, number)) return;
         casters.pages.push_back({block, static_cast<gpu::uint>(index.level),
                                  static_cast<gpu::uint>(index.row), static_cast<gpu::uint>(index.column)});
         const auto level = static_cast<std::size_t>(index.level);
@@ -92,14 +106,18 @@ void CasterChoice::list(GridPlan& plan) const {
         high[level].row = std::max(high[level].row, index.row);
         high[level].column = std::max(high[level].column, index.column);
     };
+    const auto is_new_missing = [&](const PageIndex& index) {
+        if (missing.empty()) {
+            missing.resize(low.size());
+            for (const PageIndex& page : plan.missing) insert(missing, page, 0);
+        }
+        return insert(missing, index, 0);
+    };
     for (std::size_t i = 0; i < plan.pages.size(); ++i) add(plan.page_indices[i], plan.pages[i].block);
     for (const auto& [index, address] : wanted_) {
         if (address != 0)
             add(index, {static_cast<gpu::uint>(address), static_cast<gpu::uint>(address >> 32U)});
-        else if (std::ranges::none_of(plan.missing, [&, &index = index](const PageIndex& there) {
-                     return there.level == index.level && there.row == index.row &&
-                            there.column == index.column;
-                 }))
+        else if (is_new_missing(index))
             plan.missing.push_back(index);
     }
     for (std::size_t level = 0; level < low.size(); ++level) {
@@ -112,10 +130,11 @@ void CasterChoice::list(GridPlan& plan) const {
         held.first = static_cast<gpu::uint>(casters.table.size());
         casters.table.resize(casters.table.size() + std::size_t{held.rows} * held.columns, gpu::no_page);
     }
-    for (const auto& [key, number] : numbers) {
-        const gpu::CasterLevel& held = casters.frame.levels[static_cast<std::size_t>(key[0])];
-        casters.table[held.first + (static_cast<gpu::uint>(key[1]) - held.first_row) * held.columns +
-                      static_cast<gpu::uint>(key[2]) - held.first_column] = number;
+    for (std::size_t i = 0; i < casters.pages.size(); ++i) {
+        const gpu::CasterPage& page = casters.pages[i];
+        const gpu::CasterLevel& held = casters.frame.levels[page.level];
+        casters.table[held.first + (page.row - held.first_row) * held.columns + page.column -
+                      held.first_column] = static_cast<gpu::uint>(i);
     }
     casters.frame.page_count = static_cast<gpu::uint>(casters.pages.size());
 }
@@ -130,8 +149,9 @@ struct SeenQuarter {
     std::int64_t row, column, posts;  // its first post in the region, and how many along a side
     ShadowReceiver ground;
 };
-Result<void> look_for_quarters(const RegionPages& pages, const FrameView& view, const GridPlan& plan,
-                               const std::function<void(const SeenQuarter&)>& found) {
+template <class Found>
+Result<void> look_for_quarters(PlanMemory& memory, const FrameView& view, const GridPlan& plan,
+                               const Found& found) {
     const double error_per_m = error_per_metre(plan);
     const glm::dmat3 view_from_ecef = view.camera.view_from_ecef();
     const glm::dvec3 eye = view.camera.eye_ecef().m;
@@ -139,7 +159,8 @@ Result<void> look_for_quarters(const RegionPages& pages, const FrameView& view, 
     for (std::size_t i = 0; i < plan.pages.size(); ++i) {
         const gpu::FramePage& page = plan.pages[i];
         const PageIndex& index = plan.page_indices[i];
-        ORO_TRY(const PageRecord record, pages.record(index));
+        ORO_TRY(const PageRecord* const known, memory.record(index));
+        const PageRecord& record = *known;
         const std::int64_t half = std::int64_t{gpu::page_quads / 2} << index.level;
         for (int quarter = 0; quarter < 4; ++quarter) {
             if (page.children[quarter] != gpu::no_page) continue;
@@ -208,31 +229,38 @@ Result<double> region_top_m(const RegionPages& pages) {
 }
 
 // The ground of a seam lies along the rims of grids, a few of their posts wide.
-Result<std::vector<ShadowReceiver>> shadow_receivers(const RegionPages& pages, const FrameView& view,
+Result<std::vector<ShadowReceiver>> shadow_receivers(PlanMemory& memory, const FrameView& view,
                                                      const GridPlan& plan) {
+    const RegionPages& pages = memory.pages();
     constexpr double rim_posts = 3.0;
     std::vector<ShadowReceiver> all;
     if (pages.is_seam()) return all;
     const double rim_m = rim_posts * mean_radius_m * pages.facts().grid.row_step_rad();
-    ORO_CHECK(look_for_quarters(pages, view, plan, [&](const SeenQuarter& quarter) {
+    ORO_CHECK(look_for_quarters(memory, view, plan, [&](const SeenQuarter& quarter) {
         all.push_back(quarter.ground);
         all.back().radius_m += rim_m;
     }));
     return all;
 }
 
-Result<void> plan_casters(const RegionPages& pages,
-                          const std::function<std::uint64_t(const PageIndex&)>& residency,
+Result<std::vector<ShadowReceiver>> shadow_receivers(const RegionPages& pages, const FrameView& view,
+                                                     const GridPlan& plan) {
+    PlanMemory memory(pages);
+    return shadow_receivers(memory, view, plan);
+}
+
+Result<void> plan_casters(PlanMemory& memory, const std::function<std::uint64_t(const PageIndex&)>& residency,
                           const FrameView& view, const ShadowRequest& request, double top_m, GridPlan& plan,
                           std::span<const ShadowReceiver> others) {
+    const RegionPages& pages = memory.pages();
     const int top = pages.levels() - 1;
     if (pages.layout(top).count() == 0) return {};
-    CasterChoice choice(pages, residency);
+    CasterChoice choice(memory, residency);
     bool for_shadows = request.sun_enu.has_value();
     if (for_shadows) {
         CastMap map(pages, ecef_from_enu(view.camera.eye.lat_deg, view.camera.eye.lon_deg) * *request.sun_enu,
                     top_m);
-        ORO_CHECK(look_for_quarters(pages, view, plan, [&](const SeenQuarter& quarter) {
+        ORO_CHECK(look_for_quarters(memory, view, plan, [&](const SeenQuarter& quarter) {
             map.receive(map.patch(quarter.row, quarter.column, quarter.posts),
                         quarter.ground.error_per_slope_m, quarter.ground.lowest_m);
         }));
@@ -254,6 +282,14 @@ Result<void> plan_casters(const RegionPages& pages,
     frame.top_m = static_cast<float>(top_m);
     frame.error_per_m = static_cast<float>(error_per_metre(plan));
     return {};
+}
+
+Result<void> plan_casters(const RegionPages& pages,
+                          const std::function<std::uint64_t(const PageIndex&)>& residency,
+                          const FrameView& view, const ShadowRequest& request, double top_m, GridPlan& plan,
+                          std::span<const ShadowReceiver> others) {
+    PlanMemory memory(pages);
+    return plan_casters(memory, residency, view, request, top_m, plan, others);
 }
 
 }  // namespace oro

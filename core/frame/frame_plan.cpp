@@ -5,13 +5,14 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <map>
 #include <numbers>
 #include <tuple>
 #include <utility>
 
 #include "core/frame/frame_tables.h"
 #include "core/frame/model_view.h"
+#include "core/frame/page_table.h"
+#include "core/frame/plan_memory.h"
 #include "core/lod/levels.h"
 #include "core/lod/levels_gpu.h"
 #include "core/terrain/page_on_net.h"
@@ -19,36 +20,58 @@
 namespace oro {
 namespace {
 
-using PageCoord = std::pair<int, int>;  // (row, column) of a page in its level
-
 // A page that can be seen and is needed.
 struct WantedPage {
-    PageRecord record;
+    const PageRecord* record;
     std::uint64_t address{};  // 0: not on the GPU
     bool open{};              // takes part in the frame
     bool shows{};             // or may, or is needed by one that may
     std::uint32_t fallback_quarters{};
     double distance_m{};
     std::uint32_t number{gpu::no_page};  // in the frame
+    [[nodiscard]] const PageIndex& index() const { return record->summary.index; }
 };
-using WantedLevel = std::map<PageCoord, WantedPage>;
+
+// Those of a level.
+class WantedLevel {
+  public:
+    std::vector<WantedPage> pages;
+
+    void add(const WantedPage& page) {
+        places_.insert(page.index().row, page.index().column, static_cast<std::uint32_t>(pages.size()));
+        pages.push_back(page);
+    }
+    // Null where it is none of them.
+    [[nodiscard]] WantedPage* find(int row, int column) {
+        const std::uint32_t place = places_.find(row, column);
+        return place == PageTable::none ? nullptr : &pages[place];
+    }
+    [[nodiscard]] const WantedPage* find(int row, int column) const {
+        const std::uint32_t place = places_.find(row, column);
+        return place == PageTable::none ? nullptr : &pages[place];
+    }
+
+  private:
+    PageTable places_;
+};
 
 // One frame's choice among a region's pages.
 class PageChoice {
   public:
-    PageChoice(const RegionPages& pages, const Residency& residency, const Camera& camera, const Tile& tile,
+    PageChoice(PlanMemory& memory, const Residency& residency, const Camera& camera, const Tile& tile,
                double tau_px, double shading_spacing_px, const ModelView& model)
-        : pages_(pages),
+        : pages_(memory.pages()),
+          memory_(memory),
           residency_(residency),
           view_(level_view(camera, tau_px)),
           model_(model),
           view_from_ecef_(camera.view_from_ecef()),
           eye_ecef_(camera.eye_ecef()),
           planes_(frustum_planes_view(projection_of_tile(camera, tile))),
-          horizon_(model.horizon(pages.facts().shape.occluder)),
-          post_spacing_m_(wgs84_a_m * pages.facts().grid.row_step_rad()),
+          horizon_(model.horizon(pages_.facts().shape.occluder)),
+          post_spacing_m_(wgs84_a_m * pages_.facts().grid.row_step_rad()),
           shading_spacing_px_(shading_spacing_px),
-          levels_(static_cast<std::size_t>(pages.levels())) {
+          levels_(static_cast<std::size_t>(pages_.levels())) {
         for (Plane& plane : planes_) plane.w += model.rounding_m();
     }
 
@@ -79,6 +102,7 @@ class PageChoice {
     void set_neighbours(const PageIndex& index, gpu::FramePage& frame) const;
 
     const RegionPages& pages_;
+    PlanMemory& memory_;
     const Residency& residency_;
     LevelView view_;
     const ModelView& model_;
@@ -125,31 +149,30 @@ bool PageChoice::hidden(const PageRecord& page, const ViewSphere& seen) {
 }
 
 Result<void> PageChoice::want(const PageIndex& index) {
-    ORO_TRY(PageRecord record, pages_.record(index));
-    if (record.reach_m < 0.0) return {};
-    ViewSphere seen = model_.seen_page(pages_.facts().grid, record);
+    ORO_TRY(const PageRecord* const record, memory_.record(index));
+    if (record->reach_m < 0.0) return {};
+    ViewSphere seen = model_.seen_page(pages_.facts().grid, *record);
     // What closes gaps reaches out by pixels.
     if (pages_.is_seam()) seen.radius_m += gap_reach_m(glm::length(seen.centre_m) + seen.radius_m);
-    if (hidden(record, seen)) return {};
-    WantedPage page;
+    if (hidden(*record, seen)) return {};
+    WantedPage page{.record = record};
     page.distance_m = std::max(0.0, glm::length(seen.centre_m) - seen.radius_m);
     page.address = residency_(index);
-    page.record = std::move(record);
-    level(index.level).emplace(PageCoord{index.row, index.column}, std::move(page));
+    level(index.level).add(page);
     return {};
 }
 
 // What of a page must be drawn finer.
 Result<void> PageChoice::descend(WantedPage& page) {
-    const PageSummary& summary = page.record.summary;
+    const PageSummary& summary = page.record->summary;
     if (summary.index.level == 0) return {};
     const PageLayout below = pages_.layout(summary.index.level - 1);
     for (int i = 0; i < 4; ++i) {
         const PageIndex child{2 * summary.index.row + i / 2, 2 * summary.index.column + i % 2,
                               summary.index.level - 1};
         if (child.row >= below.rows || child.column >= below.columns) continue;
-        const PageQuarter& quarter = page.record.quarters[static_cast<std::size_t>(i)];
-        const bool enough = model_.may_stand(page.record) && good_enough(summary, quarter);
+        const PageQuarter& quarter = page.record->quarters[static_cast<std::size_t>(i)];
+        const bool enough = model_.may_stand(*page.record) && good_enough(summary, quarter);
         if (enough) page.fallback_quarters |= 1U << static_cast<unsigned>(i);
         if (!enough || !fine_enough_to_shade(summary, quarter)) ORO_CHECK(want(child));
     }
@@ -160,8 +183,7 @@ Result<void> PageChoice::descend(WantedPage& page) {
 std::array<PageIndex, 4> PageChoice::neighbours_of_parent(const PageIndex& index,
                                                           std::array<bool, 4>& there) const {
     const PageLayout layout = pages_.layout(index.level);
-    constexpr std::array<PageCoord, 4> steps{PageCoord{-1, 0}, PageCoord{0, 1}, PageCoord{1, 0},
-                                             PageCoord{0, -1}};
+    constexpr std::array<std::pair<int, int>, 4> steps{{{-1, 0}, {0, 1}, {1, 0}, {0, -1}}};
     std::array<PageIndex, 4> parents;
     for (std::size_t i = 0; i < 4; ++i) {
         const int row = index.row + steps[i].first;
@@ -178,19 +200,19 @@ std::array<PageIndex, 4> PageChoice::neighbours_of_parent(const PageIndex& index
 // what is drawn beside it is then at most one level coarser.
 void PageChoice::open_level(int number) {
     const bool top = number == pages_.levels() - 1;
-    for (auto& [coord, page] : level(number)) {
+    for (WantedPage& page : level(number).pages) {
         page.open = page.address != 0;
         if (top) continue;
         WantedLevel& above = level(number + 1);
-        const PageIndex& index = page.record.summary.index;
-        WantedPage& parent = above.at({index.row / 2, index.column / 2});
+        const PageIndex& index = page.index();
+        WantedPage& parent = *above.find(index.row / 2, index.column / 2);
         std::array<bool, 4> there{};
         const std::array<PageIndex, 4> neighbours = neighbours_of_parent(index, there);
         page.open = page.open && parent.open;
         for (std::size_t i = 0; i < 4 && page.open; ++i) {
             if (!there[i]) continue;
-            const auto found = above.find({neighbours[i].row, neighbours[i].column});
-            page.open = found == above.end() || found->second.open;
+            const WantedPage* const beside = above.find(neighbours[i].row, neighbours[i].column);
+            page.open = beside == nullptr || beside->open;
         }
         const auto quarter = static_cast<unsigned>(2 * (index.row % 2) + index.column % 2);
         if (!page.open)
@@ -205,7 +227,7 @@ Result<void> PageChoice::choose() {
         for (int column = 0; column < layout.columns; ++column) ORO_CHECK(want({row, column, top}));
     for (int number = top; number >= 0; --number) {
         open_level(number);
-        for (auto& [coord, page] : level(number)) ORO_CHECK(descend(page));
+        for (WantedPage& page : level(number).pages) ORO_CHECK(descend(page));
     }
     return {};
 }
@@ -214,17 +236,18 @@ Result<void> PageChoice::choose() {
 void PageChoice::apply_occlusion_feedback(const IsHidden& is_hidden) {
     for (int number = 0; number < pages_.levels(); ++number) {
         const bool top = number == pages_.levels() - 1;
-        for (auto& [coord, page] : level(number)) {
-            const PageIndex& index = page.record.summary.index;
+        for (WantedPage& page : level(number).pages) {
+            const PageIndex& index = page.index();
             page.shows = page.shows || !is_hidden || !is_hidden(index);
             if (top || !page.shows) continue;
             WantedLevel& above = level(number + 1);
-            above.at({index.row / 2, index.column / 2}).shows = true;
+            above.find(index.row / 2, index.column / 2)->shows = true;
             std::array<bool, 4> there{};
             const std::array<PageIndex, 4> neighbours = neighbours_of_parent(index, there);
             for (std::size_t i = 0; i < 4; ++i) {
-                const auto found = above.find({neighbours[i].row, neighbours[i].column});
-                if (there[i] && found != above.end()) found->second.shows = true;
+                if (!there[i]) continue;
+                WantedPage* const beside = above.find(neighbours[i].row, neighbours[i].column);
+                if (beside != nullptr) beside->shows = true;
             }
         }
     }
@@ -234,19 +257,20 @@ void PageChoice::number_pages(GridPlan& plan) {
     std::vector<WantedPage*> open;
     std::vector<const WantedPage*> missing;
     for (WantedLevel& wanted : levels_) {
-        plan.pages_wanted += wanted.size();
-        for (auto& [coord, page] : wanted) {
+        plan.pages_wanted += wanted.pages.size();
+        for (WantedPage& page : wanted.pages) {
             if (page.open) open.push_back(&page);
             if (page.address == 0)
                 missing.push_back(&page);
             else if (!page.shows || !page.open)
-                plan.hidden.push_back(page.record.summary.index);
+                plan.hidden.push_back(page.index());
         }
     }
-    const auto key = [](const WantedPage& page) {
-        const PageIndex& index = page.record.summary.index;
+    const auto key_of = [](const PageIndex& index) {
         return std::tuple(index.level, index.row, index.column);
     };
+    const auto key = [&](const WantedPage& page) { return key_of(page.index()); };
+    std::ranges::sort(plan.hidden, {}, key_of);
     // Near pages first: what they hide fails the depth test before it is shaded. Ties by number: one order
     // for one input.
     std::sort(open.begin(), open.end(), [&](const WantedPage* a, const WantedPage* b) {
@@ -254,18 +278,18 @@ void PageChoice::number_pages(GridPlan& plan) {
     });
     // What shows first, of that what others wait for, then what is near.
     std::sort(missing.begin(), missing.end(), [&](const WantedPage* a, const WantedPage* b) {
-        const PageIndex& one = a->record.summary.index;
-        const PageIndex& other = b->record.summary.index;
+        const PageIndex& one = a->index();
+        const PageIndex& other = b->index();
         if (a->shows != b->shows) return a->shows;
         if (one.level != other.level) return one.level > other.level;
         return a->distance_m != b->distance_m ? a->distance_m < b->distance_m : key(*a) < key(*b);
     });
     for (WantedPage* page : open) {
         page->number = static_cast<std::uint32_t>(plan.page_indices.size());
-        plan.page_indices.push_back(page->record.summary.index);
+        plan.page_indices.push_back(page->index());
     }
     for (const WantedPage* page : missing) {
-        plan.missing.push_back(page->record.summary.index);
+        plan.missing.push_back(page->index());
         plan.missing_hidden += page->shows ? 0 : 1;
     }
     plan.pages_beyond_frustum = beyond_frustum_;
@@ -274,8 +298,8 @@ void PageChoice::number_pages(GridPlan& plan) {
 
 std::uint32_t PageChoice::number_of(const PageIndex& index) const {
     if (index.level >= pages_.levels()) return gpu::no_page;
-    const auto found = level(index.level).find({index.row, index.column});
-    return found == level(index.level).end() ? gpu::no_page : found->second.number;
+    const WantedPage* const found = level(index.level).find(index.row, index.column);
+    return found == nullptr ? gpu::no_page : found->number;
 }
 
 void PageChoice::set_neighbours(const PageIndex& index, gpu::FramePage& frame) const {
@@ -309,7 +333,7 @@ void PageChoice::set_from_eye(const PageSummary& page, gpu::FramePage& frame) co
 }
 
 gpu::FramePage PageChoice::frame_page(const WantedPage& page) const {
-    const PageSummary& summary = page.record.summary;
+    const PageSummary& summary = page.record->summary;
     const glm::dmat3 view_from_page = view_from_ecef_ * summary.ecef_from_page;
     const glm::dvec3 origin_view = model_.origin_m(summary);
     const ViewSphere seen = model_.seen(summary, summary.centre_m, summary.radius_m);
@@ -331,7 +355,7 @@ gpu::FramePage PageChoice::frame_page(const WantedPage& page) const {
     if (pages_.is_skirt(summary.index)) frame.cull |= gpu::is_skirt;
     if (pages_.facts().grid.net && !pages_.is_seam() && reaches_far(summary))
         frame.cull |= gpu::places_from_plane;
-    if (!model_.may_stand(page.record)) frame.cull |= gpu::never_coarsen;
+    if (!model_.may_stand(*page.record)) frame.cull |= gpu::never_coarsen;
     if (model_.culls_nodes() && !pages_.is_seam()) frame.cull |= gpu::cull_by_occlusion;
     frame.block = {static_cast<gpu::uint>(page.address), static_cast<gpu::uint>(page.address >> 32U)};
     frame.level = static_cast<gpu::uint>(summary.index.level);
@@ -343,7 +367,7 @@ gpu::FramePage PageChoice::frame_page(const WantedPage& page) const {
 
 void PageChoice::list_pages(FrameTables& tables, GridPlan& plan) const {
     for (const PageIndex& index : plan.page_indices) {
-        gpu::FramePage frame = frame_page(level(index.level).at({index.row, index.column}));
+        gpu::FramePage frame = frame_page(*level(index.level).find(index.row, index.column));
         tables.place(index, frame);
         plan.pages.push_back(frame);
     }
@@ -351,12 +375,14 @@ void PageChoice::list_pages(FrameTables& tables, GridPlan& plan) const {
 
 }  // namespace
 
-Result<GridPlan> plan_grid(const RegionPages& pages, const Residency& residency, const FrameView& view,
+Result<GridPlan> plan_grid(PlanMemory& memory, const Residency& residency, const FrameView& view,
                            const HeightQuantization& coding, double shading_spacing_px,
                            const IsHidden& is_hidden) {
     const auto& [camera, tile, tau_px, model] = view;
+    const RegionPages& pages = memory.pages();
     const ModelView model_view(camera, model, coding);
-    PageChoice choice(pages, residency, camera, tile, tau_px, shading_spacing_px, model_view);
+    memory.begin_frame();
+    PageChoice choice(memory, residency, camera, tile, tau_px, shading_spacing_px, model_view);
     ORO_CHECK(choice.choose());
     choice.apply_occlusion_feedback(is_hidden);
     GridPlan plan;
@@ -365,7 +391,7 @@ Result<GridPlan> plan_grid(const RegionPages& pages, const Residency& residency,
         return Error{ErrorKind::failed, "frame",
                      std::to_string(plan.page_indices.size()) + " pages of terrain in one frame, at most " +
                          std::to_string(gpu::pages_max) + " can be drawn (a larger --tau needs fewer)"};
-    FrameTables tables(pages.facts().grid, camera.eye, model.earth);
+    FrameTables tables(pages.facts().grid, camera.eye, model.earth, &memory.row_angles());
     choice.list_pages(tables, plan);
     plan.row_terms = tables.take_rows();
     plan.column_terms = tables.take_columns();
@@ -373,6 +399,13 @@ Result<GridPlan> plan_grid(const RegionPages& pages, const Residency& residency,
     plan.constants.page_count = static_cast<gpu::uint>(plan.pages.size());
     plan.constants.placing_slack_m = static_cast<float>(model_view.rounding_m()) * 1.001F;
     return plan;
+}
+
+Result<GridPlan> plan_grid(const RegionPages& pages, const Residency& residency, const FrameView& view,
+                           const HeightQuantization& coding, double shading_spacing_px,
+                           const IsHidden& is_hidden) {
+    PlanMemory memory(pages);
+    return plan_grid(memory, residency, view, coding, shading_spacing_px, is_hidden);
 }
 
 }  // namespace oro

@@ -1,10 +1,12 @@
 #include "core/frame/frame_tables.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
 #include "core/earth/culling.h"
+#include "core/frame/column_terms.h"
 #include "core/frame/ground_noise.h"
 #include "core/frame/model_view.h"
 #include "core/lod/levels.h"
@@ -101,7 +103,8 @@ gpu::NetMap net_map(const LatticeGeoreference& net, const SineCosine& lon) {
 double east_of_eye_deg(const PostGrid& grid, const Geodetic& eye, std::int64_t column) {
     // Round the Earth the last column is the first.
     const bool twin = column == grid.columns() - 1 && grid.wraps_longitude();
-    return std::remainder(grid.lon.at_deg(twin ? 0 : column) - eye.lon_deg, 360.0);
+    const double east_deg = grid.lon.at_deg(twin ? 0 : column) - eye.lon_deg;
+    return std::abs(east_deg) < 180.0 ? east_deg : std::remainder(east_deg, 360.0);
 }
 
 // Of so many numbers, those in a span.
@@ -127,8 +130,9 @@ double reference_height_m(const Geodetic& eye) {
     return std::round(std::clamp(eye.h_m, -524000.0, 524000.0));
 }
 
-FrameTables::FrameTables(const PostGrid& grid, const Geodetic& eye, Earth earth)
-    : grid_(grid), eye_(eye), earth_(earth), reference_m_(reference_height_m(eye)) {
+FrameTables::FrameTables(const PostGrid& grid, const Geodetic& eye, Earth earth, RowAngles* kept)
+    : grid_(grid), eye_(eye), earth_(earth), reference_m_(reference_height_m(eye)), angles_(kept) {
+    if (kept == nullptr) angles_ = &own_angles_.emplace(grid);
     const SineCosine lat = sine_cosine_deg(eye.lat_deg);
     const double normal_m = earth == Earth::sphere ? mean_radius_m : prime_vertical_radius_m(eye.lat_deg);
     const double e2 = earth == Earth::sphere ? 0.0 : wgs84_e2;
@@ -137,16 +141,15 @@ FrameTables::FrameTables(const PostGrid& grid, const Geodetic& eye, Earth earth)
 }
 
 // On the ellipsoid or the sphere.
-gpu::RowTerms FrameTables::round_row(double lat_deg) const {
-    const SineCosine lat = sine_cosine_deg(lat_deg);
+gpu::RowTerms FrameTables::round_row(const RowAngles::Row& row) const {
     const bool sphere = earth_ == Earth::sphere;
-    const double normal_m = sphere ? mean_radius_m : prime_vertical_radius_m(lat_deg);
-    const double P = (normal_m + reference_m_) * lat.cosine;
-    const double Z = (normal_m * (1.0 - (sphere ? 0.0 : wgs84_e2)) + reference_m_) * lat.sine - z_m_;
-    const auto cosine = static_cast<float>(lat.cosine);
+    const double normal_m = sphere ? mean_radius_m : row.normal_m;
+    const double P = (normal_m + reference_m_) * row.cosine;
+    const double Z = (normal_m * (1.0 - (sphere ? 0.0 : wgs84_e2)) + reference_m_) * row.sine - z_m_;
+    const auto cosine = static_cast<float>(row.cosine);
     return {static_cast<float>(P - rho_m_),
             cosine,
-            static_cast<float>(lat.sine),
+            static_cast<float>(row.sine),
             static_cast<float>(P),
             static_cast<float>(Z),
             cosine,
@@ -172,47 +175,57 @@ void FrameTables::add_row(std::int64_t row) {
     if (grid_.net) {
         // Where its posts are is PagePlaces' business; what is coloured by latitude takes that of the row's
         // middle.
-        const double within = std::min(static_cast<double>(row), grid_.rows() - 1.0);
-        const SineCosine lat =
-            sine_cosine_deg(grid_.net->place_at(within, 0.5 * (grid_.columns() - 1)).lat_deg);
+        const RowAngles::Row angles = angles_->at(row);
         gpu::RowTerms terms{};
-        terms.C = static_cast<float>(lat.cosine);
-        terms.S = static_cast<float>(lat.sine);
+        terms.C = static_cast<float>(angles.cosine);
+        terms.S = static_cast<float>(angles.sine);
         terms.cosine = 1.0F;
         rows_.push_back(terms);
         return;
     }
-    const double lat_deg = row_lat_deg(grid_, row);
-    rows_.push_back(earth_ == Earth::flat ? flat_row(lat_deg) : round_row(lat_deg));
+    rows_.push_back(earth_ == Earth::flat ? flat_row(row_lat_deg(grid_, row)) : round_row(angles_->at(row)));
 }
 
-void FrameTables::add_column(std::int64_t column) {
-    if (grid_.net) {
-        columns_.push_back({});
+void FrameTables::add_columns(std::span<const std::int64_t> columns) {
+    const std::size_t first = columns_.size();
+    columns_.resize(first + columns.size());
+    if (grid_.net) return;
+    east_deg_.clear();
+    for (const std::int64_t column : columns) east_deg_.push_back(east_of_eye_deg(grid_, eye_, column));
+    if (earth_ != Earth::flat) {
+        column_terms(east_deg_, std::span(columns_).subspan(first));
         return;
     }
-    const double turn_deg = east_of_eye_deg(grid_, eye_, column);
-    if (earth_ == Earth::flat) {
-        columns_.push_back({0.0F, static_cast<float>(radians_from_deg(turn_deg).rad)});
-        return;
-    }
-    const double half_sine = sine_cosine_deg(0.5 * turn_deg).sine;
-    columns_.push_back({static_cast<float>(2.0 * half_sine * half_sine),
-                        static_cast<float>(sine_cosine_deg(turn_deg).sine)});
+    for (std::size_t i = 0; i < columns.size(); ++i)
+        columns_[first + i] = {0.0F, static_cast<float>(radians_from_deg(east_deg_[i]).rad)};
+}
+
+std::uint32_t& FrameTables::first_of(FirstOfPages& all, int level, int number, int count) {
+    if (all.size() <= static_cast<std::size_t>(level)) all.resize(static_cast<std::size_t>(level) + 1);
+    std::vector<std::uint32_t>& of_level = all[static_cast<std::size_t>(level)];
+    if (of_level.empty()) of_level.resize(static_cast<std::size_t>(count), nowhere);
+    return of_level[static_cast<std::size_t>(number)];
 }
 
 void FrameTables::place(const PageIndex& index, gpu::FramePage& page) {
     const LevelGrid level = level_grid(grid_, index.level);
     page.first_row = static_cast<gpu::uint>(std::int64_t{index.row} * quads << index.level);
     page.first_column = static_cast<gpu::uint>(std::int64_t{index.column} * quads << index.level);
-    const auto [row, new_row] = first_rows_.try_emplace({index.level, index.row}, rows_.size());
-    for (int i = 0; new_row && i < posts; ++i) add_row(post_beyond(level.row, index.row * quads + i));
-    const auto [column, new_column] =
-        first_columns_.try_emplace({index.level, index.column}, columns_.size());
-    for (int i = 0; new_column && i < posts; ++i)
-        add_column(post_beyond(level.column, index.column * quads + i));
-    page.row_terms = row->second;
-    page.column_terms = column->second;
+    std::uint32_t& row = first_of(first_rows_, index.level, index.row, level.row.pages());
+    if (row == nowhere) {
+        row = static_cast<std::uint32_t>(rows_.size());
+        for (int i = 0; i < posts; ++i) add_row(post_beyond(level.row, index.row * quads + i));
+    }
+    std::uint32_t& column = first_of(first_columns_, index.level, index.column, level.column.pages());
+    if (column == nowhere) {
+        column = static_cast<std::uint32_t>(columns_.size());
+        std::array<std::int64_t, posts> all;
+        for (int i = 0; i < posts; ++i)
+            all[static_cast<std::size_t>(i)] = post_beyond(level.column, index.column * quads + i);
+        add_columns(all);
+    }
+    page.row_terms = row;
+    page.column_terms = column;
 }
 
 void FrameTables::place_spans(std::span<const Span> rows, std::span<const Span> columns) {
@@ -224,12 +237,17 @@ void FrameTables::place_spans(std::span<const Span> rows, std::span<const Span> 
         else
             rows_.push_back({});
     }
+    std::vector<std::int64_t> wanted;
     for (int column = 0; column < grid_.columns(); ++column) {
-        if (column_wanted[static_cast<std::size_t>(column)])
-            add_column(column);
-        else
-            columns_.push_back({});
+        if (column_wanted[static_cast<std::size_t>(column)]) {
+            wanted.push_back(column);
+            continue;
+        }
+        if (!wanted.empty()) add_columns(wanted);
+        wanted.clear();
+        columns_.push_back({});
     }
+    add_columns(wanted);
 }
 
 namespace {

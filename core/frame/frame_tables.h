@@ -3,7 +3,7 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -12,6 +12,7 @@
 #include "core/earth/world_model.h"
 #include "core/frame/height_quantization.h"
 #include "core/frame/region_pages.h"
+#include "core/frame/row_angles.h"
 #include "shaders/shared.h"
 
 namespace oro {
@@ -21,7 +22,11 @@ namespace oro {
 class FrameTables {
   public:
     // The eye's longitude may be in any whole turn; its height anything from the Earth's centre to the Moon.
-    FrameTables(const PostGrid& grid, const Geodetic& eye, Earth earth = Earth::ellipsoid);
+    // kept: of the same grid, from frame to frame, for the same bits in less time; null: nothing is kept.
+    FrameTables(const PostGrid& grid, const Geodetic& eye, Earth earth = Earth::ellipsoid,
+                RowAngles* kept = nullptr);
+    FrameTables(const FrameTables&) = delete;
+    FrameTables& operator=(const FrameTables&) = delete;
 
     // Makes sure that a page's rows and columns are there, and tells the page where, and where it lies.
     void place(const PageIndex& index, gpu::FramePage& page);
@@ -39,8 +44,8 @@ class FrameTables {
 
   private:
     void add_row(std::int64_t row);
-    void add_column(std::int64_t column);
-    [[nodiscard]] gpu::RowTerms round_row(double lat_deg) const;
+    void add_columns(std::span<const std::int64_t> columns);
+    [[nodiscard]] gpu::RowTerms round_row(const RowAngles::Row& row) const;
     [[nodiscard]] gpu::RowTerms flat_row(double lat_deg) const;
 
     const PostGrid& grid_;
@@ -51,8 +56,15 @@ class FrameTables {
     double z_m_;
     std::vector<gpu::RowTerms> rows_;
     std::vector<gpu::ColumnTerms> columns_;
-    std::map<std::pair<int, int>, std::uint32_t> first_rows_;  // of (level, row of pages)
-    std::map<std::pair<int, int>, std::uint32_t> first_columns_;
+    // By level, then by row or column of pages; nowhere: they are not there.
+    using FirstOfPages = std::vector<std::vector<std::uint32_t>>;
+    static constexpr std::uint32_t nowhere = ~std::uint32_t{0};
+    // Of one of `count` of a level, where its posts begin in rows_ or columns_.
+    static std::uint32_t& first_of(FirstOfPages& all, int level, int number, int count);
+    FirstOfPages first_rows_, first_columns_;
+    std::optional<RowAngles> own_angles_;
+    RowAngles* angles_;
+    std::vector<double> east_deg_;  // of columns that are being added
 };
 
 // The whole metres that a frame's heights are relative to: the eye's own, but no farther from the ellipsoid

@@ -1,6 +1,7 @@
 #include "render/clusters/cluster_scene.h"
 
 #include <algorithm>
+#include <deque>
 #include <utility>
 #include <vector>
 
@@ -27,7 +28,10 @@ std::size_t most_on_the_way(std::uint64_t bytes) {
 
 ClusterScene::ClusterScene(std::unique_ptr<RegionClusters> clusters, ClusterStore store,
                            std::size_t most_on_the_way)
-    : clusters_(std::move(clusters)), store_(std::move(store)), most_on_the_way_(most_on_the_way) {}
+    : clusters_(std::move(clusters)),
+      store_(std::move(store)),
+      most_on_the_way_(most_on_the_way),
+      row_angles_(clusters_->grid()) {}
 ClusterScene::ClusterScene(ClusterScene&&) noexcept = default;
 ClusterScene::~ClusterScene() = default;
 
@@ -104,23 +108,18 @@ bool ClusterScene::is_here(std::uint32_t cluster) const {
 
 // What is wanted and here is to stay.
 Result<StreamedChoice> ClusterScene::choose_here() {
-    ORO_TRY(StreamedChoice choice, select_resident_cut(
-                                       *clusters_, *view_, store_.capacity() - clusters_->roots().size(),
-                                       [&](std::uint32_t cluster) { return is_here(cluster); }, shown_));
+    ORO_TRY(StreamedChoice choice,
+            select_resident_cut(
+                *clusters_, *view_, store_.capacity() - clusters_->roots().size(),
+                [&](std::uint32_t cluster) { return is_here(cluster); }, shown_, &choice_memory_));
     for (const std::uint32_t cluster : choice.clusters_wanted)
         if (store_.is_here(cluster)) store_.use(cluster);
     return choice;
 }
 
 void ClusterScene::request(const StreamedChoice& choice) {
-    std::vector<std::uint32_t> to_come;
-    std::size_t hidden = 0;
-    for (std::size_t i = 0; i < choice.clusters_wanted.size(); ++i) {
-        if (is_here(choice.clusters_wanted[i])) continue;
-        to_come.push_back(choice.clusters_wanted[i]);
-        hidden += i + choice.clusters_hidden >= choice.clusters_wanted.size() ? 1U : 0U;
-    }
-    stream_->request(*view_, choice.groups_wanted, to_come, choice.groups_hidden, hidden);
+    stream_->request(*view_, choice.groups_wanted, choice.clusters_to_come, choice.groups_hidden,
+                     choice.to_come_hidden);
 }
 
 void ClusterScene::apply_feedback(const FrameFeedback& feedback) {
@@ -176,13 +175,17 @@ Result<void> ClusterScene::draw(const ClusterChoice& choice, const ClusterOffer&
                                 GridPlan& plan) {
     std::vector<ResidentCluster> resident;
     resident.reserve(offer.clusters.size());
+    std::deque<ClusterReach> others;  // of those that are kept with no group
     for (const OfferedCluster& offered : offer.clusters) {
         const ClusterStore::Held held = store_.use(offered.cluster);
-        ORO_TRY(const ClusterReach reach, clusters_->reach(offered.cluster));
-        resident.push_back({held.address, held.counts, offered, reach.first_row, reach.last_row,
-                            reach.first_column, reach.last_column, reach.centre, reach.half_axes_m});
+        const ClusterReach* reach = clusters_->known_reach(offered.cluster);
+        if (reach == nullptr) {
+            ORO_TRY(const ClusterReach found, clusters_->reach(offered.cluster));
+            reach = &others.emplace_back(found);
+        }
+        resident.push_back({held.address, held.counts, offered, reach});
     }
-    draw_clusters(clusters_->grid(), resident, offer, camera, plan);
+    draw_clusters(clusters_->grid(), resident, offer, camera, plan, &row_angles_);
     plan.clusters.groups_opened = choice.groups_opened;
     plan.clusters.beyond_frustum = choice.beyond_frustum;
     plan.clusters.beyond_horizon = choice.beyond_horizon;

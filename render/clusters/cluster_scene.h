@@ -8,6 +8,7 @@
 
 #include "core/cluster_frame/streamed_choice.h"
 #include "core/frame/frame_plan.h"
+#include "core/frame/row_angles.h"
 #include "core/frame/visibility_feedback.h"
 #include "render/clusters/cluster_store.h"
 #include "render/clusters/cluster_stream.h"
@@ -74,7 +75,9 @@ class ClusterScene {
     std::size_t most_on_the_way_;  // ClusterStream
     std::optional<std::uint32_t> level_;
     std::unique_ptr<ClusterStream> stream_;  // after clusters_: it ends before; null: nothing was streamed
-    ShownClusters shown_;                    // by the last frame that told
+    StreamedChoiceMemory choice_memory_;
+    RowAngles row_angles_;
+    ShownClusters shown_;  // by the last frame that told
     // Of the last plan that did not wait: its eye, what it draws, and whether that is all of the cut.
     std::optional<ClusterView> view_;
     std::vector<std::uint32_t> drawn_;

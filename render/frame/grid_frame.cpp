@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
-#include <map>
-#include <tuple>
 
+#include "core/frame/page_table.h"
 #include "render/frame/frame_layout.h"
 
 namespace oro {
@@ -206,12 +205,18 @@ void GridFrame::remember(const GridPlan& plan) {
 // FrameConstants::page_before.
 std::vector<gpu::uint> GridFrame::numbers_before(const GridPlan& plan) const {
     std::vector<gpu::uint> numbers(plan.pages.size(), gpu::no_page);
-    const auto key = [](const PageIndex& page) { return std::tuple(page.level, page.row, page.column); };
-    std::map<std::tuple<int, int, int>, gpu::uint> places;
-    for (std::size_t i = 0; i < before_.size(); ++i) places[key(before_[i])] = static_cast<gpu::uint>(i);
+    std::vector<PageTable> places;  // of each level
+    for (std::size_t i = 0; i < before_.size(); ++i) {
+        const PageIndex& page = before_[i];
+        if (places.size() <= static_cast<std::size_t>(page.level))
+            places.resize(static_cast<std::size_t>(page.level) + 1);
+        places[static_cast<std::size_t>(page.level)].insert(page.row, page.column, static_cast<gpu::uint>(i));
+    }
     for (std::size_t i = 0; i < std::min(numbers.size(), plan.page_indices.size()); ++i) {
-        const auto found = places.find(key(plan.page_indices[i]));
-        if (found != places.end()) numbers[i] = found->second;
+        const PageIndex& page = plan.page_indices[i];
+        if (places.size() <= static_cast<std::size_t>(page.level)) continue;
+        const std::uint32_t found = places[static_cast<std::size_t>(page.level)].find(page.row, page.column);
+        if (found != PageTable::none) numbers[i] = found;
     }
     return numbers;
 }

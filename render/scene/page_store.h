@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -12,6 +13,17 @@
 #include "core/frame/region_pages.h"
 #include "core/terrain/page.h"
 #include "render/device/buffer_cache.h"
+
+template <>
+struct std::hash<oro::PageIndex> {
+    std::size_t operator()(const oro::PageIndex& page) const noexcept {
+        const std::uint64_t place = std::uint64_t{static_cast<std::uint32_t>(page.row)} << 32U |
+                                    static_cast<std::uint32_t>(page.column);
+        const std::uint64_t mixed =
+            (place + static_cast<std::uint64_t>(page.level) * 0x100000001b3ULL) * 0x9e3779b97f4a7c15ULL;
+        return static_cast<std::size_t>(mixed ^ mixed >> 32U);
+    }
+};
 
 namespace oro {
 

@@ -77,7 +77,7 @@ Result<GridPlan> GridScene::plan_of_pages(const FrameView& view) {
     const double spacing_px = store_.means_offset() > 0 ? means_spacing_px_ : gpu::shading_spacing_px;
     const auto planned = [&](const Residency& residency) {
         store_.begin_frame();
-        return plan_grid(*pages_, residency, view, store_.coding(), spacing_px,
+        return plan_grid(memory_, residency, view, store_.coding(), spacing_px,
                          [&](const PageIndex& page) { return seen_.is_hidden(page); });
     };
     ORO_TRY(GridPlan plan, planned([&](const PageIndex& page) { return store_.address(page); }));
@@ -108,9 +108,10 @@ Result<void> GridScene::add_casters(const FrameView& view, GridPlan& plan) {
     const std::vector<PageIndex> hidden(first_hidden, plan.missing.end());
     plan.missing.erase(first_hidden, plan.missing.end());
     ORO_CHECK(plan_casters(
-        *pages_, [&](const PageIndex& page) { return store_.address(page); }, view, cast_, *top_m_, plan,
+        memory_, [&](const PageIndex& page) { return store_.address(page); }, view, cast_, *top_m_, plan,
         receivers_));
     plan.missing_hidden = 0;
+    if (hidden.empty()) return {};
     const std::set<PageIndex> wanted(plan.missing.begin(), plan.missing.end());
     for (const PageIndex& page : hidden) {
         if (wanted.contains(page)) continue;
@@ -354,7 +355,7 @@ Result<void> Scene::share_shadow_receivers(const FrameView& view, std::span<cons
     for (GridScene& grid : grids_) grid.receivers_.clear();
     if (!cast_.sun_enu || grids_.size() == 1) return {};
     for (std::size_t i = 0; i < plans.size(); ++i) {
-        ORO_TRY(const std::vector<ShadowReceiver> shown, shadow_receivers(*grids_[i].pages_, view, plans[i]));
+        ORO_TRY(const std::vector<ShadowReceiver> shown, shadow_receivers(grids_[i].memory_, view, plans[i]));
         for (std::size_t j = 0; j < grids_.size(); ++j)
             if (j != i) std::ranges::copy(shown, std::back_inserter(grids_[j].receivers_));
     }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/frame/frame_plan.h"
+#include "core/frame/plan_memory.h"
 #include "core/frame/region_pages.h"
 #include "core/frame/visibility_feedback.h"
 #include "render/clusters/cluster_scene.h"
@@ -62,7 +63,7 @@ class GridScene {
   private:
     friend class Scene;
     GridScene(std::unique_ptr<RegionPages> pages, PageStore store)
-        : pages_(std::move(pages)), store_(std::move(store)), seen_(*pages_) {}
+        : pages_(std::move(pages)), store_(std::move(store)), memory_(*pages_), seen_(*pages_) {}
     // Number of pages that there was room for, of those that were ready; whether it was short for hidden ones
     // alone, or for those that show.
     struct Sent {
@@ -96,6 +97,7 @@ class GridScene {
     std::unique_ptr<DrapeStore> drape_;
     Buffer undulation_;
     std::uint64_t number_{};  // GridPlan::heights
+    PlanMemory memory_;
     VisibilityFeedback seen_;
     std::vector<PageIndex> missed_;  // by the last plan
     std::set<PageIndex> hidden_;     // of those

@@ -8,6 +8,19 @@
 #include <string>
 #include <tuple>
 
+namespace oro::test {
+struct ItemWithHash {
+    int number{};
+    bool operator==(const ItemWithHash&) const = default;
+};
+}  // namespace oro::test
+template <>
+struct std::hash<oro::test::ItemWithHash> {
+    std::size_t operator()(const oro::test::ItemWithHash& item) const noexcept {
+        return static_cast<std::size_t>(item.number % 7);
+    }
+};
+
 namespace oro {
 namespace {
 
@@ -301,6 +314,7 @@ TEST(GpuCache, IsThatOfAModelOfBytes) {
         const auto number = [](int item) { return static_cast<std::uint32_t>(item); };
         follow_model<std::uint32_t>(seed, 0, number);
         follow_model<std::pair<int, int>>(seed, 14, [](int item) { return std::pair(item % 5, item / 5); });
+        follow_model<test::ItemWithHash>(seed, 14, [](int item) { return test::ItemWithHash{item}; });
     }
 }
 

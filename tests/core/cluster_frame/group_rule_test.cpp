@@ -26,6 +26,27 @@ ClusterGroup group_near(const Camera& camera, std::mt19937_64& random) {
     return group;
 }
 
+// Lengths are over the power of two that std::ilogb() and std::ldexp() find, to the bit.
+TEST(GroupRules, ScaleByAPowerOfTwo) {
+    constexpr unsigned seed = 5108;
+    std::mt19937_64 random(seed);
+    for (int i = 0; i < 20'000; ++i) {
+        Camera camera;
+        camera.eye = {46.0, 8.0, 3000.0};
+        const ClusterGroup group = group_near(camera, random);
+        const GroupRule rule(camera, 1.0);
+        const GroupRule::SeenSphere seen = rule.seen(group.centre, group.radius_m);
+        const double radius_m = seen.radius_m * (1.0 + 1.0e-6 * (group.level + 1.0));
+        const double distance_m = glm::length(seen.centre_m);
+        const int down = -std::ilogb(std::max({distance_m, radius_m, 1.0}));
+        const gpu::AskedGroup asked = rule.measured(group);
+        EXPECT_EQ(asked.distance, static_cast<float>(std::ldexp(distance_m, down)))
+            << "seed " << seed << ", case " << i;
+        EXPECT_EQ(asked.radius, static_cast<float>(std::ldexp(radius_m, down)));
+        EXPECT_EQ(asked.error, static_cast<float>(std::ldexp(group.error_m, down)));
+    }
+}
+
 // What stands is within tau, and what does not is beyond it, but for what the rule may round.
 TEST(GroupRules, AreTheBound) {
     constexpr unsigned seed = 306;

@@ -304,6 +304,34 @@ TEST(Culling, WithTheEllipsoidItselfVisiblePostsAreLost) {
     EXPECT_EQ(tally.frustum_lost, 0);
 }
 
+// The chord decides what the angle would.
+TEST(Horizon, IsBeyondByTheAngle) {
+    constexpr unsigned seed = 5107;
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> unit(0.0, 1.0), both(-1.0, 1.0);
+    int beyond = 0, seen = 0;
+    for (int i = 0; i < 300'000; ++i) {
+        const glm::dvec3 a = glm::normalize(glm::dvec3(both(random), both(random), both(random)));
+        const glm::dvec3 aside =
+            glm::normalize(glm::cross(a, glm::dvec3(both(random), both(random), both(random))));
+        const double angle_rad = std::numbers::pi * std::pow(10.0, -8.0 * unit(random));
+        const glm::dvec3 b = std::cos(angle_rad) * a + std::sin(angle_rad) * aside;
+        // Mostly close to the limit.
+        const double apart = i % 4 == 0 ? both(random) : both(random) * std::pow(10.0, -10.0 * unit(random));
+        const double limit_rad = angle_rad * (1.0 + apart), share = unit(random);
+        const HorizonEye eye{a, share * limit_rad};
+        const HorizonCone cone{i % 5 == 0 ? 2.5 * b : b, (1.0 - share) * limit_rad};
+        const double between_rad =
+            std::atan2(glm::length(glm::cross(a, cone.direction)), glm::dot(a, cone.direction));
+        const double reach_rad = eye.angle_rad + cone.angle_rad + 1.0e-11;
+        const bool expected = reach_rad < std::numbers::pi && between_rad > reach_rad;
+        ASSERT_EQ(beyond_horizon(eye, cone), expected) << "seed " << seed << ", case " << i;
+        (expected ? beyond : seen) += 1;
+    }
+    EXPECT_GT(beyond, 10'000);
+    EXPECT_GT(seen, 10'000);
+}
+
 TEST(Horizon, Literals) {
     // Unit sphere with the radii of the ellipsoid: an eye at twice the distance sees 60 degrees far.
     const HorizonOccluder occluder{glm::dvec3(1.0)};

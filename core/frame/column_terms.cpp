@@ -1,0 +1,73 @@
+#include "core/frame/column_terms.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+#include "core/base/wide.h"
+#include "core/earth/ellipsoid.h"
+
+namespace oro {
+namespace {
+
+// Columns at a time: of a page.
+constexpr std::size_t at_a_time = 128;
+// The series of the sine to the 17th power: what is left out is below 2^-62 of it up to 45 degrees, and its
+// rounding and that of std::sin are each below 2^-51. So these bounds hold with room to spare.
+constexpr double sine_slack = 0x1p-47, versine_slack = 0x1p-45;
+constexpr double series_up_to_deg = 45.0, series_from_deg = 1.0e-9;
+
+inline double sine_by_series(double x) {
+    const double z = x * x;
+    double sum = 1.0 / 355687428096000.0;
+    sum = sum * z - 1.0 / 1307674368000.0;
+    sum = sum * z + 1.0 / 6227020800.0;
+    sum = sum * z - 1.0 / 39916800.0;
+    sum = sum * z + 1.0 / 362880.0;
+    sum = sum * z - 1.0 / 5040.0;
+    sum = sum * z + 1.0 / 120.0;
+    sum = sum * z - 1.0 / 6.0;
+    return x + x * z * sum;
+}
+
+// Both terms of up to at_a_time columns, and where they are not certain.
+ORO_WIDE void terms_by_series(const double* east_deg, std::size_t count, float* V, float* W, int* unsure) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const double x = east_deg[i] * (std::numbers::pi / 180.0);
+        const double sine = sine_by_series(x), half_sine = sine_by_series(0.5 * x);
+        const double versine = 2.0 * half_sine * half_sine;
+        V[i] = static_cast<float>(versine * (1.0 - versine_slack));
+        W[i] = static_cast<float>(sine * (1.0 - sine_slack));
+        const double from_eye_deg = std::abs(east_deg[i]);
+        const int same = (static_cast<float>(versine * (1.0 + versine_slack)) == V[i]) &
+                         (static_cast<float>(sine * (1.0 + sine_slack)) == W[i]);
+        const int within = (from_eye_deg <= series_up_to_deg) & (from_eye_deg >= series_from_deg);
+        unsure[i] = 1 - (same & within);
+    }
+}
+
+}  // namespace
+
+gpu::ColumnTerms column_terms(double east_deg) {
+    const double half_sine = sine_cosine_deg(0.5 * east_deg).sine;
+    return {static_cast<float>(2.0 * half_sine * half_sine),
+            static_cast<float>(sine_cosine_deg(east_deg).sine)};
+}
+
+void column_terms(std::span<const double> east_deg, std::span<gpu::ColumnTerms> terms) {
+    assert(terms.size() >= east_deg.size());
+    std::array<float, at_a_time> V, W;
+    std::array<int, at_a_time> unsure;
+    for (std::size_t first = 0; first < east_deg.size(); first += at_a_time) {
+        const std::size_t count = std::min(at_a_time, east_deg.size() - first);
+        terms_by_series(&east_deg[first], count, V.data(), W.data(), unsure.data());
+        for (std::size_t i = 0; i < count; ++i)
+            terms[first + i] =
+                unsure[i] != 0 ? column_terms(east_deg[first + i]) : gpu::ColumnTerms{V[i], W[i]};
+    }
+}
+
+}  // namespace oro
