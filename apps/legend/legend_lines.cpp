@@ -8,6 +8,7 @@
 #include "apps/report/figures.h"
 #include "apps/report/region_json.h"
 #include "core/terrain/ground.h"
+#include "shaders/shared_growth.h"
 
 namespace oro {
 namespace {
