@@ -10,6 +10,7 @@
 #include "apps/report/region_json.h"
 #include "core/terrain/ground.h"
 #include "geo/canopy/raised_region.h"
+#include "shaders/shared_growth.h"
 
 namespace oro {
 namespace {

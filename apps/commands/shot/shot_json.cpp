@@ -11,6 +11,7 @@
 #include "apps/view/model_names.h"
 #include "apps/view/truth.h"
 #include "render/device/device_report.h"
+#include "shaders/shared_growth.h"
 
 namespace oro {
 namespace {

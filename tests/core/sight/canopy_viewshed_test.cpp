@@ -57,7 +57,9 @@ TEST(CanopyViewshed, OfTargetsOnTheGroundIsWhatObserversSee) {
                 sunk += is_sunk;
                 seen += missed_m == 0.0F;
                 ASSERT_EQ(missed_m == 0.0F, observer.sees(target)) << row << ", " << column;
-                if (is_sunk) ASSERT_GT(missed_m, 0.0F) << row << ", " << column;
+                if (is_sunk) {
+                    ASSERT_GT(missed_m, 0.0F) << row << ", " << column;
+                }
                 if (missed_m == 0.0F || (row * 7 + column) % 31 != 0) continue;
                 const auto by_m = observer.clearance_deficit_m(target);
                 if (!by_m || !std::isfinite(missed_m)) continue;
