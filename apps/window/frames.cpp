@@ -206,7 +206,7 @@ Result<bool> draw_frame(Viewer& viewer, bool& changed) {
     ORO_CHECK(take_size(viewer, extent, changed));
     ORO_CHECK(take_reports(viewer, frames_in_flight - 1));
     if (viewer.is_missing) {
-        ORO_TRY(const bool better, viewer.scene->advance());
+        ORO_TRY(const bool better, viewer.scene->advance(changed ? NextPlan::anyway : NextPlan::if_better));
         changed = changed || better;
     }
     ORO_TRY(const bool better_second, advance_second(viewer));

@@ -1,6 +1,7 @@
 #include "core/cluster_frame/streamed_choice.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <ranges>
 #include <utility>
 
@@ -41,6 +42,7 @@ struct StreamedChoiceMemory::Kept {
     std::vector<std::uint32_t> next, wave, closing;
     std::vector<Opened> opened;
     std::vector<Met> met;  // coarsest first
+    std::vector<const ClusterReach*> reaches;
     std::vector<Sight> sights;
     std::vector<Sight> reported;  // of each cluster that a frame reported of, while sights are found
     OfferMemory offer;
@@ -65,6 +67,16 @@ struct StreamedChoiceMemory::Kept {
 };
 
 namespace {
+
+// What a look at a reach reads of it.
+void prefetch(const ClusterReach* reach) {
+#if defined(__GNUC__)
+    __builtin_prefetch(reach);
+    __builtin_prefetch(reinterpret_cast<const char*>(reach) + offsetof(ClusterReach, horizon));
+#else
+    static_cast<void>(reach);
+#endif
+}
 
 class StreamedCut {
   public:
@@ -158,14 +170,23 @@ class StreamedCut {
     [[nodiscard]] Answer answer(std::uint32_t group) const { return kept_.answers[group]; }
 
     void meet(std::span<const std::uint32_t> clusters, std::uint32_t user) {
+        // Reaches lie anywhere in memory: all of a group are on their way before the first is looked at.
+        kept_.reaches.clear();
         for (const std::uint32_t cluster : clusters) {
             const std::uint32_t maker = clusters_.maker(cluster);
             if (maker != no_group && answer(maker) == Answer::no) ask(maker);
-            if (maker != no_group && answer(maker) == Answer::hidden) continue;
             const ClusterReach* const reach = clusters_.known_reach(cluster);
+            prefetch(reach);
+            kept_.reaches.push_back(reach);
+        }
+        for (std::size_t i = 0; i < clusters.size(); ++i) {
+            const std::uint32_t maker = clusters_.maker(clusters[i]);
+            if (maker != no_group && answer(maker) == Answer::hidden) continue;
+            const ClusterReach* const reach = kept_.reaches[i];
             const ClusterView::Look look =
                 reach != nullptr ? view_.look_at(*reach) : ClusterView::Look{ClusterView::Seen::yes, 0.0};
-            kept_.met.push_back({look.distance_m, cluster, user, maker, look.seen, reach != nullptr, false});
+            kept_.met.push_back(
+                {look.distance_m, clusters[i], user, maker, look.seen, reach != nullptr, false});
         }
     }
 

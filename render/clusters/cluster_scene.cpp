@@ -142,29 +142,47 @@ bool ClusterScene::has_capacity() const {
 }
 
 // A group's clusters come with it: which of them are wanted is known once it is.
-Result<void> ClusterScene::send(ClusterStream::Ready ready) {
+Result<StreamedChoice> ClusterScene::send(ClusterStream::Ready ready) {
     for (RegionClusters::LoadedGroup& group : ready.groups) clusters_->keep(group);
     for (const RegionClusters::LoadedCluster& cluster : ready.clusters)
         clusters_->keep(cluster.number, cluster.reach);
     store_.begin_frame();
-    ORO_TRY(const StreamedChoice choice, choose_here());
-    std::vector<std::uint32_t> wanted = choice.clusters_wanted;
-    std::ranges::sort(wanted);
+    ORO_TRY(StreamedChoice choice, choose_here());
+    std::ranges::fill(is_wanted_, char{0});
+    for (const std::uint32_t cluster : choice.clusters_to_come) {
+        if (cluster >= is_wanted_.size()) is_wanted_.resize(cluster + std::size_t{1});
+        is_wanted_[cluster] = 1;
+    }
     std::vector<ClusterStore::Loaded> loaded;
     const auto add = [&](const RegionClusters::LoadedCluster& cluster) {
-        if (std::ranges::binary_search(wanted, cluster.number))
+        if (cluster.number < is_wanted_.size() && is_wanted_[cluster.number] != 0)
             loaded.push_back({cluster.number, cluster.counts, cluster.block.get()});
     };
     for (const RegionClusters::LoadedGroup& group : ready.groups) std::ranges::for_each(group.seen, add);
     std::ranges::for_each(ready.clusters, add);
-    return store_.send(loaded);
+    ORO_CHECK(store_.send(loaded));
+    return Result<StreamedChoice>(std::move(choice));
 }
 
-Result<bool> ClusterScene::advance() {
+// What is wanted stays so when some of it has come: the same clusters, those that are here left out.
+void ClusterScene::request_rest(StreamedChoice choice) {
+    std::vector<std::uint32_t>& to_come = choice.clusters_to_come;
+    const auto first_hidden = to_come.end() - static_cast<std::ptrdiff_t>(choice.to_come_hidden);
+    const auto came = [&](std::uint32_t cluster) { return is_here(cluster); };
+    choice.to_come_hidden -= static_cast<std::size_t>(std::count_if(first_hidden, to_come.end(), came));
+    std::erase_if(to_come, came);
+    request(choice);
+}
+
+Result<bool> ClusterScene::advance(NextPlan next) {
     if (!view_) return false;
     ORO_TRY(ClusterStream::Ready ready, stream_->take());
     if (ready.groups.empty() && ready.clusters.empty()) return false;
-    ORO_CHECK(send(std::move(ready)));
+    ORO_TRY(StreamedChoice sent, send(std::move(ready)));
+    if (next == NextPlan::anyway) {
+        request_rest(std::move(sent));
+        return true;
+    }
     ORO_TRY(const StreamedChoice choice, choose_here());
     request(choice);
     return choice.drawn.clusters != drawn_ || (choice.missing == 0) != is_whole_ ||

@@ -15,6 +15,9 @@
 
 namespace oro {
 
+// Whether another plan is made only where it is better than the last one.
+enum class NextPlan { if_better, anyway };
+
 class ClusterScene {
   public:
     ClusterScene(ClusterScene&&) noexcept;
@@ -48,9 +51,10 @@ class ClusterScene {
     // The next plan is as the first one: what frames have shown is forgotten, and where the GPU is full, what
     // is there.
     void forget_frames();
-    // Sends what is ready of what the last of these plans lacks: true when the next one will be better. Does
-    // not wait for what is not ready. Errors: damage, the device.
-    Result<bool> advance();
+    // Sends what is ready of what the last of these plans lacks: true when the next one will be better; or,
+    // where another is made anyway, once anything has come, which takes half as long. Does not wait for what
+    // is not ready. Errors: damage, the device.
+    Result<bool> advance(NextPlan next = NextPlan::if_better);
 
     // Whether some more may come without an eviction.
     [[nodiscard]] bool has_capacity() const;
@@ -68,7 +72,8 @@ class ClusterScene {
                       GridPlan& plan);
     Result<StreamedChoice> choose_here();
     void request(const StreamedChoice& choice);
-    Result<void> send(ClusterStream::Ready ready);
+    void request_rest(StreamedChoice choice);
+    Result<StreamedChoice> send(ClusterStream::Ready ready);
 
     std::unique_ptr<RegionClusters> clusters_;
     ClusterStore store_;
@@ -77,7 +82,8 @@ class ClusterScene {
     std::unique_ptr<ClusterStream> stream_;  // after clusters_: it ends before; null: nothing was streamed
     StreamedChoiceMemory choice_memory_;
     RowAngles row_angles_;
-    ShownClusters shown_;  // by the last frame that told
+    std::vector<char> is_wanted_;  // of each cluster, while clusters are sent
+    ShownClusters shown_;          // by the last frame that told
     // Of the last plan that did not wait: its eye, what it draws, and whether that is all of the cut.
     std::optional<ClusterView> view_;
     std::vector<std::uint32_t> drawn_;

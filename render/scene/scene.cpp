@@ -202,10 +202,10 @@ std::vector<PageIndex> GridScene::shown_of(std::span<const PageIndex> missing) c
     return shown;
 }
 
-Result<bool> GridScene::advance() {
+Result<bool> GridScene::advance(NextPlan next) {
     bool better = false;
     if (clusters_) {
-        ORO_TRY(better, clusters_->advance());
+        ORO_TRY(better, clusters_->advance(next));
     }
     if (full_) return better;
     if (full_for_hidden_)
@@ -392,10 +392,10 @@ bool Scene::apply_feedback(std::span<const FrameFeedback> feedback) {
 
 // A grid that is full takes the place of what it has itself; where there are several, the others may hold
 // what none of this frame's uses: that is for the next.
-Result<bool> Scene::advance() {
+Result<bool> Scene::advance(NextPlan next) {
     bool better = false;
     for (GridScene& grid : grids_) {
-        ORO_TRY(const bool more, grid.advance());
+        ORO_TRY(const bool more, grid.advance(next));
         better = better || more;
     }
     if (grids_.size() > 1 && std::ranges::any_of(grids_, &GridScene::full_)) evict_unused();

@@ -86,7 +86,7 @@ class GridScene {
     Result<void> end_plan(const FrameView& view, GridPlan& plan);
     Result<GridPlan> plan(const FrameView& view, Clusters clusters);
     Result<GridPlan> settled_plan(const FrameView& view);
-    Result<bool> advance();
+    Result<bool> advance(NextPlan next);
     bool apply_feedback(const FrameFeedback& feedback);
     // gives_back: memory of pages, too.
     void forget_frames(bool gives_back);
@@ -147,8 +147,9 @@ class Scene {
     [[nodiscard]] PlanTimes times_of_plan() const;
     // Lets the background read what the last plan misses, and sends what is ready: true when the next plan
     // may be better. Does not wait for what is not ready; asks for no pages of a grid once the frame's own
-    // fill the GPU. Errors: what cannot be read, the device.
-    Result<bool> advance();
+    // fill the GPU. next: anyway: another plan is made whatever this tells (ClusterScene::advance()). Errors:
+    // what cannot be read, the device.
+    Result<bool> advance(NextPlan next = NextPlan::if_better);
     // What a frame of this scene has shown (FrameReport::feedback): from the next plan on ground that is
     // hidden comes last, and where the GPU is full gives way to what shows. True where that is news.
     bool apply_feedback(std::span<const FrameFeedback> feedback);

@@ -74,7 +74,7 @@ class MovingEye {
         ORO_CHECK(take_reports(frames_in_flight - 1));
         add(times_.waited, seconds_since(begun) - loaded_s_);
         auto start = Clock::now();
-        if (is_missing_) ORO_CHECK(scene_.advance());
+        if (is_missing_) ORO_CHECK(scene_.advance(NextPlan::anyway));
         add(times_.loaded, loaded_s_ + seconds_since(start));
         begun_.push_back(start = Clock::now());
         ORO_TRY(FramePlan plan, scene_.plan({camera, whole_picture(camera), options_.tau_px}));
