@@ -66,14 +66,14 @@ void FrameRenderer::record_growth(VkCommandBuffer commands, const FramePlan& pla
 }
 
 void FrameRenderer::record_growth_pixels(VkCommandBuffer commands, const FramePlan& plan,
-                                         GrowthPass record) const {
+                                         GrowthPass pass) const {
     for (std::size_t i = 0; i < plan.grids.size(); ++i) {
         if (!grids_[i].growth.is_on()) continue;
         memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                        VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
         grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
-        (grids_[i].growth.*record)(commands, *pipelines_, plan.view.width_px(), plan.view.height_px());
+        (grids_[i].growth.*pass)(commands, *pipelines_, plan.view.width_px(), plan.view.height_px());
     }
 }
 
