@@ -181,7 +181,7 @@ class FrameRenderer {
     Result<void> choose_growth(GridFrame& grid, const GridPlan& plan);
     void record_growth(VkCommandBuffer commands, const FramePlan& plan) const;
     using GrowthPass = void (GrowthFrame::*)(VkCommandBuffer, const Pipelines&, gpu::uint, gpu::uint) const;
-    void record_growth_pixels(VkCommandBuffer commands, const FramePlan& plan, GrowthPass record) const;
+    void record_growth_pixels(VkCommandBuffer commands, const FramePlan& plan, GrowthPass pass) const;
     void record_show(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_ids_alone(VkCommandBuffer commands) const;
     void record_tile_feedback(VkCommandBuffer commands, const FramePlan& plan) const;
