@@ -38,10 +38,9 @@ class MemoryBudget {
 
 struct NoValue {};
 
+// A key that std::hash is there for.
 template <class Key>
-concept HashedKey = requires(const Key& key) {
-    std::hash<Key>{}(key);
-};
+concept HashedKey = std::is_default_constructible_v<std::hash<Key>>;
 template <class Key, class Handle>
 struct CacheTable {
     using Type = std::map<Key, Handle>;
