@@ -23,7 +23,7 @@ TEST(RandomFlights, GoAsFastAsTheyAreHigh) {
     ASSERT_TRUE(flights.ok()) << flights.error().line();
     ASSERT_EQ(flights->size(), static_cast<std::size_t>(count));
     double slowest_m_s = 1e9, fastest_m_s = 0.0;
-    for (const Flight& flight : *flights) {
+    for (const RandomFlight& flight : *flights) {
         SCOPED_TRACE("seed 511, " + flight.name);
         ASSERT_EQ(flight.cameras.size(), static_cast<std::size_t>(frames));
         for (std::size_t i = 0; i < flight.cameras.size(); ++i) {

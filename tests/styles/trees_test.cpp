@@ -50,14 +50,14 @@ class TreePictures : public test::StyleTest {
     }
 
     std::vector<std::uint8_t> picture(const Region& region, const Camera& camera,
-                                      const gpu::FrameStyle& style, RasterPath path, int samples = 1) {
+                                      const gpu::FrameStyle& style, RasterPath path, int sample_count = 1) {
         auto scene = test::create_scene(*gpu_, region, {.means = true});
         EXPECT_TRUE(scene.ok());
         if (!scene.ok()) return {};
         std::vector<std::uint8_t> rgb;
         PictureOptions options;
         options.path = path;
-        options.samples = samples;
+        options.samples = sample_count;
         const auto report =
             render_picture(*gpu_, *scene, camera, style, options, [&](std::span<const std::uint8_t> row) {
                 rgb.insert(rgb.end(), row.begin(), row.end());
@@ -104,9 +104,9 @@ TEST_F(TreePictures, ShowNoneAboveTheForest) {
 TEST_F(TreePictures, AreTheSameByBothWaysOfDrawing) {
     const Region region = slope(1100.0, 0.58);
     const gpu::FrameStyle style = natural(region, true);
-    for (const int samples : {1, 3})
-        EXPECT_LE(unlike_px(picture(region, camera(1100.0), style, RasterPath::mesh, samples),
-                            picture(region, camera(1100.0), style, RasterPath::compute, samples)),
+    for (const int sample_count : {1, 3})
+        EXPECT_LE(unlike_px(picture(region, camera(1100.0), style, RasterPath::mesh, sample_count),
+                            picture(region, camera(1100.0), style, RasterPath::compute, sample_count)),
                   8U + width_px * height_px / 5000U);
 }
 

@@ -105,14 +105,14 @@ double flight_speed_m_s(double above_m) {
     return std::clamp(0.5 * above_m, 50.0, 5000.0);
 }
 
-Result<std::vector<Flight>> random_flights(const RegionPages& pages, int count, int frames,
-                                           std::uint64_t seed, int width_px, int height_px) {
+Result<std::vector<RandomFlight>> random_flights(const RegionPages& pages, int count, int frames,
+                                                 std::uint64_t seed, int width_px, int height_px) {
     const PostGrid& grid = pages.facts().grid;
     if (grid.net) return Error{ErrorKind::usage, "--moving", "is not for posts in a CRS of their own"};
     EvenNumbers random(seed);
     DrawnPosts posts(pages);
     GroundBelow ground(pages);
-    std::vector<Flight> flights;
+    std::vector<RandomFlight> flights;
     constexpr int most_voids = 100'000;
     for (int tries = 0; static_cast<int>(flights.size()) < count; ++tries) {
         if (tries > most_voids + count) return Error{ErrorKind::failed, "--moving", "finds no posts"};

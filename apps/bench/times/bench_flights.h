@@ -11,7 +11,7 @@
 
 namespace oro {
 
-struct Flight {
+struct RandomFlight {
     std::string name;  // tells where it begins and how high
     std::vector<Camera> cameras;
 };
@@ -27,7 +27,7 @@ inline constexpr double flight_step_s = 1.0 / 60.0;
 // turns by up to 20 degrees a second, and back towards the middle near the region's rim; it looks ahead,
 // 0 to 30 degrees below the horizon. Errors: a file that cannot be read; a region whose posts lie on a net,
 // or that has none.
-Result<std::vector<Flight>> random_flights(const RegionPages& pages, int count, int frames,
-                                           std::uint64_t seed, int width_px, int height_px);
+Result<std::vector<RandomFlight>> random_flights(const RegionPages& pages, int count, int frames,
+                                                 std::uint64_t seed, int width_px, int height_px);
 
 }  // namespace oro

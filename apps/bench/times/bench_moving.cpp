@@ -48,7 +48,7 @@ class MovingEye {
     MovingEye(Scene& scene, FrameRenderer& renderer, const BenchOptions& options, MovingTimes& times)
         : scene_(scene), renderer_(renderer), options_(options), times_(times) {}
 
-    Result<void> fly(const Flight& flight) {
+    Result<void> fly(const RandomFlight& flight) {
         const Camera& first = flight.cameras.front();
         ORO_CHECK(settled_as_window(scene_, first, whole_picture(first), options_));
         last_ = Clock::now();
@@ -237,7 +237,7 @@ struct NamedStyle {
 };
 
 // All flights by one way of drawing, in a scene of its own.
-Result<MovingRow> fly_all(const Gpu& gpu, RasterPath path, const std::vector<Flight>& flights,
+Result<MovingRow> fly_all(const Gpu& gpu, RasterPath path, const std::vector<RandomFlight>& flights,
                           const NamedStyle& style, BenchOptions options) {
     options.style = style.style;
     ORO_TRY(BenchRegion region, open_bench_region(options));
@@ -246,19 +246,19 @@ Result<MovingRow> fly_all(const Gpu& gpu, RasterPath path, const std::vector<Fli
     ORO_TRY(FrameRenderer renderer, renderer_for(gpu, path, options));
     MovingRow row{options.mesh, name_of(path), style.name, {}};
     MovingEye eye(scene, renderer, options, row.times);
-    for (const Flight& flight : flights) ORO_CHECK(eye.fly(flight));
+    for (const RandomFlight& flight : flights) ORO_CHECK(eye.fly(flight));
     return row;
 }
 
 // The checksum of all plans of all flights. Nothing is drawn.
-Result<std::string> fingerprint_of(const Gpu& gpu, const std::vector<Flight>& flights,
+Result<std::string> fingerprint_of(const Gpu& gpu, const std::vector<RandomFlight>& flights,
                                    const NamedStyle& style, BenchOptions options) {
     options.style = style.style;
     ORO_TRY(BenchRegion region, open_bench_region(options));
     ORO_TRY(Scene scene, scene_of(gpu, options, region));
     scene.require_fields(options.style);
     RunningChecksum sum;
-    for (const Flight& flight : flights)
+    for (const RandomFlight& flight : flights)
         for (const Camera& camera : flight.cameras) {
             ORO_TRY(FramePlan plan, plan_of_all(scene, camera, options));
             add_plan(std::move(plan.grids.front()), sum);
@@ -277,7 +277,7 @@ std::vector<NamedStyle> styles_of(const BenchOptions& options) {
     return styles;
 }
 
-Result<std::vector<Flight>> flights_of(const BenchOptions& options) {
+Result<std::vector<RandomFlight>> flights_of(const BenchOptions& options) {
     ORO_TRY(const BenchRegion region, open_bench_region(options));
     return random_flights(*region.pages, options.moving, options.frames, options.seed, options.width_px,
                           options.height_px);
@@ -288,7 +288,8 @@ std::vector<std::string> meshes_of(const BenchOptions& options) {
     return {options.mesh};
 }
 
-Result<void> print_fingerprints(const Gpu& gpu, const std::vector<Flight>& flights, BenchOptions options) {
+Result<void> print_fingerprints(const Gpu& gpu, const std::vector<RandomFlight>& flights,
+                                BenchOptions options) {
     for (const std::string& mesh : meshes_of(options))
         for (const NamedStyle& style : styles_of(options)) {
             options.mesh = mesh;
@@ -306,7 +307,7 @@ Result<void> run_moving(const Gpu& gpu, BenchOptions options) {
     if (options.region.empty())
         return Error{ErrorKind::usage, "--moving", "needs a region file (orograph bake makes one)"};
     ORO_TRY(const std::vector<RasterPath> paths, raster_paths_of(options, gpu.report()));
-    ORO_TRY(const std::vector<Flight> flights, flights_of(options));
+    ORO_TRY(const std::vector<RandomFlight> flights, flights_of(options));
     if (options.fingerprint) return print_fingerprints(gpu, flights, options);
     ordered_json json = ordered_json::object();
     json["device"] = gpu.report().name;

@@ -28,7 +28,7 @@ using oro::test::usage;
 using oro::test::view_in;
 using oro::test::Words;
 
-constexpr int rows = 81, columns = 121;
+constexpr int wood_rows = 81, wood_columns = 121;
 
 // A plain of 500 m in UTM zone 32, posts 10 m apart; over it a row of spruces of 20 m, from north to south.
 class CanopyCommand : public testing::Test {
@@ -40,11 +40,11 @@ class CanopyCommand : public testing::Test {
     [[nodiscard]] std::string written(const std::string& name, const char* type,
                                       const std::function<double(int row, int column)>& value) const {
         std::ofstream grid(path(name + ".asc"));
-        grid << "ncols " << columns << "\nnrows " << rows
+        grid << "ncols " << wood_columns << "\nnrows " << wood_rows
              << "\nxllcorner 500000\nyllcorner 5149190\ncellsize 10\n";
-        for (int row = 0; row < rows; ++row)
-            for (int column = 0; column < columns; ++column)
-                grid << value(row, column) << (column + 1 < columns ? ' ' : '\n');
+        for (int row = 0; row < wood_rows; ++row)
+            for (int column = 0; column < wood_columns; ++column)
+                grid << value(row, column) << (column + 1 < wood_columns ? ' ' : '\n');
         grid.close();
         const Outcome made = run_program({"gdal_translate", "-q", "-ot", type, "-a_srs", "EPSG:32632",
                                           path(name + ".asc"), path(name + ".tif")});
@@ -88,7 +88,7 @@ TEST_F(CanopyCommand, SaysThatSixMetresOfSpruceHideTheTarget) {
     EXPECT_EQ(report["canopy"]["from"], "file");
     EXPECT_FALSE(report["canopy"]["invented"].get<bool>());
     EXPECT_EQ(report["canopy"]["held"][0]["share"], 0.0);
-    EXPECT_EQ(report["canopy"]["raised_posts"], rows);
+    EXPECT_EQ(report["canopy"]["raised_posts"], wood_rows);
     const Outcome printed = run_orograph(sight({"--canopy", spruce}));
     EXPECT_EQ(printed.exit_code, 0);
     EXPECT_TRUE(says(printed.out, "\nFirst obstacle: canopy, 16.")) << printed.out;
