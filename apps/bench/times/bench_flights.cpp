@@ -68,7 +68,7 @@ double turned_deg(const PostGrid& grid, const Camera& camera, const FlightCourse
 
 // Moves an eye ahead by what it flies in a frame; within the region.
 void move_on(const PostGrid& grid, double above_m, Camera& camera) {
-    const double way_m = flight_speed_m_s(above_m) * flight_step_s;
+    const double way_m = random_flight_speed_m_s(above_m) * flight_step_s;
     const double heading_rad = camera.attitude.heading_deg / degrees;
     Geodetic& eye = camera.eye;
     eye.lon_deg += way_m * std::sin(heading_rad) * degrees /
@@ -101,7 +101,7 @@ Result<std::vector<Camera>> cameras_of(const PostGrid& grid, GroundBelow& ground
 
 }  // namespace
 
-double flight_speed_m_s(double above_m) {
+double random_flight_speed_m_s(double above_m) {
     return std::clamp(0.5 * above_m, 50.0, 5000.0);
 }
 

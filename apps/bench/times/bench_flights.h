@@ -20,7 +20,7 @@ struct RandomFlight {
 // gives the same frames everywhere.
 inline constexpr double flight_step_s = 1.0 / 60.0;
 // A flight's speed, metres a second, so high above the ground: half of its height each second, 50 to 5,000.
-[[nodiscard]] double flight_speed_m_s(double above_m);
+[[nodiscard]] double random_flight_speed_m_s(double above_m);
 
 // `count` flights of so many frames. Each begins over a post that is there, every one with the same chance,
 // 2 m to 20 km above the ground (log-uniform), and climbs or sinks evenly by a factor of at most two. It
