@@ -1,4 +1,4 @@
-# The longer tests of suites that take more than some four seconds, but for one of most suites, and sweeps of faults through
+# The longer tests of suites that take more than some three seconds, but for one of most suites, and sweeps of faults through
 # commands other than info: scripts/test --long runs them, scripts/test leaves them out. Tests that are not in the folder that includes this are passed
 # over.
 set_tests_properties(
@@ -8,13 +8,25 @@ set_tests_properties(
   Accuracy.SingleOptionsWinAndTheNameGoes
   Accuracy.ToleranceFromLooseToTight
   Accuracy.WhatSingleOptionsFixIsInThePrediction
+  AirTables.OfAMovingEyeAreMadeAnewNowAndThen
+  All/TrustedFormats.TellWhenTheyAreCut/9
   AtPlace.ACellIsFramed
   AtPlace.IsInTheMiddleAndNotUnderTheFeet
   AtPlace.IsStoodOnWhereAHeightOrAnotherPlaceIsNamed
   AtPlace.StraightDownKeepsTheAskedHeading
   BadInput.BoundingBoxes
+  BadInput.CommandLines
+  BadInput.FullDisk
   BadInput.LimitOfFileSizes
+  BadInput.MisnamedHgt
+  BadInput.NoDataInTheRegion
+  BadInput.NoMeshShader
+  BadInput.NoVulkanDriver
+  BadInput.Sizes
   BadInput.Styles
+  BadInput.TruncatedHgt
+  BadInput.UnreadableFile
+  BadInput.ViewFiles
   BadInput.ViewsThatMeanNothing
   BadInput.WholeNumbersAreDecimal
   Bake.AFlippedByteIsTold
@@ -22,12 +34,33 @@ set_tests_properties(
   Bake.BakedRegionsAreOpenedAloneAndAsTheyAre
   Bake.FilesOnItsWayAreSpared
   Bake.FilesThatAreNoBakedRegions
+  Bake.FullDisk
   Bake.InputsAreSpared
   Bake.LeftoversOfOtherInputAreNotUsed
   Bake.OutThatCannotBe
   Bake.PicturesAreThoseOfItsSources
+  Bake.TheSameInputMakesTheSameFile
   Bake.VoidsAreToldAndFilledWhenBaking
+  BakedFile.GivesFramesTheSameClusters
+  BakedFile.HasTheClustersThatWereWritten
+  BakedRegion.ABoxOverTheAntimeridian
+  BakedRegionErrors.BoxesWithoutPosts
+  BakedRegionErrors.OptionsThatWereDecidedWhenItWasBaked
+  BashCompletion.OfChoicesAndStyles
+  BashCompletion.OfCommandsAndOptions
   BrokenOffBake.KilledAtAnyMoment
+  CanopyCommand.AnEyeUnderTreesSeesNothing
+  CanopyCommand.PanoramasNameWhatIsSeenOverIt
+  CanopyCommand.PicturesHaveItAndTellOfIt
+  CanopyCommand.PlanTellsTheVegetationInMetresAndPixels
+  ClusterCertificate.HoldsAroundHoles
+  ClusterCertificate.HoldsInTheFarNorth
+  ClusterChoices.OfALevelAreAllOfIt
+  ClusterChoices.TheRuleIsThatOfNodes
+  ClusterChoices.TheRuleNeverStandsAboveWhatDoesNot
+  ClusterStreams.GoOnToAllThatAnEyeNeeds
+  ClusterStreams.GoOnWhileOthersChoose
+  ClusterStreams.TellOfDamageOnce
   ClustersBake.DamageIsOneLine
   ClustersBake.EightAtOnceLeaveOneFile
   ClustersBake.GoesOnWhereItWasBrokenOff
@@ -51,6 +84,16 @@ set_tests_properties(
   ComparedPixels.OtherFormatsPass
   ComparedPixels.TheOtherWayOfDrawingPasses
   ComparedPixels.TheSamePixelsWrittenAnewPass
+  CoordinatesOption.PlacesOfACrs
+  CoordinatesOption.SourceIsTheCrsOfTheData
+  Crs/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/UTMattheedgeofazone
+  Crs/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/degreesonanotherdatum
+  Crs/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/thenorthpole
+  Crs/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/thesouthpole
+  DamagedArchive.CutOrChangedTarGz
+  DamagedArchive.CutZip
+  DamagedArchive.NamesOfEntriesAreThoseThatGdalOpens
+  DamagedArchive.TooManyOpenFiles
   DamagedGeoidGrid.EveryCommandRefusesAndDoctorNamesTheFile
   DamagedRegion.AnyMutationThroughEachCommand
   DamagedRegion.EachPageInCoarsePictures
@@ -59,12 +102,27 @@ set_tests_properties(
   DeviceChoice.TakesTheBestThatCanDraw
   DeviceChoice.TakesTheOneThatIsNamed
   DeviceChoice.TimesCountValidBitsAlone
+  Earths/OracleOfModels.MeetsPostsOnANetAsMarchingAlongTheRayDoes/ellipsoid
+  Earths/OracleOfModels.MeetsPostsOnANetAsMarchingAlongTheRayDoes/flat
+  Earths/OracleOfModels.MeetsPostsOnANetAsMarchingAlongTheRayDoes/sphere
   Environment.ChangesNothingThatAFileMeans
   Environment.DoctorPrintsNoControlCharacters
+  Files/OwnDataOf.KeepsItsHeightsAndItsRange/4
+  Files/OwnDataOf.KeepsItsHeightsAndItsRange/8
   FilesFarApart.AreDrawnAgainAsTheyWere
   FilesFarApart.AreEachDrawnAsAlone
+  FilesFarApart.AreListedAsRegionsOfTheirOwn
   FilesFarApart.AreMeasured
+  FilesFarApart.AreOneRegionWhereTheGapIsSmall
+  Film.EachFrameTellsItsOwnPlaceAndTime
+  Film.FramesHaveTheirOwnSun
+  Film.FramesHaveTheirPosesBesideThem
+  Film.GoesOnWhereItStopped
   Film.KilledAgainAndAgainItHasTheSameBytes
+  Film.PartsAreTheWholeTogether
+  Film.ReplacesNoOtherFrames
+  Film.TracksAndTheirKeysAreOneFilm
+  FilmMovie.ThatFailsLeavesItsFrames
   FingerprintsOfViews.AViewThatHoldsNoFingerprintIsRefused
   FingerprintsOfViews.AnotherGeoidGridIsTold
   FingerprintsOfViews.AnotherVersionIsANoteUnlessPixelsDiffer
@@ -81,7 +139,15 @@ set_tests_properties(
   FoundViews.FarGroundOverAPlane
   FoundViews.GroundFromBelowThroughAHole
   FoundViews.WidePagesOnAPlane
+  FrameChoice.DrawsTheNodesOfTheReference
   GpuMemory.FewerPagesAreEnoughWhereTheyAre
+  GrassPictures.ShowTheSameBladesAtFullDetail
+  GrassRule.CoverageStaysWhereBladesThin
+  GridOfShifts/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/BETA2007every25m
+  GridOfShifts/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/BETA2007every90m
+  GridOfShifts/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/BETA2007everykm
+  GridOfShifts/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/NTF
+  GridOfShifts/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/NZGD49
   GridsBake.DamageIsFound
   GridsBake.IsDrawnAsTheFilesAre
   GridsBake.IsRefusedWhereOneGridIsAskedFor
@@ -98,27 +164,54 @@ set_tests_properties(
   GridsOverEachOther.AreTheSamePictureInAnyOrder
   GridsOverEachOther.AreToldApartByLayers
   GridsOverEachOther.AreToldOneByOne
+  GridsOverEachOther.AreToldWhereOneHasFarCloserPosts
   GridsOverEachOther.HaveARimThatIsForetold
   GridsOverEachOther.StandInPanoramasWithNames
   GridsUnderImages.LieOnTheSamePlaces
+  HeightUnit.GeoKey4099InEveryKindOfTiff
+  Help.ExplainsEachOption
   Help.HasNoWordsOfTheParser
   Help.HasTheSameExitLineEverywhere
   Help.HasTheSameHeadingsInTheSameOrder
   Help.HidesWhatDoesNothing
+  Help.ListsFirstWhatMostPeopleNeed
+  Hgt.AChangedByteInAnArchiveIsAnError
+  Hgt.GzipThatUnpacksToMoreThanItStates
+  Hgt.RealGzipTileOfPatagonia
+  Hgt.RealVoidTilesCountAsTheirReadmeSays
+  Hgt.SeveralTilesInOneZipAndMixedPaths
+  Hgt.ZipGzipAndFoldersGiveTheSameHeights
+  HostileInput.AReaderThatHasReadEnough
   HostileInput.AnInterruptedPictureLeavesNothing
   HostileInput.ClosedStandardError
+  HostileInput.FoldersInThePlaceOfFiles
+  HostileInput.OverwriteSparesWhatThePictureIsMadeFrom
   HostileInput.StandardOutputThatIsFullOrClosed
+  HostileInput.StylesWithNumbersThatNoFloatHolds
   HostileInput.ViewsWithNumbersThatWouldBeBent
   HostileSources.NetworkNamesInOtherPlacesReachNone
   HostileSources.SourcesOfAVrtReachNoNetwork
+  HostileVectors.ACutGeoPackageIsAnError
+  InputsSpared.NamesLinesStylesAndColours
+  InputsSpared.SourcesOfADrapedVrtOfVrts
   InputsSpared.TheViewAsASideOutput
   InputsSpared.TheViewOfShotAndPanorama
+  Jacksboro/Counts.StayWithinTheirBounds/edge
+  Jacksboro/Counts.StayWithinTheirBounds/from_space
+  Jacksboro/Counts.StayWithinTheirBounds/valley
+  Jacksboro/GoldenPicture.IsDrawnAsItWas/from_space
   Jacksboro/GoldenPicture.IsDrawnAsItWas/levels_coarse
+  Jacksboro/GoldenPicture.IsDrawnAsItWas/levels_overview
+  Jacksboro/GoldenPicture.IsDrawnAsItWas/levels_valley
+  Jacksboro/GoldenPicture.IsDrawnAsItWas/nadir
   Jacksboro/GoldenPicture.IsDrawnAsItWas/overview
   Jacksboro/GoldenPicture.IsDrawnAsItWas/overview_samples
   Jacksboro/GoldenPicture.IsDrawnAsItWas/valley
+  Jacksboro/GoldenPicture.IsDrawnAsItWasByCompute/from_space
   Jacksboro/GoldenPicture.IsDrawnAsItWasByCompute/levels_coarse
+  Jacksboro/GoldenPicture.IsDrawnAsItWasByCompute/levels_overview
   Jacksboro/GoldenPicture.IsDrawnAsItWasByCompute/levels_valley
+  Jacksboro/GoldenPicture.IsDrawnAsItWasByCompute/nadir
   Jacksboro/GoldenPicture.IsDrawnAsItWasByCompute/overview
   Jacksboro/GoldenPicture.IsDrawnAsItWasByCompute/overview_samples
   Jacksboro/GoldenPicture.IsDrawnAsItWasByCompute/valley
@@ -126,7 +219,19 @@ set_tests_properties(
   LabelsOfShots.AreLeftOutWhereTheViewSaysSo
   LabelsOfShots.AreTheSameFromABakedRegion
   LabelsOfShots.AreToldAndDrawnAgain
+  LyingClusterFile.ClustersThatTwoGroupsUse
+  LyingClusterFile.GroundTwice
+  LyingClusterFile.HolesInTheGround
+  LyingClusterFile.SpheresThatAreTooSmall
+  LyingClusterFile.UsersThatAreOnNoNextLevel
+  LyingClusterFile.UsersThatDoNotKnowOfIt
+  LyingClusterFile.VerticesGoneFromABorder
+  LyingClusterFile.WithNoLieIsRead
+  LyingGroups.ARootWithoutError
+  LyingGroups.SpheresThatHideTheirGroups
+  LyingGroups.WithNoLieAreDrawn
   Manual.HasEachOptionOfHelp
+  MaterialPictures.HaveTheTablesMeanColour
   ModelOptions.AreSaidAndKeptAndDrawnAgain
   ModelOptions.BadValuesAreRefused
   ModelOptions.HalfTheHeightsHalfTheBytes
@@ -139,6 +244,8 @@ set_tests_properties(
   OnSummit.AWallBeforeWhoStandsOnAFlankIsSaid
   OnSummit.IsSaidInWords
   OnSummit.MovesTheEyeOfEachCommandThatStands
+  Oracle.TenThousandRaysOntoASphere
+  OwnPosts.OfTilesAreThoseOfOneFile
   OwnPostsOfShots.AreDrawnAgainByEitherWayFromTheirView
   OwnPostsOfShots.ArePlannedAndTraded
   OwnPostsOfShots.AreRefusedWhereTheyCannotBe
@@ -152,7 +259,10 @@ set_tests_properties(
   Panorama.IsTheSameTwiceAndByItsView
   Panorama.RefusesWhatCannotBe
   Panorama.SaysTheSameInAllFormats
+  PanoramaFromPlace.IsTheCommands
+  PanoramaNames.AreThoseThatAreSeenAtTheAzimuthsOfGeographicLib
   PanoramaPeaks.AreWhereGeographicLibHasThemAndNamedWhereTheyAreSeen
+  Paths/FramesInFlight.AreThoseThatAreDrawnInTurn/mesh
   Pipeline.APictureMeasuresNothingWhereAProcessorDraws
   Pipeline.IsMeasuredOnceAndRemembered
   Pipeline.NeedsNoCache
@@ -161,44 +271,88 @@ set_tests_properties(
   Pipelines/EachCallOfVulkan.FailsWithALineAndNothingLeft/mesh
   Plan.ABakedRegionIsPlannedAsItsTiles
   Plan.BadValuesAreRefused
+  Plan.BeginsWithTheEye
   Plan.EmptyValuesAreRefused
   Plan.EndsInASentence
+  Plan.FiguresAreAligned
+  Plan.ItsPageExplainsEveryErrorAndColumn
+  Plan.NothingInViewIsSaid
   Plan.OddViewsHaveFiguresOrNothingInView
+  Plan.QuietLeavesTheTableAlone
   Plan.SaysHowLightGoes
+  Plan.TableNamesEveryEffectWithFiguresAndWhatIsLargest
   Plan.TakesAViewAndItsOwnOptionsOverIt
   Plan.TheLastLineIsOnTheTablesSideOfTheTolerance
   Plan.ToleranceJudges
   ProfileCommand.AMillionPlacesAreALine
   ProfileCommand.FilesHaveLinesOrAreRefused
   ProfileCommand.WhatIsWrongIsSaidInOneLine
+  RecordedView.DataThatAreGoneCanBeNamed
   RecordedView.LimitsAreTheSameOnBothSides
+  RecordedView.NamesThatAreNoUtf8LeadToTheirFiles
+  RecordedView.NoPathsWhereNoneAreWanted
   RecordedView.PathsStartFromThePicture
+  RecordedView.PathsThroughLinks
   RecordedView.PictureAndErrorsAreOneStep
+  RecordedView.PicturesOfOneNameDoNotMeet
+  RecordedView.ViewsOfBeforeStartFromTheWorkingFolder
   RefusedOptions.Choices
   RefusedOptions.MissingValues
   RefusedOptions.NamesThatThereAreNot
   RefusedOptions.NoCommandIsOneForHelpEither
   RefusedOptions.Numbers
+  Region.AVoidPostTakesItsNeighboursHeight
+  Region.MissingCellsAreNamed
+  Region.NeighboursShareTheirPostsOnceAndDisagreementsAreCounted
+  Region.RealAlpsAgreeOnEverySharedPost
+  Region.RealHimalayaDisagreesAndSaysByHowMuch
+  Region.RealWorldAndTooLargeRegions
+  Region.RoundTheEarthTheFirstAndLastColumnAreOneMeridian
+  Region.TilesOnBothSidesOfTheAntimeridianAreOneNarrowRegion
+  RegionDescription.RandomDamageIsReadOrRefused
+  RegionDescription.WhatIsNoDescriptionIsRefused
+  RegionFingerprints.AreOthersForOtherPosts
+  RegionFingerprints.AreThoseOfThePostsInEachContainer
   RegionWords.ACopyrightThatIsNoUtf8IsDrawnWithItsBadByteReplaced
   RegionWords.AViewOfAnotherPlaceIsRefusedAndTheSkyIsNoted
   RegionWords.VoidsAndMissingTilesAreCountedApart
+  Resampling.RealTileInThreeOtherSystems
+  ResamplingError.RealTileInSwissCoordinates
+  ResamplingReported.PicturesCarryItAndAreDrawnAgain
+  ResamplingReported.PlanHasARowForIt
+  ResamplingReported.WhatHeightsReferToCanBeToldAndSaysNothingWhereFilesSayIt
   ResamplingReported.WithoutBeingAskedForThereIsNone
   RewrittenFiles.MayBeImagesAndNames
   SameEverywhere.AViewUnderAnImage
   SameEverywhere.AViewWithEveryEffect
   SameEverywhere.EachEffectIsInTheView
   SameEverywhere.EdgesByChoice
+  SeenLines.LieWhereTheirPlacesAreSeenAndNowhereElse
   SeveralViews.AreDrawnOneAfterTheOther
   SeveralViews.MayBeAListInAFile
+  SeveralViews.NeedNumberedNames
   Shot.AntimeridianAndPoles
+  Shot.EyeBelowSeaLevelAndFacingNorth
   Shot.GrindelwaldFirst
+  Shot.InfoAndDoctorAreOneObject
+  Shot.MessagesGoToStandardError
+  Shot.NamesWithBlanksAndUmlauts
   Shot.SaysWhatItsMiddleSees
+  Shot.SaysWhereItWasTakenFrom
   Shot.TagsOfEveryFormatAgreeWithTheView
+  Shot.TakesTheHeightOfAGeoPlace
   Shot.ViewDrawsTheSameBytes
   Shot.VoidsAreHolesOrFilledAndCounted
   Shot.WholeRegionAndSamples
+  ShotDrape.IsInTheViewWhichDrawsItAgain
+  ShotDrape.IsTheSameOverABakedRegion
+  ShotDrape.LeavesPicturesWithoutItAsTheyWere
+  ShotDrape.OfAnEmptyGiantIsQuick
   ShotDrape.OfSixteenBitsIsWhatItsProfileOrTheOptionSays
   ShotDrape.ThatChangedIsTold
+  ShotGraticule.LiesOverTheGroundAndComesBackWithTheView
+  ShotLandcover.ColoursThePictureWhichItsViewDrawsAgain
+  ShotLandcover.OfARealOneLayersHoldTheClassThatGdalReadsThere
   ShotLayers.AreFilesThatGdalReads
   ShotLayers.AreNoPartOfTheView
   ShotLegend.ItsViewDrawsItAgain
@@ -209,6 +363,7 @@ set_tests_properties(
   ShotOrtho.HasAWorldFileInEveryFormat
   ShotOrtho.ItsViewDrawsItAgain
   ShotOrtho.RefusesWhatAMapCannotHave
+  SightCommand.LightBendsAsItIsAsked
   SightCommand.WhatIsWrongIsSaidInOneLine
   SkyBands.AreBrokenUpByDither
   SunCommand.NightIsNotHiddenByTerrain
@@ -218,6 +373,8 @@ set_tests_properties(
   SunOfAShot.IsTheUsualOneInTheStyleOfDaylight
   SunOfAShot.OlderPicturesKeepTheirs
   SunOfAShot.OtherStylesKeepTheirOwn
+  SunProperties.CirclesThePoles
+  SunProperties.RisesAndSetsWhereBruteForceSeesIt
   TextInput.NestedCacheIsWrittenAnew
   TextInput.PipesDevicesAndEndlessFilesAreRefused
   TradeCommand.AViewOfTheSkyHasNoErrorsToTell
@@ -226,13 +383,22 @@ set_tests_properties(
   TradeCommand.RefusesWhatItTriesItself
   TradeCommand.ReplacesOnlyWhenTold
   TradeCommand.WritesATableAndAPage
+  TreePictures.AreNoGround
+  TreePictures.AreTheSameByBothWaysOfDrawing
+  TreePictures.AreTheSameInTiles
+  UndeclaredVoids.EverySpellingIsVoidAndTold
   Unseen.APartThatWasChosenEndsAndMissesNothing
   Unseen.APictureOfAllTheDataSaysNothing
   Unseen.NothingIsSaidWhereAllLinesEndOnData
   Unseen.TheBundledRegionEndsToo
   Unseen.TheTileThatIsMissingIsNamedWithItsBound
+  UnseenGround.CellsMissingInsideAreAsWalked
+  UnseenGround.NoGroundThatIsLeftOutIsHigherThanTheBound
+  UnseenGround.OneTileIsAsWalked
+  Vectors.AFieldThatNoPointHasIsTold
   Vectors.AreInTheViewWhichDrawsThemAgain
   Vectors.LeavePicturesWithoutThemAsTheyWere
+  Vectors.NotesAndPathsAreKeptTo
   Vectors.ThatChangedAreTold
   Verify.BakedRegionsAreMeasured
   Verify.CompareRefusesWhatItMustNotWrite
@@ -242,19 +408,30 @@ set_tests_properties(
   Verify.ReplacesOnlyWhenTold
   Verify.TheErrorPictureHasALegend
   Verify.WhatAModelLeavesOutIsMeasured
+  VerticalDatum.AGridThatProjLacksIsNamedAndStrictRefuses
+  VerticalDatum.DepthsAndForeignUnits
+  VerticalDatum.HeightsInFeetOfThreeAxesAreConvertedOnce
   ViewshedCommand.IsAGeoTiffThatSaysWhatSightSays
   ViewshedCommand.OfAProjectedFileLiesOnItsOwnPosts
+  ViewshedCommand.TellsThatACircleLeavesTheData
   ViewshedCommand.WhatIsWrongIsSaidInOneLine
+  Voids.WhatNoSourceCoversStaysAHole
   Window.FliesJumpsTakesAPictureAndLeaves
   Window.FramesThatAreExplainedHaveALegend
+  Window.IsAsItWasLeft
   Window.IsShownAgainWhereItWasLost
   Window.LoadingLooksLikeLoading
   Window.SaysWhatChangedSinceThePicture
   Window.ShowsACoarsePictureWhileLevelsAreMeasured
+  Window.WithoutItsPanelsShowsThePictureThatItWrites
   WindowFaults.AtAnyCallEndItWithALine
   WindowFaults.EndItWithALine
+  WindowFaults.OfSuboptimalSwapchainsOneIsEnough
+  WindowFaults.SuboptimalSwapchainsAreMadeAnew
   WindowFlight.AMinuteOverTheAlps
   WindowFlight.MinutesOverPoland
+  WindowProjects.AreSavedAndOpenedAgain
+  WindowProjects.HoldLandCoverThatWasOpened
   WindowTour.LooksAsItDid
   WindowTwoViews.ThatAreTheSameShowTheSame
   WorldGrids.GiveOnePictureWhereverTheyBegin

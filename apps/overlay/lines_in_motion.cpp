@@ -1,5 +1,6 @@
 #include "apps/overlay/lines_in_motion.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "apps/options/view_limits.h"
@@ -9,8 +10,8 @@ namespace oro {
 namespace {
 
 constexpr std::size_t most_places = 100'000;
-constexpr double moving_apart_px = 6.0;
-constexpr double longest_s = 0.015;
+constexpr double nearest_apart_px = 4.0, farthest_apart_px = 40.0;
+constexpr double shortest_s = 0.003, longest_s = 0.010;  // of a frame
 
 }  // namespace
 
@@ -26,9 +27,15 @@ std::vector<StrokedLine> LinesInMotion::find(const View& view, const TrueGround&
     const PointsInView in_view(ground, view.camera, view.model);
     std::vector<StrokedLine> stroked;
     for (SeenLine& line :
-         seen_lines(lines_, in_view, view.camera, view_limits::overlay_width_px.high, moving_apart_px))
+         seen_lines(lines_, in_view, view.camera, view_limits::overlay_width_px.high, apart_px_))
         stroked.push_back({std::move(line.places_px), all.strokes[line.shape]});
-    is_slow_ = seconds_since(start) > longest_s;
+    const double took_s = seconds_since(start);
+    if (took_s > longest_s) {
+        is_slow_ = apart_px_ >= farthest_apart_px;
+        apart_px_ = std::min(farthest_apart_px, 2.0 * apart_px_);
+    } else if (took_s < shortest_s) {
+        apart_px_ = std::max(nearest_apart_px, 0.7 * apart_px_);
+    }
     return stroked;
 }
 

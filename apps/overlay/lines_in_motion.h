@@ -14,20 +14,25 @@ struct StrokedLine {
     Stroke stroke{};
 };
 
-// Follows lines over the ground once, and asks which parts of them are seen at places some pixels apart.
-// Where even that takes long it gives none until the eye has rested: a frame of an eye that moves must not
-// wait.
+// Follows lines over the ground once, and asks which parts of them are seen at places some pixels apart: so
+// many as a frame of an eye that moves has time for. Where even few take long it gives none until the eye has
+// rested.
 class LinesInMotion {
   public:
     // `ground`: of the view's region and exaggeration, the same one until forget() is called.
     std::vector<StrokedLine> find(const View& view, const TrueGround& ground);
     // The eye rests: the next frame of one that moves may try again.
-    void rest() { is_slow_ = false; }
+    void rest() {
+        if (is_slow_) apart_px_ = first_apart_px;
+        is_slow_ = false;
+    }
     void forget() { *this = {}; }
 
   private:
+    static constexpr double first_apart_px = 12.0;
     std::shared_ptr<const VectorsRead> of_;  // whose lines they are
     std::vector<GroundLine> lines_;
+    double apart_px_{first_apart_px};
     bool is_slow_{};
 };
 
