@@ -8,8 +8,6 @@ set_tests_properties(
   Accuracy.SingleOptionsWinAndTheNameGoes
   Accuracy.ToleranceFromLooseToTight
   Accuracy.WhatSingleOptionsFixIsInThePrediction
-  AirTables.OfAMovingEyeAreMadeAnewNowAndThen
-  All/TrustedFormats.TellWhenTheyAreCut/9
   AtPlace.ACellIsFramed
   AtPlace.IsInTheMiddleAndNotUnderTheFeet
   AtPlace.IsStoodOnWhereAHeightOrAnotherPlaceIsNamed
@@ -41,11 +39,6 @@ set_tests_properties(
   Bake.PicturesAreThoseOfItsSources
   Bake.TheSameInputMakesTheSameFile
   Bake.VoidsAreToldAndFilledWhenBaking
-  BakedFile.GivesFramesTheSameClusters
-  BakedFile.HasTheClustersThatWereWritten
-  BakedRegion.ABoxOverTheAntimeridian
-  BakedRegionErrors.BoxesWithoutPosts
-  BakedRegionErrors.OptionsThatWereDecidedWhenItWasBaked
   BashCompletion.OfChoicesAndStyles
   BashCompletion.OfCommandsAndOptions
   BrokenOffBake.KilledAtAnyMoment
@@ -53,14 +46,6 @@ set_tests_properties(
   CanopyCommand.PanoramasNameWhatIsSeenOverIt
   CanopyCommand.PicturesHaveItAndTellOfIt
   CanopyCommand.PlanTellsTheVegetationInMetresAndPixels
-  ClusterCertificate.HoldsAroundHoles
-  ClusterCertificate.HoldsInTheFarNorth
-  ClusterChoices.OfALevelAreAllOfIt
-  ClusterChoices.TheRuleIsThatOfNodes
-  ClusterChoices.TheRuleNeverStandsAboveWhatDoesNot
-  ClusterStreams.GoOnToAllThatAnEyeNeeds
-  ClusterStreams.GoOnWhileOthersChoose
-  ClusterStreams.TellOfDamageOnce
   ClustersBake.DamageIsOneLine
   ClustersBake.EightAtOnceLeaveOneFile
   ClustersBake.GoesOnWhereItWasBrokenOff
@@ -86,14 +71,6 @@ set_tests_properties(
   ComparedPixels.TheSamePixelsWrittenAnewPass
   CoordinatesOption.PlacesOfACrs
   CoordinatesOption.SourceIsTheCrsOfTheData
-  Crs/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/UTMattheedgeofazone
-  Crs/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/degreesonanotherdatum
-  Crs/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/thenorthpole
-  Crs/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/thesouthpole
-  DamagedArchive.CutOrChangedTarGz
-  DamagedArchive.CutZip
-  DamagedArchive.NamesOfEntriesAreThoseThatGdalOpens
-  DamagedArchive.TooManyOpenFiles
   DamagedGeoidGrid.EveryCommandRefusesAndDoctorNamesTheFile
   DamagedRegion.AnyMutationThroughEachCommand
   DamagedRegion.EachPageInCoarsePictures
@@ -102,13 +79,8 @@ set_tests_properties(
   DeviceChoice.TakesTheBestThatCanDraw
   DeviceChoice.TakesTheOneThatIsNamed
   DeviceChoice.TimesCountValidBitsAlone
-  Earths/OracleOfModels.MeetsPostsOnANetAsMarchingAlongTheRayDoes/ellipsoid
-  Earths/OracleOfModels.MeetsPostsOnANetAsMarchingAlongTheRayDoes/flat
-  Earths/OracleOfModels.MeetsPostsOnANetAsMarchingAlongTheRayDoes/sphere
   Environment.ChangesNothingThatAFileMeans
   Environment.DoctorPrintsNoControlCharacters
-  Files/OwnDataOf.KeepsItsHeightsAndItsRange/4
-  Files/OwnDataOf.KeepsItsHeightsAndItsRange/8
   FilesFarApart.AreDrawnAgainAsTheyWere
   FilesFarApart.AreEachDrawnAsAlone
   FilesFarApart.AreListedAsRegionsOfTheirOwn
@@ -139,15 +111,7 @@ set_tests_properties(
   FoundViews.FarGroundOverAPlane
   FoundViews.GroundFromBelowThroughAHole
   FoundViews.WidePagesOnAPlane
-  FrameChoice.DrawsTheNodesOfTheReference
   GpuMemory.FewerPagesAreEnoughWhereTheyAre
-  GrassPictures.ShowTheSameBladesAtFullDetail
-  GrassRule.CoverageStaysWhereBladesThin
-  GridOfShifts/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/BETA2007every25m
-  GridOfShifts/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/BETA2007every90m
-  GridOfShifts/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/BETA2007everykm
-  GridOfShifts/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/NTF
-  GridOfShifts/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/NZGD49
   GridsBake.DamageIsFound
   GridsBake.IsDrawnAsTheFilesAre
   GridsBake.IsRefusedWhereOneGridIsAskedFor
@@ -168,19 +132,12 @@ set_tests_properties(
   GridsOverEachOther.HaveARimThatIsForetold
   GridsOverEachOther.StandInPanoramasWithNames
   GridsUnderImages.LieOnTheSamePlaces
-  HeightUnit.GeoKey4099InEveryKindOfTiff
   Help.ExplainsEachOption
   Help.HasNoWordsOfTheParser
   Help.HasTheSameExitLineEverywhere
   Help.HasTheSameHeadingsInTheSameOrder
   Help.HidesWhatDoesNothing
   Help.ListsFirstWhatMostPeopleNeed
-  Hgt.AChangedByteInAnArchiveIsAnError
-  Hgt.GzipThatUnpacksToMoreThanItStates
-  Hgt.RealGzipTileOfPatagonia
-  Hgt.RealVoidTilesCountAsTheirReadmeSays
-  Hgt.SeveralTilesInOneZipAndMixedPaths
-  Hgt.ZipGzipAndFoldersGiveTheSameHeights
   HostileInput.AReaderThatHasReadEnough
   HostileInput.AnInterruptedPictureLeavesNothing
   HostileInput.ClosedStandardError
@@ -191,7 +148,6 @@ set_tests_properties(
   HostileInput.ViewsWithNumbersThatWouldBeBent
   HostileSources.NetworkNamesInOtherPlacesReachNone
   HostileSources.SourcesOfAVrtReachNoNetwork
-  HostileVectors.ACutGeoPackageIsAnError
   InputsSpared.NamesLinesStylesAndColours
   InputsSpared.SourcesOfADrapedVrtOfVrts
   InputsSpared.TheViewAsASideOutput
@@ -219,19 +175,7 @@ set_tests_properties(
   LabelsOfShots.AreLeftOutWhereTheViewSaysSo
   LabelsOfShots.AreTheSameFromABakedRegion
   LabelsOfShots.AreToldAndDrawnAgain
-  LyingClusterFile.ClustersThatTwoGroupsUse
-  LyingClusterFile.GroundTwice
-  LyingClusterFile.HolesInTheGround
-  LyingClusterFile.SpheresThatAreTooSmall
-  LyingClusterFile.UsersThatAreOnNoNextLevel
-  LyingClusterFile.UsersThatDoNotKnowOfIt
-  LyingClusterFile.VerticesGoneFromABorder
-  LyingClusterFile.WithNoLieIsRead
-  LyingGroups.ARootWithoutError
-  LyingGroups.SpheresThatHideTheirGroups
-  LyingGroups.WithNoLieAreDrawn
   Manual.HasEachOptionOfHelp
-  MaterialPictures.HaveTheTablesMeanColour
   ModelOptions.AreSaidAndKeptAndDrawnAgain
   ModelOptions.BadValuesAreRefused
   ModelOptions.HalfTheHeightsHalfTheBytes
@@ -244,8 +188,6 @@ set_tests_properties(
   OnSummit.AWallBeforeWhoStandsOnAFlankIsSaid
   OnSummit.IsSaidInWords
   OnSummit.MovesTheEyeOfEachCommandThatStands
-  Oracle.TenThousandRaysOntoASphere
-  OwnPosts.OfTilesAreThoseOfOneFile
   OwnPostsOfShots.AreDrawnAgainByEitherWayFromTheirView
   OwnPostsOfShots.ArePlannedAndTraded
   OwnPostsOfShots.AreRefusedWhereTheyCannotBe
@@ -259,10 +201,7 @@ set_tests_properties(
   Panorama.IsTheSameTwiceAndByItsView
   Panorama.RefusesWhatCannotBe
   Panorama.SaysTheSameInAllFormats
-  PanoramaFromPlace.IsTheCommands
-  PanoramaNames.AreThoseThatAreSeenAtTheAzimuthsOfGeographicLib
   PanoramaPeaks.AreWhereGeographicLibHasThemAndNamedWhereTheyAreSeen
-  Paths/FramesInFlight.AreThoseThatAreDrawnInTurn/mesh
   Pipeline.APictureMeasuresNothingWhereAProcessorDraws
   Pipeline.IsMeasuredOnceAndRemembered
   Pipeline.NeedsNoCache
@@ -301,23 +240,9 @@ set_tests_properties(
   RefusedOptions.NamesThatThereAreNot
   RefusedOptions.NoCommandIsOneForHelpEither
   RefusedOptions.Numbers
-  Region.AVoidPostTakesItsNeighboursHeight
-  Region.MissingCellsAreNamed
-  Region.NeighboursShareTheirPostsOnceAndDisagreementsAreCounted
-  Region.RealAlpsAgreeOnEverySharedPost
-  Region.RealHimalayaDisagreesAndSaysByHowMuch
-  Region.RealWorldAndTooLargeRegions
-  Region.RoundTheEarthTheFirstAndLastColumnAreOneMeridian
-  Region.TilesOnBothSidesOfTheAntimeridianAreOneNarrowRegion
-  RegionDescription.RandomDamageIsReadOrRefused
-  RegionDescription.WhatIsNoDescriptionIsRefused
-  RegionFingerprints.AreOthersForOtherPosts
-  RegionFingerprints.AreThoseOfThePostsInEachContainer
   RegionWords.ACopyrightThatIsNoUtf8IsDrawnWithItsBadByteReplaced
   RegionWords.AViewOfAnotherPlaceIsRefusedAndTheSkyIsNoted
   RegionWords.VoidsAndMissingTilesAreCountedApart
-  Resampling.RealTileInThreeOtherSystems
-  ResamplingError.RealTileInSwissCoordinates
   ResamplingReported.PicturesCarryItAndAreDrawnAgain
   ResamplingReported.PlanHasARowForIt
   ResamplingReported.WhatHeightsReferToCanBeToldAndSaysNothingWhereFilesSayIt
@@ -327,7 +252,6 @@ set_tests_properties(
   SameEverywhere.AViewWithEveryEffect
   SameEverywhere.EachEffectIsInTheView
   SameEverywhere.EdgesByChoice
-  SeenLines.LieWhereTheirPlacesAreSeenAndNowhereElse
   SeveralViews.AreDrawnOneAfterTheOther
   SeveralViews.MayBeAListInAFile
   SeveralViews.NeedNumberedNames
@@ -373,8 +297,6 @@ set_tests_properties(
   SunOfAShot.IsTheUsualOneInTheStyleOfDaylight
   SunOfAShot.OlderPicturesKeepTheirs
   SunOfAShot.OtherStylesKeepTheirOwn
-  SunProperties.CirclesThePoles
-  SunProperties.RisesAndSetsWhereBruteForceSeesIt
   TextInput.NestedCacheIsWrittenAnew
   TextInput.PipesDevicesAndEndlessFilesAreRefused
   TradeCommand.AViewOfTheSkyHasNoErrorsToTell
@@ -383,18 +305,11 @@ set_tests_properties(
   TradeCommand.RefusesWhatItTriesItself
   TradeCommand.ReplacesOnlyWhenTold
   TradeCommand.WritesATableAndAPage
-  TreePictures.AreNoGround
-  TreePictures.AreTheSameByBothWaysOfDrawing
-  TreePictures.AreTheSameInTiles
-  UndeclaredVoids.EverySpellingIsVoidAndTold
   Unseen.APartThatWasChosenEndsAndMissesNothing
   Unseen.APictureOfAllTheDataSaysNothing
   Unseen.NothingIsSaidWhereAllLinesEndOnData
   Unseen.TheBundledRegionEndsToo
   Unseen.TheTileThatIsMissingIsNamedWithItsBound
-  UnseenGround.CellsMissingInsideAreAsWalked
-  UnseenGround.NoGroundThatIsLeftOutIsHigherThanTheBound
-  UnseenGround.OneTileIsAsWalked
   Vectors.AFieldThatNoPointHasIsTold
   Vectors.AreInTheViewWhichDrawsThemAgain
   Vectors.LeavePicturesWithoutThemAsTheyWere
@@ -408,14 +323,10 @@ set_tests_properties(
   Verify.ReplacesOnlyWhenTold
   Verify.TheErrorPictureHasALegend
   Verify.WhatAModelLeavesOutIsMeasured
-  VerticalDatum.AGridThatProjLacksIsNamedAndStrictRefuses
-  VerticalDatum.DepthsAndForeignUnits
-  VerticalDatum.HeightsInFeetOfThreeAxesAreConvertedOnce
   ViewshedCommand.IsAGeoTiffThatSaysWhatSightSays
   ViewshedCommand.OfAProjectedFileLiesOnItsOwnPosts
   ViewshedCommand.TellsThatACircleLeavesTheData
   ViewshedCommand.WhatIsWrongIsSaidInOneLine
-  Voids.WhatNoSourceCoversStaysAHole
   Window.FliesJumpsTakesAPictureAndLeaves
   Window.FramesThatAreExplainedHaveALegend
   Window.IsAsItWasLeft
@@ -499,6 +410,7 @@ set_tests_properties(
   PROPERTIES LABELS "faults;long")
 set_tests_properties(
   AirTables.GroundIsSeenThroughWhatBruteForceGives
+  AirTables.OfAMovingEyeAreMadeAnewNowAndThen
   AirTables.PixelsOfTheSkyAreWhatBruteForceGives
   AirTables.SkyIsWhatBruteForceGives
   Areas.AreTintedWhereTheOracleSeesThem
@@ -511,6 +423,9 @@ set_tests_properties(
   ClusterPictures.HaveNoCracks
   ClusterPictures.HaveNoCracksWhileTheyStream
   ClusterPictures.OfTheAlpsHaveNoCracks
+  ClusterStreams.GoOnToAllThatAnEyeNeeds
+  ClusterStreams.GoOnWhileOthersChoose
+  ClusterStreams.TellOfDamageOnce
   ColourTables.AreReadAndMixedAsGdaldemDoes
   Contours.AreThoseOfGdal
   Contours.StandFiveToFortyPixelsApart
@@ -557,6 +472,8 @@ set_tests_properties(
   Footprint.LeavesAnglesOfLargePosts
   Footprint.ShadowsFollowTheSunInOneRenderer
   Footprint.ShadowsOfFarGroundAreNoSpeckle
+  GrassPictures.ShowTheSameBladesAtFullDetail
+  GrassRule.CoverageStaysWhereBladesThin
   Halves.LeaveTheLowerIdWhereTrianglesAreAsNear
   Halves.ShowTheTrianglesOfWholeMeshletsAtRims
   Halves.ShowTheTrianglesOfWholeMeshletsInRounds
@@ -570,9 +487,11 @@ set_tests_properties(
   LayersOfPictures.OfMadeTerrainAreTheOracles
   LayersOfPictures.OfRealTerrainAreTheOracles
   Markers.AreWhereTheMeasureSaysTheyAre
+  MaterialPictures.HaveTheTablesMeanColour
   Memory.OfSixtyFourMegabytesIsEnoughForSixtyEightTiles
   ModelPlacement.PostsAreWhereTheModelPutsThem
   OrthoMaps.LieOverTheirSourceInEveryCrs
+  PanoramaFromPlace.IsTheCommands
   Paths/Choice.AndThePictureAreTheSameWithLittleMemory/compute
   Paths/Choice.AndThePictureAreTheSameWithLittleMemory/mesh
   Paths/Choice.CoarserPagesStandInForMissingOnes/mesh
@@ -610,6 +529,7 @@ set_tests_properties(
   Paths/Frame.LookingDownShowsNoGap/mesh
   Paths/Frame.TilesJoinIntoTheSamePicture/compute
   Paths/Frame.TilesJoinIntoTheSamePicture/mesh
+  Paths/FramesInFlight.AreThoseThatAreDrawnInTurn/mesh
   Paths/GridsTogether.AreWhatBruteForceFinds/mesh
   Paths/GridsTogether.AreWithinTauOfTheTruth/compute
   Paths/GridsTogether.AreWithinTauOfTheTruth/mesh
@@ -706,6 +626,9 @@ set_tests_properties(
   TradeOfViews.PredictionsHoldOnSeveralGrids
   TradeOrder.CountsAreThoseOfAnyOrderAndAnyRepeats
   TradeOrder.NorDoTheyDependOnWhatFillsTheMemory
+  TreePictures.AreNoGround
+  TreePictures.AreTheSameByBothWaysOfDrawing
+  TreePictures.AreTheSameInTiles
   Triangles/FullLists.PicturesAreThoseOfListsWithRoom/blocks
   Triangles/FullLists.PicturesAreThoseOfListsWithRoom/clusters
   Triangles/FullLists.WhatCannotBeClippedIsAnError/clusters
@@ -727,17 +650,28 @@ set_tests_properties(
   All/TrustedFormats.TellWhenTheyAreCut/5
   All/TrustedFormats.TellWhenTheyAreCut/6
   All/TrustedFormats.TellWhenTheyAreCut/7
+  All/TrustedFormats.TellWhenTheyAreCut/9
   BakedFile.DamageIsToldInOneLine
+  BakedFile.GivesFramesTheSameClusters
   BakedFile.HasSeveralGridsInTheirOrder
+  BakedFile.HasTheClustersThatWereWritten
   BakedRegion.ABoxCutsOutWhatItCutsOutOfTheSources
+  BakedRegion.ABoxOverTheAntimeridian
   BakedRegion.ABoxThatEndsBetweenSourcesHasVoidPostsThere
   BakedRegion.IsTheSurfaceOfItsSources
+  BakedRegionErrors.BoxesWithoutPosts
   BakedRegionErrors.DescriptionsThatDoNotFit
+  BakedRegionErrors.OptionsThatWereDecidedWhenItWasBaked
   BenchTin.IsWithinItsErrorAtEveryPlaceOfRandomFields
   Certificate.NothingInViewIsFartherThanTauFromItsPlace
+  ClusterCertificate.HoldsAroundHoles
+  ClusterCertificate.HoldsInTheFarNorth
   ClusterCertificate.HoldsOnANet
   ClusterCertificate.HoldsOverRoughGround
   ClusterChoices.IsTheCutButForWhatCannotBeSeen
+  ClusterChoices.OfALevelAreAllOfIt
+  ClusterChoices.TheRuleIsThatOfNodes
+  ClusterChoices.TheRuleNeverStandsAboveWhatDoesNot
   ClusterCutCover.PlacesAtRandomAreInOneTriangle
   ClusterCutCover.RoughGroundIsCoveredOnceByAnyCut
   ClusterCutCover.SoIsGroundWithHoles
@@ -752,17 +686,31 @@ set_tests_properties(
   ClusterGraph.ASeaIsNotOneGroup
   ClusterGraph.DoesNotDependOnThreads
   Core/NodeDeviationsOnRoughGround.AreTheWorstOfEveryPlaceAndStitching/WithoutVoids
+  Crs/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/UTMattheedgeofazone
+  Crs/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/degreesonanotherdatum
+  Crs/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/thenorthpole
+  Crs/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/thesouthpole
   Culling.NoVisiblePostIsEverCulled
   CylinderTiles.UnrollToTheColoursOfTheirDirections
+  DamagedArchive.CutOrChangedTarGz
+  DamagedArchive.CutZip
+  DamagedArchive.NamesOfEntriesAreThoseThatGdalOpens
+  DamagedArchive.TooManyOpenFiles
   DamagedGeoid.AWholeCopyIsTakenAndTellsTheSameNEverywhere
   DamagedGeoid.CutEmptyAndHeaderOnlyGridsAreErrors
   DamagedGeoid.CutGridsAreErrorsBehindLinksAndInTheUsersOwnFolder
   DamagedGeoid.ZerosNoValuesAndForeignNumbersAreErrors
   DisplayText.NothingIsDecidedOnIt
+  Earths/OracleOfModels.MeetsPostsOnANetAsMarchingAlongTheRayDoes/ellipsoid
+  Earths/OracleOfModels.MeetsPostsOnANetAsMarchingAlongTheRayDoes/flat
+  Earths/OracleOfModels.MeetsPostsOnANetAsMarchingAlongTheRayDoes/sphere
   EffectBounds.HoldBetweenTheSamples
   Files/OwnDataOf.KeepsItsHeightsAndItsRange/1
   Files/OwnDataOf.KeepsItsHeightsAndItsRange/2
   Files/OwnDataOf.KeepsItsHeightsAndItsRange/3
+  Files/OwnDataOf.KeepsItsHeightsAndItsRange/4
+  Files/OwnDataOf.KeepsItsHeightsAndItsRange/8
+  FrameChoice.DrawsTheNodesOfTheReference
   FrameChoice.HasNoGapsWhateverIsMissing
   FrameChoice.MeetsItselfRoundTheEarth
   FramePlan.HasAsManyPagesAsTriangleIdsCanNumber
@@ -774,17 +722,41 @@ set_tests_properties(
   GraphWindow.AtTheRegionsOwnRimNothingIsOpen
   GraphWindow.WholeGroupsAreThoseOfTheRegion
   GridClip.RandomGridsCoverEveryPlaceOnce
+  GridOfShifts/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/BETA2007every25m
+  GridOfShifts/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/BETA2007every90m
+  GridOfShifts/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/BETA2007everykm
+  GridOfShifts/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/NTF
+  GridOfShifts/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/NZGD49
   Ground.FromTheMoonOntoTheWholeEarth
   Ground.TheFirstOfManyCrossingsIsFound
   GroundProfile.TenThousandLinesLeaveNothingOut
+  HeightUnit.GeoKey4099InEveryKindOfTiff
   HeldByFrames.AreTheSameClustersWithinTheBudget
+  Hgt.AChangedByteInAnArchiveIsAnError
+  Hgt.GzipThatUnpacksToMoreThanItStates
+  Hgt.RealGzipTileOfPatagonia
+  Hgt.RealVoidTilesCountAsTheirReadmeSays
+  Hgt.SeveralTilesInOneZipAndMixedPaths
   Hgt.TilesOfHalfASecond
+  Hgt.ZipGzipAndFoldersGiveTheSameHeights
   HorizontalDatums.DynamicDatumsAndEpochs
+  HostileVectors.ACutGeoPackageIsAnError
   HostileVectors.AMillionPlacesAreReadAtOnce
   Levels.CoverTheRegionOnceInStepsOfOne
   Listing.ADamagedCacheIsIgnored
   Listing.HeadersOfTenThousandFilesAreReadOnce
+  LyingClusterFile.ClustersThatTwoGroupsUse
+  LyingClusterFile.GroundTwice
+  LyingClusterFile.HolesInTheGround
+  LyingClusterFile.SpheresThatAreTooSmall
+  LyingClusterFile.UsersThatAreOnNoNextLevel
+  LyingClusterFile.UsersThatDoNotKnowOfIt
+  LyingClusterFile.VerticesGoneFromABorder
+  LyingClusterFile.WithNoLieIsRead
+  LyingGroups.ARootWithoutError
   LyingGroups.SpheresThatAreTooSmall
+  LyingGroups.SpheresThatHideTheirGroups
+  LyingGroups.WithNoLieAreDrawn
   MeshForecasts.AreTheSameOfPostsReadPageByPage
   ModelView.TheHorizonHidesNothingThatBentLightShows
   MovedTruth.NorWhereSpiresAloneMove
@@ -795,21 +767,39 @@ set_tests_properties(
   NetViewshed.IsTheLookoutsTurnedOverTheAntimeridianAndAPole
   NetViewshed.WindowsHoldTheCircle
   Observer.TenThousandPairsAreTheMarchedLines
+  Oracle.TenThousandRaysOntoASphere
   OwnPosts.OfSeveralLatticesAreResampled
+  OwnPosts.OfTilesAreThoseOfOneFile
   PackedRegion.OfEveryKindComesBack
   PackedRegion.OfTheAlpsTakesLessThanAThird
+  PanoramaNames.AreThoseThatAreSeenAtTheAzimuthsOfGeographicLib
   Placement.FromAfarTheErrorIsAShareOfTheDistance
   Placement.HoldsForAllThatIsNear
   Raster.RealCollection
+  Region.AVoidPostTakesItsNeighboursHeight
   Region.FinerSpacingWinsAndCoarserFillsWithItsTriangles
+  Region.MissingCellsAreNamed
+  Region.NeighboursShareTheirPostsOnceAndDisagreementsAreCounted
   Region.PostsThatACoarserSourceLendsToAVoidAreSaid
+  Region.RealAlpsAgreeOnEverySharedPost
+  Region.RealHimalayaDisagreesAndSaysByHowMuch
+  Region.RealWorldAndTooLargeRegions
+  Region.RoundTheEarthTheFirstAndLastColumnAreOneMeridian
+  Region.TilesOnBothSidesOfTheAntimeridianAreOneNarrowRegion
+  RegionDescription.RandomDamageIsReadOrRefused
+  RegionDescription.WhatIsNoDescriptionIsRefused
   RegionFile.RefusesEveryFlippedBit
   RegionFile.SurvivesRandomHeaders
   RegionFileWriter.GoesOnAfterAnyBreak
+  RegionFingerprints.AreOthersForOtherPosts
+  RegionFingerprints.AreThoseOfThePostsInEachContainer
   RegionGround.LookoutsSeeOverSteps
   RegionGround.SightLinesMeetWhatMarchingFinds
+  Resampling.RealTileInThreeOtherSystems
+  ResamplingError.RealTileInSwissCoordinates
   ResamplingError.RotatedInFeetAndAnotherProjection
   ResamplingError.TheHighestPostOfManyIsAlwaysThere
+  SeenLines.LieWhereTheirPlacesAreSeenAndNowhereElse
   SeenPoints.AreThoseThatAWalkAlongTheSightLineSees
   Shape.FunctionsAreShort
   StoredValues.OfAllRealFilesAreThoseOfGdal
@@ -818,17 +808,27 @@ set_tests_properties(
   StreamedChoices.WhatIsHiddenComesLast
   SunOverAlps.WithinTenSecondsOfBruteForce
   SunOverTerrain.WithinTenSecondsOfBruteForce
+  SunProperties.CirclesThePoles
+  SunProperties.RisesAndSetsWhereBruteForceSeesIt
   TradeScript.ThePageEscapesEverything
   TradeScript.ThePageHoldsEveryPoint
   TrustedFormat.MasksAndSourcesTellWhenTheyAreCut
+  UndeclaredVoids.EverySpellingIsVoidAndTold
+  UnseenGround.CellsMissingInsideAreAsWalked
   UnseenGround.CostsLittle
+  UnseenGround.NoGroundThatIsLeftOutIsHigherThanTheBound
+  UnseenGround.OneTileIsAsWalked
   UnseenGround.TheAntimeridianIsAsWalked
   UnseenGround.ThePolesAreAsWalked
+  VerticalDatum.AGridThatProjLacksIsNamedAndStrictRefuses
+  VerticalDatum.DepthsAndForeignUnits
+  VerticalDatum.HeightsInFeetOfThreeAxesAreConvertedOnce
   Viewshed.IsTheLookoutsOverHills
   Viewshed.IsTheLookoutsOverTheAntimeridianAndNearThePole
   Viewshed.OfMadeTerrainIsGdals
   ViewshedOfGdal.OfARealTileIsGdals
   ViewshedOfGrids.IsWhatMarchedLinesSee
+  Voids.WhatNoSourceCoversStaysAHole
   WindowedGraph.GoesOnAfterABreak
   WindowedGraph.HasTheBytesOfOneGo
   WindowedGraph.HasTheBytesOfOneGoInStages

@@ -20,7 +20,8 @@ struct StrokedLine {
 class LinesInMotion {
   public:
     // `ground`: of the view's region and exaggeration, the same one until forget() is called.
-    std::vector<StrokedLine> find(const View& view, const TrueGround& ground);
+    // longest_s: what it may take of a frame; it keeps to that from the next frame on.
+    std::vector<StrokedLine> find(const View& view, const TrueGround& ground, double longest_s);
     // The eye rests: the next frame of one that moves may try again.
     void rest() {
         if (is_slow_) apart_px_ = first_apart_px;

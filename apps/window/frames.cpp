@@ -125,7 +125,8 @@ Result<FramePlan> plan_now(Viewer& viewer, const Camera& camera, double tau_px) 
 std::vector<StrokedLine> lines_over_next(Viewer& viewer) {
     if (!viewer.follows_eye) viewer.lines_in_motion.rest();
     if (!viewer.follows_eye || !viewer.ground || viewer.two.second || viewer.view.show) return {};
-    return viewer.lines_in_motion.find(viewer.view, viewer.ground->ground());
+    const double longest_s = std::clamp(0.25 * viewer.frame_s, 0.003, 0.015);
+    return viewer.lines_in_motion.find(viewer.view, viewer.ground->ground(), longest_s);
 }
 
 // What a frame that is done tells. Where several are under way, a frame takes the time since the one before
