@@ -35,10 +35,11 @@ void thin_out(GroundLine& line) {
 
 std::vector<StrokedLine> LinesInMotion::find(const View& view, const TrueGround& ground, double longest_s) {
     if (is_slow_ || !view.vectors_read || view.vectors_read->overlay.empty()) return {};
-    const OverlayShapes all = overlay_shapes(view);
     if (of_ != view.vectors_read) {
+        OverlayShapes all = overlay_shapes(view);
         lines_ = ground_lines(all.shapes, ground, most_places).value_or(std::vector<GroundLine>());
         for (GroundLine& line : lines_) thin_out(line);
+        strokes_ = std::move(all.strokes);
         of_ = view.vectors_read;
     }
     if (lines_.empty()) return {};
@@ -47,7 +48,7 @@ std::vector<StrokedLine> LinesInMotion::find(const View& view, const TrueGround&
     std::vector<StrokedLine> stroked;
     for (SeenLine& line :
          seen_lines(lines_, in_view, view.camera, view_limits::overlay_width_px.high, apart_px_))
-        stroked.push_back({std::move(line.places_px), all.strokes[line.shape]});
+        stroked.push_back({std::move(line.places_px), strokes_[line.shape]});
     const double took_s = seconds_since(start);
     if (took_s > longest_s) {
         is_slow_ = apart_px_ >= farthest_apart_px;

@@ -33,6 +33,7 @@ class LinesInMotion {
     static constexpr double first_apart_px = 12.0;
     std::shared_ptr<const VectorsRead> of_;  // whose lines they are
     std::vector<GroundLine> lines_;
+    std::vector<Stroke> strokes_;  // by the shapes of these
     double apart_px_{first_apart_px};
     bool is_slow_{};
 };

@@ -6,18 +6,11 @@
 #include <cstdio>
 #include <utility>
 
-#include "geo/drape/raster_opening.h"
+#include "geo/drape/pixel_values.h"
 #include "geo/drape/shared_raster.h"
-#include "geo/files/guarded_files.h"
 
 namespace oro {
 namespace {
-
-// The middle of a raster's longitudes, where it has some: places are looked for in the turn around it.
-double middle_x(const CanopySource& source) {
-    const auto& m = source.crs_from_pixel;
-    return m[0] + 0.5 * (m[1] * source.columns + m[2] * source.rows);
-}
 
 // What is wrong with a value as the height of a canopy.
 std::string fault_of_height(double height_m, int column, int row) {
@@ -36,41 +29,6 @@ std::string fault_of_height(double height_m, int column, int row) {
             height_m, column, row, highest_canopy_m);
     return text;
 }
-
-// Reads single pixels of one file. The library keeps the blocks that they are in.
-class HeightReader {
-  public:
-    HeightReader(const CanopySource& source, GDALDatasetH dataset)
-        : source_(source), band_(GDALGetRasterBand(dataset, 1)) {}
-
-    // Leaves the height where the place is beyond the raster, and where that has no data.
-    Result<void> read(const PixelPlace& place, float& canopy_m) {
-        if (!place.there()) return {};
-        const double x = std::floor(place.column), y = std::floor(place.row);
-        if (!(x >= 0.0 && y >= 0.0 && x < source_.columns && y < source_.rows)) return {};
-        const int column = static_cast<int>(x), row = static_cast<int>(y);
-        double value = 0.0;
-        const bool is_read = band_ != nullptr && GDALRasterIO(band_, GF_Read, column, row, 1, 1, &value, 1, 1,
-                                                              GDT_Float64, 0, 0) == CE_None;
-        if (!is_read || !watch_.fault().empty())
-            return Error{ErrorKind::failed, source_.file,
-                         !watch_.fault().empty() ? watch_.fault()
-                                                 : "cannot be read near row " + std::to_string(row) + ": " +
-                                                       messages_.last("the file is damaged")};
-        if (!std::isfinite(value) || value == source_.no_data) return {};
-        const double height_m = source_.scale * value + source_.offset;
-        if (!(height_m >= lowest_canopy_m && height_m <= highest_canopy_m))
-            return Error{ErrorKind::failed, source_.file, fault_of_height(height_m, column, row)};
-        canopy_m = static_cast<float>(std::max(height_m, 0.0));
-        return {};
-    }
-
-  private:
-    const CanopySource& source_;
-    GDALRasterBandH band_;
-    GdalMessages messages_;
-    FileWatch watch_{reading_limit_s};
-};
 
 }  // namespace
 
@@ -102,16 +60,16 @@ std::vector<std::string> CanopyMap::notes() const {
 Result<void> CanopyMap::add_heights_of(std::size_t file, std::span<const double> lat_deg,
                                        std::span<const double> lon_deg, std::span<float> canopy_m) const {
     const CanopySource& source = sources_[file];
-    ORO_TRY(OpenRaster open, rasters_[file]->take());
-    std::vector<double> x(lon_deg.begin(), lon_deg.end()), y(lat_deg.begin(), lat_deg.end());
-    std::vector<PixelPlace> places;
-    open.placing.place(x, y, source.geographic ? middle_x(source) : 0.0, places);
-    {
-        HeightReader reader(source, open.dataset.get());
-        for (std::size_t i = 0; i < places.size(); ++i) ORO_CHECK(reader.read(places[i], canopy_m[i]));
-    }
-    rasters_[file]->give_back(std::move(open));
-    return {};
+    return read_pixels_at(source, *rasters_[file], lat_deg, lon_deg,
+                          [&](const PixelValue& pixel) -> Result<void> {
+                              if (!std::isfinite(pixel.value) || pixel.value == source.no_data) return {};
+                              const double height_m = source.scale * pixel.value + source.offset;
+                              if (!(height_m >= lowest_canopy_m && height_m <= highest_canopy_m))
+                                  return Error{ErrorKind::failed, source.file,
+                                               fault_of_height(height_m, pixel.column, pixel.row)};
+                              canopy_m[pixel.place] = static_cast<float>(std::max(height_m, 0.0));
+                              return {};
+                          });
 }
 
 Result<void> CanopyMap::heights_at(std::span<const double> lat_deg, std::span<const double> lon_deg,

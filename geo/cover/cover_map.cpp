@@ -4,11 +4,12 @@
 #include <cassert>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
+#include "geo/drape/pixel_values.h"
 #include "geo/drape/raster_opening.h"
 #include "geo/drape/shared_raster.h"
-#include "geo/files/guarded_files.h"
 
 namespace oro {
 namespace {
@@ -17,41 +18,10 @@ std::string file_name_of(const std::string& path) {
     return std::filesystem::path(path).filename().string();
 }
 
-// The pixel that a place lies in; false beyond the raster.
-bool pixel_at(const CoverSource& source, const PixelPlace& place, int& column, int& row) {
-    if (!place.there()) return false;
-    const double x = std::floor(place.column), y = std::floor(place.row);
-    if (!(x >= 0.0 && y >= 0.0 && x < source.columns && y < source.rows)) return false;
-    column = static_cast<int>(x);
-    row = static_cast<int>(y);
-    return true;
-}
-
-// Reads single pixels of one file. The library keeps the blocks that they are in.
-Result<void> read_codes(const CoverSource& source, GDALDatasetH dataset, std::span<const PixelPlace> places,
-                        const CoverMap& map, std::span<int> codes) {
-    const GDALRasterBandH band = GDALGetRasterBand(dataset, 1);
-    const GdalMessages messages;
-    FileWatch watch(reading_limit_s);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        int column = 0, row = 0, code = 0;
-        if (!pixel_at(source, places[i], column, row)) continue;
-        const bool is_read = band != nullptr && GDALRasterIO(band, GF_Read, column, row, 1, 1, &code, 1, 1,
-                                                             GDT_Int32, 0, 0) == CE_None;
-        if (!is_read || !watch.fault().empty())
-            return Error{ErrorKind::failed, source.file,
-                         !watch.fault().empty() ? watch.fault()
-                                                : "cannot be read near row " + std::to_string(row) + ": " +
-                                                      messages.last("the file is damaged")};
-        if (map.is_cover(source, code)) codes[i] = code;
-    }
-    return {};
-}
-
-// The middle of a raster's longitudes, where it has some: places are looked for in the turn around it.
-double middle_lon_deg(const CoverSource& source) {
-    const auto& m = source.crs_from_pixel;
-    return m[0] + 0.5 * (m[1] * source.columns + m[2] * source.rows);
+// As the library makes whole numbers of others; 0 of what is none.
+int code_of_value(double value) {
+    constexpr double low = std::numeric_limits<int>::min(), high = std::numeric_limits<int>::max();
+    return std::isnan(value) ? 0 : static_cast<int>(std::lround(std::clamp(value, low, high)));
 }
 
 Result<CoverTable> chosen_table(const std::vector<CoverSource>& sources,
@@ -111,13 +81,12 @@ Result<std::shared_ptr<const CoverMap>> CoverMap::of(std::vector<CoverSource> so
 Result<void> CoverMap::add_codes_of(std::size_t file, std::span<const double> lat_deg,
                                     std::span<const double> lon_deg, std::span<int> codes) const {
     const CoverSource& source = sources_[file];
-    ORO_TRY(OpenRaster open, rasters_[file]->take());
-    std::vector<double> x(lon_deg.begin(), lon_deg.end()), y(lat_deg.begin(), lat_deg.end());
-    std::vector<PixelPlace> places;
-    open.placing.place(x, y, source.geographic ? middle_lon_deg(source) : 0.0, places);
-    ORO_CHECK(read_codes(source, open.dataset.get(), places, *this, codes));
-    rasters_[file]->give_back(std::move(open));
-    return {};
+    return read_pixels_at(source, *rasters_[file], lat_deg, lon_deg,
+                          [&](const PixelValue& pixel) -> Result<void> {
+                              const int code = code_of_value(pixel.value);
+                              if (is_cover(source, code)) codes[pixel.place] = code;
+                              return {};
+                          });
 }
 
 Result<void> CoverMap::codes_at(std::span<const double> lat_deg, std::span<const double> lon_deg,
