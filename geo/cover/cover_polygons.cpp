@@ -86,29 +86,89 @@ Result<std::vector<CodedShape>> coded_shapes(const VectorFile& vectors) {
                                          listed_fields(vectors));
 }
 
-// Longitudes are those nearest to the first one.
-struct Extent {
-    double west_deg{1e9}, south_deg{1e9}, east_deg{-1e9}, north_deg{-1e9};
-    double near_deg{};
-    [[nodiscard]] double lon_deg(const VectorPlace& place) const {
-        return near_deg + std::remainder(place.lon_deg - near_deg, 360.0);
+// A ring of a polygon whose longitudes go on beyond 180 degrees instead of jumping.
+struct Ring {
+    std::vector<VectorPlace> places;
+    double west_deg{1e9}, east_deg{-1e9};
+    [[nodiscard]] double middle_deg() const { return 0.5 * (west_deg + east_deg); }
+    void shift(double by_deg) {
+        for (VectorPlace& place : places) place.lon_deg += by_deg;
+        west_deg += by_deg;
+        east_deg += by_deg;
+    }
+    void add(double lat_deg, double lon_deg) {
+        places.push_back({.lat_deg = lat_deg, .lon_deg = lon_deg});
+        west_deg = std::min(west_deg, lon_deg);
+        east_deg = std::max(east_deg, lon_deg);
     }
 };
 
-Extent extent_of(const std::vector<CodedShape>& coded) {
+// A ring that goes once round the Earth, such as the coast of Antarctica, is closed over the pole it lies
+// nearer to.
+Ring ring_of(const std::vector<VectorPlace>& path) {
+    Ring ring;
+    double lon_deg = path.front().lon_deg, sum_deg = 0.0;
+    for (std::size_t i = 0; i <= path.size(); ++i) {
+        const VectorPlace& place = path[i % path.size()];
+        lon_deg += std::remainder(place.lon_deg - lon_deg, 360.0);
+        ring.add(place.lat_deg, lon_deg);
+        sum_deg += place.lat_deg;
+    }
+    if (std::abs(lon_deg - path.front().lon_deg) > 180.0) {
+        const double pole_deg = sum_deg < 0.0 ? -90.0 : 90.0;
+        ring.add(pole_deg, lon_deg);
+        ring.add(pole_deg, path.front().lon_deg);
+    }
+    return ring;
+}
+
+struct CodedPolygon {
+    std::vector<Ring> rings;
+    std::uint16_t code{};
+    double west_deg{1e9}, east_deg{-1e9};
+};
+
+// `near_deg` says in which turn of 360 degrees the polygon's middle lies. Its rings lie in one turn.
+CodedPolygon polygon_of(const CodedShape& coded, double near_deg) {
+    CodedPolygon polygon{.rings = {}, .code = coded.code};
+    for (const auto& path : coded.shape->paths) {
+        Ring ring = ring_of(path);
+        const double to_deg = polygon.rings.empty() ? near_deg : polygon.rings.front().middle_deg();
+        ring.shift(360.0 * std::round((to_deg - ring.middle_deg()) / 360.0));
+        polygon.west_deg = std::min(polygon.west_deg, ring.west_deg);
+        polygon.east_deg = std::max(polygon.east_deg, ring.east_deg);
+        polygon.rings.push_back(std::move(ring));
+    }
+    return polygon;
+}
+
+struct Extent {
+    double west_deg{1e9}, south_deg{1e9}, east_deg{-1e9}, north_deg{-1e9};
+};
+
+std::vector<CodedPolygon> polygons_of(const std::vector<CodedShape>& coded) {
+    std::vector<CodedPolygon> polygons;
+    polygons.reserve(coded.size());
+    for (const CodedShape& one : coded)
+        polygons.push_back(
+            polygon_of(one, polygons.empty() ? 0.0 : polygons.front().rings.front().middle_deg()));
+    return polygons;
+}
+
+// At most one turn of 360 degrees.
+Extent extent_of(const std::vector<CodedPolygon>& polygons) {
     Extent extent;
-    extent.near_deg = coded.front().shape->paths.front().front().lon_deg;
-    for (const CodedShape& one : coded) {
-        for (const auto& ring : one.shape->paths) {
-            for (const VectorPlace& place : ring) {
-                const double lon_deg = extent.lon_deg(place);
-                extent.west_deg = std::min(extent.west_deg, lon_deg);
-                extent.east_deg = std::max(extent.east_deg, lon_deg);
+    for (const CodedPolygon& polygon : polygons) {
+        extent.west_deg = std::min(extent.west_deg, polygon.west_deg);
+        extent.east_deg = std::max(extent.east_deg, polygon.east_deg);
+        for (const Ring& ring : polygon.rings) {
+            for (const VectorPlace& place : ring.places) {
                 extent.south_deg = std::min(extent.south_deg, place.lat_deg);
                 extent.north_deg = std::max(extent.north_deg, place.lat_deg);
             }
         }
     }
+    extent.east_deg = std::min(extent.east_deg, extent.west_deg + 360.0);
     return extent;
 }
 
@@ -129,22 +189,30 @@ void place_cells(const Extent& extent, CoverSource& source) {
     source.notes.push_back(source.file + text);
 }
 
-OwnGeometry geometry_of(const VectorShape& shape, const Extent& extent) {
-    OwnGeometry polygon(OGR_G_CreateGeometry(wkbPolygon));
-    for (const auto& path : shape.paths) {
+OwnGeometry geometry_of(const CodedPolygon& polygon, double turned_deg) {
+    OwnGeometry geometry(OGR_G_CreateGeometry(wkbPolygon));
+    for (const Ring& own : polygon.rings) {
         OGRGeometryH ring = OGR_G_CreateGeometry(wkbLinearRing);
-        double lon_deg = extent.lon_deg(path.front());
-        for (std::size_t i = 0; i <= path.size(); ++i) {
-            const VectorPlace& place = path[i % path.size()];
-            lon_deg += std::remainder(place.lon_deg - lon_deg, 360.0);
-            OGR_G_AddPoint_2D(ring, lon_deg, place.lat_deg);
-        }
-        OGR_G_AddGeometryDirectly(polygon.get(), ring);
+        for (const VectorPlace& place : own.places)
+            OGR_G_AddPoint_2D(ring, place.lon_deg + turned_deg, place.lat_deg);
+        OGR_G_AddGeometryDirectly(geometry.get(), ring);
     }
-    return polygon;
+    return geometry;
 }
 
-Result<void> draw(const std::vector<CodedShape>& coded, const Extent& extent, CoverSource& source) {
+// A polygon is drawn in each turn of 360 degrees in which it reaches into the extent.
+void add_turns(const CodedPolygon& polygon, const Extent& extent, std::vector<OwnGeometry>& own,
+               std::vector<double>& codes) {
+    for (const double turned_deg : {-360.0, 0.0, 360.0}) {
+        if (polygon.east_deg + turned_deg < extent.west_deg ||
+            polygon.west_deg + turned_deg > extent.east_deg)
+            continue;
+        own.push_back(geometry_of(polygon, turned_deg));
+        codes.push_back(polygon.code);
+    }
+}
+
+Result<void> draw(const std::vector<CodedPolygon>& polygons, const Extent& extent, CoverSource& source) {
     const GdalMessages messages;
     auto cells = std::make_shared<std::vector<std::uint16_t>>(
         static_cast<std::size_t>(source.columns) * static_cast<std::size_t>(source.rows), no_code);
@@ -154,15 +222,13 @@ Result<void> draw(const std::vector<CodedShape>& coded, const Extent& extent, Co
         return no_polygons(source.file, messages.last("there is no memory for its cells"));
     constexpr std::size_t at_once = 512;
     int band = 1;
-    for (std::size_t first = 0; first < coded.size(); first += at_once) {
+    for (std::size_t first = 0; first < polygons.size(); first += at_once) {
         std::vector<OwnGeometry> own;
-        std::vector<OGRGeometryH> geometries;
         std::vector<double> codes;
-        for (std::size_t i = first; i < std::min(first + at_once, coded.size()); ++i) {
-            own.push_back(geometry_of(*coded[i].shape, extent));
-            geometries.push_back(own.back().get());
-            codes.push_back(coded[i].code);
-        }
+        for (std::size_t i = first; i < std::min(first + at_once, polygons.size()); ++i)
+            add_turns(polygons[i], extent, own, codes);
+        std::vector<OGRGeometryH> geometries;
+        for (const OwnGeometry& one : own) geometries.push_back(one.get());
         if (GDALRasterizeGeometries(dataset.get(), 1, &band, static_cast<int>(geometries.size()),
                                     geometries.data(), nullptr, nullptr, codes.data(), nullptr, nullptr,
                                     nullptr) != CE_None)
@@ -192,13 +258,14 @@ Result<CoverSource> open_cover_polygons(const std::string& file) {
     source.crs = "EPSG:4326 WGS 84";
     source.crs_wkt = wkt_of(wgs84_degrees().get());
     source.geographic = true;
-    const Extent extent = extent_of(coded);
+    const std::vector<CodedPolygon> polygons = polygons_of(coded);
+    const Extent extent = extent_of(polygons);
     place_cells(extent, source);
     if (!GDALInvGeoTransform(source.crs_from_pixel.data(), source.pixel_from_crs.data()))
         return no_polygons(file, "its polygons lie at one place");
     source.no_data = no_code;
     for (const CodedShape& one : coded) source.codes.insert(one.code);
-    ORO_CHECK(draw(coded, extent, source));
+    ORO_CHECK(draw(polygons, extent, source));
     return source;
 }
 

@@ -112,6 +112,33 @@ TEST(CoverPolygons, LieOverTheAntimeridian) {
     EXPECT_EQ(*map->code_at(-16.99, -179.98), no_cover_code);
 }
 
+// Cells are some 5 km here; all places are farther than that from edges.
+TEST(CoverPolygons, AreWiderThanHalfOfTheEarth) {
+    // A belt of 300 degrees in steps of 100, with a hole of 40; another polygon far from its first place.
+    const std::string belt =
+        "[[-150,10],[-50,10],[50,10],[150,10],[150,20],[50,20],[-50,20],[-150,20],[-150,10]]";
+    const auto map =
+        map_of_polygons(written({feature(R"("code": 111)", belt + "," + ring({100, 12, 140, 18})),
+                                 feature(R"("code": 311)", ring({160, 10, 170, 20}))}));
+    ASSERT_TRUE(map);
+    for (const double lon_deg : {-149.0, -100.0, 0.0, 31.0, 99.0, 141.0, 149.0})
+        EXPECT_EQ(*map->code_at(15.0, lon_deg), 111) << lon_deg;
+    for (const double lon_deg : {101.0, 120.0, 139.0, 151.0, 171.0, 179.0, -179.0, -151.0})
+        EXPECT_EQ(*map->code_at(15.0, lon_deg), no_cover_code) << lon_deg;
+    EXPECT_EQ(*map->code_at(15.0, 165.0), 311);
+}
+
+// A coast that goes once round the pole, as files of Antarctica have it without a detour over the pole.
+TEST(CoverPolygons, GoRoundAPole) {
+    const auto map = map_of_polygons(
+        written({feature(R"("code": 111)", "[[-120,-70],[0,-66],[120,-70],[180,-72],[-120,-70]]")}));
+    ASSERT_TRUE(map);
+    for (const double lon_deg : {-170.0, -119.0, -1.0, 60.0, 121.0, 179.0}) {
+        EXPECT_EQ(*map->code_at(-80.0, lon_deg), 111) << lon_deg;
+        EXPECT_EQ(*map->code_at(-60.0, lon_deg), no_cover_code) << lon_deg;
+    }
+}
+
 TEST(CoverPolygons, WhatIsNoneIsRefused) {
     const auto refusal = [](const std::string& file) {
         const auto source = open_cover_source(file);
