@@ -73,7 +73,7 @@ Error without_region(const InfoOptions& options, const FileListing& listing, Err
 Result<FileListing> listing_of(const RegionRequest& request, ProgressBar& bar) {
     if (baked_path(request.paths)) return FileListing{};
     return list_files(request, {cache_folder().string(), program_fingerprint()},
-                      [&](double share, const std::string& what) { bar.show(share, "reading " + what); });
+                      [&](double share, const std::string& what) { bar.show(share, what); });
 }
 
 std::string checked_words(const RegionGrid& grid) {
@@ -111,7 +111,7 @@ Result<void> run_info(const InfoOptions& options) {
     const FileListing& listing = *listed;
     auto opened = listing.error ? Result<Region>(*listing.error)
                                 : open_region(request, [&](double share, const std::string& what) {
-                                      bar.show(share, "reading " + what);
+                                      bar.show(share, what);
                                   });
     bar.clear();
     if (!opened) return without_region(options, listing, opened.error());

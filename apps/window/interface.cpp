@@ -265,7 +265,7 @@ Result<void> Interface::feed(const WindowInput& input, const Build& build, const
             frame(build);
             frame(build);
         }
-        if (std::holds_alternative<CharacterTyped>(event) && is_typing()) opener_ = key_;
+        if (std::holds_alternative<CharacterTyped>(event)) opener_ = key_;
     }
     return {};
 }

@@ -6,7 +6,8 @@
 
 namespace oro {
 
-// Told how far reading is, 0..1, from the calling thread.
+// This is called with how far the work is, 0..1, and what it does, as in "reading N46E008.hgt", by the thread
+// that does it.
 using Progress = std::function<void(double share, const std::string& what)>;
 
 }  // namespace oro

@@ -79,7 +79,7 @@ void probe_all(const std::vector<SourcePath>& paths, const SourceOverrides& over
         });
         if (progress && done > 0)
             progress(static_cast<double>(first + count) / static_cast<double>(paths.size()),
-                     "headers, " + paths[first].shown);
+                     "reading headers, " + paths[first].shown);
     }
 }
 

@@ -131,7 +131,7 @@ Result<std::vector<float>> posts_of(const RegionFile& file, const Cut& of, const
         const int page_row = page_of(first_row + row, layout.rows);
         const int in_page = first_row + row - page_row * quads;
         const int rows = std::min(cut.rows() - row, quads + 1 - in_page);
-        if (progress) progress(static_cast<double>(row) / cut.rows(), file.path());
+        if (progress) progress(static_cast<double>(row) / cut.rows(), "reading " + file.path());
         for (const Run& run : runs) {
             ORO_CHECK(file.payload({page_row, run.page_column, 0}, *payload));
             for (int r = 0; r < rows; ++r)

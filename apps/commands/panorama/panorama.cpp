@@ -150,7 +150,7 @@ Result<void> run_panorama(const PanoramaOptions& options) {
     const auto reading = Clock::now();
     ORO_CHECK(open_view(
         options.view_file, with_air(options), options.region,
-        [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, view,
+        [&](double share, const std::string& what) { bar.show(share, what); }, view,
         report.region, PictureKind::panorama));
     ORO_CHECK(check_unchanged(view, report.region, options.data_changed, options.quiet));
     ORO_TRY(report.on_summit, asked_summit(options.view, report.region, view.exaggeration));

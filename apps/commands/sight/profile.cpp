@@ -70,7 +70,7 @@ Result<void> run_profile(const ProfileOptions& options) {
     ORO_CHECK(check_length(options, profile.line));
     ProgressBar bar(options.quiet);
     ORO_TRY(const auto ground, open_sight_ground(options.region, [&](double share, const std::string& what) {
-                bar.show(share, "reading " + what);
+                bar.show(share, what);
             }));
     if (!options.out.empty())
         ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, ground->region),

@@ -84,7 +84,7 @@ Result<void> run_sight(const SightOptions& options) {
     ORO_TRY(const auto ground,
             open_sight_ground(
                 options.region,
-                [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, asked));
+                [&](double share, const std::string& what) { bar.show(share, what); }, asked));
     Standing standing{"--from", options.from, "--above", options.above_m, 2.0, options.altitude_m};
     standing.on_summit = options.on_summit;
     ORO_TRY(const Standpoint from, stand_over_ground(standing, *ground));

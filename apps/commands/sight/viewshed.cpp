@@ -195,7 +195,7 @@ Result<void> run_viewshed(const ViewshedOptions& options) {
     ORO_TRY(const auto ground,
             open_sight_ground(
                 options.region,
-                [&](double share, const std::string& what) { bar.show(share, "reading " + what); }, cover));
+                [&](double share, const std::string& what) { bar.show(share, what); }, cover));
     ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, ground->region),
                                            {files_of_cover(cover), "which is land cover or a canopy"}}));
     Standpoints standpoints;

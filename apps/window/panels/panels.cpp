@@ -9,7 +9,7 @@ void build_panels_of_start(Viewer& viewer) {
     build_status_bar(viewer);
     build_buttons(viewer);
     build_toasts(viewer);
-    build_opening_bar(viewer);
+    if (viewer.opening) build_opening_bar(*viewer.opening);
     build_messages_panel(viewer);
     build_files_panel(viewer);
     build_keys_panel(viewer);
@@ -32,7 +32,7 @@ void build_panels(Viewer& viewer) {
     build_home_arrow(viewer);
     build_legend(viewer);
     build_toasts(viewer);
-    build_opening_bar(viewer);
+    if (viewer.opening) build_opening_bar(*viewer.opening);
     build_messages_panel(viewer);
     build_layers_panel(viewer);
     build_sun_panel(viewer);

@@ -19,7 +19,7 @@ void build_moving_lines(Viewer& viewer);  // over the ground, while the eye move
 void build_legend(Viewer& viewer);        // what the colours of --show stand for
 void build_toasts(Viewer& viewer);        // what was said just now
 bool has_toasts(const Viewer& viewer);
-void build_opening_bar(const Viewer& viewer);  // how far another region is read
+void build_opening_bar(const RegionOpening& opening);  // how far a region is read
 void build_messages_panel(Viewer& viewer);
 void build_keys_panel(Viewer& viewer);
 void build_layers_panel(Viewer& viewer);      // style, heights, names, lines, images, how frames are made

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/command_line/refusals.h"
+#include "apps/drawing/mesh_choice.h"
 #include "apps/eye/asked_summit.h"
 #include "apps/eye/standpoint.h"
 #include "apps/report/json_text.h"
@@ -18,13 +19,13 @@
 #include "apps/view/view_changes.h"
 #include "apps/window/frames.h"
 #include "apps/window/kept_settings.h"
-#include "apps/window/loading_picture.h"
 #include "apps/window/motion.h"
 #include "apps/window/opening.h"
 #include "apps/window/pictures.h"
 #include "apps/window/projects.h"
 #include "apps/window/search.h"
 #include "apps/window/second_view.h"
+#include "apps/window/session/first_window.h"
 #include "apps/window/session/turn.h"
 #include "apps/window/window_start.h"
 #include "core/lod/ground_means.h"
@@ -55,6 +56,8 @@ struct ViewerState {
     View view{};
     Region region{};
     RegionCuts cuts{};
+    std::optional<GridPages> pages{};  // that were read with the region, until a scene takes them
+    FirstWindow first{};               // that was opened while the region was read
     Style style{};
     std::string name{};  // of what is shown, in a word
     Clock::time_point started{};
@@ -101,20 +104,6 @@ std::string name_of_region(const WindowOptions& options) {
 void note_in_log(Viewer& viewer) {
     for (const std::string& note : all_notes(viewer.region))
         viewer.log.push_back({one_line(note), Clock::now(), false, false});
-}
-
-// Shows that something comes while the first frame is being made.
-Result<std::unique_ptr<Window>> open_window(const Gpu& gpu, const Camera& camera, const std::string& name) {
-    ORO_TRY(std::unique_ptr<Window> window,
-            Window::create(gpu, camera.width_px, camera.height_px, one_line("Orograph - " + name)));
-    const VkExtent2D extent = window->extent();
-    if (extent.width == 0 || extent.height == 0) return window;
-    ORO_TRY(const std::vector<std::uint8_t> pixels,
-            loading_picture(static_cast<int>(extent.width), static_cast<int>(extent.height)));
-    ORO_TRY(const Image* const sheet, window->picture_of(pixels, extent));
-    ORO_CHECK(window->show({*sheet, extent}));
-    ORO_CHECK(window->present());
-    return window;
 }
 
 // What a user has done in a window, from one that has it to another: a viewer and what outlives its device.
@@ -180,25 +169,35 @@ Result<void> set_out(Viewer& viewer, ViewerState& state) {
     return take_project(viewer, *state.project, viewer.options.view_file);
 }
 
+// The pages that were read with the region are used once; a scene on another device makes them again.
+Result<OpenedScene> scene_of_state(ViewerState& state, const Gpu& gpu, bool quiet,
+                                   const RenderProgress& progress) {
+    SceneChoice choice{state.options.memory, quiet, state.keeps_means};
+    if (!state.pages) return open_scene(gpu, state.region, state.cuts, state.view, choice, progress);
+    ORO_TRY(choice.clusters, draws_clusters(state.region, state.view));
+    GridPages pages = std::move(*std::exchange(state.pages, std::nullopt));
+    return first_scene(gpu, state.region, state.cuts, std::move(pages), state.view, choice);
+}
+
 // As long as the user stays, or the device lasts.
 Result<void> fly(ViewerState& state, ProgressBar& bar) {
     state.is_lost = false;
     const WindowOptions& options = state.options;
-    GpuOptions gpu_options = gpu_options_from_environment();
-    ORO_TRY(gpu_options.instance_extensions, Window::required_extensions());
-    gpu_options.presents = true;
-    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options));
+    FirstWindow first = std::exchange(state.first, {});
+    if (!first.gpu) {
+        ORO_TRY(first.gpu, device_of_window());
+    }
+    const std::unique_ptr<Gpu>& gpu = first.gpu;
     ORO_CHECK(check_window_size(state.view.camera, gpu->report()));
     const bool quiet = options.quiet || !state.is_first;
     ORO_TRY(OpenedScene opened,
-            open_scene(*gpu, state.region, state.cuts, state.view, {options.memory, quiet, state.keeps_means},
-                       [&](double share) { bar.show(share, "measuring levels"); }));
+            scene_of_state(state, *gpu, quiet, [&](double share) { bar.show(share, "measuring levels"); }));
     bar.clear();
     if (state.is_first)
         ORO_CHECK(say_notes_of(options, state.view, state.region,
                                note_of_missing_footprints(state.style.frame, opened.scene.pages())));
-    ORO_TRY(const std::unique_ptr<Window> window, open_window(*gpu, state.view.camera, state.name));
-    ORO_TRY(const std::unique_ptr<Interface> interface, Interface::create(*window));
+    if (!first.window) ORO_CHECK(show_sheet(first, state.view.camera, state.name));
+    const std::unique_ptr<Window>& window = first.window;
     ORO_TRY(const RasterPath path, choose_path(state.view.pipeline, *gpu));
     ORO_TRY(FrameRenderer renderer, renderer_for(*gpu, state.view, state.style, path, window->extent()));
     Viewer viewer{options,
@@ -214,7 +213,7 @@ Result<void> fly(ViewerState& state, ProgressBar& bar) {
     take_scene(viewer, std::move(opened));
     if (gpu->report().kind == VK_PHYSICAL_DEVICE_TYPE_CPU) viewer.detail.begin_with_least();
     ORO_CHECK(set_out(viewer, state));
-    Result<void> ended = run_loop(viewer, *interface);
+    Result<void> ended = run_loop(viewer, *first.interface);
     if (ended.ok()) {
         keep_settings(viewer);
         // Reading that is under way ends with its file.
@@ -222,6 +221,28 @@ Result<void> fly(ViewerState& state, ProgressBar& bar) {
     }
     if (!ended.ok() && window->has_lost_device()) keep(viewer, state);
     return ended;
+}
+
+// How large a window of these options is, where that is known before anything is read.
+std::optional<Camera> camera_of_window(const ViewerState& state) {
+    if (state.project) return state.view.camera;
+    if (!state.options.view.size) return std::nullopt;
+    const Result<View> sized = view_without_eye(state.options.view, {});
+    return sized.ok() ? std::optional(sized.value().camera) : std::nullopt;
+}
+
+// False where the user left while the region was read.
+Result<bool> read_region(ViewerState& state, ProgressBar& bar) {
+    RegionOpening opening(state.options, state.project);
+    ORO_TRY(AwaitedRegion awaited,
+            await_region(opening, camera_of_window(state), state.settings.ui_scale, bar));
+    if (!awaited.region) return false;
+    state.first = std::move(awaited.window);
+    state.view = std::move(awaited.region->view);
+    state.region = std::move(awaited.region->region);
+    state.cuts = std::move(awaited.region->cuts);
+    state.pages = std::move(awaited.region->pages);
+    return true;
 }
 
 }  // namespace
@@ -241,10 +262,8 @@ Result<void> run_view(const WindowOptions& asked) {
     ORO_TRY(state.project, project_named_by(state.options));
     if (state.project) state.view = state.project->view;
     ProgressBar bar(options.quiet);
-    ORO_CHECK(open_flight(
-        options, [&](double share, const std::string& what) { bar.show(share, "reading " + what); },
-        state.view, state.region));
-    ORO_TRY(state.cuts, cut_regions(state.region));
+    ORO_TRY(const bool stays, read_region(state, bar));
+    if (!stays) return {};
     ORO_TRY(state.style, load_style(state.view, state.region.grids.front().field));
     state.keeps_means = asks_for_means(state.style.frame);
     state.name = name_of_region(options);
