@@ -335,6 +335,7 @@ set_tests_properties(
   Window.SaysWhatChangedSinceThePicture
   Window.ShowsACoarsePictureWhileLevelsAreMeasured
   Window.WithoutItsPanelsShowsThePictureThatItWrites
+  WindowDrop.OpensWhatIsDropped
   WindowFaults.AtAnyCallEndItWithALine
   WindowFaults.EndItWithALine
   WindowFaults.OfSuboptimalSwapchainsOneIsEnough
