@@ -20,9 +20,11 @@
 #include "apps/commands/commands.h"
 #include "apps/commands/coordinates.h"
 #include "apps/output/interruption.h"
+#include "apps/report/library_versions.h"
 #include "core/base/files_read.h"
 #include "geo/files/library_faults.h"
 #include "geo/files/whole_file.h"
+#include "geo/sources/library_report.h"
 
 namespace {
 
@@ -116,10 +118,20 @@ int run_command(CLI::App& app, oro::CommandLine& line, const std::vector<std::st
     return exit_code(oro::run_doctor(line.doctor));
 }
 
+// The program's own in the first line, then those of the libraries that it reads and draws with.
+std::string versions() {
+    std::string text = "orograph " OROGRAPH_VERSION "\n";
+    const oro::LibraryReport readers = oro::report_versions();
+    text += "GDAL " + readers.gdal + ", PROJ " + readers.proj + ", GeographicLib " + readers.geographiclib;
+    for (const oro::LibraryVersion& library : oro::library_versions())
+        text += ", " + library.name + " " + library.version;
+    return text;
+}
+
 int run_command_line(int argc, char** argv) {
     CLI::App app{about, "orograph"};
     app.require_subcommand(1);
-    app.set_version_flag("--version", "orograph " OROGRAPH_VERSION);
+    app.set_version_flag("--version", versions);
     oro::CommandLine line;
     oro::add_commands(app, line);
     const std::vector<std::string> words(argv, argv + argc);

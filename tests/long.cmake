@@ -836,3 +836,5 @@ set_tests_properties(
   WindowedGraph.HasTheBytesOfOneGoOverASea
   WorldBox.EveryPartOfEveryWorldIsTheRastersOwn
   PROPERTIES LABELS "unit;long")
+# A flight of ten minutes, or as many as OROGRAPH_FLIGHT_MINUTES says.
+set_tests_properties(WindowFlight.MinutesOverPoland PROPERTIES TIMEOUT 4000)

@@ -27,12 +27,17 @@ GeoidGridReport look_for(const std::string& name, const std::string& heights_crs
 
 }  // namespace
 
-LibraryReport report_libraries() {
+LibraryReport report_versions() {
     LibraryReport report;
     report.gdal = GDALVersionInfo("RELEASE_NAME");
     const PJ_INFO proj = proj_info();
     report.proj = proj.version;
     report.geographiclib = GEOGRAPHICLIB_VERSION_STRING;
+    return report;
+}
+
+LibraryReport report_libraries() {
+    LibraryReport report = report_versions();
     report.geoids = {
         look_for("EGM96", "EPSG:4326+5773", "egm96_15.gtx",
                  "SRTM heights are lifted onto the ellipsoid by it",

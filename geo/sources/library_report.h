@@ -21,6 +21,8 @@ struct LibraryReport {
     std::vector<GeoidGridReport> geoids;
 };
 
+// This gives the versions alone, of the libraries that run, and reads no grid.
+LibraryReport report_versions();
 // Reads all of the geoid grids that are there.
 LibraryReport report_libraries();
 

@@ -43,7 +43,10 @@ TEST(RefusedOptions, NoCommandIsOneForHelpEither) {
                   {{"shot", "--help", "nonsense"}, "--help takes nothing or all, not nonsense"},
                   {{"shot", "--help=nonsense"}, "--help takes nothing or all, not nonsense"}});
     EXPECT_EQ(run_orograph({"--help"}).exit_code, 0);
-    EXPECT_EQ(run_orograph({"--version"}).exit_code, 0);
+    const auto version = run_orograph({"--version"});
+    EXPECT_EQ(version.exit_code, 0);
+    EXPECT_TRUE(version.out.starts_with("orograph 0.1.0\nGDAL 3.")) << version.out;
+    EXPECT_NE(version.out.find(", PROJ 9."), std::string::npos) << version.out;
     EXPECT_EQ(run_orograph({"shot", "nonsense", "--help"}).exit_code, 0);
 }
 
