@@ -467,6 +467,20 @@ void add_bake(CLI::App& app, BakingOptions& options) {
                        "docs/commands/bake.md"});
 }
 
+void add_serve(CLI::App& app, ServeOptions& options) {
+    CLI::App& command = *app.add_subcommand("serve", "Serve a folder to browsers on this machine, read-only");
+    OptionGroup served(command, "The folder");
+    served.option("FOLDER", options.folder, "", "The folder to serve, with all in it.").required();
+    served.whole_number("--port", options.port, 0, 65535, "PORT",
+                        "Listen at this port, 0 to 65535 (default 8080). 0 is any that is free.");
+    served.option("--host", options.host, "ADDRESS",
+                  "Listen at this address of the machine (default 127.0.0.1: nobody else reaches it). "
+                  "0.0.0.0 is all of them: then everybody in the network can read the folder.");
+    served.flag("--cors", options.others, "Let pages of other sites read what is served.");
+    add_quiet(command, options.quiet, "the address and errors");
+    set_help(command, {{"serve FOLDER [OPTIONS]"}, "", "docs/commands/serve.md"});
+}
+
 void add_info(CLI::App& app, InfoOptions& options) {
     CLI::App& command =
         *app.add_subcommand("info", "Tell what elevation data are, what they cover and what is missing");
@@ -533,6 +547,7 @@ void add_commands(CLI::App& app, CommandLine& line) {
     add_profile(app, line.profile);
     add_viewshed(app, line.viewshed);
     add_bake(app, line.bake);
+    add_serve(app, line.serve);
     add_info(app, line.info);
     add_doctor(app, line.doctor);
     add_completion(app, line.completion);

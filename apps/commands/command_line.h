@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/commands/options.h"
+#include "apps/options/serve_options.h"
 
 namespace oro {
 
@@ -19,6 +20,7 @@ struct CommandLine {
     ProfileOptions profile;
     ViewshedOptions viewshed;
     BakingOptions bake;
+    ServeOptions serve;
     InfoOptions info;
     DoctorOptions doctor;
     CompletionOptions completion;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/options/options.h"
+#include "apps/options/serve_options.h"
 #include "core/base/result.h"
 
 namespace CLI {
@@ -34,6 +35,8 @@ Result<void> run_viewshed(const ViewshedOptions& options);
 Result<void> run_view(const WindowOptions& options);
 // Writes a region with all its levels into a file, or goes on with one that was broken off.
 Result<void> run_bake(const BakingOptions& options);
+// Serves a folder to browsers, read-only, until it is interrupted.
+Result<void> run_serve(const ServeOptions& options);
 // Tells what the sources of a region are and what is missing.
 Result<void> run_info(const InfoOptions& options);
 // Tells what the machine has and what each lack means.

@@ -1,0 +1,17 @@
+// What the command line says to serve.
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace oro {
+
+struct ServeOptions {
+    std::string folder;
+    std::string host{"127.0.0.1"};
+    int port{8080};      // 0: any that is free
+    bool others{false};  // pages of other sites may read what is served
+    bool quiet{false};
+};
+
+}  // namespace oro

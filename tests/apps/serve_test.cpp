@@ -1,0 +1,228 @@
+// orograph serve, as browsers and as strangers ask it.
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/apps/program.h"
+#include "tests/support/test_data.h"
+
+namespace {
+namespace fs = std::filesystem;
+
+// The program, serving a folder at a free port until the test ends.
+class Served {
+  public:
+    explicit Served(const fs::path& folder) {
+        int ends[2];
+        if (pipe(ends) != 0) return;
+        process_ = fork();
+        if (process_ == 0) {
+            dup2(ends[1], STDOUT_FILENO);
+            close(ends[0]);
+            execl(OROGRAPH_PROGRAM, OROGRAPH_PROGRAM, "serve", folder.c_str(), "--port", "0", nullptr);
+            _exit(127);
+        }
+        close(ends[1]);
+        char c = 0;
+        while (read(ends[0], &c, 1) == 1 && c != '\n') line += c;
+        close(ends[0]);
+        const std::size_t colon = line.rfind(':');
+        if (colon != std::string::npos) port_ = std::atoi(line.c_str() + colon + 1);
+    }
+    ~Served() {
+        kill(process_, SIGTERM);
+        int status = 0;
+        waitpid(process_, &status, 0);
+    }
+    Served(const Served&) = delete;
+    Served& operator=(const Served&) = delete;
+
+    // A connection; the test closes it.
+    [[nodiscard]] int connection() const {
+        const int client = socket(AF_INET, SOCK_STREAM, 0);
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_port = htons(static_cast<std::uint16_t>(port_));
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        const timeval limit{30, 0};
+        setsockopt(client, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
+        return connect(client, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0 ? client : -1;
+    }
+    // All that comes back for some bytes, until the other side closes.
+    [[nodiscard]] std::string answer(const std::string& bytes) const {
+        const int client = connection();
+        std::string all;
+        std::size_t sent = 0;
+        while (sent < bytes.size()) {
+            const auto count = send(client, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
+            if (count <= 0) break;
+            sent += static_cast<std::size_t>(count);
+        }
+        std::vector<char> part(1U << 16U);
+        for (ssize_t count = 0; (count = recv(client, part.data(), part.size(), 0)) > 0;)
+            all.append(part.data(), static_cast<std::size_t>(count));
+        close(client);
+        return all;
+    }
+    [[nodiscard]] std::string get(const std::string& address, const std::string& header = "",
+                                  const std::string& method = "GET") const {
+        return answer(method + " " + address + " HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n" +
+                      header + "\r\n");
+    }
+
+    std::string line{};
+
+  private:
+    pid_t process_{};
+    int port_{};
+};
+
+int status_of(const std::string& answer) {
+    int status = 0;
+    return std::sscanf(answer.c_str(), "HTTP/1.1 %d", &status) == 1 ? status : 0;
+}
+
+std::string body_of(const std::string& answer) {
+    const std::size_t end = answer.find("\r\n\r\n");
+    return end == std::string::npos ? "" : answer.substr(end + 4);
+}
+
+// A folder with tiles, a secret beside it, links to that, and a name that is no good HTML.
+fs::path folder_to_serve() {
+    const fs::path top = oro::test::scratch_folder();
+    fs::create_directories(top / "served" / "5" / "16");
+    std::ofstream(top / "secret.txt") << "SECRET";
+    std::ofstream(top / "served" / "tiles.json") << R"({"tilejson": "3.0.0"})";
+    std::ofstream(top / "served" / "5" / "16" / "11.png") << "0123456789";
+    std::ofstream(top / "served" / "5" / "<b> & c.txt") << "text";
+    std::ofstream(top / "served" / ".key") << "SECRET";
+    std::ofstream(top / "served" / "empty.json");
+    fs::create_symlink(top / "secret.txt", top / "served" / "link.txt");
+    fs::create_directory_symlink(top, top / "served" / "up");
+    fs::create_symlink("tiles.json", top / "served" / "inner.json");
+    return top / "served";
+}
+
+TEST(Serve, GivesFilesAndRanges) {
+    const fs::path folder = folder_to_serve();
+    const Served served(folder);
+    EXPECT_TRUE(served.line.starts_with("serving " + folder.string() + " at http://127.0.0.1:"))
+        << served.line;
+    const std::string tiles = served.get("/tiles.json");
+    EXPECT_EQ(status_of(tiles), 200) << tiles;
+    EXPECT_EQ(body_of(tiles), R"({"tilejson": "3.0.0"})");
+    EXPECT_NE(tiles.find("Content-Type: application/json\r\n"), std::string::npos) << tiles;
+    EXPECT_EQ(tiles.find("Access-Control"), std::string::npos) << tiles;
+    const std::string part = served.get("/5/16/11.png", "Range: bytes=2-4\r\n");
+    EXPECT_EQ(status_of(part), 206) << part;
+    EXPECT_EQ(body_of(part), "234");
+    EXPECT_NE(part.find("Content-Range: bytes 2-4/10\r\n"), std::string::npos) << part;
+    EXPECT_EQ(body_of(served.get("/5/16/11.png", "Range: bytes=-3\r\n")), "789");
+    EXPECT_EQ(status_of(served.get("/5/16/11.png", "Range: bytes=90-99\r\n")), 416);
+    const std::string head = served.get("/5/16/11.png", "", "HEAD");
+    EXPECT_EQ(status_of(head), 200) << head;
+    EXPECT_NE(head.find("Content-Length: 10\r\n"), std::string::npos) << head;
+    EXPECT_EQ(body_of(head), "");
+    EXPECT_EQ(status_of(served.get("/empty.json")), 200);
+    EXPECT_EQ(status_of(served.get("/inner.json")), 200) << "a link within the folder";
+    const std::string list = served.get("/5/");
+    EXPECT_NE(list.find("<a href=\"./%3Cb%3E%20%26%20c.txt\">&lt;b&gt; &amp; c.txt</a>"), std::string::npos)
+        << list;
+    EXPECT_EQ(body_of(served.get("/5/%3Cb%3E%20%26%20c.txt")), "text");
+    EXPECT_EQ(body_of(served.get("/")).find(".key"), std::string::npos);
+}
+
+TEST(Serve, NothingOutsideTheFolderIsGiven) {
+    const Served served(folder_to_serve());
+    for (const char* const address : {"/../secret.txt",
+                                      "/%2e%2e/secret.txt",
+                                      "/5/..%2f..%2fsecret.txt",
+                                      "/5/../../secret.txt",
+                                      "//etc/passwd",
+                                      "/%2fetc/passwd",
+                                      "/..%5csecret.txt",
+                                      "/link.txt",
+                                      "/up/secret.txt",
+                                      "/up/",
+                                      "/.key",
+                                      "/tiles.json%00.png",
+                                      "/%252e%252e/secret.txt",
+                                      "/5/./16/11.png/../../../../secret.txt",
+                                      "http://localhost/../secret.txt",
+                                      "/nothing",
+                                      "/%",
+                                      "/%zz",
+                                      "/\x01",
+                                      "/5/16/11.png/"}) {
+        const std::string answer = served.get(address);
+        EXPECT_NE(status_of(answer), 200) << address << "\n" << answer;
+        EXPECT_EQ(answer.find("SECRET"), std::string::npos) << address;
+        EXPECT_EQ(answer.find("root:"), std::string::npos) << address;
+    }
+    for (const char* const method : {"POST", "PUT", "DELETE", "PATCH", "OPTIONS"})
+        EXPECT_NE(status_of(served.get("/tiles.json", "", method)), 200) << method;
+    EXPECT_EQ(status_of(served.answer(
+                  "GET /tiles.json HTTP/1.1\r\nHost: elsewhere.example\r\nConnection: close\r\n\r\n")),
+              403)
+        << "a name of somebody else's that leads here";
+    EXPECT_EQ(status_of(served.get("/tiles.json")), 200) << "after all of that";
+}
+
+TEST(Serve, OutlivesHostileAndSlowClients) {
+    const Served served(folder_to_serve());
+    const std::string begin = "GET /tiles.json HTTP/1.1\r\nHost: localhost\r\n";
+    EXPECT_NE(status_of(served.answer(begin + "X: " + std::string(1U << 20U, 'x') + "\r\n\r\n")), 200);
+    EXPECT_NE(status_of(served.get("/" + std::string(1U << 20U, 'a'))), 200);
+    EXPECT_NE(status_of(served.get("/" + std::string(8000, '/'))), 0);
+    EXPECT_NE(status_of(served.get("/tiles.json", "Range: bytes=5-2,,-,1-\r\n")), 0);
+    for (const std::string& bytes :
+         {std::string("\r\n\r\n"), std::string("GET\r\n\r\n"), std::string(1000, '\0'),
+          std::string("GET /tiles.json HTTP/9.9\r\n\r\n")}) {
+        const int client = served.connection();
+        send(client, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+        close(client);
+    }
+    std::vector<int> slow;
+    for (int i = 0; i < 60; ++i) {
+        slow.push_back(served.connection());
+        send(slow.back(), begin.data(), 10, MSG_NOSIGNAL);
+    }
+    std::vector<std::thread> clients;
+    std::vector<int> statuses(140);
+    for (int& status : statuses)
+        clients.emplace_back([&served, &status] { status = status_of(served.get("/5/16/11.png")); });
+    for (std::thread& client : clients) client.join();
+    EXPECT_EQ(statuses, std::vector<int>(140, 200));
+    for (const int client : slow) close(client);
+    EXPECT_EQ(status_of(served.get("/tiles.json")), 200) << "after all of that";
+}
+
+TEST(Serve, WhatCannotBeServedEndsInOneLine) {
+    using oro::test::run_orograph;
+    const fs::path folder = folder_to_serve();
+    const auto none = run_orograph({"serve", (folder / "none").string()});
+    EXPECT_EQ(none.exit_code, 1);
+    EXPECT_NE(none.err.find("none: No such file or directory\n"), std::string::npos) << none.err;
+    const auto file = run_orograph({"serve", (folder / "tiles.json").string()});
+    EXPECT_EQ(file.exit_code, 1);
+    EXPECT_NE(file.err.find("tiles.json: is no folder\n"), std::string::npos) << file.err;
+    const auto port = run_orograph({"serve", folder.string(), "--port", "70000"});
+    EXPECT_EQ(port.exit_code, 2) << port.err;
+    const auto host = run_orograph({"serve", folder.string(), "--port", "0", "--host", "203.0.113.1"});
+    EXPECT_EQ(host.exit_code, 1) << host.err;
+    EXPECT_NE(host.err.find("cannot be listened at"), std::string::npos) << host.err;
+}
+
+}  // namespace
