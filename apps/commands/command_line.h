@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/commands/options.h"
+#include "apps/options/export_options.h"
 
 namespace oro {
 
@@ -19,6 +20,7 @@ struct CommandLine {
     ProfileOptions profile;
     ViewshedOptions viewshed;
     BakingOptions bake;
+    ExportOptions exporting;
     InfoOptions info;
     DoctorOptions doctor;
     CompletionOptions completion;
