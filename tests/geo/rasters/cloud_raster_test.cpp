@@ -67,7 +67,7 @@ TEST(CloudRaster, HasThePostsToTheBit) {
     start_gdal();
     const std::string path = test::scratch_folder() / "h.tif";
     for (const bool whole : {false, true}) {
-        const PostRaster raster = raster_of_posts(1100, 700, whole);
+        const PostRaster raster = raster_of_posts(700, 600, whole);
         const auto written = write_cloud_raster(path, true, raster, 2);
         ASSERT_TRUE(written.ok()) << written.error().line();
         EXPECT_EQ(written->whole_numbers, whole);
@@ -103,7 +103,7 @@ TEST(CloudRaster, LiesInTheCrsOfItsPosts) {
 }
 
 TEST(CloudRaster, IsTheSameForAnyNumberOfThreads) {
-    const PostRaster raster = raster_of_posts(1600, 1500, false);
+    const PostRaster raster = raster_of_posts(1100, 1100, false);
     const std::filesystem::path folder = test::scratch_folder();
     const std::string one = folder / "1.tif", five = folder / "5.tif";
     ASSERT_TRUE(write_cloud_raster(one, false, raster, 1).ok());

@@ -165,7 +165,7 @@ TEST(TerrainTiles, HoldTheGroundAtCentresOfPixels) {
     ASSERT_TRUE(grids.ok());
     const TrueGround& ground = (*grids)->ground();
     const fs::path folder = test::scratch_folder();
-    const ZoomRange zooms{9, 12};
+    const ZoomRange zooms{9, 11};
     const auto written = write_terrain_tiles(folder, ground, {zooms, -500.0, 2}, {});
     ASSERT_TRUE(written.ok()) << written.error().line();
     const Compared at_random = held_against(ground, folder, zooms, 10000, false, -500.0);
@@ -199,8 +199,8 @@ TEST(TerrainTiles, AreTheSameForAnyNumberOfThreads) {
     const auto grids = RegionGround::of(region, 1.0);
     ASSERT_TRUE(grids.ok());
     const fs::path one = test::scratch_folder(), five = test::scratch_folder();
-    ASSERT_TRUE(write_terrain_tiles(one, (*grids)->ground(), {{8, 11}, 0.0, 1}, {}).ok());
-    ASSERT_TRUE(write_terrain_tiles(five, (*grids)->ground(), {{8, 11}, 0.0, 5}, {}).ok());
+    ASSERT_TRUE(write_terrain_tiles(one, (*grids)->ground(), {{8, 10}, 0.0, 1}, {}).ok());
+    ASSERT_TRUE(write_terrain_tiles(five, (*grids)->ground(), {{8, 10}, 0.0, 5}, {}).ok());
     EXPECT_EQ(files_in(one), files_in(five));
     EXPECT_GT(files_in(one).size(), 4U);
 }
