@@ -41,12 +41,17 @@ TilePixels pixels_of(const TrueGround& ground, const MercatorTile& tile, double 
     TilePixels pixels;
     pixels.rgb.reserve(std::size_t{3} * side * side);
     const std::array<std::uint8_t, 3> hole = terrain_rgb(hole_H_m);
+    const auto centre = [&](int row, int column) {
+        return mercator_place(tile.zoom, {static_cast<double>(tile.x * side + column) + 0.5,
+                                          static_cast<double>(tile.y * side + row) + 0.5});
+    };
+    std::array<double, side> lon_deg{};
+    for (int column = 0; column < side; ++column)
+        lon_deg[static_cast<std::size_t>(column)] = centre(0, column).lon_deg;
     for (int row = 0; row < side; ++row) {
-        for (int column = 0; column < side; ++column) {
-            const PostPlace place =
-                mercator_place(tile.zoom, {static_cast<double>(tile.x * side + column) + 0.5,
-                                           static_cast<double>(tile.y * side + row) + 0.5});
-            const std::optional<double> H_m = ground_H_m(ground, place.lat_deg, place.lon_deg);
+        const double lat_deg = centre(row, 0).lat_deg;
+        for (const double column_lon_deg : lon_deg) {
+            const std::optional<double> H_m = ground_H_m(ground, lat_deg, column_lon_deg);
             pixels.holes += H_m ? 0 : 1;
             const auto rgb = H_m ? terrain_rgb(*H_m) : hole;
             pixels.rgb.insert(pixels.rgb.end(), rgb.begin(), rgb.end());

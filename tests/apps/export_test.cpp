@@ -51,14 +51,14 @@ TEST(ExportCommand, CogHasTheFilesOwnHeights) {
 TEST(ExportCommand, TilesHaveTheHeightsThatProfileTells) {
     const fs::path out = oro::test::scratch_folder() / "tiles";
     const auto said = object_said_by(export_words("terrain-rgb", out, {"--json", "--zoom", "9:12"}));
-    const auto json = nlohmann::ordered_json::parse(bytes_of(out / "tiles.json"));
-    EXPECT_EQ(json["tilejson"], "3.0.0");
-    EXPECT_EQ(json["minzoom"], 9);
-    EXPECT_EQ(json["maxzoom"], 12);
-    EXPECT_EQ(json["attribution"], "USGS, public domain");
-    EXPECT_EQ(json["bounds"].size(), 4U);
-    EXPECT_EQ(json["orograph"]["error"], said["error"]);
-    EXPECT_EQ(json["orograph"]["error"].size(), 4U);
+    const auto written = nlohmann::json::parse(bytes_of(out / "tiles.json"));
+    EXPECT_EQ(written["tilejson"], "3.0.0");
+    EXPECT_EQ(written["minzoom"], 9);
+    EXPECT_EQ(written["maxzoom"], 12);
+    EXPECT_EQ(written["attribution"], "USGS, public domain");
+    EXPECT_EQ(written["bounds"].size(), 4U);
+    EXPECT_EQ(written["orograph"]["error"], said["error"]);
+    EXPECT_EQ(written["orograph"]["error"].size(), 4U);
     // Finer zooms are nearer to the ground; the finest is within a few metres of these hills.
     EXPECT_GT(said["error"][0]["largest_m"].get<double>(), said["error"][3]["largest_m"].get<double>());
     EXPECT_EQ(said["error"][3]["places"], 10000);
