@@ -477,7 +477,7 @@ void add_export(CLI::App& app, ExportOptions& options) {
         "whose colours are heights.");
     written.option("--out", options.out, "PATH",
                    "What to write: a file (.tif) of cog, a folder of terrain-rgb.");
-    written.option("--zoom", options.zoom, "LOW:HIGH",
+    written.option("--zoom", options.zoom, "RANGE",
                    "Write these zooms of a web map, LOW:HIGH of 0 to 22, as in 5:12. Default: from the one "
                    "that shows all "
                    "the data in a tile to the one whose pixels are as close as the data. Needs terrain-rgb.");
