@@ -1,4 +1,4 @@
-#include "geo/rasters/mercator_tiles.h"
+#include "geo/web_maps/mercator_tiles.h"
 
 #include <algorithm>
 #include <cmath>

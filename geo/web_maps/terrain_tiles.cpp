@@ -1,4 +1,4 @@
-#include "geo/rasters/terrain_tiles.h"
+#include "geo/web_maps/terrain_tiles.h"
 
 #include <algorithm>
 #include <atomic>

@@ -10,7 +10,7 @@
 
 #include "core/base/result.h"
 #include "core/truth/true_ground.h"
-#include "geo/rasters/mercator_tiles.h"
+#include "geo/web_maps/mercator_tiles.h"
 
 namespace oro {
 

@@ -16,8 +16,8 @@
 #include "core/base/parallel.h"
 #include "geo/files/whole_file.h"
 #include "geo/files/whole_folder.h"
-#include "geo/rasters/terrain_tiles.h"
 #include "geo/together/region_ground.h"
+#include "geo/web_maps/terrain_tiles.h"
 
 namespace oro {
 namespace {

@@ -1,5 +1,5 @@
 // Tiles of web maps against the surface: where pixels lie by PROJ, what they hold by GDAL's PNG reader.
-#include "geo/rasters/terrain_tiles.h"
+#include "geo/web_maps/terrain_tiles.h"
 
 #include <gdal.h>
 #include <gdal_frmts.h>
