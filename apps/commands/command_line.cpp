@@ -467,6 +467,33 @@ void add_bake(CLI::App& app, BakingOptions& options) {
                        "docs/commands/bake.md"});
 }
 
+void add_export(CLI::App& app, ExportOptions& options) {
+    CLI::App& command =
+        *app.add_subcommand("export", "Write heights in formats of others: GeoTIFF, or tiles for web maps");
+    OptionGroup written(command, "The export");
+    written.choice(
+        "--to", options.to, {"cog", "terrain-rgb"},
+        "The format: a Cloud Optimized GeoTIFF of the data's own samples, or PNG tiles for web maps "
+        "whose colours are heights.");
+    written.option("--out", options.out, "PATH",
+                   "What to write: a file (.tif) of cog, a folder of terrain-rgb.");
+    written.option("--zoom", options.zoom, "RANGE",
+                   "Write these zooms of a web map, LOW:HIGH of 0 to 22, as in 5:12. Default: from the one "
+                   "that shows all "
+                   "the data in a tile to the one whose pixels are as close as the data. Needs terrain-rgb.");
+    written.number("--hole-height", options.hole_height_m, "METRES",
+                   "Height of pixels without ground, -10000 to 10000 (default 0). Needs terrain-rgb.");
+    written.flag("--overwrite", options.overwrite,
+                 "Replace a file that is there, or a folder that holds such tiles and nothing else.");
+    add_region_options(command, options.region);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "the result and errors");
+    set_help(command, {{"export PATH... --to cog --out FILE.tif [OPTIONS]",
+                        "export PATH... --to terrain-rgb --out FOLDER [OPTIONS]"},
+                       "",
+                       "docs/commands/export.md"});
+}
+
 void add_serve(CLI::App& app, ServeOptions& options) {
     CLI::App& command = *app.add_subcommand("serve", "Serve a folder to browsers on this machine, read-only");
     OptionGroup served(command, "The folder");
@@ -547,6 +574,7 @@ void add_commands(CLI::App& app, CommandLine& line) {
     add_profile(app, line.profile);
     add_viewshed(app, line.viewshed);
     add_bake(app, line.bake);
+    add_export(app, line.exporting);
     add_serve(app, line.serve);
     add_info(app, line.info);
     add_doctor(app, line.doctor);

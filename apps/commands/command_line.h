@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/commands/options.h"
+#include "apps/options/export_options.h"
 #include "apps/options/serve_options.h"
 
 namespace oro {
@@ -20,6 +21,7 @@ struct CommandLine {
     ProfileOptions profile;
     ViewshedOptions viewshed;
     BakingOptions bake;
+    ExportOptions exporting;
     ServeOptions serve;
     InfoOptions info;
     DoctorOptions doctor;

@@ -11,6 +11,8 @@ class App;
 
 namespace oro {
 
+struct ExportOptions;  // apps/options/export_options.h
+
 // Writes a geotagged picture and, beside it, its view; with --verify also a picture of its errors.
 Result<void> run_shot(const ShotOptions& options);
 // Writes a picture all around a place, with rulers and names.
@@ -35,6 +37,8 @@ Result<void> run_viewshed(const ViewshedOptions& options);
 Result<void> run_view(const WindowOptions& options);
 // Writes a region with all its levels into a file, or goes on with one that was broken off.
 Result<void> run_bake(const BakingOptions& options);
+// Writes the heights of a region in a format of others.
+Result<void> run_export(const ExportOptions& options);
 // Serves a folder to browsers, read-only, until it is interrupted.
 Result<void> run_serve(const ServeOptions& options);
 // Tells what the sources of a region are and what is missing.

@@ -133,6 +133,7 @@ Result<void> take_coordinates(CommandLine& line) {
     ORO_CHECK(take(line.film.region, {}));
     ORO_CHECK(take(line.compare.region, {}));
     ORO_CHECK(take(line.bake.region, {}));
+    ORO_CHECK(take(line.exporting.region, {}));
     return take(line.info.region, {});
 }
 

@@ -109,10 +109,10 @@ Result<void> run_info(const InfoOptions& options) {
     const auto listed = listing_of(request, bar);
     if (!listed) return listed.error();
     const FileListing& listing = *listed;
-    auto opened = listing.error ? Result<Region>(*listing.error)
-                                : open_region(request, [&](double share, const std::string& what) {
-                                      bar.show(share, what);
-                                  });
+    auto opened =
+        listing.error
+            ? Result<Region>(*listing.error)
+            : open_region(request, [&](double share, const std::string& what) { bar.show(share, what); });
     bar.clear();
     if (!opened) return without_region(options, listing, opened.error());
     Region region = std::move(*opened);

@@ -36,6 +36,7 @@ const std::vector<FileRow>& file_rows() {
         {"profile", "--out", {"csv", "svg", "geojson"}},
         {"viewshed", "--out", {"tif", "tiff"}},
         {"bake", "--out", {"oro"}},
+        {"export", "--out", {"tif", "tiff"}},
     };
     return rows;
 }

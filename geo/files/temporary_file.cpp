@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "core/base/checksum.h"
+#include "geo/files/unfinished_folders.h"
 
 namespace oro {
 namespace fs = std::filesystem;
@@ -27,6 +28,7 @@ namespace {
 struct Unfinished {
     std::recursive_mutex mutex;
     std::set<std::string> paths;
+    std::set<std::string> folders;
     std::set<std::string> swept_folders;
 };
 Unfinished& unfinished() {
@@ -214,6 +216,34 @@ NamesHeld::~NamesHeld() {
 void remove_unfinished_files() {
     unfinished().mutex.lock();  // for good: see the header
     for (const std::string& path : unfinished().paths) unlink(path.c_str());
+    // Other threads may still write into a folder; they make none in it.
+    constexpr int most_tries = 100;
+    for (const std::string& folder : unfinished().folders) {
+        std::error_code failed;
+        for (int i = 0; i < most_tries && (i == 0 || failed); ++i) fs::remove_all(folder, failed);
+    }
+}
+
+int make_unfinished_folder(const std::string& beside, std::string& folder) {
+    const std::scoped_lock lock(unfinished().mutex);
+    for (int attempt = 0; attempt < 100; ++attempt) {
+        std::string name = beside == "/" ? "" : beside;
+        (name += '/') += random_name();
+        const auto entered = unfinished().folders.insert(name).first;
+        if (mkdir(name.c_str(), 0777) == 0) {
+            folder = std::move(name);
+            return 0;
+        }
+        const int why = errno;
+        unfinished().folders.erase(entered);
+        if (why != EEXIST) return why;
+    }
+    return EEXIST;
+}
+
+void forget_unfinished_folder(const std::string& folder) {
+    const std::scoped_lock lock(unfinished().mutex);
+    unfinished().folders.erase(folder);
 }
 
 }  // namespace oro

@@ -8,6 +8,7 @@
 
 #include "geo/files/raster_library.h"
 #include "geo/files/whole_file.h"
+#include "geo/rasters/post_raster_place.h"
 
 namespace oro {
 namespace {
@@ -30,13 +31,7 @@ Result<void> fill(GDALDatasetH dataset, const PostRaster& raster, const GdalMess
     const auto failed = [&] {
         return Error{ErrorKind::failed, path, "cannot be written: " + messages.last("GDAL says no more")};
     };
-    std::array<double, 6> corners = corners_of(raster);
-    if (GDALSetGeoTransform(dataset, corners.data()) != CE_None) return failed();
-    const SpatialReference crs = raster.crs ? spatial_reference(raster.crs->wkt) : wgs84_degrees();
-    if (!crs || GDALSetSpatialRef(dataset, crs.get()) != CE_None) return failed();
-    for (const auto& [name, value] : raster.tags)
-        GDALSetMetadataItem(dataset, name.c_str(), value.c_str(), nullptr);
-    GDALSetMetadataItem(dataset, "AREA_OR_POINT", "Point", nullptr);
+    if (!place_posts(dataset, raster)) return failed();
     for (std::size_t i = 0; i < raster.bands.size(); ++i) {
         const GDALRasterBandH band = GDALGetRasterBand(dataset, static_cast<int>(i) + 1);
         GDALSetDescription(band, raster.bands[i].name.c_str());
@@ -55,6 +50,17 @@ Result<void> fill(GDALDatasetH dataset, const PostRaster& raster, const GdalMess
 }
 
 }  // namespace
+
+bool place_posts(void* dataset, const PostRaster& raster) {
+    std::array<double, 6> corners = corners_of(raster);
+    if (GDALSetGeoTransform(dataset, corners.data()) != CE_None) return false;
+    const SpatialReference crs = raster.crs ? spatial_reference(raster.crs->wkt) : wgs84_degrees();
+    if (!crs || GDALSetSpatialRef(dataset, crs.get()) != CE_None) return false;
+    for (const auto& [name, value] : raster.tags)
+        GDALSetMetadataItem(dataset, name.c_str(), value.c_str(), nullptr);
+    GDALSetMetadataItem(dataset, "AREA_OR_POINT", "Point", nullptr);
+    return true;
+}
 
 Result<void> write_post_raster(const std::string& path, bool overwrite, const PostRaster& raster) {
     start_gdal();

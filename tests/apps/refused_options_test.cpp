@@ -32,7 +32,7 @@ void expect_lines(const std::vector<Refused>& all) {
 TEST(RefusedOptions, NoCommandIsOneForHelpEither) {
     const std::string these =
         "; these are shot, panorama, film, view, compare, plan, trade, sun, sight, profile, viewshed, bake, "
-        "info "
+        "export, serve, info "
         "and "
         "doctor";
     expect_lines({{{"nonsense", "--help"}, "there is no command \"nonsense\"" + these},
@@ -124,7 +124,10 @@ TEST(RefusedOptions, MissingValues) {
                   {{"plan"}, "PATH: is missing: name a file or a folder of elevation data"},
                   {{"compare"}, "PICTURE: is missing (orograph compare --help tells what it is)"},
                   {{"shot", file}, "--out: is missing: name the picture to write (.png, .jpg or .tif)"},
-                  {{"bake", file}, "--out: is missing: name the file to write (.oro)"}});
+                  {{"bake", file}, "--out: is missing: name the file to write (.oro)"},
+                  {{"export", file}, "--to: is missing: choose cog or terrain-rgb"},
+                  {{"export", file, "--to", "cog"}, "--out: is missing: name the file to write (.tif)"},
+                  {{"export", file, "--to", "terrain-rgb"}, "--out: is missing: name the folder to write"}});
 }
 
 TEST(RefusedOptions, OptionsThatExcludeEachOther) {
@@ -161,7 +164,7 @@ TEST(RefusedOptions, NamesThatThereAreNot) {
          {{"soar"},
           "there is no command \"soar\"; these are shot, panorama, film, view, compare, plan, trade, sun, "
           "sight, "
-          "profile, viewshed, bake, info and doctor"}});
+          "profile, viewshed, bake, export, serve, info and doctor"}});
 }
 
 TEST(RefusedOptions, NamesOfFilesToWrite) {
@@ -171,7 +174,9 @@ TEST(RefusedOptions, NamesOfFilesToWrite) {
           "--out p.bmp: a picture's name ends in .png, .jpg, .jpeg, .tif or .tiff"},
          {{"compare", "p.png", "--out", "e.jpg"}, "--out e.jpg: the picture of errors must be a .png"},
          {{"compare", "p.png", "--out", "e"}, "--out e: the picture of errors must be a .png"},
-         {{"bake", file, "--out", "r.tif"}, "--out r.tif: the file's name must end in .oro"}});
+         {{"bake", file, "--out", "r.tif"}, "--out r.tif: the file's name must end in .oro"},
+         {{"export", file, "--to", "cog", "--out", "r.png"},
+          "--out r.png: the file's name must end in .tif"}});
 }
 
 // Listed nowhere, and refused with a reason.

@@ -41,11 +41,14 @@ void refuse(httplib::Response& response, int status, const char* words) {
 }
 
 // A file of any size, read as it is sent; ranges are the library's.
-void give_file(const std::filesystem::path& file, httplib::Response& response) {
+void give_file(const std::filesystem::path& file, const httplib::Request& request,
+               httplib::Response& response) {
     std::error_code problem;
     const std::uintmax_t bytes = std::filesystem::file_size(file, problem);
     const auto stream = std::make_shared<std::ifstream>(file, std::ios::binary);
     if (problem || !*stream) return refuse(response, 404, "there is no such file");
+    if (!request.ranges.empty() && request.ranges.front().first >= static_cast<std::int64_t>(bytes))
+        return refuse(response, 416, "the file ends before");
     if (bytes == 0) return response.set_content("", media_type_of(file));
     response.set_content_provider(static_cast<std::size_t>(bytes), media_type_of(file),
                                   [stream](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
@@ -63,7 +66,7 @@ void answer(const ServedFolder& folder, bool local, const httplib::Request& requ
             httplib::Response& response) {
     if (local && !names_this_machine(request))
         return refuse(response, 403, "this folder is served to this machine alone");
-    if (const auto file = folder.file_of(request.path)) return give_file(*file, response);
+    if (const auto file = folder.file_of(request.path)) return give_file(*file, request, response);
     if (const auto page = folder.listing_of(request.path)) {
         response.set_content(*page, "text/html; charset=utf-8");
         return;

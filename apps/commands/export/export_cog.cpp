@@ -1,0 +1,96 @@
+// H on a region's own posts, as a Cloud Optimized GeoTIFF.
+#include <algorithm>
+#include <cstdio>
+
+#include "apps/command_line/refusals.h"
+#include "apps/commands/export/exported_region.h"
+#include "apps/report/figures.h"
+#include "apps/report/json_object.h"
+#include "apps/report/json_text.h"
+#include "apps/report/region_json.h"
+#include "core/base/parallel.h"
+#include "geo/rasters/cloud_raster.h"
+
+namespace oro {
+namespace {
+
+// Of a file: at some 12 bytes each they take 12 GB.
+constexpr double most_posts_of_cog = 1.0e9;
+constexpr float no_height_of_cog = -32768.0F;
+
+Result<PostRaster> heights_of(const Region& region) {
+    const RegionGrid& grid = region.grids.front();
+    PostRaster raster;
+    raster.grid = grid.field.grid;
+    raster.crs = grid.posts_crs;
+    raster.part = {0, raster.grid.rows(), 0, raster.grid.columns()};
+    raster.no_value = no_height_of_cog;
+    PostRaster::Band band{"H, metres above the geoid", {}};
+    band.values.reserve(raster.part.count());
+    for (int row = 0; row < raster.part.rows; ++row) {
+        for (int column = 0; column < raster.part.columns; ++column) {
+            const float H_m = grid.field.H_at_post_m(row, column);
+            band.values.push_back(is_void(H_m) ? no_height_of_cog : H_m);
+        }
+    }
+    ORO_CHECK(region.health());
+    raster.bands.push_back(std::move(band));
+    raster.tags = {{"VERTICAL_DATUM", heights_words(region)},
+                   {"SOURCE_VERTICAL_DATUM", source_heights_words(region)},
+                   {"SOFTWARE", "orograph " OROGRAPH_VERSION}};
+    if (const std::string attribution = attribution_of(region); !attribution.empty())
+        raster.tags.emplace_back("ATTRIBUTION", attribution);
+    return raster;
+}
+
+Result<void> check_grid(const Region& region) {
+    if (region.grids.size() > 1)
+        return refused("--to", "cog",
+                       "a GeoTIFF holds one grid of posts, and these data are " +
+                           std::to_string(region.grids.size()) + ": name files of one of them");
+    const auto posts = static_cast<double>(region.grids.front().field.grid.post_count());
+    if (posts > most_posts_of_cog)
+        return refused("--to", "cog",
+                       grouped(static_cast<std::uint64_t>(posts)) +
+                           " posts are more than 1,000,000,000: give a part of them with --bbox");
+    return {};
+}
+
+void tell_cog(const ExportOptions& options, const Region& region, const PostRaster& raster,
+              const CloudRasterWritten& written) {
+    const auto& values = raster.bands.front().values;
+    const auto voids = static_cast<std::uint64_t>(std::ranges::count(values, raster.no_value));
+    const char* const type = written.whole_numbers ? "int16" : "float32";
+    if (!options.json) {
+        std::printf("Wrote %s: %s x %s posts, %s, %s bytes\n", options.out.c_str(),
+                    grouped(static_cast<std::uint64_t>(raster.part.columns)).c_str(),
+                    grouped(static_cast<std::uint64_t>(raster.part.rows)).c_str(), type,
+                    grouped(written.bytes).c_str());
+        std::printf("Heights: %s\n", heights_words(region).c_str());
+        if (voids > 0) std::printf("Without a height: %s\n", counted(voids, "post", "posts").c_str());
+        return;
+    }
+    nlohmann::ordered_json json =
+        json_object("file", options.out, "format", "cog", "columns", raster.part.columns, "rows",
+                    raster.part.rows, "type", type, "no_value", raster.no_value, "voids", voids, "bytes",
+                    written.bytes, "heights", heights_words(region));
+    json["attribution"] = attribution_of(region);
+    json["notes"] = all_notes(region);
+    std::printf("%s\n", json_text(json, true).c_str());
+}
+
+}  // namespace
+
+Result<void> export_cog(const ExportOptions& options, const Region& region, ProgressBar& bar) {
+    ORO_CHECK(check_grid(region));
+    bar.show(1.0, "writing");
+    ORO_TRY(const PostRaster raster, heights_of(region));
+    ORO_TRY(const CloudRasterWritten written,
+            write_cloud_raster(options.out, options.overwrite, raster, thread_count()));
+    bar.clear();
+    say_notes(region, options.quiet);
+    tell_cog(options, region, raster, written);
+    return {};
+}
+
+}  // namespace oro

@@ -1,0 +1,258 @@
+#include "geo/web_maps/terrain_tiles.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <mutex>
+#include <set>
+#include <span>
+#include <system_error>
+
+#include "core/base/parallel.h"
+#include "geo/pictures/png_bytes.h"
+
+namespace oro {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double lowest_H_m = -10000.0, steps_per_m = 10.0;
+constexpr std::int64_t most_steps = 0xFFFFFF;
+
+std::vector<const PostGrid*> grids_of(const TrueGround& ground) {
+    std::vector<const PostGrid*> grids;
+    for (std::size_t i = 0; i < ground.grids(); ++i) grids.push_back(&ground.surface(i).field().grid);
+    return grids;
+}
+
+std::string folder_of(const std::string& folder, const MercatorTile& tile) {
+    return folder + "/" + std::to_string(tile.zoom) + "/" + std::to_string(tile.x);
+}
+
+struct TilePixels {
+    std::vector<std::uint8_t> rgb;
+    std::uint64_t holes{};
+};
+
+TilePixels pixels_of(const TrueGround& ground, const MercatorTile& tile, double hole_H_m) {
+    constexpr int side = mercator_tile_px;
+    TilePixels pixels;
+    pixels.rgb.reserve(std::size_t{3} * side * side);
+    const std::array<std::uint8_t, 3> hole = terrain_rgb(hole_H_m);
+    const auto centre = [&](int row, int column) {
+        return mercator_place(tile.zoom, {static_cast<double>(tile.x * side + column) + 0.5,
+                                          static_cast<double>(tile.y * side + row) + 0.5});
+    };
+    std::array<double, side> lon_deg{};
+    for (int column = 0; column < side; ++column)
+        lon_deg[static_cast<std::size_t>(column)] = centre(0, column).lon_deg;
+    for (int row = 0; row < side; ++row) {
+        const double lat_deg = centre(row, 0).lat_deg;
+        for (const double column_lon_deg : lon_deg) {
+            const std::optional<double> H_m = ground_H_m(ground, lat_deg, column_lon_deg);
+            pixels.holes += H_m ? 0 : 1;
+            const auto rgb = H_m ? terrain_rgb(*H_m) : hole;
+            pixels.rgb.insert(pixels.rgb.end(), rgb.begin(), rgb.end());
+        }
+    }
+    return pixels;
+}
+
+// The folder around it becomes whole as one: no need for each file to.
+Result<void> write_plain_file(const std::string& path, std::span<const std::uint8_t> bytes) {
+    const auto failed = [&](int why) {
+        return Error{ErrorKind::failed, path, "cannot be written: " + std::generic_category().message(why)};
+    };
+    std::FILE* const file = std::fopen(path.c_str(), "wbxe");
+    if (file == nullptr) return failed(errno);
+    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
+    const int why = errno;
+    if (std::fclose(file) != 0) return failed(errno);
+    return written ? Result<void>() : failed(why);
+}
+
+Result<void> write_tile(const std::string& folder, const MercatorTile& tile, const TilePixels& pixels,
+                        std::atomic<std::uint64_t>& bytes) {
+    ORO_TRY(const std::vector<std::uint8_t> png, png_bytes(pixels.rgb, mercator_tile_px, mercator_tile_px));
+    bytes += png.size();
+    return write_plain_file(folder_of(folder, tile) + "/" + std::to_string(tile.y) + ".png", png);
+}
+
+Result<void> make_folders(const std::string& folder, std::span<const MercatorTile> tiles) {
+    std::error_code failed;
+    for (const MercatorTile& tile : tiles) {
+        const std::string path = folder_of(folder, tile);
+        if (fs::create_directories(path, failed); failed)
+            return Error{ErrorKind::failed, path, "cannot be made: " + failed.message()};
+    }
+    return {};
+}
+
+void remove_empty_folders(const std::string& folder, std::span<const MercatorTile> tiles) {
+    std::error_code ignored;
+    // rmdir: of folders that hold something it does nothing.
+    for (const MercatorTile& tile : tiles) fs::remove(folder_of(folder, tile), ignored);
+    for (const MercatorTile& tile : tiles) fs::remove(folder + "/" + std::to_string(tile.zoom), ignored);
+}
+
+// Numbers of [0, 1), the same of every library. Source: S. Vigna, splitmix64.
+class Random {
+  public:
+    explicit Random(std::uint64_t seed) : state_(seed) {}
+    double next() {
+        std::uint64_t bits = state_ += 0x9E3779B97F4A7C15U;
+        bits = (bits ^ (bits >> 30U)) * 0xBF58476D1CE4E5B9U;
+        bits = (bits ^ (bits >> 27U)) * 0x94D049BB133111EBU;
+        return static_cast<double>((bits ^ (bits >> 31U)) >> 11U) * 0x1.0p-53;
+    }
+
+  private:
+    std::uint64_t state_;
+};
+
+// Where a zoom's pixels put the ground at a place; nothing where one of the four around it has none.
+std::optional<double> encoded_H_m(const TrueGround& ground, int zoom, const PostPlace& place) {
+    const MercatorPixel pixel = mercator_pixel(zoom, place.lat_deg, place.lon_deg);
+    const double x = std::floor(pixel.x_px - 0.5), y = std::floor(pixel.y_px - 0.5);
+    const double right = pixel.x_px - 0.5 - x, down = pixel.y_px - 0.5 - y;
+    double H_m = 0.0;
+    for (int corner = 0; corner < 4; ++corner) {
+        const int column = corner % 2, row = corner / 2;
+        const PostPlace centre = mercator_place(zoom, {x + column + 0.5, y + row + 0.5});
+        const std::optional<double> at_m = ground_H_m(ground, centre.lat_deg, centre.lon_deg);
+        if (!at_m) return std::nullopt;
+        H_m += (column == 1 ? right : 1.0 - right) * (row == 1 ? down : 1.0 - down) *
+               H_of_terrain_rgb_m(terrain_rgb(*at_m));
+    }
+    return H_m;
+}
+
+// A place in one of the grids' boxes.
+PostPlace random_place(std::span<const PostGrid* const> grids, double posts, Random& random) {
+    double number = random.next() * posts;
+    const PostGrid* grid = grids.front();
+    for (const PostGrid* const one : grids) {
+        grid = one;
+        if (number < static_cast<double>(one->post_count())) break;
+        number -= static_cast<double>(one->post_count());
+    }
+    const double row = random.next() * (grid->rows() - 1);
+    return grid->place_at(row, random.next() * (grid->columns() - 1));
+}
+
+ZoomError error_of_zoom(const TrueGround& ground, int zoom, int places) {
+    constexpr int tries_a_place = 20;
+    ZoomError error{zoom, 0, 0.0, 0.0};
+    const auto grids = grids_of(ground);
+    double posts = 0.0, squares_m2 = 0.0;
+    for (const PostGrid* const grid : grids) posts += static_cast<double>(grid->post_count());
+    Random random(static_cast<std::uint64_t>(zoom));
+    for (int i = 0; i < tries_a_place * places && error.places < static_cast<std::uint64_t>(places); ++i) {
+        const PostPlace place = random_place(grids, posts, random);
+        if (std::abs(place.lat_deg) >= mercator_limit_deg) continue;
+        const std::optional<double> is_m = ground_H_m(ground, place.lat_deg, place.lon_deg);
+        const std::optional<double> has_m = is_m ? encoded_H_m(ground, zoom, place) : std::nullopt;
+        if (!has_m) continue;
+        ++error.places;
+        error.largest_m = std::max(error.largest_m, std::abs(*has_m - *is_m));
+        squares_m2 += (*has_m - *is_m) * (*has_m - *is_m);
+    }
+    if (error.places > 0) error.rms_m = std::sqrt(squares_m2 / static_cast<double>(error.places));
+    return error;
+}
+
+bool is_number(const std::string& name) {
+    return !name.empty() && std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+}  // namespace
+
+std::array<std::uint8_t, 3> terrain_rgb(double H_m) {
+    const double most = static_cast<double>(most_steps);
+    const auto steps =
+        static_cast<std::uint32_t>(std::clamp(std::round((H_m - lowest_H_m) * steps_per_m), 0.0, most));
+    return {static_cast<std::uint8_t>(steps >> 16U), static_cast<std::uint8_t>(steps >> 8U & 0xFFU),
+            static_cast<std::uint8_t>(steps & 0xFFU)};
+}
+
+double H_of_terrain_rgb_m(const std::array<std::uint8_t, 3>& rgb) {
+    return lowest_H_m + static_cast<double>(rgb[0] * 65536 + rgb[1] * 256 + rgb[2]) / steps_per_m;
+}
+
+std::optional<double> ground_H_m(const TrueGround& ground, double lat_deg, double lon_deg) {
+    const std::optional<double> h_m = ground.h_m(lat_deg, lon_deg);
+    if (!h_m) return std::nullopt;
+    return *h_m - ground.N_m(lat_deg, lon_deg);
+}
+
+Result<TerrainTilesWritten> write_terrain_tiles(const std::string& folder, const TrueGround& ground,
+                                                const TerrainTilesRequest& request,
+                                                const TilesProgress& progress) {
+    std::vector<MercatorTile> tiles;
+    for (int zoom = request.zooms.low; zoom <= request.zooms.high; ++zoom) {
+        const auto more = mercator_tiles(zoom, grids_of(ground));
+        tiles.insert(tiles.end(), more.begin(), more.end());
+    }
+    ORO_CHECK(make_folders(folder, tiles));
+    std::atomic<std::uint64_t> written{0}, bytes{0}, holes{0};
+    std::mutex mutex;
+    Result<void> fault;
+    const auto write = [&](const MercatorTile& tile) {
+        const TilePixels pixels = pixels_of(ground, tile, request.hole_H_m);
+        if (pixels.holes == pixels.rgb.size() / 3) return;
+        const Result<void> done = write_tile(folder, tile, pixels, bytes);
+        ++written;
+        holes += pixels.holes;
+        if (done.ok()) return;
+        const std::scoped_lock lock(mutex);
+        if (fault.ok()) fault = done;
+    };
+    // In parts, so that progress is told between them.
+    const std::size_t at_once = std::size_t{32} * static_cast<std::size_t>(request.threads);
+    for (std::size_t first = 0; first < tiles.size() && fault.ok(); first += at_once) {
+        const std::size_t count = std::min(at_once, tiles.size() - first);
+        in_parallel(static_cast<int>(count), request.threads,
+                    [&](int i) { write(tiles[first + static_cast<std::size_t>(i)]); });
+        if (progress) progress(static_cast<double>(first + count) / static_cast<double>(tiles.size()));
+    }
+    ORO_CHECK(fault);
+    ORO_CHECK(ground.health());
+    remove_empty_folders(folder, tiles);
+    return TerrainTilesWritten{written, bytes, holes};
+}
+
+Result<std::vector<ZoomError>> terrain_tiles_error(const TrueGround& ground, const ZoomRange& zooms,
+                                                   int places, int threads) {
+    std::vector<ZoomError> errors(static_cast<std::size_t>(zooms.high - zooms.low + 1));
+    in_parallel(static_cast<int>(errors.size()), threads, [&](int i) {
+        errors[static_cast<std::size_t>(i)] = error_of_zoom(ground, zooms.low + i, places);
+    });
+    ORO_CHECK(ground.health());
+    return errors;
+}
+
+Result<void> check_holds_tiles_alone(const std::string& folder) {
+    std::error_code failed;
+    for (fs::recursive_directory_iterator entry(folder, failed), end; !failed && entry != end;
+         entry.increment(failed)) {
+        const fs::path name = entry->path().filename();
+        std::error_code unknown;
+        const bool is_folder = entry->symlink_status(unknown).type() == fs::file_type::directory;
+        const bool is_ours =
+            entry.depth() < 2 && is_folder
+                ? is_number(name.string())
+                : !is_folder &&
+                      (entry.depth() == 2 ? name.extension() == ".png" && is_number(name.stem().string())
+                                          : entry.depth() == 0 && name == "tiles.json");
+        if (!is_ours)
+            return Error{ErrorKind::failed, folder,
+                         "holds " + fs::relative(entry->path(), folder, unknown).string() +
+                             ", which is no tile: it is not replaced"};
+    }
+    if (failed) return Error{ErrorKind::failed, folder, "cannot be read: " + failed.message()};
+    return {};
+}
+
+}  // namespace oro

@@ -1,0 +1,127 @@
+// orograph export as people and programs use it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <sstream>
+#include <string>
+
+#include "tests/apps/picture_pixels.h"
+#include "tests/apps/program.h"
+#include "tests/apps/said_json.h"
+#include "tests/support/test_data.h"
+
+namespace {
+namespace fs = std::filesystem;
+using oro::test::bundled;
+using oro::test::bytes_of;
+using oro::test::expect_refusal;
+using oro::test::names_in;
+using oro::test::object_said_by;
+using oro::test::run_orograph;
+using oro::test::run_program;
+using oro::test::Words;
+
+Words export_words(const std::string& format, const fs::path& out, const Words& more = {}) {
+    return oro::test::joined({"export", bundled(), "-q", "--to", format, "--out", out.string()}, more);
+}
+
+TEST(ExportCommand, CogHasTheFilesOwnHeights) {
+    const fs::path out = oro::test::scratch_folder() / "h.tif";
+    const auto said = object_said_by(export_words("cog", out, {"--json"}));
+    EXPECT_EQ(said["type"], "int16");
+    EXPECT_EQ(said["columns"], 403);
+    EXPECT_EQ(said["rows"], 344);
+    EXPECT_EQ(said["bytes"], fs::file_size(out));
+    const auto info = run_program({"gdalinfo", "-json", "-checksum", out.string()});
+    if (info.exit_code == 127) GTEST_SKIP() << "needs gdalinfo";
+    const auto raster = oro::test::one_object(info.out);
+    const auto source = oro::test::one_object(run_program({"gdalinfo", "-json", "-checksum", bundled()}).out);
+    EXPECT_EQ(raster["metadata"]["IMAGE_STRUCTURE"]["LAYOUT"], "COG");
+    EXPECT_EQ(raster["bands"][0]["checksum"], source["bands"][0]["checksum"]);
+    EXPECT_EQ(raster["bands"][0]["noDataValue"], -32768.0);
+    EXPECT_EQ(raster["metadata"][""]["VERTICAL_DATUM"], said["heights"]);
+    for (std::size_t i = 0; i < 6; ++i)
+        EXPECT_NEAR(raster["geoTransform"][i].get<double>(), source["geoTransform"][i].get<double>(), 1e-12);
+}
+
+TEST(ExportCommand, TilesHaveTheHeightsThatProfileTells) {
+    const fs::path out = oro::test::scratch_folder() / "tiles";
+    const auto said = object_said_by(export_words("terrain-rgb", out, {"--json", "--zoom", "9:12"}));
+    const auto written = nlohmann::json::parse(bytes_of(out / "tiles.json"));
+    EXPECT_EQ(written["tilejson"], "3.0.0");
+    EXPECT_EQ(written["minzoom"], 9);
+    EXPECT_EQ(written["maxzoom"], 12);
+    EXPECT_EQ(written["attribution"], "USGS, public domain");
+    EXPECT_EQ(written["bounds"].size(), 4U);
+    EXPECT_EQ(written["orograph"]["error"], said["error"]);
+    EXPECT_EQ(written["orograph"]["error"].size(), 4U);
+    // Finer zooms are nearer to the ground; the finest is within a few metres of these hills.
+    EXPECT_GT(said["error"][0]["largest_m"].get<double>(), said["error"][3]["largest_m"].get<double>());
+    EXPECT_EQ(said["error"][3]["places"], 10000);
+    std::size_t tiles = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(out))
+        tiles += entry.path().extension() == ".png";
+    EXPECT_EQ(tiles, said["tiles"].get<std::size_t>());
+    // The centre of pixel (100, 100) of tile 12/1088/1600.
+    const double side = std::pow(2.0, 12) * 256.0, pi = std::acos(-1.0);
+    const double lon = (1088 * 256 + 100.5) / side * 360.0 - 180.0;
+    const double lat = std::atan(std::sinh(pi * (1.0 - 2.0 * (1600 * 256 + 100.5) / side))) * 180.0 / pi;
+    const auto tile = oro::test::pixels_of(out / "12" / "1088" / "1600.png");
+    ASSERT_EQ(tile.width, 256U);
+    const std::size_t at = 3 * (100 * 256 + 100);
+    const double H_m = -10000.0 + 0.1 * (tile.rgb[at] * 65536 + tile.rgb[at + 1] * 256 + tile.rgb[at + 2]);
+    std::ostringstream to;
+    to.precision(12);
+    to << std::fixed << lat << "," << lon;
+    const auto sight = object_said_by({"sight", bundled(), "-q", "--json", "--from", "36.5,-84.2", "--above",
+                                       "500", "--to", to.str(), "--target", "1"});
+    EXPECT_NEAR(sight["to"]["H_m"].get<double>() - 1.0, H_m, 0.05 + 1e-3);
+}
+
+TEST(ExportCommand, SparesWhatIsThere) {
+    const fs::path folder = oro::test::scratch_folder(), out = folder / "tiles";
+    const Words words = export_words("terrain-rgb", out, {"--zoom", "9"});
+    EXPECT_EQ(run_orograph(words).exit_code, 0);
+    const std::string before = bytes_of(out / "tiles.json");
+    expect_refusal(run_orograph(words), oro::test::failed, {"is there already (--overwrite replaces it)"});
+    const Words again = export_words("terrain-rgb", out, {"--zoom", "10", "--overwrite"});
+    EXPECT_EQ(run_orograph(again).exit_code, 0);
+    EXPECT_NE(bytes_of(out / "tiles.json"), before);
+    EXPECT_EQ(names_in(out), (Words{"10", "tiles.json"}));
+    oro::test::write_bytes(out / "notes.txt", "mine");
+    expect_refusal(run_orograph(again), oro::test::failed, {"holds notes.txt, which is no tile"});
+    EXPECT_EQ(bytes_of(out / "notes.txt"), "mine");
+    EXPECT_EQ(names_in(folder), Words{"tiles"});
+    const fs::path copy = folder / "copy.tif";
+    fs::copy_file(bundled(), copy);
+    expect_refusal(run_orograph({"export", copy, "--to", "cog", "--out", copy, "--overwrite"}),
+                   oro::test::usage, {"would replace", "which the elevation data are in"});
+    EXPECT_EQ(bytes_of(copy), bytes_of(bundled()));
+}
+
+TEST(ExportCommand, RefusesWhatHasNoMeaning) {
+    const fs::path folder = oro::test::scratch_folder();
+    for (const char* zoom : {"12:11", "3:23", "-1:4", "a", "3:", ":4", "1:2:3", "1.5"})
+        expect_refusal(
+            run_orograph(export_words("terrain-rgb", folder / "t", {std::string("--zoom=") + zoom})),
+            oro::test::usage, {"--zoom", "must be LOW:HIGH as in 5:12, from 0 to 22"});
+    expect_refusal(run_orograph(export_words("terrain-rgb", folder / "t", {"--zoom", "22"})),
+                   oro::test::usage, {"more than 4,000,000"});
+    expect_refusal(run_orograph(export_words("terrain-rgb", folder / "t", {"--hole-height", "20000"})),
+                   oro::test::usage, {"--hole-height 20000"});
+    expect_refusal(run_orograph(export_words("terrain-rgb", folder / "none" / "t")), oro::test::failed,
+                   {"No such file or directory"});
+    expect_refusal(run_orograph(export_words("cog", folder / "t.tif", {"--zoom", "3:4"})), oro::test::usage,
+                   {"--zoom 3:4: needs --to terrain-rgb"});
+    expect_refusal(run_orograph(export_words("cog", folder / "t.tif", {"--hole-height", "1"})),
+                   oro::test::usage, {"--hole-height", "needs --to terrain-rgb"});
+    expect_refusal(run_orograph(export_words("gltf", folder / "t")), oro::test::usage,
+                   {"choose cog or terrain-rgb"});
+    EXPECT_TRUE(names_in(folder).empty());
+}
+
+}  // namespace
