@@ -7,10 +7,7 @@
 
 namespace oro {
 
-// A folder under a temporary name beside its real one, which it takes on commit().
-//     ORO_TRY(WholeFolder folder, WholeFolder::create(path, overwrite));
-//     ORO_CHECK(write_whole_file(folder.path() + "/a.txt", text, false));
-//     ORO_CHECK(folder.commit());
+// A folder under a temporary name beside its real one, which it takes on commit(). Files are written into path().
 // Destroyed without commit, it is removed with all that it holds, and whatever had the name before is
 // untouched. A program that is killed outright leaves it, by a name that begins with ".orograph-".
 class WholeFolder {

@@ -40,14 +40,14 @@ struct Drop {
     void answer(const XSelectionRequestEvent& asked) const {
         XChangeProperty(display, asked.requestor, asked.property, asked.target, 8, PropModeReplace,
                         reinterpret_cast<const unsigned char*>(list.data()), static_cast<int>(list.size()));
-        XEvent told{};
-        told.xselection.type = SelectionNotify;
-        told.xselection.requestor = asked.requestor;
-        told.xselection.selection = asked.selection;
-        told.xselection.target = asked.target;
-        told.xselection.property = asked.property;
-        told.xselection.time = asked.time;
-        XSendEvent(display, asked.requestor, False, NoEventMask, &told);
+        XEvent notice{};
+        notice.xselection.type = SelectionNotify;
+        notice.xselection.requestor = asked.requestor;
+        notice.xselection.selection = asked.selection;
+        notice.xselection.target = asked.target;
+        notice.xselection.property = asked.property;
+        notice.xselection.time = asked.time;
+        XSendEvent(display, asked.requestor, False, NoEventMask, &notice);
         XFlush(display);
     }
 
