@@ -503,7 +503,7 @@ void add_serve(CLI::App& app, ServeOptions& options) {
     served.option("--host", options.host, "ADDRESS",
                   "Listen at this address of the machine (default 127.0.0.1: nobody else reaches it). "
                   "0.0.0.0 is all of them: then everybody in the network can read the folder.");
-    served.flag("--cors", options.others, "Let pages of other sites read what is served.");
+    served.flag("--cors", options.any_origin, "Let pages of other sites read what is served.");
     add_quiet(command, options.quiet, "the address and errors");
     set_help(command, {{"serve FOLDER [OPTIONS]"}, "", "docs/commands/serve.md"});
 }

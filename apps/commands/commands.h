@@ -2,7 +2,6 @@
 #pragma once
 
 #include "apps/options/options.h"
-#include "apps/options/serve_options.h"
 #include "core/base/result.h"
 
 namespace CLI {
@@ -12,6 +11,7 @@ class App;
 namespace oro {
 
 struct ExportOptions;  // apps/options/export_options.h
+struct ServeOptions;   // apps/options/serve_options.h
 
 // Writes a geotagged picture and, beside it, its view; with --verify also a picture of its errors.
 Result<void> run_shot(const ShotOptions& options);

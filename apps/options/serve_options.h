@@ -1,7 +1,6 @@
 // What the command line says to serve.
 #pragma once
 
-#include <optional>
 #include <string>
 
 namespace oro {
@@ -9,8 +8,8 @@ namespace oro {
 struct ServeOptions {
     std::string folder;
     std::string host{"127.0.0.1"};
-    int port{8080};      // 0: any that is free
-    bool others{false};  // pages of other sites may read what is served
+    int port{8080};          // 0: any that is free
+    bool any_origin{false};  // pages of other sites may read what is served
     bool quiet{false};
 };
 

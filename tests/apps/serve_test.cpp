@@ -177,6 +177,14 @@ TEST(Serve, NothingOutsideTheFolderIsGiven) {
                   "GET /tiles.json HTTP/1.1\r\nHost: elsewhere.example\r\nConnection: close\r\n\r\n")),
               403)
         << "a name of somebody else's that leads here";
+    EXPECT_EQ(
+        status_of(served.answer("GET /tiles.json HTTP/1.1\r\nHost: 127.elsewhere.example:8080\r\nConnection: "
+                                "close\r\n\r\n")),
+        403)
+        << "one that looks like an address";
+    EXPECT_EQ(status_of(served.answer("GET /tiles.json HTTP/1.1\r\nHost: 127.0.0.1:8080\r\nConnection: "
+                                      "close\r\n\r\n")),
+              200);
     EXPECT_EQ(status_of(served.get("/tiles.json")), 200) << "after all of that";
 }
 

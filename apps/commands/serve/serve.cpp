@@ -1,6 +1,9 @@
 // orograph serve: a folder for browsers, read-only.
 #include <httplib.h>
 
+#include <arpa/inet.h>
+
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -11,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-#include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/serve/served_folder.h"
+#include "apps/options/serve_options.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 
@@ -23,7 +26,9 @@ namespace {
 constexpr std::size_t threads = 64;  // a client that is slow holds one
 
 bool is_loopback(const std::string& host) {
-    return host == "localhost" || host == "::1" || host == "[::1]" || host.starts_with("127.");
+    if (host == "localhost" || host == "::1" || host == "[::1]") return true;
+    in_addr address{};  // 127.0.0.0/8, and no name that begins so
+    return inet_pton(AF_INET, host.c_str(), &address) == 1 && ntohl(address.s_addr) >> 24U == 127U;
 }
 
 // What browsers name in "Host": a name that somebody else's server points to this machine is not served, or
@@ -80,7 +85,7 @@ void set_up(httplib::Server& server, const ServedFolder& folder, const ServeOpti
     server.set_write_timeout(20, 0);
     server.set_payload_max_length(0);
     httplib::Headers headers{{"X-Content-Type-Options", "nosniff"}};
-    if (options.others) headers.emplace("Access-Control-Allow-Origin", "*");
+    if (options.any_origin) headers.emplace("Access-Control-Allow-Origin", "*");
     server.set_default_headers(std::move(headers));
     const bool local = is_loopback(options.host);
     // Before the library's own routes: those match addresses by std::regex, whose stack grows with the

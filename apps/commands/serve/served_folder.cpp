@@ -2,33 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "apps/report/xml_escape.h"
 #include "geo/files/letter_case.h"
 
 namespace oro {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string escaped(const std::string& text) {
-    std::string safe;
-    for (const char c : text) {
-        if (c == '&')
-            safe += "&amp;";
-        else if (c == '<')
-            safe += "&lt;";
-        else if (c == '>')
-            safe += "&gt;";
-        else if (c == '"')
-            safe += "&quot;";
-        else
-            safe += c;
-    }
-    return safe;
-}
 
 // A name as a part of an address (RFC 3986).
 std::string address_part(const std::string& name) {
@@ -98,11 +83,12 @@ std::optional<std::string> ServedFolder::listing_of(const std::string& address) 
     std::ranges::sort(names);
     const std::string base = address.ends_with('/') ? "" : address_part(path->filename().string()) + "/";
     std::string page =
-        "<!doctype html><meta charset=\"utf-8\"><title>" + escaped(address) + "</title>\n<ul>\n";
+        "<!doctype html><meta charset=\"utf-8\"><title>" + xml_escaped(address) + "</title>\n<ul>\n";
     for (const std::string& name : names) {
         const bool is_folder = name.ends_with('/');
         const std::string part = address_part(is_folder ? name.substr(0, name.size() - 1) : name);
-        page += "<li><a href=\"./" + base + part + (is_folder ? "/" : "") + "\">" + escaped(name) + "</a>\n";
+        page +=
+            "<li><a href=\"./" + base + part + (is_folder ? "/" : "") + "\">" + xml_escaped(name) + "</a>\n";
     }
     return page + "</ul>\n";
 }
