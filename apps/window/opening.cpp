@@ -173,10 +173,8 @@ Result<OpenedScene> scene_of(Viewer& viewer, OpenedRegion& opened, Style& style)
     if (!find_graticule_crs(opened.view, opened.region).ok()) opened.view.graticule = Graticule::geographic;
     ORO_TRY(style, load_style(opened.view, opened.region.grids.front().field));
     const bool keeps_means = viewer.keeps_means || asks_for_means(style.frame);
-    ORO_TRY(const bool clusters, draws_clusters(opened.region, opened.view));
-    ORO_TRY(OpenedScene scene,
-            first_scene(viewer.gpu, opened.region, opened.cuts, std::move(opened.pages), opened.view,
-                        {viewer.options.memory, true, keeps_means, clusters}));
+    ORO_TRY(OpenedScene scene, first_scene(viewer.gpu, opened.region, opened.cuts, std::move(opened.pages),
+                                           opened.view, {viewer.options.memory, true, keeps_means}));
     viewer.keeps_means = keeps_means;
     return scene;
 }

@@ -66,7 +66,8 @@ Result<Scene> scene_with_images(const Gpu& gpu, const Region& region, const Regi
 }
 
 Result<OpenedScene> first_scene(const Gpu& gpu, const Region& region, const RegionCuts& cuts, GridPages pages,
-                                const View& view, SceneChoice choice) {
+                                View& view, SceneChoice choice) {
+    ORO_TRY(choice.clusters, draws_clusters(region, view));
     const bool keeps_means = choice.keeps_means;
     const bool lacks_means = keeps_means && measures_means_long(region);
     choice.keeps_means = keeps_means && !lacks_means;
@@ -77,7 +78,6 @@ Result<OpenedScene> first_scene(const Gpu& gpu, const Region& region, const Regi
 Result<OpenedScene> open_scene(const Gpu& gpu, const Region& region, const RegionCuts& cuts, View& view,
                                SceneChoice choice, const RenderProgress& progress) {
     ORO_TRY(GridPages pages, first_pages(region, cuts, view, progress));
-    ORO_TRY(choice.clusters, draws_clusters(region, view));
     return first_scene(gpu, region, cuts, std::move(pages), view, choice);
 }
 

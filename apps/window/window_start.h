@@ -37,11 +37,12 @@ struct OpenedScene {
     bool is_coarse{};    // every n-th post, or without means of the ground: a finer one is to come
     bool keeps_means{};  // the finer one has them
 };
-// A scene of first_pages() as scene_with_images() makes it, but without means that take long.
+// A scene of first_pages() as scene_with_images() makes it, but without means that take long. Clusters are
+// chosen here, as the view asks for. Errors: as scene_with_images() and draws_clusters().
 Result<OpenedScene> first_scene(const Gpu& gpu, const Region& region, const RegionCuts& cuts, GridPages pages,
-                                const View& view, SceneChoice choice);
-// All of a region, or what can be shown soon. choice: clusters are chosen here, as the view asks for. Errors:
-// as scene_with_images() and draws_clusters().
+                                View& view, SceneChoice choice);
+// All of a region, or what can be shown soon, with pages made here. Errors: as first_pages() and
+// first_scene().
 Result<OpenedScene> open_scene(const Gpu& gpu, const Region& region, const RegionCuts& cuts, View& view,
                                SceneChoice choice, const RenderProgress& progress);
 

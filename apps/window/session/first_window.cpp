@@ -15,22 +15,32 @@
 namespace oro {
 namespace {
 
-Result<void> show_sheet_again(Window& window, const ImDrawData* over) {
+// The sheet of a window, made again where that has another size. The window owns its picture.
+struct LoadingSheet {
+    const Image* picture{nullptr};
+    VkExtent2D extent{};
+};
+
+Result<void> show_sheet_with(LoadingSheet& sheet, Window& window, const ImDrawData* over) {
     const VkExtent2D extent = window.extent();
     if (extent.width == 0 || extent.height == 0) return {};
-    ORO_TRY(const std::vector<std::uint8_t> pixels,
-            loading_picture(static_cast<int>(extent.width), static_cast<int>(extent.height)));
-    ORO_TRY(const Image* const sheet, window.picture_of(pixels, extent));
-    ORO_CHECK(window.show({*sheet, extent, over}));
+    if (sheet.picture == nullptr || sheet.extent.width != extent.width ||
+        sheet.extent.height != extent.height) {
+        ORO_TRY(const std::vector<std::uint8_t> pixels,
+                loading_picture(static_cast<int>(extent.width), static_cast<int>(extent.height)));
+        ORO_TRY(sheet.picture, window.picture_of(pixels, extent));
+        sheet.extent = extent;
+    }
+    ORO_CHECK(window.show({*sheet.picture, extent, over}));
     ORO_CHECK(window.present());
     return {};
 }
 
 // One turn of a window that waits. False when its user leaves.
-Result<bool> wait_in_window(const FirstWindow& first, const RegionOpening& opening) {
+Result<bool> wait_in_window(const FirstWindow& first, const RegionOpening& opening, LoadingSheet& sheet) {
     const auto build = [&] { build_opening_bar(opening); };
     ORO_CHECK(first.interface->follow_scale());
-    ORO_CHECK(show_sheet_again(*first.window, first.interface->lists(build)));
+    ORO_CHECK(show_sheet_with(sheet, *first.window, first.interface->lists(build)));
     constexpr double turn_s = 0.05;
     const WindowInput input = first.window->poll(turn_s);
     bool stays = !input.closed;
@@ -42,11 +52,15 @@ Result<bool> wait_in_window(const FirstWindow& first, const RegionOpening& openi
     return stays;
 }
 
-Result<FirstWindow> window_of_waiting(const Camera& camera, const std::string& name, double scale) {
+Result<FirstWindow> window_of_waiting(const Camera& camera, const RegionOpening& opening, double scale) {
     FirstWindow first;
     ORO_TRY(first.gpu, device_of_window());
-    ORO_CHECK(show_sheet(first, camera, name));
+    ORO_CHECK(check_window_size(camera, first.gpu->report()));
+    ORO_CHECK(show_sheet(first, camera, opening.name()));
     first.interface->set_user_scale(scale);
+    // A panel is as large as its words from its second frame on.
+    ORO_CHECK(first.interface->follow_scale());
+    first.interface->lists([&] { build_opening_bar(opening); });
     return first;
 }
 
@@ -60,10 +74,10 @@ Result<std::unique_ptr<Gpu>> device_of_window() {
 }
 
 Result<void> show_sheet(FirstWindow& first, const Camera& camera, const std::string& name) {
-    ORO_CHECK(check_window_size(camera, first.gpu->report()));
     ORO_TRY(first.window,
             Window::create(*first.gpu, camera.width_px, camera.height_px, one_line("Orograph - " + name)));
-    ORO_CHECK(show_sheet_again(*first.window, nullptr));
+    LoadingSheet sheet;
+    ORO_CHECK(show_sheet_with(sheet, *first.window, nullptr));
     ORO_TRY(first.interface, Interface::create(*first.window));
     return {};
 }
@@ -74,19 +88,20 @@ Result<AwaitedRegion> await_region(RegionOpening& opening, const std::optional<C
     constexpr auto moment = 400ms;
     const auto begun = std::chrono::steady_clock::now();
     AwaitedRegion awaited;
+    LoadingSheet sheet;
     bool may_show = camera.has_value();
     while (!opening.ready()) {
         bar.show(opening.share(), opening.step());
-        if (awaited.window.interface) {
-            const Result<bool> stays = wait_in_window(awaited.window, opening);
+        if (awaited.window) {
+            const Result<bool> stays = wait_in_window(*awaited.window, opening, sheet);
             if (stays.ok() && !stays.value()) {
-                awaited.window.window->hide();  // what is read ends with its file
+                awaited.window->window->hide();  // what is read ends with its file
                 return awaited;
             }
-            if (!stays.ok()) awaited.window = {};
+            if (!stays.ok()) awaited.window.reset();
         } else if (may_show && std::chrono::steady_clock::now() - begun > moment) {
             may_show = false;
-            Result<FirstWindow> first = window_of_waiting(*camera, opening.name(), scale);
+            Result<FirstWindow> first = window_of_waiting(*camera, opening, scale);
             if (first.ok()) awaited.window = std::move(first).value();
         } else {
             std::this_thread::sleep_for(5ms);

@@ -24,14 +24,14 @@ struct FirstWindow {
 // The GPU that can show a window. Errors: no display, no device.
 Result<std::unique_ptr<Gpu>> device_of_window();
 
-// Opens a window of the camera's size on a device, which shows a plain sheet. Errors: the window is too
-// large, the window system, the device.
+// Opens a window of the camera's size on a device, which can draw that (check_window_size()). It shows a
+// plain sheet. Errors: the window system, the device.
 Result<void> show_sheet(FirstWindow& first, const Camera& camera, const std::string& name);
 
 // What came of waiting for a region: nothing where the user left before it was read.
 struct AwaitedRegion {
     std::optional<OpenedRegion> region;
-    FirstWindow window;  // empty where the region was read too soon for one
+    std::optional<FirstWindow> window;  // nothing where the region was read too soon for one
 };
 
 // Waits for a region that is being read. Reading that takes longer than a moment is shown by a window with a

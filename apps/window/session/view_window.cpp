@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "apps/command_line/refusals.h"
-#include "apps/drawing/mesh_choice.h"
 #include "apps/eye/asked_summit.h"
 #include "apps/eye/standpoint.h"
 #include "apps/report/json_text.h"
@@ -172,9 +171,8 @@ Result<void> set_out(Viewer& viewer, ViewerState& state) {
 // The pages that were read with the region are used once; a scene on another device makes them again.
 Result<OpenedScene> scene_of_state(ViewerState& state, const Gpu& gpu, bool quiet,
                                    const RenderProgress& progress) {
-    SceneChoice choice{state.options.memory, quiet, state.keeps_means};
+    const SceneChoice choice{state.options.memory, quiet, state.keeps_means};
     if (!state.pages) return open_scene(gpu, state.region, state.cuts, state.view, choice, progress);
-    ORO_TRY(choice.clusters, draws_clusters(state.region, state.view));
     GridPages pages = std::move(*std::exchange(state.pages, std::nullopt));
     return first_scene(gpu, state.region, state.cuts, std::move(pages), state.view, choice);
 }
@@ -237,7 +235,7 @@ Result<bool> read_region(ViewerState& state, ProgressBar& bar) {
     ORO_TRY(AwaitedRegion awaited,
             await_region(opening, camera_of_window(state), state.settings.ui_scale, bar));
     if (!awaited.region) return false;
-    state.first = std::move(awaited.window);
+    if (awaited.window) state.first = std::move(*awaited.window);
     state.view = std::move(awaited.region->view);
     state.region = std::move(awaited.region->region);
     state.cuts = std::move(awaited.region->cuts);
