@@ -374,6 +374,7 @@ set_tests_properties(
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Bake
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/BakeAgain
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Info
+  Commands/FailedSystemCalls.AllOfAKindFromOneOn/Export
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Profile
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Shot
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/ShotOfBaked
@@ -381,6 +382,7 @@ set_tests_properties(
   Commands/FailedSystemCalls.OfAll/Bake
   Commands/FailedSystemCalls.OfAll/BakeAgain
   Commands/FailedSystemCalls.OfAll/Info
+  Commands/FailedSystemCalls.OfAll/Export
   Commands/FailedSystemCalls.OfAll/Profile
   Commands/FailedSystemCalls.OfAll/Shot
   Commands/FailedSystemCalls.OfAll/ShotOfBaked
@@ -388,6 +390,7 @@ set_tests_properties(
   Commands/FailedSystemCalls.OfTheProgram/Bake
   Commands/FailedSystemCalls.OfTheProgram/BakeAgain
   Commands/FailedSystemCalls.OfTheProgram/Info
+  Commands/FailedSystemCalls.OfTheProgram/Export
   Commands/FailedSystemCalls.OfTheProgram/Profile
   Commands/FailedSystemCalls.OfTheProgram/Shot
   Commands/FailedSystemCalls.OfTheProgram/ShotOfBaked
@@ -395,6 +398,7 @@ set_tests_properties(
   Commands/FailedSystemCalls.OfWriting/Bake
   Commands/FailedSystemCalls.OfWriting/BakeAgain
   Commands/FailedSystemCalls.OfWriting/Info
+  Commands/FailedSystemCalls.OfWriting/Export
   Commands/FailedSystemCalls.OfWriting/Profile
   Commands/FailedSystemCalls.OfWriting/Shot
   Commands/FailedSystemCalls.OfWriting/ShotOfBaked

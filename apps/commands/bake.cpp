@@ -223,8 +223,7 @@ Result<void> run_bake(const BakingOptions& options) {
     BakeResult baked;
     baked.file = options.out;
     const auto reading = Clock::now();
-    ORO_TRY(Region region,
-            open_region(request, [&](double share, const std::string& what) { bar.show(share, what); }));
+    ORO_TRY(Region region, open_region(request, bar.progress()));
     if (options.mesh == "clusters") ORO_CHECK(check_clusters(region));
     ORO_CHECK(take_into_memory(region));
     ORO_CHECK(end_reading(options, region));

@@ -101,9 +101,7 @@ Result<void> run_compare(const CompareOptions& options) {
     ProgressBar bar(options.quiet);
     View view;
     Region region;
-    ORO_CHECK(open_view(
-        options.view_file, {}, options.region,
-        [&](double share, const std::string& what) { bar.show(share, what); }, view, region));
+    ORO_CHECK(open_view(options.view_file, {}, options.region, bar.progress(), view, region));
     ORO_CHECK(check_unchanged(view, region, options.data_changed, options.quiet));
     say_notes(region, options.quiet);
     if (!options.out.empty())

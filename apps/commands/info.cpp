@@ -72,8 +72,7 @@ Error without_region(const InfoOptions& options, const FileListing& listing, Err
 
 Result<FileListing> listing_of(const RegionRequest& request, ProgressBar& bar) {
     if (baked_path(request.paths)) return FileListing{};
-    return list_files(request, {cache_folder().string(), program_fingerprint()},
-                      [&](double share, const std::string& what) { bar.show(share, what); });
+    return list_files(request, {cache_folder().string(), program_fingerprint()}, bar.progress());
 }
 
 std::string checked_words(const RegionGrid& grid) {
@@ -109,10 +108,7 @@ Result<void> run_info(const InfoOptions& options) {
     const auto listed = listing_of(request, bar);
     if (!listed) return listed.error();
     const FileListing& listing = *listed;
-    auto opened =
-        listing.error
-            ? Result<Region>(*listing.error)
-            : open_region(request, [&](double share, const std::string& what) { bar.show(share, what); });
+    auto opened = listing.error ? Result<Region>(*listing.error) : open_region(request, bar.progress());
     bar.clear();
     if (!opened) return without_region(options, listing, opened.error());
     Region region = std::move(*opened);

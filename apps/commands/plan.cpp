@@ -171,9 +171,7 @@ Result<void> run_plan(const PlanOptions& options) {
     ProgressBar bar(options.quiet);
     View view;
     Region region;
-    ORO_CHECK(open_view(
-        options.view_file, view_options, options.region,
-        [&](double share, const std::string& what) { bar.show(share, what); }, view, region));
+    ORO_CHECK(open_view(options.view_file, view_options, options.region, bar.progress(), view, region));
     ORO_CHECK(choose_mesh(region, view));
     ORO_TRY(const RegionCuts cuts, cut_regions(region));
     ORO_TRY(const GridPages pages, make_grid_pages(region, cuts, view.exaggeration, [&](double share) {

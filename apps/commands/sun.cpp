@@ -101,9 +101,7 @@ Result<void> look_over_terrain(const SunOptions& options, SunReport& report) {
     ProgressBar bar(options.quiet);
     View view;
     Region region;
-    ORO_CHECK(open_view(
-        "", view_options, options.region,
-        [&](double share, const std::string& what) { bar.show(share, what); }, view, region));
+    ORO_CHECK(open_view("", view_options, options.region, bar.progress(), view, region));
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region));
     bar.show(1.0, "looking for the sun");
     const Geodetic& eye = view.camera.eye;

@@ -163,9 +163,7 @@ Result<void> run_trade(const TradeOptions& options) {
     ProgressBar bar(options.quiet);
     View view;
     Region region;
-    ORO_CHECK(open_view(
-        options.view_file, view_options, options.region,
-        [&](double share, const std::string& what) { bar.show(share, what); }, view, region));
+    ORO_CHECK(open_view(options.view_file, view_options, options.region, bar.progress(), view, region));
     say_changes(view, options.quiet);
     say_notes(region, options.quiet);
     ORO_TRY(const auto summit, asked_summit(options.view, region, view.exaggeration));

@@ -33,6 +33,10 @@ void ProgressBar::show(double share, const std::string& what) {
     std::fflush(stderr);
 }
 
+Progress ProgressBar::progress() {
+    return [this](double share, const std::string& what) { show(share, what); };
+}
+
 void ProgressBar::clear() {
     if (!shown_) return;
     std::fputs("\r\033[K", stderr);

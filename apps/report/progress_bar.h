@@ -4,6 +4,8 @@
 #include <chrono>
 #include <string>
 
+#include "core/base/progress.h"
+
 namespace oro {
 
 // A bar on a terminal for steps that take over a second; nothing where standard error is no terminal, or when
@@ -15,6 +17,8 @@ class ProgressBar {
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
     void show(double share, const std::string& what);
+    // What reading reports goes to this bar, which outlives it.
+    [[nodiscard]] Progress progress();
     void clear();
 
   private:

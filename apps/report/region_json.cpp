@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <iterator>
 #include <optional>
-#include <set>
 #include <system_error>
 
+#include "apps/report/different_words.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 #include "apps/report/progress_bar.h"
@@ -204,17 +204,11 @@ void say_notes(const Region& region, bool quiet) {
 }
 
 std::string attribution_of(const Region& region) {
-    std::set<std::string> seen;
-    std::string all;
-    for (const RegionGrid& grid : region.grids) {
-        for (const SourceReport& source : grid.sources) {
-            // A region file may hold any text.
-            const std::string attribution = foreign_text(source.attribution);
-            if (attribution.empty() || !seen.insert(attribution).second) continue;
-            all += (all.empty() ? "" : "; ") + attribution;
-        }
-    }
-    return all;
+    DifferentWords all;
+    for (const RegionGrid& grid : region.grids)
+        for (const SourceReport& source : grid.sources)
+            all.add(foreign_text(source.attribution));  // a region file may hold any text
+    return all.all();
 }
 
 }  // namespace oro

@@ -21,8 +21,8 @@ bool are_whole_numbers(const PostRaster& raster);
 
 // Written whole or not at all, by GDAL's COG driver, on up to `threads` threads: Int16 where
 // are_whole_numbers(), else Float32, the values of the raster's one band to the bit; DEFLATE; overviews are
-// means. Same raster, same bytes for any number of threads. What is written is made in memory: some 3 bytes a
-// post more than the raster. Errors: those of WholeFile; what GDAL cannot write.
+// means. Same raster, same bytes for any number of threads. What is written is made in memory first. Errors:
+// those of WholeFile; what GDAL cannot write.
 Result<CloudRasterWritten> write_cloud_raster(const std::string& path, bool overwrite,
                                               const PostRaster& raster, int threads);
 

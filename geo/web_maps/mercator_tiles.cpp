@@ -9,17 +9,25 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
+// Where the part of a grid's box that the map has lies in a zoom.
+struct PixelBox {
+    MercatorPixel north_west, south_east;
+};
+
+PixelBox box_of(int zoom, const PostGrid& grid) {
+    const auto corner = [&](double lat_deg, double lon_deg) {
+        return mercator_pixel(zoom, std::clamp(lat_deg, -mercator_limit_deg, mercator_limit_deg), lon_deg);
+    };
+    return {corner(grid.north_deg(), grid.west_deg()), corner(grid.south_deg(), grid.east_deg())};
+}
+
 // Tiles that a grid's box touches; columns may run past the map's east rim.
 struct TileBox {
     std::int64_t first_x{}, last_x{}, first_y{}, last_y{};
 };
 
 TileBox tiles_of(int zoom, const PostGrid& grid) {
-    const auto clipped = [](double lat_deg) {
-        return std::clamp(lat_deg, -mercator_limit_deg, mercator_limit_deg);
-    };
-    const MercatorPixel north_west = mercator_pixel(zoom, clipped(grid.north_deg()), grid.west_deg());
-    const MercatorPixel south_east = mercator_pixel(zoom, clipped(grid.south_deg()), grid.east_deg());
+    const auto [north_west, south_east] = box_of(zoom, grid);
     const auto tile = [](double at_px) {
         return static_cast<std::int64_t>(std::floor(at_px / mercator_tile_px));
     };
@@ -81,11 +89,7 @@ ZoomRange mercator_zooms(std::span<const PostGrid* const> grids) {
         const double needed = std::ceil(std::log2(pixels / mercator_tile_px) - 1.0e-9);
         zooms.high =
             std::max(zooms.high, static_cast<int>(std::clamp(needed, 0.0, double{most_mercator_zoom})));
-        const auto clipped = [](double lat_deg) {
-            return std::clamp(lat_deg, -mercator_limit_deg, mercator_limit_deg);
-        };
-        const MercatorPixel north_west = mercator_pixel(0, clipped(grid->north_deg()), grid->west_deg());
-        const MercatorPixel south_east = mercator_pixel(0, clipped(grid->south_deg()), grid->east_deg());
+        const auto [north_west, south_east] = box_of(0, *grid);
         const double share =
             std::max(south_east.x_px - north_west.x_px, south_east.y_px - north_west.y_px) / mercator_tile_px;
         const double fits = std::floor(-std::log2(std::max(share, 1.0e-9)));

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <mutex>
-#include <set>
 #include <span>
 #include <system_error>
 
@@ -80,21 +80,31 @@ Result<void> write_tile(const std::string& folder, const MercatorTile& tile, con
     return write_plain_file(folder_of(folder, tile) + "/" + std::to_string(tile.y) + ".png", png);
 }
 
-Result<void> make_folders(const std::string& folder, std::span<const MercatorTile> tiles) {
+// One tile of each column of each zoom, of sorted ones: a column has a folder.
+std::vector<MercatorTile> columns_of(std::span<const MercatorTile> tiles) {
+    std::vector<MercatorTile> columns;
+    std::ranges::unique_copy(
+        tiles, std::back_inserter(columns),
+        [](const MercatorTile& a, const MercatorTile& b) { return a.zoom == b.zoom && a.x == b.x; });
+    return columns;
+}
+
+Result<void> make_folders(const std::string& folder, std::span<const MercatorTile> columns) {
     std::error_code failed;
-    for (const MercatorTile& tile : tiles) {
-        const std::string path = folder_of(folder, tile);
+    for (const MercatorTile& column : columns) {
+        const std::string path = folder_of(folder, column);
         if (fs::create_directories(path, failed); failed)
             return Error{ErrorKind::failed, path, "cannot be made: " + failed.message()};
     }
     return {};
 }
 
-void remove_empty_folders(const std::string& folder, std::span<const MercatorTile> tiles) {
+void remove_empty_folders(const std::string& folder, std::span<const MercatorTile> columns) {
     std::error_code ignored;
     // rmdir: of folders that hold something it does nothing.
-    for (const MercatorTile& tile : tiles) fs::remove(folder_of(folder, tile), ignored);
-    for (const MercatorTile& tile : tiles) fs::remove(folder + "/" + std::to_string(tile.zoom), ignored);
+    for (const MercatorTile& column : columns) fs::remove(folder_of(folder, column), ignored);
+    for (const MercatorTile& column : columns)
+        fs::remove(folder + "/" + std::to_string(column.zoom), ignored);
 }
 
 // Numbers of [0, 1), the same of every library. Source: S. Vigna, splitmix64.
@@ -195,7 +205,8 @@ Result<TerrainTilesWritten> write_terrain_tiles(const std::string& folder, const
         const auto more = mercator_tiles(zoom, grids_of(ground));
         tiles.insert(tiles.end(), more.begin(), more.end());
     }
-    ORO_CHECK(make_folders(folder, tiles));
+    const std::vector<MercatorTile> columns = columns_of(tiles);
+    ORO_CHECK(make_folders(folder, columns));
     std::atomic<std::uint64_t> written{0}, bytes{0}, holes{0};
     std::mutex mutex;
     Result<void> fault;
@@ -219,7 +230,7 @@ Result<TerrainTilesWritten> write_terrain_tiles(const std::string& folder, const
     }
     ORO_CHECK(fault);
     ORO_CHECK(ground.health());
-    remove_empty_folders(folder, tiles);
+    remove_empty_folders(folder, columns);
     return TerrainTilesWritten{written, bytes, holes};
 }
 

@@ -48,7 +48,7 @@ TEST(ExportCommand, CogHasTheFilesOwnHeights) {
         EXPECT_NEAR(raster["geoTransform"][i].get<double>(), source["geoTransform"][i].get<double>(), 1e-12);
 }
 
-TEST(ExportCommand, TilesHaveTheHeightsThatProfileTells) {
+TEST(ExportCommand, TilesHaveTheHeightsThatSightTells) {
     const fs::path out = oro::test::scratch_folder() / "tiles";
     const auto said = object_said_by(export_words("terrain-rgb", out, {"--json", "--zoom", "9:12"}));
     const auto written = nlohmann::json::parse(bytes_of(out / "tiles.json"));

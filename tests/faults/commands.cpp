@@ -124,6 +124,12 @@ Command profile_of_tiles() {
     return {"profile tile.tif", words, {{"tile.tif", tile()}}, {{"p.csv", there_before}}, false};
 }
 
+Command export_of_tiles() {
+    const std::vector<std::string> words{"export", "tile.tif", "-q",    "--overwrite",
+                                         "--to",   "cog",      "--out", "h.tif"};
+    return {"export tile.tif", words, {{"tile.tif", tile()}}, {{"h.tif", there_before}}, false};
+}
+
 Command shot_of_baked() {
     return shot_of("tile.oro", baked());
 }

@@ -6,7 +6,8 @@
 namespace oro::test {
 
 // info of a GeoTIFF and of a baked region; bake; shot of both, with a picture there already or none; what is
-// seen from a place, and a line's profile, with a file there already.
+// seen from a place, a line's profile, and heights as
+// a Cloud Optimized GeoTIFF, with a file there already.
 Command info_of_tiles();
 Command info_of_baked();
 Command bake_new();
@@ -15,6 +16,7 @@ Command shot_of_tiles();
 Command shot_of_baked();
 Command viewshed_of_tiles();
 Command profile_of_tiles();
+Command export_of_tiles();
 Command shot_with_labels();  // one, of four figures at most
 
 }  // namespace oro::test

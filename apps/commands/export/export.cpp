@@ -1,10 +1,9 @@
 // orograph export: heights in the formats of others.
-#include <set>
-
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/export/exported_region.h"
 #include "apps/output/overwrite_guard.h"
+#include "apps/report/different_words.h"
 #include "apps/report/region_json.h"
 #include "apps/view/view.h"
 #include "geo/files/letter_case.h"
@@ -14,19 +13,6 @@
 
 namespace oro {
 namespace {
-
-// Each once, in the order of their coming, joined by "; ".
-class DifferentWords {
-  public:
-    void add(const std::string& words) {
-        if (!words.empty() && seen_.insert(words).second) all_ += (all_.empty() ? "" : "; ") + words;
-    }
-    [[nodiscard]] const std::string& all() const { return all_; }
-
-  private:
-    std::set<std::string> seen_;
-    std::string all_;
-};
 
 Result<void> check_file(const ExportOptions& options) {
     if (options.zoom) return refused("--zoom", *options.zoom, "needs --to terrain-rgb");
@@ -66,9 +52,7 @@ Result<void> run_export(const ExportOptions& options) {
     ORO_CHECK(check_words(options));
     ORO_TRY(const RegionRequest request, region_request(options.region));
     ProgressBar bar(options.quiet);
-    ORO_TRY(Region region, open_region(request, [&](double share, const std::string& what) {
-                bar.show(share, "reading " + what);
-            }));
+    ORO_TRY(Region region, open_region(request, bar.progress()));
     leave_covered_grids_out(region);
     ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, region)}));
     return *options.to == "cog" ? export_cog(options, region, bar) : export_terrain_rgb(options, region, bar);

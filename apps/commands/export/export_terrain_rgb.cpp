@@ -1,6 +1,5 @@
 // The ground as tiles of a web map, and how far they are from it.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "apps/command_line/refusals.h"
+#include "apps/command_line/whole_text.h"
 #include "apps/commands/export/exported_region.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
@@ -26,11 +26,9 @@ constexpr int measured_places = 10000;
 constexpr double most_tiles = 4.0e6;
 constexpr double least_hole_H_m = -10000.0, most_hole_H_m = 10000.0;
 
-std::optional<int> zoom_from(const std::string& text) {
+std::optional<int> zoom_from(std::string_view text) {
     int zoom = 0;
-    const char* const end = text.data() + text.size();
-    const auto [stop, fault] = std::from_chars(text.data(), end, zoom);
-    if (fault != std::errc() || stop != end || zoom < 0 || zoom > most_mercator_zoom || text[0] == '-')
+    if (!read_whole(text, zoom) || zoom < 0 || zoom > most_mercator_zoom || text.front() == '-')
         return std::nullopt;
     return zoom;
 }

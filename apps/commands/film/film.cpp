@@ -130,9 +130,7 @@ Result<std::int64_t> first_second(const FilmOptions& options, const FilmFiles& f
 }
 
 Result<void> open_film(const FilmOptions& options, ProgressBar& bar, View& view, Region& region) {
-    ORO_CHECK(open_view(
-        "", options.view, options.region,
-        [&](double share, const std::string& what) { bar.show(share, what); }, view, region));
+    ORO_CHECK(open_view("", options.view, options.region, bar.progress(), view, region));
     if (options.no_legend) view.legend = false;
     if (!options.no_legend && !options.view.legend) view.legend = has_own_legend(view);
     if (options.no_paths) view.tells_paths = false;

@@ -148,10 +148,8 @@ Result<void> run_panorama(const PanoramaOptions& options) {
     PanoramaReport report;
     View& view = report.view;
     const auto reading = Clock::now();
-    ORO_CHECK(open_view(
-        options.view_file, with_air(options), options.region,
-        [&](double share, const std::string& what) { bar.show(share, what); }, view,
-        report.region, PictureKind::panorama));
+    ORO_CHECK(open_view(options.view_file, with_air(options), options.region, bar.progress(), view,
+                        report.region, PictureKind::panorama));
     ORO_CHECK(check_unchanged(view, report.region, options.data_changed, options.quiet));
     ORO_TRY(report.on_summit, asked_summit(options.view, report.region, view.exaggeration));
     if (options.no_paths) view.tells_paths = false;
@@ -176,10 +174,8 @@ Result<void> run_panorama(const PanoramaOptions& options) {
     ORO_TRY(report.laid, lay_out(view, report.region, ground->ground()));
     report.layout_s = seconds_since(looking);
     const auto drawing = Clock::now();
-    ORO_TRY(report.scene,
-            draw_panorama(view, report.region, cuts, ground->ground(), style, report.laid.around,
-                          {options.memory, options.quiet},
-                          [&](double share, const std::string& what) { bar.show(share, what); }));
+    ORO_TRY(report.scene, draw_panorama(view, report.region, cuts, ground->ground(), style,
+                                        report.laid.around, {options.memory, options.quiet}, bar.progress()));
     report.draw_s = seconds_since(drawing);
     if (report.scene.report.ground_px == 0) {
         ORO_TRY(const std::string nothing, nothing_in_view(view, report.region, options.view_file));

@@ -245,7 +245,7 @@ struct ShotSeries {
 // options.
 Result<void> open_view_of(const ShotOptions& options, const View* listed, ProgressBar& bar,
                           ShotSeries& series, ShotResult& shot) {
-    const auto progress = [&](double share, const std::string& what) { bar.show(share, what); };
+    const Progress progress = bar.progress();
     if (listed == nullptr)
         return open_view(options.view_file, options.view, options.region, progress, shot.view, shot.region);
     shot.view = *listed;

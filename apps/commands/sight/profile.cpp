@@ -69,9 +69,7 @@ Result<void> run_profile(const ProfileOptions& options) {
     ORO_TRY(profile.line, line_along(options.along, options.line));
     ORO_CHECK(check_length(options, profile.line));
     ProgressBar bar(options.quiet);
-    ORO_TRY(const auto ground, open_sight_ground(options.region, [&](double share, const std::string& what) {
-                bar.show(share, what);
-            }));
+    ORO_TRY(const auto ground, open_sight_ground(options.region, bar.progress()));
     if (!options.out.empty())
         ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, ground->region),
                                                {{profile.line.file}, "which the line is read from"}}));

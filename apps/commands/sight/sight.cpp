@@ -81,10 +81,7 @@ Result<void> run_sight(const SightOptions& options) {
     ORO_TRY(const SightCover asked, open_sight_cover(options.view));
     const std::shared_ptr<const CoverMap>& cover = asked.cover;
     ProgressBar bar(options.quiet);
-    ORO_TRY(const auto ground,
-            open_sight_ground(
-                options.region,
-                [&](double share, const std::string& what) { bar.show(share, what); }, asked));
+    ORO_TRY(const auto ground, open_sight_ground(options.region, bar.progress(), asked));
     Standing standing{"--from", options.from, "--above", options.above_m, 2.0, options.altitude_m};
     standing.on_summit = options.on_summit;
     ORO_TRY(const Standpoint from, stand_over_ground(standing, *ground));

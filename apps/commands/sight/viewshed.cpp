@@ -192,10 +192,7 @@ Result<void> run_viewshed(const ViewshedOptions& options) {
     ORO_TRY(question.air, air_asked_for(options.view.refraction_k, options.view.air, standard_air));
     ORO_TRY(const SightCover cover, open_sight_cover(options.view));
     ProgressBar bar(options.quiet);
-    ORO_TRY(const auto ground,
-            open_sight_ground(
-                options.region,
-                [&](double share, const std::string& what) { bar.show(share, what); }, cover));
+    ORO_TRY(const auto ground, open_sight_ground(options.region, bar.progress(), cover));
     ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, ground->region),
                                            {files_of_cover(cover), "which is land cover or a canopy"}}));
     Standpoints standpoints;
