@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "core/earth/ellipsoid.h"
+#include "core/terrain/post_grid.h"
 #include "geo/files/guarded_files.h"
 #include "geo/files/letter_case.h"
 #include "geo/files/raster_library.h"
