@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/commands/options.h"
+#include "apps/options/fetch_options.h"
 
 namespace oro {
 
@@ -20,6 +21,7 @@ struct CommandLine {
     ViewshedOptions viewshed;
     BakingOptions bake;
     InfoOptions info;
+    FetchOptions fetch;
     DoctorOptions doctor;
     CompletionOptions completion;
     ManualOptions manual;
