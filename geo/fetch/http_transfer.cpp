@@ -148,12 +148,13 @@ class Transfer {
         set(CURLOPT_HTTPHEADER, headers_.get());
     }
 
-    static std::size_t take_line(char* bytes, std::size_t, std::size_t count, void* self) {
+    // No exception passes through libcurl: without memory the program ends in order.
+    static std::size_t take_line(char* bytes, std::size_t, std::size_t count, void* self) noexcept {
         static_cast<Transfer*>(self)->head_.take(std::string_view(bytes, count));
         return count;
     }
 
-    static std::size_t take_bytes(char* bytes, std::size_t, std::size_t count, void* self) {
+    static std::size_t take_bytes(char* bytes, std::size_t, std::size_t count, void* self) noexcept {
         Transfer& transfer = *static_cast<Transfer*>(self);
         return transfer.take(bytes, count) ? count : CURL_WRITEFUNC_ERROR;
     }

@@ -2,8 +2,9 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include <algorithm>
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "tests/apps/program.h"
 #include "tests/support/loopback_server.h"
@@ -118,15 +119,7 @@ TEST_F(FetchCommand, GetsTilesThatOtherCommandsRead) {
     const Outcome outcome = run(source, {"--tile", "N46E008:N46E009", "--tile", "N45E008"});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
-    EXPECT_EQ(
-        outcome.out, "N46E008  fetched  " + (tiles_ / "N46E008.hgt.gz").string() + ", " +
-                         [&] {
-                             char text[32];
-                             std::snprintf(text, sizeof text, "%.1f MB",
-                                           static_cast<double>(tile_.size()) / 1e6);
-                             return std::string(text);
-                         }() +
-                         "\n" + outcome.out.substr(outcome.out.find("N46E009  fetched")))
+    EXPECT_TRUE(outcome.out.starts_with("N46E008  fetched  " + (tiles_ / "N46E008.hgt.gz").string() + ", "))
         << outcome.out;
     EXPECT_TRUE(says(outcome.out, "N45E008  missing  no tile there: sea\nTiles: 2 fetched, 1 missing\n"))
         << outcome.out;
@@ -136,11 +129,11 @@ TEST_F(FetchCommand, GetsTilesThatOtherCommandsRead) {
     EXPECT_EQ(server.requests().size(), 4U);
     const Outcome again = run(source, {"--bbox", "8.2,45.5,9.2,46.5", "--json"});
     ASSERT_EQ(again.exit_code, 0) << again.err;
-    const auto json = nlohmann::json::parse(again.out);
-    EXPECT_EQ(json["counts"]["kept"], 2);
-    EXPECT_EQ(json["counts"]["missing"], 2);
-    EXPECT_EQ(json["tiles"][0]["tile"], "N46E008");
-    EXPECT_EQ(json["tiles"][0]["state"], "kept");
+    const auto reported = nlohmann::json::parse(again.out);
+    EXPECT_EQ(reported["counts"]["kept"], 2);
+    EXPECT_EQ(reported["counts"]["missing"], 2);
+    EXPECT_EQ(reported["tiles"][0]["tile"], "N46E008");
+    EXPECT_EQ(reported["tiles"][0]["state"], "kept");
     EXPECT_EQ(server.requests().size(), 6U);
     const Outcome info = run_orograph({"info", tiles_.string()});
     EXPECT_EQ(info.exit_code, 0) << info.err;
@@ -189,9 +182,9 @@ TEST_F(FetchCommand, GoesOnAfterAKill) {
     EXPECT_TRUE(server.requests()[1].headers.at("user-agent").starts_with("Orograph/"));
 }
 
-// 256 MiB of zeros in 256 KiB; pages and errors instead of tiles; what is cut; what is damaged.
+// 64 MiB of zeros in 64 KiB; pages and errors instead of tiles; what is cut; what is damaged.
 TEST_F(FetchCommand, RefusesWhatIsNoTile) {
-    expect_refused_tile(gzip_of(std::string(std::size_t{256} << 20U, '\0')),
+    expect_refused_tile(gzip_of(std::string(std::size_t{64} << 20U, '\0')),
                         "unpacks to more than a tile of 3601 x 3601 posts: it is refused");
     expect_refused_tile("<!DOCTYPE html><html>log in</html>", "is no gzip file: it is a page of the web");
     expect_refused_tile("<?xml version=\"1.0\"?><Error/>",
