@@ -115,6 +115,7 @@ int run_command(CLI::App& app, oro::CommandLine& line, const std::vector<std::st
     if (app.got_subcommand("export")) return exit_code(oro::run_export(line.exporting));
     if (app.got_subcommand("serve")) return exit_code(oro::run_serve(line.serve));
     if (app.got_subcommand("info")) return exit_code(of_unchanged_files(oro::run_info(line.info)));
+    if (app.got_subcommand("fetch")) return exit_code(oro::run_fetch(line.fetch));
     if (app.got_subcommand("completion")) return exit_code(oro::run_completion(app, line.completion));
     if (app.got_subcommand("manual")) return exit_code(oro::run_manual(app, line.manual));
     return exit_code(oro::run_doctor(line.doctor));

@@ -521,6 +521,34 @@ void add_info(CLI::App& app, InfoOptions& options) {
     set_help(command, {{"info PATH... [OPTIONS]"}, "", "docs/commands/info.md"});
 }
 
+void add_fetch(CLI::App& app, FetchOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "fetch", "Get elevation and land-cover tiles of public sources. Only this command uses a network");
+    OptionGroup data(command, "The tiles");
+    data.option("--source", options.source, "NAME",
+                "Where to get them: skadi, glo30, glo90, worldcover, or one of your own table.");
+    data.option("--tile", options.tiles, "CELL",
+                "A whole-degree cell by its south-west corner, e.g. N46E008, or all from one to another: "
+                "N46E006:N47E010. Give it again for each further one.")
+        .allow_extra_args(false);
+    data.option("--bbox", options.bbox, "WEST,SOUTH,EAST,NORTH",
+                "All tiles that a box in degrees touches, e.g. 7.5,46.2,8.5,46.9.");
+    data.option("--out", options.out, "FOLDER", "The folder to write them into. It is made if need be.");
+    data.option("--sources", options.sources_file, "FILE",
+                "A table of further sources. Those of the same name replace the program's.");
+    data.flag("--dry-run", options.dry_run, "Ask no server: tell what is wanted, and what is there.");
+    data.whole_number("--retries", options.retries, 0, 20, "N",
+                      "Further requests of a tile whose server is busy or silent (default 4). Between them "
+                      "is ever more time, or as much as the server asks for, 60 s at most.");
+    data.whole_number("--jobs", options.jobs, 1, 16, "N", "Requests at a time (default 4).");
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "the result and errors");
+    set_help(command, {{"fetch --source NAME --tile CELL --out FOLDER [OPTIONS]",
+                        "fetch --source NAME --bbox WEST,SOUTH,EAST,NORTH --out FOLDER [OPTIONS]"},
+                       "What is there and whole is kept. A tile that was broken off is gone on with.",
+                       "docs/commands/fetch.md"});
+}
+
 void add_doctor(CLI::App& app, DoctorOptions& options) {
     CLI::App& command =
         *app.add_subcommand("doctor", "Tell what this machine can draw, what it lacks and what helps");
@@ -577,6 +605,7 @@ void add_commands(CLI::App& app, CommandLine& line) {
     add_export(app, line.exporting);
     add_serve(app, line.serve);
     add_info(app, line.info);
+    add_fetch(app, line.fetch);
     add_doctor(app, line.doctor);
     add_completion(app, line.completion);
     add_manual(app, line.manual);

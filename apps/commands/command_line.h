@@ -3,6 +3,7 @@
 
 #include "apps/commands/options.h"
 #include "apps/options/export_options.h"
+#include "apps/options/fetch_options.h"
 #include "apps/options/serve_options.h"
 
 namespace oro {
@@ -24,6 +25,7 @@ struct CommandLine {
     ExportOptions exporting;
     ServeOptions serve;
     InfoOptions info;
+    FetchOptions fetch;
     DoctorOptions doctor;
     CompletionOptions completion;
     ManualOptions manual;

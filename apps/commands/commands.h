@@ -1,6 +1,7 @@
 // The program's commands. Each returns an Error or has done what it says; main turns that into an exit code.
 #pragma once
 
+#include "apps/options/fetch_options.h"
 #include "apps/options/options.h"
 #include "core/base/result.h"
 
@@ -43,6 +44,8 @@ Result<void> run_export(const ExportOptions& options);
 Result<void> run_serve(const ServeOptions& options);
 // Tells what the sources of a region are and what is missing.
 Result<void> run_info(const InfoOptions& options);
+// Writes tiles of a public source into a folder. The only command that uses a network.
+Result<void> run_fetch(const FetchOptions& options);
 // Tells what the machine has and what each lack means.
 Result<void> run_doctor(const DoctorOptions& options);
 // Prints the script by which a shell completes command lines. app: with all its commands.

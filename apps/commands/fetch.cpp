@@ -1,0 +1,171 @@
+// orograph fetch: gets tiles of public sources. The only command that uses a network.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+
+#include "apps/command_line/refusals.h"
+#include "apps/commands/commands.h"
+#include "apps/fetch/tile_layouts.h"
+#include "apps/options/fetch_options.h"
+#include "apps/report/json_fields.h"
+#include "apps/report/json_object.h"
+#include "apps/report/json_text.h"
+#include "apps/report/progress_bar.h"
+#include "core/base/open_file.h"
+#include "geo/fetch/fetch_tiles.h"
+
+namespace oro {
+namespace {
+
+constexpr std::size_t most_tiles_fetched = 1000;
+
+Result<TileLayout> layout_named(const FetchOptions& options) {
+    ORO_TRY(const std::vector<TileLayout> layouts, read_tile_layouts(options.sources_file));
+    std::vector<std::string> names;
+    for (const TileLayout& layout : layouts) {
+        if (layout.name == options.source) return layout;
+        names.push_back(layout.name);
+    }
+    return refused("--source", options.source,
+                   options.source.empty() ? "is missing: " + choose_words(names) : choose_words(names));
+}
+
+Result<std::vector<TileName>> tiles_named(const FetchOptions& options, const TileLayout& layout) {
+    std::vector<BoundingBox> boxes;
+    for (const std::string& tile : options.tiles) {
+        const Result<BoundingBox> box = parse_tile_range(tile);
+        if (!box.ok()) return refused("--tile", tile, box.error().what);
+        boxes.push_back(*box);
+    }
+    if (!options.bbox.empty()) {
+        const Result<BoundingBox> box = parse_bounding_box(options.bbox);
+        if (!box.ok()) return refused("--bbox", options.bbox, box.error().what);
+        boxes.push_back(*box);
+    }
+    if (boxes.empty())
+        return refused("--bbox", "", "is missing: name the region, e.g. --bbox 7,46,9,47 or --tile N46E008");
+    std::vector<TileName> all;
+    for (const BoundingBox& box : boxes) {
+        ORO_TRY(const std::vector<TileName> tiles, tiles_in(box, layout, most_tiles_fetched));
+        for (const TileName& tile : tiles) {
+            const auto is_same = [&](const TileName& one) {
+                return one.lat_deg == tile.lat_deg && one.lon_deg == tile.lon_deg;
+            };
+            if (std::ranges::find_if(all, is_same) == all.end()) all.push_back(tile);
+        }
+    }
+    return all;
+}
+
+Result<void> make_folder(const std::string& folder) {
+    std::error_code fault;
+    std::filesystem::create_directories(folder, fault);
+    if (!fault && std::filesystem::is_directory(folder, fault)) return {};
+    return Error{ErrorKind::failed, folder,
+                 fault ? "cannot be made: " + fault.message() : "is there, and is no folder"};
+}
+
+const char* state_word(TileState state) {
+    constexpr std::array words{"wanted", "fetched", "kept", "missing", "failed"};
+    return words[static_cast<std::size_t>(state)];
+}
+
+std::size_t count_of(const std::vector<FetchedTile>& tiles, TileState state) {
+    std::size_t count = 0;
+    for (const FetchedTile& tile : tiles) count += tile.state == state ? 1 : 0;
+    return count;
+}
+
+std::string megabytes_text(std::uint64_t bytes) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.1f MB", static_cast<double>(bytes) / 1.0e6);
+    return text.data();
+}
+
+std::string tile_line(const FetchedTile& tile, const TileLayout& layout) {
+    const std::string name = tile_name(tile.tile.lat_deg, tile.tile.lon_deg) + "  ";
+    switch (tile.state) {
+        case TileState::wanted:
+            return name + "wanted   " + tile.url;
+        case TileState::fetched:
+            return name + "fetched  " + tile.file + ", " + megabytes_text(tile.bytes);
+        case TileState::kept:
+            return name + "kept     " + tile.file + ", " + megabytes_text(tile.bytes);
+        case TileState::missing:
+            return name + "missing  no tile there: sea" +
+                   (layout.missing_words.empty() ? "" : ", " + layout.missing_words);
+        case TileState::failed:
+            break;
+    }
+    return name + "failed";
+}
+
+std::string fetch_text(const std::vector<FetchedTile>& tiles, const TileLayout& layout) {
+    std::string text;
+    for (const FetchedTile& tile : tiles) text += one_line(tile_line(tile, layout)) + "\n";
+    std::string counts;
+    for (const TileState state :
+         {TileState::wanted, TileState::fetched, TileState::kept, TileState::missing, TileState::failed})
+        if (const std::size_t count = count_of(tiles, state); count > 0)
+            counts += (counts.empty() ? "" : ", ") + std::to_string(count) + " " + state_word(state);
+    text += "Tiles: " + counts + "\n";
+    text += one_line("Source: " + layout.title) + "\n";
+    text += one_line("Licence: " + layout.licence) + "\n";
+    text += one_line("To be named: " + layout.attribution) + "\n";
+    return text;
+}
+
+nlohmann::ordered_json fetch_json(const std::vector<FetchedTile>& tiles, const TileLayout& layout) {
+    nlohmann::ordered_json list = nlohmann::ordered_json::array(), counts = json_object();
+    for (const FetchedTile& tile : tiles) {
+        list.push_back(json_object("tile", tile_name(tile.tile.lat_deg, tile.tile.lon_deg), "state",
+                                   state_word(tile.state), "url", tile.url, "file", path_json(tile.file),
+                                   "bytes", tile.bytes, "requests", tile.requests, "error", nullptr));
+        if (tile.error) list.back()["error"] = tile.error->line();
+    }
+    for (const TileState state :
+         {TileState::wanted, TileState::fetched, TileState::kept, TileState::missing, TileState::failed})
+        counts[state_word(state)] = count_of(tiles, state);
+    return json_object("source", layout.name, "title", layout.title, "licence", layout.licence, "attribution",
+                       layout.attribution, "page", layout.page, "counts", counts, "tiles", list);
+}
+
+}  // namespace
+
+Result<void> run_fetch(const FetchOptions& options) {
+    FetchTilesRequest request;
+    ORO_TRY(request.layout, layout_named(options));
+    ORO_TRY(request.tiles, tiles_named(options, request.layout));
+    if (options.out.empty()) return refused("--out", "", "is missing: name the folder for the tiles");
+    if (!options.dry_run) ORO_CHECK(make_folder(options.out));
+    request.folder = options.out;
+    request.dry_run = options.dry_run;
+    request.jobs = options.jobs;
+    request.limits.retries = options.retries;
+    request.limits.transfer.program = "Orograph/" OROGRAPH_VERSION;
+    ProgressBar bar(options.quiet);
+    std::size_t done = 0;
+    std::uint64_t bytes = 0;
+    const std::string of_all = " of " + std::to_string(request.tiles.size()) + " tiles, ";
+    const std::vector<FetchedTile> tiles = fetch_tiles(request, [&](const FetchedTile& tile) {
+        ++done;
+        bytes += tile.state == TileState::fetched ? tile.bytes : 0;
+        bar.show(static_cast<double>(done) / static_cast<double>(request.tiles.size()),
+                 std::to_string(done) + of_all + megabytes_text(bytes));
+    });
+    bar.clear();
+    for (const FetchedTile& tile : tiles)
+        if (tile.error) std::fprintf(stderr, "orograph: %s\n", tile.error->line().c_str());
+    std::fputs((options.json ? json_text(fetch_json(tiles, request.layout), true) + "\n"
+                             : fetch_text(tiles, request.layout))
+                   .c_str(),
+               stdout);
+    const std::size_t failed = count_of(tiles, TileState::failed);
+    if (failed == 0) return {};
+    return Error{ErrorKind::failed, options.source,
+                 std::to_string(failed) + " of " + std::to_string(tiles.size()) +
+                     " tiles could not be fetched; the same command again goes on with them"};
+}
+
+}  // namespace oro

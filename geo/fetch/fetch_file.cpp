@@ -1,0 +1,74 @@
+#include "geo/fetch/fetch_file.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+namespace oro {
+namespace {
+
+using Kind = TransferOutcome::Kind;
+
+std::string seconds_text(double wait_s) {
+    return std::to_string(std::llround(wait_s)) + " s";
+}
+
+// Before retry `number` (from 0). Up to a quarter more, so that the parts of one run do not all come back at
+// once.
+double wait_before_s(int number, const std::string& url, const FetchLimits& limits) {
+    const double share = static_cast<double>((std::hash<std::string>{}(url) >> 8U) % 256U) / 1024.0;
+    return std::min(limits.first_wait_s * std::ldexp(1.0, number) * (1.0 + share), limits.most_wait_s);
+}
+
+// Waits as the server asks, or longer each time. Errors: it asks for too long.
+Result<void> wait_for(const TransferOutcome& outcome, int number, const std::string& url,
+                      const FetchLimits& limits) {
+    const double asked_s = outcome.retry_after_s.value_or(0.0);
+    if (asked_s > limits.most_wait_s)
+        return Error{ErrorKind::failed, url,
+                     outcome.reason + "; it asks to wait " + seconds_text(asked_s) + ", and at most " +
+                         seconds_text(limits.most_wait_s) + " are waited"};
+    std::this_thread::sleep_for(
+        std::chrono::duration<double>(std::max(asked_s, wait_before_s(number, url, limits))));
+    return {};
+}
+
+Error given_up(const std::string& url, const TransferOutcome& outcome, int requests) {
+    return {ErrorKind::failed, url,
+            outcome.reason + (requests > 1 ? " (after " + std::to_string(requests) + " requests)" : "")};
+}
+
+}  // namespace
+
+Result<FetchedFile> fetch_file(const std::string& url, const std::string& path, const FetchLimits& limits,
+                               const CheckContent& check) {
+    ORO_TRY(PartFile part, PartFile::open(path));
+    FetchedFile fetched;
+    for (int retry = 0;; ++retry) {
+        ORO_TRY(const TransferOutcome outcome, transfer_file(url, part, limits.transfer));
+        ++fetched.requests;
+        const bool may_retry = retry < limits.retries;
+        if (outcome.kind == Kind::whole) {
+            const Result<void> checked = check(part.path());
+            if (checked.ok()) break;
+            ORO_CHECK(part.begin(url, ""));
+            if (!outcome.resumed || !may_retry) return checked.error();
+            continue;
+        }
+        if (outcome.kind == Kind::not_there) {
+            ORO_CHECK(part.begin(url, ""));
+            return fetched;
+        }
+        if (outcome.kind == Kind::restart) ORO_CHECK(part.begin(url, ""));
+        if (!may_retry || outcome.kind == Kind::refused) return given_up(url, outcome, fetched.requests);
+        if (outcome.kind == Kind::retry) ORO_CHECK(wait_for(outcome, retry, url, limits));
+    }
+    fetched.is_there = true;
+    fetched.bytes = part.bytes();
+    ORO_CHECK(part.commit());
+    return fetched;
+}
+
+}  // namespace oro
