@@ -323,6 +323,8 @@ set_tests_properties(
   Verify.ReplacesOnlyWhenTold
   Verify.TheErrorPictureHasALegend
   Verify.WhatAModelLeavesOutIsMeasured
+  HorizonCommand.LooksBeyondItsBox
+  HorizonCommand.WhatIsWrongIsSaidInOneLine
   ViewshedCommand.IsAGeoTiffThatSaysWhatSightSays
   ViewshedCommand.OfAProjectedFileLiesOnItsOwnPosts
   ViewshedCommand.TellsThatACircleLeavesTheData
@@ -823,6 +825,10 @@ set_tests_properties(
   VerticalDatum.AGridThatProjLacksIsNamedAndStrictRefuses
   VerticalDatum.DepthsAndForeignUnits
   VerticalDatum.HeightsInFeetOfThreeAxesAreConvertedOnce
+  PostHorizons.AreThoseOfSightLinesOverHillsThePoleAndNets
+  RealHorizons.AreThoseOfSightLines
+  RealHorizons.SkyViewIsThatOfSightLines
+  RealHorizons.TakesSecondsForThousandsOfPosts
   Viewshed.IsTheLookoutsOverHills
   Viewshed.IsTheLookoutsOverTheAntimeridianAndNearThePole
   Viewshed.OfMadeTerrainIsGdals

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/commands/options.h"
+#include "apps/options/horizon_options.h"
 
 namespace oro {
 
@@ -18,6 +19,7 @@ struct CommandLine {
     SightOptions sight;
     ProfileOptions profile;
     ViewshedOptions viewshed;
+    HorizonOptions horizon;
     BakingOptions bake;
     InfoOptions info;
     DoctorOptions doctor;

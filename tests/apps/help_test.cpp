@@ -18,8 +18,8 @@ using oro::test::run_orograph;
 using oro::test::run_program;
 using oro::test::Words;
 
-const Words commands{"shot", "panorama", "film",    "view",     "compare", "plan", "trade",
-                     "sun",  "sight",    "profile", "viewshed", "bake",    "info", "doctor"};
+const Words commands{"shot",  "panorama", "film",     "view",    "compare", "plan", "trade", "sun",
+                     "sight", "profile",  "viewshed", "horizon", "bake",    "info", "doctor"};
 const std::string exit_line =
     "\nExit code: 0 done, 1 failed, 2 wrong arguments, 3 no data in the region, 4 no suitable GPU.\n";
 
@@ -93,7 +93,8 @@ TEST(Help, HasTheSameHeadingsInTheSameOrder) {
         Words wanted = order;
         if (command == "compare") wanted = {order[0], order[3], order[4]};
         if (command == "sun") wanted = {order[0], order[1], order[3], order[4]};
-        if (command == "sight" || command == "viewshed") wanted = {order[0], order[3], order[4]};
+        if (command == "sight" || command == "viewshed" || command == "horizon")
+            wanted = {order[0], order[3], order[4]};
         if (command == "profile") wanted = {order[0], order[4]};
         if (command == "bake" || command == "info") wanted = {order[0], order[4]};
         if (command == "doctor") wanted = {order[4]};

@@ -31,7 +31,8 @@ void expect_lines(const std::vector<Refused>& all) {
 // Found: exit code 0, and the program's help.
 TEST(RefusedOptions, NoCommandIsOneForHelpEither) {
     const std::string these =
-        "; these are shot, panorama, film, view, compare, plan, trade, sun, sight, profile, viewshed, bake, "
+        "; these are shot, panorama, film, view, compare, plan, trade, sun, sight, profile, viewshed, "
+        "horizon, bake, "
         "info "
         "and "
         "doctor";
@@ -158,7 +159,7 @@ TEST(RefusedOptions, NamesThatThereAreNot) {
          {{"soar"},
           "there is no command \"soar\"; these are shot, panorama, film, view, compare, plan, trade, sun, "
           "sight, "
-          "profile, viewshed, bake, info and doctor"}});
+          "profile, viewshed, horizon, bake, info and doctor"}});
 }
 
 TEST(RefusedOptions, NamesOfFilesToWrite) {
