@@ -111,6 +111,7 @@ int run_command(CLI::App& app, oro::CommandLine& line, const std::vector<std::st
     if (app.got_subcommand("sight")) return exit_code(of_unchanged_files(oro::run_sight(line.sight)));
     if (app.got_subcommand("profile")) return exit_code(oro::run_profile(line.profile));
     if (app.got_subcommand("viewshed")) return exit_code(oro::run_viewshed(line.viewshed));
+    if (app.got_subcommand("horizon")) return exit_code(oro::run_horizon(line.horizon));
     if (app.got_subcommand("bake")) return exit_code(oro::run_bake(line.bake));
     if (app.got_subcommand("export")) return exit_code(oro::run_export(line.exporting));
     if (app.got_subcommand("serve")) return exit_code(oro::run_serve(line.serve));

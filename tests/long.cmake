@@ -324,6 +324,8 @@ set_tests_properties(
   Verify.ReplacesOnlyWhenTold
   Verify.TheErrorPictureHasALegend
   Verify.WhatAModelLeavesOutIsMeasured
+  HorizonCommand.LooksBeyondItsBox
+  HorizonCommand.WhatIsWrongIsSaidInOneLine
   ViewshedCommand.IsAGeoTiffThatSaysWhatSightSays
   ViewshedCommand.OfAProjectedFileLiesOnItsOwnPosts
   ViewshedCommand.TellsThatACircleLeavesTheData
@@ -829,6 +831,10 @@ set_tests_properties(
   VerticalDatum.AGridThatProjLacksIsNamedAndStrictRefuses
   VerticalDatum.DepthsAndForeignUnits
   VerticalDatum.HeightsInFeetOfThreeAxesAreConvertedOnce
+  PostHorizons.AreThoseOfSightLinesOverHillsThePoleAndNets
+  RealHorizons.AreThoseOfSightLines
+  RealHorizons.SkyViewIsThatOfSightLines
+  RealHorizons.TakesSecondsForThousandsOfPosts
   Viewshed.IsTheLookoutsOverHills
   Viewshed.IsTheLookoutsOverTheAntimeridianAndNearThePole
   Viewshed.OfMadeTerrainIsGdals

@@ -449,6 +449,28 @@ void add_viewshed(CLI::App& app, ViewshedOptions& options) {
                        "docs/commands/viewshed.md"});
 }
 
+void add_horizon(CLI::App& app, HorizonOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "horizon", "Write how high the horizon stands around each point, and its sky view (GeoTIFFs)");
+    OptionGroup horizon(command, "The horizon");
+    horizon.whole_number("--directions", options.directions, 3, 720, "N",
+                         "Azimuths to look in, evenly spaced from north clockwise, 3 to 720 (default 36).");
+    horizon.number("--radius", options.radius_km, "KM",
+                   "How far to look, 0.01 to 500 (default 50). With --bbox data are read as far around it.");
+    horizon.number("--above", options.above_m, "METRES",
+                   "Height of eyes over the ground of each post (default 0: on the ground).");
+    horizon.option("--out", options.out, "FILE",
+                   "NAME.tif: NAME.horizon.tif and NAME.sky-view.tif are written.");
+    horizon.flag("--overwrite", options.overwrite, "Replace files that are there.");
+    add_region_options(command, options.region);
+    add_air_options(command, options.view);
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "the result and errors");
+    set_help(command, {{"horizon PATH... --out FILE.tif [OPTIONS]"},
+                       "The Earth's curvature always counts.",
+                       "docs/commands/horizon.md"});
+}
+
 void add_bake(CLI::App& app, BakingOptions& options) {
     CLI::App& command = *app.add_subcommand(
         "bake", "Write elevation data into one file (.oro) that opens at once, however large it is");
@@ -601,6 +623,7 @@ void add_commands(CLI::App& app, CommandLine& line) {
     add_sight(app, line.sight);
     add_profile(app, line.profile);
     add_viewshed(app, line.viewshed);
+    add_horizon(app, line.horizon);
     add_bake(app, line.bake);
     add_export(app, line.exporting);
     add_serve(app, line.serve);

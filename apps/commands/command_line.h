@@ -4,6 +4,7 @@
 #include "apps/commands/options.h"
 #include "apps/options/export_options.h"
 #include "apps/options/fetch_options.h"
+#include "apps/options/horizon_options.h"
 #include "apps/options/serve_options.h"
 
 namespace oro {
@@ -21,6 +22,7 @@ struct CommandLine {
     SightOptions sight;
     ProfileOptions profile;
     ViewshedOptions viewshed;
+    HorizonOptions horizon;
     BakingOptions bake;
     ExportOptions exporting;
     ServeOptions serve;

@@ -11,8 +11,9 @@ class App;
 
 namespace oro {
 
-struct ExportOptions;  // apps/options/export_options.h
-struct ServeOptions;   // apps/options/serve_options.h
+struct ExportOptions;   // apps/options/export_options.h
+struct ServeOptions;    // apps/options/serve_options.h
+struct HorizonOptions;  // apps/options/horizon_options.h
 
 // Writes a geotagged picture and, beside it, its view; with --verify also a picture of its errors.
 Result<void> run_shot(const ShotOptions& options);
@@ -34,6 +35,8 @@ Result<void> run_sight(const SightOptions& options);
 Result<void> run_profile(const ProfileOptions& options);
 // Writes which places are seen from others, as a GeoTIFF.
 Result<void> run_viewshed(const ViewshedOptions& options);
+// Writes how high the horizon stands around posts, and how much of the sky they see, as GeoTIFFs.
+Result<void> run_horizon(const HorizonOptions& options);
 // Opens a window to fly over a region.
 Result<void> run_view(const WindowOptions& options);
 // Writes a region with all its levels into a file, or goes on with one that was broken off.

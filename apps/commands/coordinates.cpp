@@ -130,6 +130,7 @@ Result<void> take_coordinates(CommandLine& line) {
     std::vector<PlaceText> observers;
     for (std::string& at : line.viewshed.at) observers.push_back({"--at", &at});
     ORO_CHECK(take(line.viewshed.region, observers));
+    ORO_CHECK(take(line.horizon.region, {}));
     ORO_CHECK(take(line.film.region, {}));
     ORO_CHECK(take(line.compare.region, {}));
     ORO_CHECK(take(line.bake.region, {}));

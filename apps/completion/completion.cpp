@@ -35,6 +35,7 @@ const std::vector<FileRow>& file_rows() {
         {"compare", "--out", {"png"}},
         {"profile", "--out", {"csv", "svg", "geojson"}},
         {"viewshed", "--out", {"tif", "tiff"}},
+        {"horizon", "--out", {"tif", "tiff"}},
         {"bake", "--out", {"oro"}},
         {"export", "--out", {"tif", "tiff"}},
     };

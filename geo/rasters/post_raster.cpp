@@ -72,6 +72,10 @@ Result<void> write_post_raster(const std::string& path, bool overwrite, const Po
     for (const char* option :
          {"COMPRESS=DEFLATE", "ZLEVEL=1", "PREDICTOR=3", "TILED=YES", "BIGTIFF=IF_SAFER"})
         options.AddString(option);
+    // Bands are written one after the other: of many, tiles that hold all of them would be packed again and
+    // again.
+    constexpr std::size_t few_bands = 4;
+    if (raster.bands.size() > few_bands) options.AddString("INTERLEAVE=BAND");
     Dataset dataset(GDALCreate(GDALGetDriverByName("GTiff"), nameless.c_str(), raster.part.columns,
                                raster.part.rows, static_cast<int>(raster.bands.size()), GDT_Float32,
                                options.List()));

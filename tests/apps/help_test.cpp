@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/apps/command_names.h"
 #include "tests/apps/program.h"
 #include "tests/support/test_data.h"
 
@@ -18,8 +19,7 @@ using oro::test::run_orograph;
 using oro::test::run_program;
 using oro::test::Words;
 
-const Words commands{"shot",    "panorama", "film", "view",   "compare", "plan", "trade", "sun",   "sight",
-                     "profile", "viewshed", "bake", "export", "serve",   "info", "fetch", "doctor"};
+const Words& commands = oro::test::command_names();
 const std::string exit_line =
     "\nExit code: 0 done, 1 failed, 2 wrong arguments, 3 no data in the region, 4 no suitable GPU.\n";
 
@@ -93,7 +93,8 @@ TEST(Help, HasTheSameHeadingsInTheSameOrder) {
         Words wanted = order;
         if (command == "compare") wanted = {order[0], order[3], order[4]};
         if (command == "sun") wanted = {order[0], order[1], order[3], order[4]};
-        if (command == "sight" || command == "viewshed") wanted = {order[0], order[3], order[4]};
+        if (command == "sight" || command == "viewshed" || command == "horizon")
+            wanted = {order[0], order[3], order[4]};
         if (command == "profile") wanted = {order[0], order[4]};
         if (command == "bake" || command == "export" || command == "info") wanted = {order[0], order[4]};
         if (command == "doctor" || command == "serve" || command == "fetch") wanted = {order[4]};

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/apps/command_names.h"
 #include "tests/apps/program.h"
 #include "tests/support/test_data.h"
 
@@ -30,11 +31,7 @@ void expect_lines(const std::vector<Refused>& all) {
 
 // Found: exit code 0, and the program's help.
 TEST(RefusedOptions, NoCommandIsOneForHelpEither) {
-    const std::string these =
-        "; these are shot, panorama, film, view, compare, plan, trade, sun, sight, profile, viewshed, bake, "
-        "export, serve, info "
-        "and "
-        "doctor";
+    const std::string these = "; these are " + oro::test::list_of_commands();
     expect_lines({{{"nonsense", "--help"}, "there is no command \"nonsense\"" + these},
                   {{"nonsense", "-h"}, "there is no command \"nonsense\"" + these},
                   {{"--help", "nonsense"}, "there is no command \"nonsense\"" + these},
@@ -161,10 +158,7 @@ TEST(RefusedOptions, NamesThatThereAreNot) {
          {{"info", file, "--json=perhaps"}, "--json: takes no value"},
          {{"sho", file}, "there is no command \"sho\": did you mean shot?"},
          {{"fly"}, "there is no command \"fly\": did you mean film?"},
-         {{"soar"},
-          "there is no command \"soar\"; these are shot, panorama, film, view, compare, plan, trade, sun, "
-          "sight, "
-          "profile, viewshed, bake, export, serve, info and doctor"}});
+         {{"soar"}, "there is no command \"soar\"; these are " + oro::test::list_of_commands()}});
 }
 
 TEST(RefusedOptions, NamesOfFilesToWrite) {

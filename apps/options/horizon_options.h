@@ -1,0 +1,23 @@
+// The options of orograph horizon, as the command line takes them.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "apps/options/options.h"
+
+namespace oro {
+
+struct HorizonOptions {
+    RegionOptions region;
+    ViewOptions view;  // the air alone
+    std::optional<int> directions;
+    std::optional<double> radius_km;
+    std::optional<double> above_m;
+    std::string out;  // NAME.tif: NAME.horizon.tif and NAME.sky-view.tif are written
+    bool overwrite{false};
+    bool json{false};
+    bool quiet{false};
+};
+
+}  // namespace oro
