@@ -41,7 +41,22 @@ struct GrowthTable {
     float reach_m;     // no tree is farther from the eye
     // uint[shade_map_side^2]: how far towards the sun the first leaves are, seen from there; 0: no shadows of trees.
     uvec2 shade_map;
+    // float: the farthest depth of the ground in each block of 8 x 8 pixels, row by row; 0: what the ground hides is not left out.
+    uvec2 farthest;
+    uvec2 lists;  // ... of CrownLists
 };
+
+// Work that is spread over more invocations than one a tree: pieces of 32 x 32 pixels of crowns that cover many, and trees whose
+// shadow may be seen. A site here is its number in its tile and 4096 times that of the tile.
+ORO_CONST uint crown_piece_px = 32u;
+ORO_CONST uint crown_list_max = 65535u;
+struct CrownLists {
+    uint piece_groups[3];  // of an indirect dispatch: their number, 1, 1
+    uint shade_groups[3];
+    uvec2 pieces[65535];  // site, number of the piece in the crown's box of pixels
+    uint shades[65535];   // site
+};
+ORO_CONST uint depth_block_px = 8u;
 
 // The shadows of trees around the eye: a map in a plane across the sun's direction, whose middle is the eye.
 ORO_CONST uint shade_map_side = 2048u;

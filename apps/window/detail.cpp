@@ -7,12 +7,16 @@ double share_of_pixels(const DetailStep& step) {
     return step.scale * step.scale;
 }
 
+bool has_all_effects(const DetailStep& step) {
+    return step.shadows && step.means;
+}
+
 }  // namespace
 
 void MovingDetail::took(const DetailStep& step, double frame_s) {
     constexpr int quick_enough = 8;
-    // Shadows come back where there is ample room alone, or they would come and go.
-    const double room = step_ + 1 == detail_steps.size() ? 0.2 : 0.55;
+    // Effects come back where there is ample room alone, or they would come and go.
+    const double room = has_all_effects(now()) ? 0.55 : 0.2;
     // What does not follow the number of pixels.
     constexpr double fixed_share = 0.15;
     if (frame_s > budget_s) {

@@ -7,24 +7,28 @@
 namespace oro {
 
 // How a frame is drawn: `scale` times as many pixels a side as the window has, and tau_factor times the
-// view's tau, of these pixels; with shadows, where the view has some.
+// view's tau, of these pixels; with shadows and trees, and with each pixel the mean of what it covers, where the
+// view has it so.
 struct DetailStep {
     double scale{1.0};
     double tau_factor{1.0};
     bool shadows{true};
+    bool means{true};
     [[nodiscard]] bool is_whole() const { return scale == 1.0 && tau_factor == 1.0; }
 };
 
 // From all of it to the least. Every step takes about two thirds of the pixels of the one before it, and the
-// last leaves shadows out.
-inline constexpr std::array<DetailStep, 8> detail_steps{{{1.0, 1.0},
+// last two leave shadows and trees out, and then means of pixels: where a processor draws, far ground takes most of a
+// frame by them.
+inline constexpr std::array<DetailStep, 9> detail_steps{{{1.0, 1.0},
                                                          {1.0, 2.0},
                                                          {0.8, 2.0},
                                                          {0.66, 2.0},
                                                          {0.54, 2.0},
                                                          {0.44, 2.0},
                                                          {0.36, 2.0},
-                                                         {0.36, 2.0, false}}};
+                                                         {0.36, 2.0, false},
+                                                         {0.36, 2.0, false, false}}};
 
 // Holds frames of an eye that moves within a budget of time. An eye that rests has all detail.
 class MovingDetail {

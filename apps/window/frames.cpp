@@ -108,8 +108,9 @@ DetailStep step_now(const Viewer& viewer) {
 }
 
 // What a frame would be drawn from now, and what of it is missing.
-Result<FramePlan> plan_now(Viewer& viewer, const Camera& camera, double tau_px) {
-    viewer.scene->require_fields(viewer.style.frame);
+Result<FramePlan> plan_now(Viewer& viewer, const Camera& camera, const DetailStep& step) {
+    require_fields(*viewer.scene, viewer.style.frame, step);
+    const double tau_px = viewer.view.tau_px * step.tau_factor;
     ORO_TRY(FramePlan plan, viewer.scene->plan({camera, whole_tile(camera), tau_px, viewer.view.model}));
     viewer.is_missing = !plan.is_settled();
     viewer.waits_for_ground = lacks_ground(viewer, plan);
@@ -181,8 +182,17 @@ Tile whole_tile(const Camera& camera) {
 }
 
 gpu::FrameStyle style_at(gpu::FrameStyle style, const DetailStep& step) {
-    if (!step.shadows) style.shadows = 0;
+    if (!step.shadows) {
+        style.shadows = 0;
+        style.materials.on &= ~gpu::materials_with_trees;
+    }
+    if (!step.means) style.footprint = gpu::footprint_point;
     return style;
+}
+
+void require_fields(Scene& scene, const gpu::FrameStyle& style, const DetailStep& step) {
+    scene.require_fields(style);
+    scene.set_trees((style_at(style, step).materials.on & gpu::materials_with_trees) != 0);
 }
 
 Camera scaled_camera(const Camera& camera, double scale) {
@@ -222,7 +232,7 @@ Result<bool> draw_frame(Viewer& viewer, bool& changed) {
     frame.lines = lines_over_next(viewer);
     frame.step = step_now(viewer);
     const Camera camera = scaled_camera(viewer.view.camera, frame.step.scale);
-    ORO_TRY(FramePlan plan, plan_now(viewer, camera, viewer.view.tau_px * frame.step.tau_factor));
+    ORO_TRY(FramePlan plan, plan_now(viewer, camera, frame.step));
     if (viewer.waits_for_ground) {
         // Asked again with the next page, or soon where some ground is there.
         changed = has_ground(plan);

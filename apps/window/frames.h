@@ -27,6 +27,9 @@ Tile whole_tile(const Camera& camera);
 Camera scaled_camera(const Camera& camera, double scale);
 // A style as a frame at a step of detail has it.
 gpu::FrameStyle style_at(gpu::FrameStyle style, const DetailStep& step);
+// Has a scene's plans hold what a style asks for; trees where they are drawn at the step alone. The fields of
+// shadows stay through a motion, so that they need not come again after it.
+void require_fields(Scene& scene, const gpu::FrameStyle& style, const DetailStep& step);
 // A renderer that draws what the view and its style ask for now.
 Result<FrameRenderer> renderer_for(const Gpu& gpu, const View& view, const Style& style, RasterPath path,
                                    VkExtent2D extent);

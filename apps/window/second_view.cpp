@@ -190,7 +190,7 @@ Result<FramePlan> plan_second(Viewer& viewer, const DetailStep& step) {
     ORO_CHECK(fit_to_view(second.style, second.view, region_of(viewer, second.own.get()).grids.front().field,
                           viewer.follows_eye ? Eye::moves : Eye::rests));
     const Camera camera = scaled_camera(second.view.camera, step.scale);
-    second.scene->require_fields(second.style.frame);
+    require_fields(*second.scene, second.style.frame, step);
     ORO_TRY(FramePlan plan, second.scene->plan({camera, whole_tile(camera),
                                                 second.view.tau_px * step.tau_factor, second.view.model}));
     second.is_missing = !plan.is_settled();

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <tuple>
+#include <unordered_map>
 
 #include "core/growth/tree_sites.h"
 
@@ -23,7 +23,12 @@ namespace {
 
 constexpr double tile_circle_m = 185.0;  // around a tile's middle: holds it
 
-using PageNumbers = std::map<std::tuple<int, int, int>, gpu::uint>;
+// Pages of the frame by their indices.
+using PageNumbers = std::unordered_map<std::uint64_t, gpu::uint>;
+std::uint64_t key_of(int level, int row, int column) {
+    return (static_cast<std::uint64_t>(level) << 58U) | (static_cast<std::uint64_t>(row) << 29U) |
+           static_cast<std::uint64_t>(column);
+}
 
 // The finest page that covers all posts between two.
 std::optional<gpu::uint> covering_page(const PageNumbers& numbers, glm::ivec2 low, glm::ivec2 high) {
@@ -32,7 +37,7 @@ std::optional<gpu::uint> covering_page(const PageNumbers& numbers, glm::ivec2 lo
     for (int level = 0; level < levels_max; ++level) {
         const int shift = level + page_bits;
         if (low.x >> shift != high.x >> shift || low.y >> shift != high.y >> shift) continue;
-        const auto found = numbers.find({level, low.x >> shift, low.y >> shift});
+        const auto found = numbers.find(key_of(level, low.x >> shift, low.y >> shift));
         if (found != numbers.end()) return found->second;
     }
     return {};
@@ -73,8 +78,10 @@ struct NearTile {
     std::uint32_t row, column;
 };
 
-// Those within reach, nearest first. None near a pole.
-std::vector<NearTile> tiles_around(const Geodetic& eye, double reach_m) {
+// Those within reach that may show, for all that is known of a place east and north of the eye; nearest
+// first. None near a pole.
+template <class MayShow>
+std::vector<NearTile> tiles_around(const Geodetic& eye, double reach_m, const MayShow& may_show) {
     constexpr double m_per_deg = 111320.0;
     const double cosine = std::cos(eye.lat_deg * std::numbers::pi / 180.0);
     std::vector<NearTile> near;
@@ -99,7 +106,7 @@ std::vector<NearTile> tiles_around(const Geodetic& eye, double reach_m) {
             const double east_m =
                 (static_cast<double>(number) + 0.5 - middle) / tiles_per_deg * m_per_deg * cosine;
             const double distance_m = std::hypot(north_m, east_m);
-            if (distance_m > reach_m + tile_circle_m) continue;
+            if (distance_m > reach_m + tile_circle_m || !may_show(east_m, north_m)) continue;
             near.push_back(
                 {distance_m, tile_row, static_cast<std::uint32_t>((number % count + count) % count)});
         }
@@ -115,7 +122,10 @@ class TilesInView {
   public:
     TilesInView(const Camera& camera, const Tile& tile)
         : eye_(camera.eye_ecef().m),
+          eye_h_m_(camera.eye.h_m),
+          tangent_(std::abs(std::tan(camera.eye.lat_deg * std::numbers::pi / 180.0))),
           view_from_ecef_(camera.view_from_ecef()),
+          view_from_enu_(view_from_ecef_ * ecef_from_enu(camera.eye.lat_deg, camera.eye.lon_deg)),
           planes_(frustum_planes_view(projection_of_tile(camera, tile))) {}
     [[nodiscard]] bool may_show(const gpu::GrowthTile& tile, const GroundRange& ground) const {
         constexpr double tallest_m = 40.0, slack_m = tile_circle_m + 30.0;
@@ -131,12 +141,32 @@ class TilesInView {
         });
     }
 
+    // Whether a tile may show whose middle lies so far east and north of the eye by its degrees
+    // (tiles_around), and whose ground is between two heights. Quicker than the above, and never false where
+    // that is true.
+    [[nodiscard]] bool may_show(double east_m, double north_m, const GroundRange& ground) const {
+        constexpr double tallest_m = 40.0, earth_m = 6371.0e3;
+        const double square = east_m * east_m + north_m * north_m, drop_m = square / (2.0 * earth_m);
+        // Degrees differ by 0.7 % in length from the equator to the poles, and meridians draw near each
+        // other.
+        const double slack_m = tile_circle_m + 60.0 + 0.012 * std::sqrt(square) + tangent_ * square / earth_m;
+        const double low_m = ground.low_m - eye_h_m_ - drop_m;
+        const double high_m = ground.high_m + tallest_m - eye_h_m_ - drop_m;
+        const glm::dvec3 level = view_from_enu_ * glm::dvec3(east_m, north_m, 0.0);
+        return std::ranges::all_of(planes_, [&](const Plane& plane) {
+            const glm::dvec3 normal(plane);
+            const double up = glm::dot(normal, view_from_enu_[2]);
+            return glm::dot(normal, level) + std::max(up * low_m, up * high_m) + plane.w >= -slack_m;
+        });
+    }
+
   private:
     [[nodiscard]] glm::dvec3 view_of(const Geodetic& place) const {
         return view_from_ecef_ * (ecef_from_geodetic(place).m - eye_);
     }
     glm::dvec3 eye_;
-    glm::dmat3 view_from_ecef_;
+    double eye_h_m_, tangent_;
+    glm::dmat3 view_from_ecef_, view_from_enu_;
     std::array<Plane, 5> planes_;
 };
 
@@ -150,11 +180,19 @@ GrowthPlan plan_growth(const PostGrid& grid, std::span<const PageIndex> page_ind
     PageNumbers numbers;
     for (std::size_t i = 0; i < page_indices.size(); ++i) {
         const PageIndex& page = page_indices[i];
-        numbers[{page.level, page.row, page.column}] = static_cast<gpu::uint>(i);
+        numbers[key_of(page.level, page.row, page.column)] = static_cast<gpu::uint>(i);
     }
     if (numbers.empty()) return plan;
     const TilesInView in_view(view.camera, view.tile);
-    for (const NearTile& near : tiles_around(view.camera.eye, static_cast<double>(plan.reach_m))) {
+    GroundRange all = ground(0);
+    for (std::size_t i = 1; i < page_indices.size(); ++i) {
+        const GroundRange one = ground(i);
+        all = {std::min(all.low_m, one.low_m), std::max(all.high_m, one.high_m)};
+    }
+    const auto around =
+        tiles_around(view.camera.eye, static_cast<double>(plan.reach_m),
+                     [&](double east_m, double north_m) { return in_view.may_show(east_m, north_m, all); });
+    for (const NearTile& near : around) {
         if (plan.tiles.size() == gpu::growth_tiles_max) break;
         const auto tile = tile_on_grid(grid, numbers, near.row, near.column);
         if (tile && in_view.may_show(*tile, ground(tile->page))) plan.tiles.push_back(*tile);

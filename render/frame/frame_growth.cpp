@@ -31,7 +31,8 @@ Result<void> FrameRenderer::choose_growth(GridFrame& grid, const GridPlan& plan)
     const gpu::FrameConstants& constants = plan.constants;
     const GrowthKind kind{grid.casters.has_shadows(), grid.casters.opens(), grid.drape.is_on(),
                           constants.has_means != 0, options_.smooth_edges};
-    return grid.growth.prepare(*gpu_, *pipelines_, plan.growth, plan.growth.first_page, kind, slot_);
+    const VkExtent2D culled = options_.occlusion == OcclusionUse::off ? VkExtent2D{} : options_.extent;
+    return grid.growth.prepare(*gpu_, *pipelines_, plan.growth, kind, culled, slot_);
 }
 
 void FrameRenderer::record_growth(VkCommandBuffer commands, const FramePlan& plan) const {
@@ -55,7 +56,7 @@ void FrameRenderer::record_growth(VkCommandBuffer commands, const FramePlan& pla
     for (std::size_t i = 0; i < plan.grids.size(); ++i) {
         if (!grids_[i].growth.is_on()) continue;
         grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
-        grids_[i].growth.record_draw(commands, *pipelines_);
+        grids_[i].growth.record_draw(commands, *pipelines_, plan.view.width_px(), plan.view.height_px());
     }
     if (!compute_) {
         image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, shader_read, shader_write);

@@ -172,6 +172,7 @@ Result<PictureRenderer> PictureRenderer::create(const Gpu& gpu, const Camera& ca
     renderer_options.smooth_edges = options.samples == 1 && style.smooth_edges != 0;
     renderer_options.path = options.path;
     renderer_options.show = options.show;
+    renderer_options.occlusion = options.occlusion;
     renderer_options.keep_depths = options.keep_depths;
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(gpu, renderer_options));
     return PictureRenderer(options, std::move(renderer));

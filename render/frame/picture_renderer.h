@@ -21,6 +21,7 @@ struct PictureOptions {
     WorldModel model{};
     bool keep_depths{false};  // for PictureRenderer::depths()
     gpu::uint show{};         // gpu::show_..., of pictures of one sample
+    OcclusionUse occlusion{OcclusionUse::if_it_pays};  // the picture is the same
 };
 
 // What it took to draw a picture: times are sums over its tiles and samples, counts those of the first sample

@@ -4,7 +4,9 @@
 #include <cstring>
 
 #include "spirv/draw_crowns_comp.h"
+#include "spirv/draw_large_crowns_comp.h"
 #include "spirv/draw_shade_map_comp.h"
+#include "spirv/farthest_depths_comp.h"
 #include "spirv/grow_sites_comp.h"
 #include "spirv/keep_ids_comp.h"
 #include "spirv/seed_visibility_comp.h"
@@ -35,6 +37,10 @@ Result<OwnedPipeline> create_growth_pipeline(const Gpu& gpu, const Pipelines& pi
     return create_compute_pipeline(gpu, pipelines, words, name, &constants);
 }
 
+std::uint32_t blocks_of(std::uint32_t pixels) {
+    return (pixels + gpu::depth_block_px - 1) / gpu::depth_block_px;
+}
+
 void dispatch_groups(VkCommandBuffer commands, std::uint32_t groups) {
     vkCmdDispatch(commands, std::min(groups, gpu::groups_per_row),
                   (groups + gpu::groups_per_row - 1) / gpu::groups_per_row, 1);
@@ -43,16 +49,23 @@ void dispatch_groups(VkCommandBuffer commands, std::uint32_t groups) {
 }  // namespace
 
 Result<void> GrowthFrame::prepare(const Gpu& gpu, Pipelines& pipelines, const GrowthPlan& plan,
-                                  gpu::uint first_page, const GrowthKind& kind, std::size_t slot) {
+                                  const GrowthKind& kind, VkExtent2D culled, std::size_t slot) {
     slot_ = slot;
     tiles_ = static_cast<gpu::uint>(plan.tiles.size());
     if (tiles_ == 0) return {};
+    ORO_CHECK(reserve(gpu, kind, culled));
+    ORO_CHECK(choose_pipelines(gpu, pipelines, kind));
+    write_table(plan, kind);
+    return {};
+}
+
+Result<void> GrowthFrame::reserve(const Gpu& gpu, const GrowthKind& kind, VkExtent2D culled) {
     constexpr VkBufferUsageFlags usage =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
     const VkDeviceSize table_bytes = tiles_at + tiles_ * sizeof(gpu::GrowthTile);
-    if (tables_[slot].size < table_bytes) {
-        ORO_TRY(tables_[slot], create_buffer(gpu, std::max(table_bytes, 2 * tables_[slot].size), usage,
-                                             MemoryKind::upload, "tiles of trees"));
+    if (tables_[slot_].size < table_bytes) {
+        ORO_TRY(tables_[slot_], create_buffer(gpu, std::max(table_bytes, 2 * tables_[slot_].size), usage,
+                                              MemoryKind::upload, "tiles of trees"));
     }
     const VkDeviceSize site_bytes = VkDeviceSize{tiles_} * gpu::sites_per_tile * sizeof(gpu::uint);
     if (sites_.size < site_bytes)
@@ -63,20 +76,33 @@ Result<void> GrowthFrame::prepare(const Gpu& gpu, Pipelines& pipelines, const Gr
         ORO_TRY(shade_map_, create_buffer(gpu, map_bytes, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                           MemoryKind::device, "shadows of trees"));
     }
-    if (kind.casts && !pipelines.draw_shade_map) {
-        ORO_TRY(pipelines.draw_shade_map,
-                create_compute_pipeline(gpu, pipelines, draw_shade_map_comp_spirv, "shadows of trees"));
+    if (!lists_.handle) {
+        ORO_TRY(lists_,
+                create_buffer(gpu, sizeof(gpu::CrownLists),
+                              usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT,
+                              MemoryKind::device, "lists of crowns"));
     }
-    map_ = kind.casts ? pipelines.draw_shade_map.get() : VK_NULL_HANDLE;
-    gpu::GrowthTable table{};
-    if (kind.casts) table.shade_map = address_words(shade_map_.address);
-    table.tiles = address_words(tables_[slot].address + tiles_at);
-    table.sites = address_words(sites_.address);
-    table.tile_count = tiles_;
-    table.first_page = first_page;
-    table.reach_m = plan.reach_m;
-    std::memcpy(tables_[slot].mapped, &table, sizeof(table));
-    std::memcpy(tables_[slot].mapped + tiles_at, plan.tiles.data(), tiles_ * sizeof(gpu::GrowthTile));
+    const VkDeviceSize depth_bytes =
+        sizeof(float) * VkDeviceSize{blocks_of(culled.width)} * blocks_of(culled.height);
+    culls_ = depth_bytes > 0;
+    if (farthest_.size < depth_bytes)
+        ORO_CHECK(replace_buffer(gpu, farthest_, depth_bytes, usage, MemoryKind::device, "farthest depths"));
+    return {};
+}
+
+Result<void> GrowthFrame::choose_pipelines(const Gpu& gpu, Pipelines& pipelines, const GrowthKind& kind) {
+    const auto need = [&](OwnedPipeline& pipeline, std::span<const std::uint32_t> words,
+                          const char* name) -> Result<void> {
+        if (pipeline) return {};
+        ORO_TRY(pipeline, create_compute_pipeline(gpu, pipelines, words, name));
+        return {};
+    };
+    ORO_CHECK(need(pipelines.draw_crowns, draw_crowns_comp_spirv, "draw trees"));
+    ORO_CHECK(need(pipelines.draw_large_crowns, draw_large_crowns_comp_spirv, "draw large trees"));
+    if (culls_) ORO_CHECK(need(pipelines.farthest_depths, farthest_depths_comp_spirv, "farthest depths"));
+    if (kind.casts) ORO_CHECK(need(pipelines.draw_shade_map, draw_shade_map_comp_spirv, "shadows of trees"));
+    if (kind.edges_follow)
+        ORO_CHECK(need(pipelines.smooth_crowns, smooth_crowns_comp_spirv, "outlines of trees"));
     auto& kept = pipelines.growth[number_of(kind)];
     if (!kept[0]) {
         ORO_TRY(kept[0],
@@ -84,19 +110,25 @@ Result<void> GrowthFrame::prepare(const Gpu& gpu, Pipelines& pipelines, const Gr
         ORO_TRY(kept[1],
                 create_growth_pipeline(gpu, pipelines, shade_growth_comp_spirv, "shade trees", kind));
     }
-    if (!pipelines.draw_crowns) {
-        ORO_TRY(pipelines.draw_crowns,
-                create_compute_pipeline(gpu, pipelines, draw_crowns_comp_spirv, "draw trees"));
-    }
-    if (kind.edges_follow && !pipelines.smooth_crowns) {
-        ORO_TRY(pipelines.smooth_crowns,
-                create_compute_pipeline(gpu, pipelines, smooth_crowns_comp_spirv, "outlines of trees"));
-    }
+    map_ = kind.casts ? pipelines.draw_shade_map.get() : VK_NULL_HANDLE;
     smooth_ = kind.edges_follow ? pipelines.smooth_crowns.get() : VK_NULL_HANDLE;
     grow_ = kept[0].get();
     shade_ = kept[1].get();
-    draw_ = pipelines.draw_crowns.get();
     return {};
+}
+
+void GrowthFrame::write_table(const GrowthPlan& plan, const GrowthKind& kind) {
+    gpu::GrowthTable table{};
+    if (kind.casts) table.shade_map = address_words(shade_map_.address);
+    if (culls_) table.farthest = address_words(farthest_.address);
+    table.lists = address_words(lists_.address);
+    table.tiles = address_words(tables_[slot_].address + tiles_at);
+    table.sites = address_words(sites_.address);
+    table.tile_count = tiles_;
+    table.first_page = plan.first_page;
+    table.reach_m = plan.reach_m;
+    std::memcpy(tables_[slot_].mapped, &table, sizeof(table));
+    std::memcpy(tables_[slot_].mapped + tiles_at, plan.tiles.data(), tiles_ * sizeof(gpu::GrowthTile));
 }
 
 void GrowthFrame::push(VkCommandBuffer commands, const Pipelines& pipelines) const {
@@ -105,21 +137,40 @@ void GrowthFrame::push(VkCommandBuffer commands, const Pipelines& pipelines) con
     vkCmdPushConstants(commands, pipelines.layout.get(), pipelines.round_stages, 0, sizeof(table), &table);
 }
 
-void GrowthFrame::record_draw(VkCommandBuffer commands, const Pipelines& pipelines) const {
+void GrowthFrame::record_draw(VkCommandBuffer commands, const Pipelines& pipelines, gpu::uint width_px,
+                              gpu::uint height_px) const {
     push(commands, pipelines);
-    const std::uint32_t groups = tiles_ * gpu::site_groups_per_tile;
+    const auto wait = [&](VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
+        memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | stages,
+                       VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | access,
+                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                       VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+                           VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
+    };
+    // An earlier frame may still read them.
+    memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+                   0, VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
+                   VK_ACCESS_2_TRANSFER_WRITE_BIT);
+    constexpr std::array<gpu::uint, 6> no_groups{0, 1, 1, 0, 1, 1};
+    vkCmdUpdateBuffer(commands, lists_.handle.get(), 0, sizeof(no_groups), no_groups.data());
     if (map_ != VK_NULL_HANDLE) vkCmdFillBuffer(commands, shade_map_.handle.get(), 0, VK_WHOLE_SIZE, 0);
+    if (culls_) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.farthest_depths.get());
+        vkCmdDispatch(commands, blocks_of(width_px), blocks_of(height_px), 1);
+        wait(0, 0);
+    }
+    const std::uint32_t groups = tiles_ * gpu::site_groups_per_tile;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, grow_);
     dispatch_groups(commands, groups);
-    memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT,
-                   VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                   VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                   VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, draw_);
+    wait(VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.draw_crowns.get());
     dispatch_groups(commands, groups);
+    wait(0, 0);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.draw_large_crowns.get());
+    vkCmdDispatchIndirect(commands, lists_.handle.get(), offsetof(gpu::CrownLists, piece_groups));
     if (map_ == VK_NULL_HANDLE) return;
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, map_);
-    dispatch_groups(commands, groups);
+    vkCmdDispatchIndirect(commands, lists_.handle.get(), offsetof(gpu::CrownLists, shade_groups));
 }
 
 void GrowthFrame::record_pixels(VkCommandBuffer commands, const Pipelines& pipelines, VkPipeline pipeline,

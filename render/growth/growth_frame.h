@@ -22,14 +22,15 @@ struct GrowthKind {
 
 class GrowthFrame {
   public:
-    // Takes the tiles of a plan, which may have none. first_page: of their triangle ids. slot: of
-    // frames_in_flight. Errors: the device.
-    Result<void> prepare(const Gpu& gpu, Pipelines& pipelines, const GrowthPlan& plan, gpu::uint first_page,
-                         const GrowthKind& kind, std::size_t slot);
+    // Takes the tiles of a plan, which may have none. culled: the picture that trees behind its ground are
+    // left out of; 0 x 0: none is. slot: of frames_in_flight. Errors: the device.
+    Result<void> prepare(const Gpu& gpu, Pipelines& pipelines, const GrowthPlan& plan, const GrowthKind& kind,
+                         VkExtent2D culled, std::size_t slot);
     [[nodiscard]] bool is_on() const { return tiles_ > 0; }
     // What stands on its sites, and its trees into the visibility buffer. The grid's set is bound, and the
     // nodes of its casters are there.
-    void record_draw(VkCommandBuffer commands, const Pipelines& pipelines) const;
+    void record_draw(VkCommandBuffer commands, const Pipelines& pipelines, gpu::uint width_px,
+                     gpu::uint height_px) const;
     // For the programs that colour the grid's ground, which look up the shadows of its trees.
     void push(VkCommandBuffer commands, const Pipelines& pipelines) const;
     // Colours its pixels; and, of pictures of one sample whose edges follow, softens its outlines once all
@@ -44,16 +45,21 @@ class GrowthFrame {
     }
 
   private:
+    Result<void> reserve(const Gpu& gpu, const GrowthKind& kind, VkExtent2D culled);
+    Result<void> choose_pipelines(const Gpu& gpu, Pipelines& pipelines, const GrowthKind& kind);
+    void write_table(const GrowthPlan& plan, const GrowthKind& kind);
     void record_pixels(VkCommandBuffer commands, const Pipelines& pipelines, VkPipeline pipeline,
                        gpu::uint width_px, gpu::uint height_px) const;
 
     std::array<Buffer, frames_in_flight> tables_;  // GrowthTable, then its tiles
     Buffer sites_;
     Buffer shade_map_;  // GrowthTable::shade_map, where terrain casts shadows
+    Buffer lists_;      // CrownLists
+    Buffer farthest_;   // GrowthTable::farthest
+    bool culls_{};
     std::size_t slot_{};
     gpu::uint tiles_{};
-    VkPipeline grow_{VK_NULL_HANDLE}, draw_{VK_NULL_HANDLE}, map_{VK_NULL_HANDLE}, shade_{VK_NULL_HANDLE},
-        smooth_{VK_NULL_HANDLE};
+    VkPipeline grow_{VK_NULL_HANDLE}, map_{VK_NULL_HANDLE}, shade_{VK_NULL_HANDLE}, smooth_{VK_NULL_HANDLE};
 };
 
 // Mesh path: its images into a visibility buffer, and the ids back, around what draws trees. The images are

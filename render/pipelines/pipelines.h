@@ -94,7 +94,8 @@ struct Pipelines {
     // Of frames with trees (render/growth): what stands on sites and what colours it, by what they ask for;
     // what draws them and softens their outlines; mesh path: copies of its images before that, and back.
     std::map<std::size_t, std::array<OwnedPipeline, 2>> growth;
-    OwnedPipeline draw_crowns, draw_shade_map, smooth_crowns, seed_visibility, keep_ids;
+    OwnedPipeline draw_crowns, draw_large_crowns, draw_shade_map, farthest_depths, smooth_crowns;
+    OwnedPipeline seed_visibility, keep_ids;
 };
 
 // What a renderer is asked for besides triangle ids.

@@ -1,6 +1,6 @@
 #version 460
-// Draws trees: an invocation takes a site, and all of a workgroup those that cover many pixels. Pixels by rays, so that silhouettes are
-// exact, into the visibility buffer as triangles are: the nearest stays.
+// Draws trees: an invocation takes a site. Those that cover many pixels are left to draw_large_crowns.comp, piece by piece; those whose
+// shadows may be seen to draw_shade_map.comp. Pixels by rays, so that silhouettes are exact.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_memory_scope_semantics : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
@@ -10,57 +10,52 @@
 #include "shaders/place/place.glsl"
 #include "shaders/growth/growth.glsl"
 #include "shaders/growth/crown.glsl"
+#include "shaders/growth/crown_pixels.glsl"
 
 layout(local_size_x = 128) in;  // site_group
 
-layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Visibility { uint64_t at[]; };
+const int alone_px = 256;
 
-const int alone_px = 2048;
-shared uint large[128];
-shared uint large_count;
-
-uint id_of_site(uint tile, uint site) {
-    return (GROWTH.first_page + tile) * (meshlets_per_page * meshlet_triangles) + site * ids_per_site + 1u;
+// False where the list has no room; whoever finds none gives its place back, so that the list's number is right in the end.
+bool list_piece(uint site, int piece) {
+    ListsOfCrowns lists = ListsOfCrowns(GROWTH.lists);
+    uint at = atomicAdd(lists.at.piece_groups[0], 1u);
+    if (at < crown_list_max) lists.at.pieces[at] = uvec2(site, uint(piece));
+    else atomicAdd(lists.at.piece_groups[0], 0xffffffffu);
+    return at < crown_list_max;
 }
 
-// As raster.glsl.
-void keep_nearest(ivec2 pixel, float depth, uint id) {
-    Visibility visibility = Visibility(FRAME.visibility);
-    uint at = uint(pixel.y) * FRAME.width_px + uint(pixel.x);
-    uint64_t candidate = (uint64_t(floatBitsToUint(depth)) << 32) | uint64_t(~id);
-    if (candidate > atomicLoad(visibility.at[at], gl_ScopeDevice, gl_StorageSemanticsBuffer, gl_SemanticsRelaxed))
-        atomicMax(visibility.at[at], candidate, gl_ScopeDevice, gl_StorageSemanticsBuffer, gl_SemanticsRelaxed);
+void draw(Crown crown, CrownPixels of, ivec4 box) {
+    for (int y = box.y; y <= box.w; ++y)
+        for (int x = box.x; x <= box.z; ++x) draw_pixel(crown, of, ivec2(x, y));
 }
 
-void draw_pixel(Crown crown, ivec2 pixel, float pixel_m, uint id) {
-    CrownHit hit;
-    if (hits_crown(crown, ray_of_pixel(pixel), pixel_m, hit)) keep_nearest(pixel, FRAME.near_m / hit.depth_m, id);
+void draw_pieces(Crown crown, CrownPixels of, uint site) {
+    ivec2 count = (of.box.zw - of.box.xy) / int(crown_piece_px) + 1;
+    for (int piece = 0; piece < count.x * count.y; ++piece) {
+        ivec2 first = of.box.xy + ivec2(piece % count.x, piece / count.x) * int(crown_piece_px);
+        ivec4 box = ivec4(first, min(first + int(crown_piece_px) - 1, of.box.zw));
+        if (!is_behind_ground(box, of.nearest) && !list_piece(site, piece)) draw(crown, of, box);
+    }
+}
+
+// There are fewer sites within reach of the map than the list has room for.
+void list_shade(uint site) {
+    ListsOfCrowns lists = ListsOfCrowns(GROWTH.lists);
+    uint at = atomicAdd(lists.at.shade_groups[0], 1u);
+    if (at < crown_list_max) lists.at.shades[at] = site;
 }
 
 void main() {
-    uint group = folded(gl_WorkGroupID), tile = group / site_groups_per_tile, lane = gl_LocalInvocationIndex;
+    uint group = folded(gl_WorkGroupID), tile = group / site_groups_per_tile;
     if (tile >= GROWTH.tile_count) return;
-    if (lane == 0u) large_count = 0u;
-    barrier();
-    uint site = group % site_groups_per_tile * site_group + lane;
+    uint site = group % site_groups_per_tile * site_group + gl_LocalInvocationIndex;
     Crown crown;
-    if (crown_of_site(tile, site, crown)) {
-        ivec4 box = pixels_of_crown(crown);
-        if (!is_empty(box)) {
-            int width = box.z - box.x + 1, count = width * (box.w - box.y + 1);
-            if (count > alone_px) large[atomicAdd(large_count, 1u)] = site;
-            else {
-                float pixel_m = pixel_m_at(crown.foot);
-                for (int i = 0; i < count; ++i) draw_pixel(crown, box.xy + ivec2(i % width, i / width), pixel_m, id_of_site(tile, site));
-            }
-        }
-    }
-    barrier();
-    for (uint number = 0u; number < large_count; ++number) {
-        if (!crown_of_site(tile, large[number], crown)) continue;
-        ivec4 box = pixels_of_crown(crown);
-        int width = box.z - box.x + 1, count = width * (box.w - box.y + 1);
-        float pixel_m = pixel_m_at(crown.foot);
-        for (int i = int(lane); i < count; i += 128) draw_pixel(crown, box.xy + ivec2(i % width, i / width), pixel_m, id_of_site(tile, large[number]));
-    }
+    if (!crown_of_site(tile, site, crown)) return;
+    if (GROWTH.shade_map != uvec2(0u) && length(crown.foot) < shade_map_reach_m + 40.0) list_shade(tile * sites_per_tile + site);
+    CrownPixels of = crown_pixels(crown, tile, site);
+    if (is_empty(of.box) || is_behind_ground(of.box, of.nearest)) return;
+    ivec2 size = of.box.zw - of.box.xy + 1;
+    if (size.x * size.y > alone_px) draw_pieces(crown, of, tile * sites_per_tile + site);
+    else draw(crown, of, of.box);
 }

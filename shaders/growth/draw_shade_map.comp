@@ -1,5 +1,5 @@
 #version 460
-// Draws trees near the eye as the sun sees them: how near to it their first leaves are. An invocation takes a site.
+// Draws trees near the eye as the sun sees them: how near to it their first leaves are. A workgroup takes one (draw_crowns.comp).
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
@@ -10,15 +10,15 @@
 #include "shaders/growth/crown.glsl"
 #include "shaders/growth/shade_map.glsl"
 
-layout(local_size_x = 128) in;  // site_group
+layout(local_size_x = 8, local_size_y = 8) in;
 
 void draw(Crown crown, mat3 axes) {
     ShadePlace foot = shade_place(crown.foot, axes), top = shade_place(crown.foot + crown.high_m * crown.axes[2], axes);
     float reach = crown.radius_m / shade_map_cell_m;
     ivec2 first = max(ivec2(floor(min(foot.cell, top.cell) - reach)), ivec2(0));
     ivec2 last = min(ivec2(ceil(max(foot.cell, top.cell) + reach)), ivec2(int(shade_map_side) - 1));
-    for (int y = first.y; y <= last.y; ++y) {
-        for (int x = first.x; x <= last.x; ++x) {
+    for (int y = first.y + int(gl_LocalInvocationID.y); y <= last.y; y += int(gl_WorkGroupSize.y)) {
+        for (int x = first.x + int(gl_LocalInvocationID.x); x <= last.x; x += int(gl_WorkGroupSize.x)) {
             vec2 at_m = (vec2(x, y) + 0.5 - 0.5 * float(shade_map_side)) * shade_map_cell_m;
             vec3 from = axes * vec3(at_m, foot.towards_m);
             CrownHit hit;
@@ -30,9 +30,7 @@ void draw(Crown crown, mat3 axes) {
 }
 
 void main() {
-    uint group = folded(gl_WorkGroupID), tile = group / site_groups_per_tile;
-    if (tile >= GROWTH.tile_count) return;
+    uint site = ListsOfCrowns(GROWTH.lists).at.shades[gl_WorkGroupID.x];
     Crown crown;
-    if (!crown_of_site(tile, group % site_groups_per_tile * site_group + gl_LocalInvocationIndex, crown)) return;
-    if (length(crown.foot) < shade_map_reach_m + 40.0) draw(crown, shade_axes());
+    if (crown_of_site(site / sites_per_tile, site % sites_per_tile, crown)) draw(crown, shade_axes());
 }

@@ -172,12 +172,22 @@ bool may_show(SitePlace place) {
     return all(lessThanEqual(abs(side), vec2(w) + slack));
 }
 
+// Whether neither the largest tree there nor its shadow is seen.
+bool is_hidden(SitePlace place) {
+    // With what it leans; broad-leaved ones that stand alone are the widest.
+    float tallest_m = 30.0 * FRAME.exaggeration, widest_m = 9.0 + 0.1 * tallest_m;
+    if (length(place.view) < shade_map_reach_m + 40.0) return false;
+    vec3 up = normalize(place.view + (FRAME.earth_radius_m + FRAME.eye_h_m) * FRAME.up_view), top = place.view + tallest_m * up;
+    ivec4 box = pixels_around(place.view, top, widest_m);
+    return is_empty(box) || is_behind_ground(box, nearest_depth(place.view, top, widest_m));
+}
+
 uint what_stands(GrowthTile tile, uint site) {
     uint hash = hash_of_site(tile, site);
     float rank = site_rank(hash);
     if (rank >= stocked_sites) return 0u;
     SitePlace place;
-    if (!place_of_site(tile, site, hash, place) || !may_show(place)) return 0u;
+    if (!place_of_site(tile, site, hash, place) || !may_show(place) || is_hidden(place)) return 0u;
     float kept = trees_at(length(place.view), GROWTH.reach_m) * (stocked_sites + grows_in);
     if (rank >= kept) return 0u;
     SurfacePoint point = ground_of(place);

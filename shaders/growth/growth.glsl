@@ -4,6 +4,7 @@
 #include "shaders/growth/reach.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer GrowthTiles { GrowthTile at[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer ListsOfCrowns { CrownLists at; };
 
 // Of a site in a tile.
 uint hash_of_site(GrowthTile tile, uint site) {
@@ -106,14 +107,15 @@ bool crown_of_site(uint tile_number, uint site, out Crown crown) {
     return true;
 }
 
-// The pixels that may show a crown, of the picture: an empty box where there are none. From the balls around its top and its foot.
-ivec4 pixels_of_crown(Crown crown) {
+// The pixels of the picture that may show what is within a radius of the line between two places: an empty box where there are none.
+// From the balls around both.
+ivec4 pixels_around(vec3 foot, vec3 top, float radius_m) {
     vec2 low = vec2(1.0e30), high = vec2(-1.0e30), half_size = 0.5 * vec2(FRAME.width_px, FRAME.height_px);
     for (int i = 0; i < 2; ++i) {
-        vec3 at = crown.foot + (i == 0 ? 0.0 : crown.high_m) * crown.axes[2];
-        float w = -at.z, near_m = w - crown.radius_m;
+        vec3 at = i == 0 ? foot : top;
+        float w = -at.z, near_m = w - radius_m;
         if (near_m < 0.5) return ivec4(0, 0, -1, -1);  // beside the eye or behind it
-        vec2 middle = at.xy / w, reach = crown.radius_m * (1.0 + abs(middle)) / near_m;
+        vec2 middle = at.xy / w, reach = radius_m * (1.0 + abs(middle)) / near_m;
         low = min(low, (middle - reach) * FRAME.projection_scale);
         high = max(high, (middle + reach) * FRAME.projection_scale);
         low = min(low, (middle + reach) * FRAME.projection_scale);
@@ -123,7 +125,22 @@ ivec4 pixels_of_crown(Crown crown) {
     ivec4 box = ivec4(ivec2(clamp(floor(first), vec2(-1.0), end)), ivec2(clamp(floor(last), vec2(-1.0), end)));
     return ivec4(max(box.xy, ivec2(0)), min(box.zw, ivec2(end) - 1));
 }
+ivec4 pixels_of_crown(Crown crown) { return pixels_around(crown.foot, crown.foot + crown.high_m * crown.axes[2], crown.radius_m); }
 bool is_empty(ivec4 box) { return box.x > box.z || box.y > box.w; }
+// No part of a crown has a larger depth than this, of the frame's: near_m over metres.
+float nearest_depth(vec3 foot, vec3 top, float radius_m) { return FRAME.near_m / max(min(-foot.z, -top.z) - radius_m, 0.01) * 1.0001; }
+
+// Whether nearer ground is in all pixels of a box.
+bool is_behind_ground(ivec4 box, float depth) {
+    if (GROWTH.farthest == uvec2(0u)) return false;
+    ivec2 first = box.xy / int(depth_block_px), last = box.zw / int(depth_block_px);
+    if (any(greaterThan(last - first, ivec2(7)))) return false;
+    int across = int((FRAME.width_px + depth_block_px - 1u) / depth_block_px);
+    for (int row = first.y; row <= last.y; ++row)
+        for (int column = first.x; column <= last.x; ++column)
+            if (Floats(GROWTH.farthest).at[row * across + column] <= depth) return false;
+    return true;
+}
 
 // Through a pixel, of depth 1.
 vec3 ray_of_pixel(ivec2 pixel) {

@@ -5,11 +5,13 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "render/frame/picture_renderer.h"
 #include "tests/styles/drawn_style.h"
+#include "tests/support/asked_count.h"
 
 namespace oro {
 namespace {
@@ -29,7 +31,10 @@ class TreePictures : public test::StyleTest {
     static std::string natural_text(bool trees) {
         std::ifstream file(test::bundled_data() / "styles" / "natural.json");
         std::string text((std::istreambuf_iterator<char>(file)), {});
-        if (trees) text.replace(text.find("\"materials\""), 0, "\"growth\": { \"trees\": true },\n  ");
+        const std::string growth = ",\n  \"growth\": { \"trees\": true }";
+        const std::size_t at = text.find(growth);
+        EXPECT_NE(at, std::string::npos);
+        if (!trees && at != std::string::npos) text.erase(at, growth.size());
         return text;
     }
     static gpu::FrameStyle natural(const Region& region, bool trees) {
@@ -50,7 +55,8 @@ class TreePictures : public test::StyleTest {
     }
 
     std::vector<std::uint8_t> picture(const Region& region, const Camera& camera,
-                                      const gpu::FrameStyle& style, RasterPath path, int sample_count = 1) {
+                                      const gpu::FrameStyle& style, RasterPath path, int sample_count = 1,
+                                      OcclusionUse occlusion = OcclusionUse::if_it_pays) {
         auto scene = test::create_scene(*gpu_, region, {.means = true});
         EXPECT_TRUE(scene.ok());
         if (!scene.ok()) return {};
@@ -58,6 +64,7 @@ class TreePictures : public test::StyleTest {
         PictureOptions options;
         options.path = path;
         options.samples = sample_count;
+        options.occlusion = occlusion;
         const auto report =
             render_picture(*gpu_, *scene, camera, style, options, [&](std::span<const std::uint8_t> row) {
                 rgb.insert(rgb.end(), row.begin(), row.end());
@@ -130,6 +137,38 @@ TEST_F(TreePictures, AreTheSameInTiles) {
     EXPECT_GT(report->tiles, 1);
     EXPECT_LE(unlike_px(tiled, picture(region, camera(1100.0), style, RasterPath::compute)),
               width_px * height_px / 200U);
+}
+
+// Brute force: over hills whose crests hide forest no tree is left out that shows, from random eyes near the
+// ground and above it.
+TEST_F(TreePictures, AreTheSameWhereHiddenOnesAreDrawn) {
+    constexpr unsigned seed = 20261128;
+    std::mt19937 random(seed);
+    const auto number = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    Region region{std::vector<RegionGrid>(1)};
+    const auto H_m = [](double row, double column) {
+        return 1100.0 + 90.0 * std::sin(row * 0.35) * std::cos(column * 0.28) + 3.0 * (64.0 - row);
+    };
+    region.grids[0].field = test::square_field(46.5, 8.0, 30.0, 129, H_m);
+    const gpu::FrameStyle style = natural(region, true), bare = natural(region, false);
+    std::size_t of_trees_px = 0;
+    const int eyes = test::asked_count("OROGRAPH_TREE_EYES", 12);
+    for (int i = 0; i < eyes; ++i) {
+        Camera one = camera(0.0);
+        const double north_m = number(-800.0, 800.0), east_m = number(-800.0, 800.0);
+        one.eye = {46.5 + north_m / 111'000.0, 8.0 + east_m / 76'600.0,
+                   H_m(64.0 - north_m / 30.0, 64.0 + east_m / 30.0) + std::exp(number(1.0, 5.5))};
+        one.attitude = {number(0.0, 360.0), number(-25.0, 5.0), number(-10.0, 10.0)};
+        one.vertical_fov_deg = number(10.0, 70.0);
+        const RasterPath path = i % 2 == 0 ? RasterPath::compute : RasterPath::mesh;
+        const auto all = picture(region, one, style, path, 1, OcclusionUse::off);
+        EXPECT_EQ(unlike_px(picture(region, one, style, path, 1, OcclusionUse::on), all), 0U)
+            << "seed " << seed << ", eye " << i;
+        of_trees_px += unlike_px(picture(region, one, bare, path), all);
+    }
+    EXPECT_GT(of_trees_px, std::size_t{5000} * static_cast<std::size_t>(eyes) / 12U);
 }
 
 // Who asks for depths sees the ground, coloured as without trees.

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <set>
 #include <utility>
 
@@ -85,6 +87,53 @@ TEST(GrowthPlan, PlacesTilesAmongThePosts) {
             EXPECT_EQ(static_cast<int>(column) >> (page.level + 7), page.column);
         }
     }
+}
+
+// Brute force: each tile of the lattice whose middle is in the picture, at some height of its ground, is
+// taken.
+TEST(GrowthPlan, LeavesOutNoTileThatShows) {
+    constexpr unsigned seed = 20261128;
+    std::mt19937 random(seed);
+    const auto number = [&](double low, double high) {
+        return low + (high - low) * std::uniform_real_distribution<double>()(random);
+    };
+    std::size_t inside = 0;
+    for (int turn = 0; turn < 30; ++turn) {
+        const double lat_deg = number(-80.0, 80.0);
+        PostGrid grid;
+        grid.lat = {1200.0, std::floor(lat_deg) + 2.0, 0, -1, 3601};
+        grid.lon = {1200.0, 7.0, 0, +1, 3601};
+        GrowthView view = from_above(number(0.0, 360.0));
+        view.camera.eye = {lat_deg, number(8.2, 8.8), number(500.0, 6000.0)};
+        view.camera.attitude.pitch_deg = number(-60.0, 20.0);
+        const GrowthPlan plan = planned(grid, view);
+        std::set<std::pair<gpu::uint, gpu::uint>> taken;
+        for (const gpu::GrowthTile& tile : plan.tiles) taken.insert({tile.row, tile.column});
+        const auto planes = frustum_planes_view(projection_of_tile(view.camera, view.tile));
+        const glm::dmat3 view_from_ecef = view.camera.view_from_ecef();
+        const double tile_deg = site_tile_south_deg(1) - site_tile_south_deg(0);
+        const double reach_deg = 0.95 * static_cast<double>(plan.reach_m) / 111'700.0;
+        const auto first = static_cast<gpu::uint>(std::ceil((lat_deg - reach_deg + 90.0) / tile_deg));
+        for (gpu::uint row = first; site_tile_south_deg(row) < lat_deg + reach_deg; ++row) {
+            const double columns = site_tile_columns(row);
+            const double middle = (view.camera.eye.lon_deg + 180.0) / 360.0 * columns;
+            for (double column = std::floor(middle) - 60.0; column < middle + 60.0; ++column) {
+                const Geodetic place{site_tile_south_deg(row) + 0.5 * tile_deg,
+                                     (column + 0.5) / columns * 360.0 - 180.0, number(400.0, 3000.0)};
+                const glm::dvec3 at = ecef_from_geodetic(place).m - view.camera.eye_ecef().m;
+                if (glm::length(at) > 0.95 * static_cast<double>(plan.reach_m)) continue;
+                const glm::dvec3 in_view = view_from_ecef * at;
+                if (!std::ranges::all_of(planes, [&](const Plane& plane) {
+                        return glm::dot(glm::dvec3(plane), in_view) + plane.w >= 0.0;
+                    }))
+                    continue;
+                ++inside;
+                EXPECT_TRUE(taken.contains({row, static_cast<gpu::uint>(column)}))
+                    << "seed " << seed << ", turn " << turn << ", " << place.lat_deg << ", " << place.lon_deg;
+            }
+        }
+    }
+    EXPECT_GT(inside, 1500U);
 }
 
 TEST(GrowthPlan, HasNoneOffTheGridOrAtAPole) {

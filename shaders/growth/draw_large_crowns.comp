@@ -1,0 +1,27 @@
+#version 460
+// Draws a piece of a crown that covers many pixels: a workgroup takes one (draw_crowns.comp).
+#extension GL_GOOGLE_include_directive : require
+#extension GL_KHR_memory_scope_semantics : require
+#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+#extension GL_EXT_shader_atomic_int64 : require
+#include "shaders/place/frame.glsl"
+#include "shaders/choose/levels.glsl"
+#include "shaders/place/place.glsl"
+#include "shaders/growth/growth.glsl"
+#include "shaders/growth/crown.glsl"
+#include "shaders/growth/crown_pixels.glsl"
+
+layout(local_size_x = 8, local_size_y = 16) in;
+
+void main() {
+    uvec2 piece = ListsOfCrowns(GROWTH.lists).at.pieces[gl_WorkGroupID.x];
+    uint tile = piece.x / sites_per_tile, site = piece.x % sites_per_tile;
+    Crown crown;
+    if (!crown_of_site(tile, site, crown)) return;
+    CrownPixels of = crown_pixels(crown, tile, site);
+    int count = (of.box.z - of.box.x) / int(crown_piece_px) + 1;
+    ivec2 first = of.box.xy + ivec2(int(piece.y) % count, int(piece.y) / count) * int(crown_piece_px);
+    ivec2 end = min(first + int(crown_piece_px), of.box.zw + 1);
+    for (int y = first.y + int(gl_LocalInvocationID.y); y < end.y; y += int(gl_WorkGroupSize.y))
+        for (int x = first.x + int(gl_LocalInvocationID.x); x < end.x; x += int(gl_WorkGroupSize.x)) draw_pixel(crown, of, ivec2(x, y));
+}
