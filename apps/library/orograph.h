@@ -151,6 +151,224 @@ ORO_API oro_status oro_info(oro_region region, char* text, size_t capacity, size
 ORO_API oro_status oro_heights(oro_region region, size_t count, const double* lat_deg, const double* lon_deg,
                                double* H_m, double* h_m);
 
+/*
+ * Points and light.
+ */
+
+/* What the height of an oro_point is above. */
+enum {
+    ORO_ABOVE_GROUND = 0,   /* The ground under the point, which is 0.001 m above it at least. */
+    ORO_ABOVE_GEOID = 1,    /* H. */
+    ORO_ABOVE_ELLIPSOID = 2 /* h. */
+};
+
+/* A point as a caller asks for it. */
+typedef struct oro_point {
+    double lat_deg;
+    double lon_deg;
+    double height_m;
+    int above; /* ORO_ABOVE_... */
+} oro_point;
+
+/* A point as the library answers it. Where there is none its members are NaN. */
+typedef struct oro_position {
+    double lat_deg;
+    double lon_deg;
+    double H_m;
+    double h_m;
+} oro_position;
+
+/* How light bends in the air. */
+enum {
+    ORO_AIR_STANDARD =
+        0, /* By the standard atmosphere: the coefficient of refraction falls with the eye's height. */
+    ORO_AIR_CONSTANT = 1 /* By the coefficient of refraction that is given; 0: light goes straight. */
+};
+
+/*
+ * Lines of sight.
+ */
+
+/* How a line of sight is asked for. To be initialized with ORO_SIGHT_OPTIONS. */
+typedef struct oro_sight_options {
+    size_t size;         /* The size of this structure. */
+    int air;             /* ORO_AIR_... */
+    double refraction_k; /* The coefficient of refraction of ORO_AIR_CONSTANT, -1 to 0.9. */
+    int on_summit;       /* Nonzero moves the eye to the highest post near its place. */
+} oro_sight_options;
+#define ORO_SIGHT_OPTIONS \
+    { sizeof(oro_sight_options), ORO_AIR_STANDARD, 0.13, 0 }
+
+/* What a line of sight comes to: the figures of `orograph sight --json`. */
+typedef struct oro_sight_answer {
+    size_t size;                  /* The size of this structure, which the caller sets. */
+    int visible;                  /* 1 where the target is seen, else 0. */
+    oro_position from;            /* The eye. */
+    oro_position to;              /* The target. */
+    oro_position obstacle;        /* The first that hides it. */
+    double obstacle_distance_m;   /* From the eye over the ellipsoid; NaN where the target is seen. */
+    double target_deficit_m;      /* How much higher the target must be to be seen; NaN: no height will do. */
+    double eye_deficit_m;         /* How much higher the eye must be; NaN: no height will do. */
+    double least_clearance_m;     /* Of the line over the ground; NaN where it is over no data at all. */
+    oro_position least_clearance; /* The ground there. */
+    double distance_m;            /* Over the ellipsoid. */
+    double azimuth_deg;           /* Clockwise from true north, at the eye. */
+    double elevation_deg;         /* At which the target is seen, or would be. */
+    double slant_m;               /* The straight distance. */
+    double without_data_m;        /* The length of the line that lies over no data. */
+} oro_sight_answer;
+#define ORO_SIGHT_ANSWER_SIZE sizeof(oro_sight_answer)
+
+/*
+ * Finds whether `to` is seen from `from`, and writes to *answer, whose size the caller has set. `options` may
+ * be NULL. Errors: ORO_NO_DATA for a point over the ground where there is none, ORO_USAGE for a point that is
+ * none or that lies under the ground, and for two points that are one.
+ */
+ORO_API oro_status oro_sight(oro_region region, const oro_point* from, const oro_point* to,
+                             const oro_sight_options* options, oro_sight_answer* answer);
+
+/*
+ * Profiles.
+ */
+
+/* A place of a profile. */
+typedef struct oro_profile_point {
+    double distance_m; /* From the line's begin, along it, over the ellipsoid. */
+    double lat_deg;
+    double lon_deg;
+    double H_m; /* NaN where there is no ground. */
+    double h_m; /* NaN where there is no ground. */
+} oro_profile_point;
+
+/* How a profile is asked for. To be initialized with ORO_PROFILE_OPTIONS. */
+typedef struct oro_profile_options {
+    size_t size;   /* The size of this structure. */
+    double step_m; /* From point to point; 0: all places where the line crosses an edge of the ground. */
+    double climb_threshold_m; /* The rises and falls that count as such, 0 to 10,000. */
+} oro_profile_options;
+#define ORO_PROFILE_OPTIONS \
+    { sizeof(oro_profile_options), 0.0, 10.0 }
+
+/* What a profile comes to: the figures of `orograph profile --json`. */
+typedef struct oro_profile_sums {
+    size_t size;            /* The size of this structure, which the caller sets. */
+    double length_m;        /* Of the line, over the ellipsoid. */
+    double ascent_m;        /* The sum of every rise. */
+    double descent_m;       /* The sum of every fall, 0 or more. */
+    double ascent_over_m;   /* The sum of rises of climb_threshold_m or more. */
+    double descent_over_m;  /* The sum of falls of climb_threshold_m or more. */
+    double without_data_m;  /* The length that lies over no data; no sum has it. */
+    size_t highest, lowest; /* The numbers of the highest and of the lowest point. */
+} oro_profile_sums;
+
+/*
+ * Follows the line through `places` places, each joined to the next by the shortest way over the ellipsoid,
+ * and writes its points to `points`, which has room for `capacity` of them. *count becomes the number of
+ * points, also where the room is too small (ORO_TOO_SMALL): to ask for it alone give NULL and 0. `sums`,
+ * whose size the caller has set, may be NULL, and `options` may be NULL. Errors: ORO_USAGE for fewer than two
+ * places, for a line without a length and for more than 10,000,000 steps; ORO_NO_DATA for a line that has no
+ * ground at all.
+ */
+ORO_API oro_status oro_profile(oro_region region, size_t places, const double* lat_deg, const double* lon_deg,
+                               const oro_profile_options* options, oro_profile_point* points, size_t capacity,
+                               size_t* count, oro_profile_sums* sums);
+
+/*
+ * Viewsheds.
+ */
+
+/* How a viewshed is asked for. To be initialized with ORO_VIEWSHED_OPTIONS. */
+typedef struct oro_viewshed_options {
+    size_t size;           /* The size of this structure. */
+    double radius_km;      /* Around each eye over the ellipsoid, 0.01 to 1,000. */
+    double target_m;       /* The height of targets over the ground of their posts, 0 or more. */
+    int air;               /* ORO_AIR_... */
+    double refraction_k;   /* The coefficient of refraction of ORO_AIR_CONSTANT, -1 to 0.9. */
+    int on_summit;         /* Nonzero moves each eye to the highest post near its place. */
+    int targets_on_canopy; /* Nonzero: targets stand on the canopy, and not on the ground under it. */
+} oro_viewshed_options;
+#define ORO_VIEWSHED_OPTIONS \
+    { sizeof(oro_viewshed_options), 20.0, 0.0, ORO_AIR_STANDARD, 0.13, 0, 0 }
+
+/* The posts that a viewshed has values of: a part of one grid of the region. */
+typedef struct oro_window {
+    size_t size;       /* The size of this structure, which the caller sets. */
+    size_t grid;       /* The number of the grid, for oro_grid_crs(). */
+    int64_t first_row; /* The rows and columns of the grid that the window begins with. */
+    int64_t first_column;
+    size_t rows; /* From the north to the south. */
+    size_t columns;
+    /*
+     * Where cells lie in the grid's CRS, as GDAL counts: x = t[0] + t[1] column + t[2] row and
+     * y = t[3] + t[4] column + t[5] row, of the corner of a cell whose middle is a post.
+     */
+    double transform[6];
+    size_t known; /* After oro_viewshed(): the posts within the radius that have ground. */
+    size_t seen;  /* After oro_viewshed(): those of them that are seen. */
+} oro_window;
+
+/* The value of a post that is void or beyond the radius. */
+#define ORO_UNKNOWN (-9999.0f)
+
+/*
+ * Writes the window of a viewshed from `count` eyes to *window, whose size the caller has set, and looks at
+ * nothing yet. `options` may be NULL. Errors: those of oro_viewshed(), but for the buffers.
+ */
+ORO_API oro_status oro_viewshed_window(oro_region region, size_t count, const oro_point* eyes,
+                                       const oro_viewshed_options* options, oro_window* window);
+
+/*
+ * Finds which posts of the window of oro_viewshed_window() are seen from `count` eyes, all with heights above
+ * the same. For each post, row by row, clearance_deficit_m becomes 0 where a target over it is seen from one
+ * of the eyes, else how much higher it must be, infinite where no height will do; observers becomes the
+ * number of eyes that see it; both become ORO_UNKNOWN beyond the radius and over void posts. Each has room
+ * for `capacity` values, and is written by the search itself: nothing is copied. *window becomes what
+ * oro_viewshed_window() writes, also where the room is too small (ORO_TOO_SMALL). What a call that fails has
+ * written to the buffers is worth nothing. Errors: ORO_NO_DATA for no ground under an eye or within the
+ * radius; ORO_USAGE for an eye that is none, and for more than 200,000,000 posts.
+ */
+ORO_API oro_status oro_viewshed(oro_region region, size_t count, const oro_point* eyes,
+                                const oro_viewshed_options* options, float* clearance_deficit_m,
+                                float* observers, size_t capacity, oro_window* window, oro_progress progress,
+                                void* user);
+
+/*
+ * Writes the CRS of a grid of the region, which a window names, as text for GDAL or PROJ: "EPSG:4326" with
+ * the longitude first, or WKT. The room for it is as for oro_info().
+ */
+ORO_API oro_status oro_grid_crs(oro_region region, size_t grid, char* text, size_t capacity, size_t* length);
+
+/*
+ * Pictures.
+ */
+
+/*
+ * Draws a picture of the region on the GPU, as `orograph shot` does: the same options give the same pixels.
+ * `count` words say what is wanted, as on a command line: "--at", "46.67,8.06", "--heading", "90", "--size",
+ * "800x600" (docs/commands/options.md). What names data or files to write is refused: --bbox, --view, --out
+ * and the like.
+ *
+ * The pixels go to `rgba`, row by row from the top, 4 bytes each: red, green and blue as in sRGB, and
+ * opacity, which is 255 but where a map (--ortho) has no ground. The buffer has room for `capacity` bytes.
+ * *width_px and *height_px become the picture's size, also where the room is too small (ORO_TOO_SMALL), which
+ * is found before anything is drawn: to ask for the size alone give NULL and 0. What a call that fails has
+ * written to the buffer is worth nothing. Pictures are drawn one at a time: a second thread waits. Errors:
+ * ORO_USAGE for words, ORO_NO_DATA for an eye over no ground or a view that nothing of the region can be in,
+ * ORO_NO_DEVICE.
+ */
+ORO_API oro_status oro_shot(oro_region region, size_t count, const char* const* options, uint8_t* rgba,
+                            size_t capacity, size_t* width_px, size_t* height_px, oro_progress progress,
+                            void* user);
+
+/*
+ * Draws a panorama of the region with rulers and names, as `orograph panorama` does: "--at", "46.67,8.06",
+ * "--sector", "90,200", "--width", "2000". All else is as oro_shot() has it. The size follows from the data,
+ * and to find it takes about as long as to look for the skyline.
+ */
+ORO_API oro_status oro_panorama(oro_region region, size_t count, const char* const* options, uint8_t* rgba,
+                                size_t capacity, size_t* width_px, size_t* height_px, oro_progress progress,
+                                void* user);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,7 +1,6 @@
 // The calls of the library about errors, regions and heights.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <string>
 
@@ -10,6 +9,7 @@
 #include "apps/fingerprints/fingerprints.h"
 #include "apps/library/guarded_call.h"
 #include "apps/library/library_data.h"
+#include "apps/library/library_structures.h"
 #include "apps/library/open_regions.h"
 #include "apps/library/orograph.h"
 #include "apps/report/json_text.h"
@@ -25,20 +25,6 @@ using oro::Result;
 
 std::string text_or_none(const char* text) {
     return text != nullptr ? text : "";
-}
-
-Result<std::vector<std::string>> strings_of(const char* name, const char* const* texts, std::size_t count) {
-    std::vector<std::string> strings;
-    if (count == 0) return strings;
-    ORO_CHECK(oro::check_given(name, texts));
-    constexpr std::size_t most = 10'000'000;
-    if (count > most)
-        return oro::bad_argument(name, std::to_string(count) + " of them are more than 10,000,000");
-    for (std::size_t i = 0; i < count; ++i) {
-        if (texts[i] == nullptr) return oro::bad_argument(name, "number " + std::to_string(i) + " is NULL");
-        strings.emplace_back(texts[i]);
-    }
-    return strings;
 }
 
 struct AskedRegion {
@@ -69,22 +55,10 @@ Result<AskedRegion> asked_region(const oro_open_options& given) {
     region.strict_datum = given.strict_datum != 0;
     region.fill_voids = given.fill_voids != 0;
     region.resample = given.resample != 0;
-    ORO_TRY(asked.cover.landcover, strings_of("landcover", given.landcover, given.landcover_count));
-    ORO_TRY(asked.cover.canopy, strings_of("canopy", given.canopy, given.canopy_count));
+    ORO_TRY(asked.cover.landcover, oro::strings_of("landcover", given.landcover, given.landcover_count));
+    ORO_TRY(asked.cover.canopy, oro::strings_of("canopy", given.canopy, given.canopy_count));
     if (!(given.canopy_held < 0.0)) asked.cover.canopy_held = given.canopy_held;
     return asked;
-}
-
-// Copies a text with a zero byte at its end, where there is room.
-Result<void> give_text(const std::string& from, char* text, std::size_t capacity, std::size_t* length) {
-    *length = from.size();
-    if (text == nullptr && capacity == 0) return {};
-    ORO_CHECK(oro::check_given("text", text));
-    if (capacity <= from.size())
-        throw oro::TooSmall{"text: takes " + std::to_string(from.size() + 1) + " bytes, and has " +
-                            std::to_string(capacity)};
-    std::memcpy(text, from.c_str(), from.size() + 1);
-    return {};
 }
 
 // The text of `info --json`.
@@ -142,7 +116,7 @@ oro_status oro_open(const char* const* paths, size_t count, const oro_open_optio
         if (options != nullptr) {
             ORO_TRY(asked, asked_region(*options));
         }
-        ORO_TRY(asked.region.paths, strings_of("paths", paths, count));
+        ORO_TRY(asked.region.paths, oro::strings_of("paths", paths, count));
         if (asked.region.paths.empty()) return oro::bad_argument("paths", "names no file");
         oro::find_library_data();
         ORO_TRY(auto opened,
@@ -161,7 +135,20 @@ oro_status oro_info(oro_region region, char* text, size_t capacity, size_t* leng
         ORO_CHECK(oro::check_given("length", length));
         ORO_TRY(const auto open, oro::region_of(region));
         ORO_TRY(const std::string info, info_text_of(*open));
-        return give_text(info, text, capacity, length);
+        return oro::give_text(info, text, capacity, length);
+    });
+}
+
+oro_status oro_grid_crs(oro_region region, size_t grid, char* text, size_t capacity, size_t* length) {
+    return oro::guarded_call([&]() -> Result<void> {
+        ORO_CHECK(oro::check_given("length", length));
+        ORO_TRY(const auto open, oro::region_of(region));
+        const auto& grids = open->ground->region.grids;
+        if (grid >= grids.size())
+            return oro::bad_argument(
+                "grid", std::to_string(grid) + " is not among the region's " + std::to_string(grids.size()));
+        const auto& crs = grids[grid].posts_crs;
+        return oro::give_text(crs ? crs->wkt : "EPSG:4326", text, capacity, length);
     });
 }
 

@@ -10,7 +10,7 @@
 
 enum { most_places = 64 };
 
-static int told_failure(const char* what) {
+static int report_failure(const char* what) {
     fprintf(stderr, "%s: %s\n", what, oro_error_text());
     return oro_error_code();
 }
@@ -30,7 +30,7 @@ static int print_heights(oro_region region, int count, char** places) {
         }
     }
     if (oro_heights(region, (size_t)count, lat_deg, lon_deg, H_m, h_m) != ORO_OK)
-        return told_failure("heights");
+        return report_failure("heights");
     for (int i = 0; i < count; ++i) {
         if (isnan(H_m[i]))
             printf("%s: no ground\n", places[i]);
@@ -47,11 +47,11 @@ int main(int argc, char** argv) {
     }
     const char* const paths[] = {argv[1]};
     oro_region region = 0;
-    if (oro_open(paths, 1, NULL, show_reading, NULL, &region) != ORO_OK) return told_failure("opening");
+    if (oro_open(paths, 1, NULL, show_reading, NULL, &region) != ORO_OK) return report_failure("opening");
     size_t length = 0;
-    if (oro_info(region, NULL, 0, &length) != ORO_OK) return told_failure("info");
+    if (oro_info(region, NULL, 0, &length) != ORO_OK) return report_failure("info");
     char* const info = malloc(length + 1);
-    if (info == NULL || oro_info(region, info, length + 1, &length) != ORO_OK) return told_failure("info");
+    if (info == NULL || oro_info(region, info, length + 1, &length) != ORO_OK) return report_failure("info");
     printf("liborograph %s; %zu bytes of information\n", oro_version(), length);
     free(info);
     const int code = print_heights(region, argc - 2, argv + 2);
