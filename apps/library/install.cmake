@@ -13,3 +13,6 @@ include(CMakePackageConfigHelpers)
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/lib/OrographConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/lib/OrographConfig.cmake ${CMAKE_BINARY_DIR}/lib/OrographConfigVersion.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Orograph)
+# The module of Python over the library. It is found where Debian looks for modules, and looks for the library from there.
+install(DIRECTORY ${CMAKE_CURRENT_LIST_DIR}/../python/orograph DESTINATION lib/python3/dist-packages
+        FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed" PATTERN "__pycache__" EXCLUDE)
