@@ -18,7 +18,8 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # PROJ's grids of datums, and something that draws.
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "proj-data")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "mesa-vulkan-drivers | vulkan-icd")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "ffmpeg")
+# The second is for the module of Python.
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "ffmpeg, python3-numpy")
 set(CPACK_DEBIAN_PACKAGE_RELEASE "$ENV{OROGRAPH_DEB_RELEASE}")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)

@@ -83,6 +83,19 @@ class InstalledLibrary(unittest.TestCase):
         self.assertEqual(said[3], "40,8: no ground")
         self.assertRegex(refused.stderr, r"^opening: .*none\.tif: ")
 
+    def test_the_c_example_of_a_viewshed_counts_what_the_program_counts(self):
+        with tempfile.TemporaryDirectory() as folder:
+            example, picture = Path(folder) / "viewshed", Path(folder) / "seen.pgm"
+            run("cc", "-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror",
+                SOURCE / "apps/library/examples/viewshed.c", "-o", example, *flags())
+            said = run(example, DATA, "36.55", "-84.25", "5", picture, env=environment()).stdout
+            shed = json.loads(run(PROGRAM, "viewshed", DATA, "--at", "36.55,-84.25", "--radius", 5, "--out",
+                                  folder + "/seen.tif", "--json", "-q").stdout)
+            self.assertTrue(said.startswith("%d of %d posts are seen; " % (shed["seen"], shed["cells"])), said)
+            size = "P5\n%d %d\n255\n" % (shed["columns"], shed["rows"])
+            self.assertEqual(picture.read_bytes().count(b"\xff", len(size)), shed["seen"])
+            self.assertEqual(picture.stat().st_size, len(size) + shed["columns"] * shed["rows"])
+
     def test_cmake_finds_it(self):
         with tempfile.TemporaryDirectory() as folder:
             (Path(folder) / "CMakeLists.txt").write_text(
