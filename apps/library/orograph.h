@@ -361,6 +361,35 @@ ORO_API oro_status oro_shot(oro_region region, size_t count, const char* const* 
                             void* user);
 
 /*
+ * Where oro_shot_layers() writes what each pixel shows, row by row from the top, NaN where it shows no
+ * ground. A layer that is NULL is not wanted. `size` is the size of this structure; begin with
+ * {sizeof(oro_layers)}.
+ */
+typedef struct oro_layers {
+    size_t size;
+    size_t capacity; /* How many values each layer has room for. */
+    double* longitude_deg;
+    double* latitude_deg;
+    float* H_m;
+    float* h_m;
+    float* distance_m; /* From the eye along the line of sight. */
+    float* slope_deg;
+    float* source; /* The number of the source in oro_info(), from 0. */
+    float* shadow; /* The share of the sun's light that comes past the terrain, 0 to 1. */
+    float* cover;  /* The code of the land cover; of views with some alone. */
+} oro_layers;
+
+/*
+ * Finds what the pixels of a picture show, as `orograph shot --layers` does: the same options as for
+ * oro_shot() give the same values, without the strip of a legend. *width_px and *height_px become the layers'
+ * size, also where the room is too small (ORO_TOO_SMALL), which is found before anything is drawn. Errors:
+ * those of oro_shot(); ORO_USAGE for a map, and for a picture of too many pixels.
+ */
+ORO_API oro_status oro_shot_layers(oro_region region, size_t count, const char* const* options,
+                                   const oro_layers* layers, size_t* width_px, size_t* height_px,
+                                   oro_progress progress, void* user);
+
+/*
  * Draws a panorama of the region with rulers and names, as `orograph panorama` does: "--at", "46.67,8.06",
  * "--sector", "90,200", "--width", "2000". All else is as oro_shot() has it. The size follows from the data,
  * and to find it takes about as long as to look for the skyline.

@@ -1,5 +1,6 @@
 // The calls of the library that draw: shot and panorama.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -18,6 +19,7 @@
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/eye/asked_summit.h"
 #include "apps/labels/labelled_picture.h"
+#include "apps/layers/picture_layers.h"
 #include "apps/legend/legend.h"
 #include "apps/library/guarded_call.h"
 #include "apps/library/library_structures.h"
@@ -168,8 +170,23 @@ oro::Region region_for_view(const OpenRegion& open) {
     return open.as_opened ? *open.as_opened : open.ground->region;
 }
 
-// All of a shot that needs no GPU. Gives the style.
-Result<oro::Style> open_shot(const OpenRegion& open, const oro::ShotOptions& options, oro::ShotResult& shot) {
+// A shot, ready to be drawn. It stays where it is: the ground holds on to its region.
+struct PreparedShot {
+    oro::ShotOptions options;
+    double ceiling_m{};
+    oro::ShotResult shot;
+    oro::Style style;
+    oro::ShotGround ground;
+};
+
+// All of a shot that needs no GPU.
+Result<std::unique_ptr<PreparedShot>> prepared_shot(const OpenRegion& open,
+                                                    const std::vector<std::string>& words) {
+    auto prepared = std::make_unique<PreparedShot>();
+    oro::ShotResult& shot = prepared->shot;
+    ORO_TRY(prepared->options, shot_options(open, words));
+    const oro::ShotOptions& options = prepared->options;
+    ORO_TRY(prepared->ceiling_m, oro::unseen_ceiling(options.unseen_ceiling_m));
     ORO_CHECK(oro::check_map_options(options));
     if (options.view.tolerance) {
         if (options.view.accuracy)
@@ -182,12 +199,16 @@ Result<oro::Style> open_shot(const OpenRegion& open, const oro::ShotOptions& opt
     ORO_TRY(shot.on_summit, oro::asked_summit(options.view, shot.region, shot.view.exaggeration));
     if (options.ortho) ORO_CHECK(oro::make_map(shot.view, options, shot.region));
     oro::choose_legend(options, shot.view);
-    return oro::load_style(shot.view, shot.region.grids.front().field);
+    ORO_TRY(prepared->style, oro::load_style(shot.view, shot.region.grids.front().field));
+    ORO_TRY(prepared->ground, oro::ground_of_shot(shot));
+    return prepared;
 }
 
-Result<void> draw_rows(const oro::ShotResult& shot, const oro::RegionGround& ground, const oro::Gpu& gpu,
-                       oro::Scene& scene, const oro::Style& style, std::span<const std::uint8_t> strip,
-                       PictureBuffer& buffer, PictureProgress& progress) {
+Result<void> draw_rows(const PreparedShot& prepared, const oro::Gpu& gpu, oro::Scene& scene,
+                       std::span<const std::uint8_t> strip, PictureBuffer& buffer,
+                       PictureProgress& progress) {
+    const oro::ShotResult& shot = prepared.shot;
+    const oro::TrueGround& ground = prepared.ground.grids->ground();
     ORO_CHECK(shot.region.health());
     ORO_TRY(const oro::RasterPath path, oro::choose_path(shot.view.pipeline, gpu));
     const auto show = [&](double share) { progress.show(share, "drawing"); };
@@ -198,12 +219,12 @@ Result<void> draw_rows(const oro::ShotResult& shot, const oro::RegionGround& gro
     oro::PictureReport report;
     if (shot.view.map) {
         ORO_TRY(report, oro::draw_map(
-                            gpu, scene, shot.view, ground.ground(), style, path,
+                            gpu, scene, shot.view, ground, prepared.style, path,
                             [&](auto row) { return unless_stopped(buffer.take_rgba(row)); }, show));
     } else {
         ORO_TRY(const oro::LabelledPicture picture,
                 oro::render_labelled(
-                    gpu, scene, shot.view, ground.ground(), style, path,
+                    gpu, scene, shot.view, ground, prepared.style, path,
                     [&](auto row) { return unless_stopped(buffer.take_rgb(row)); }, show));
         report = picture.report;
     }
@@ -213,24 +234,74 @@ Result<void> draw_rows(const oro::ShotResult& shot, const oro::RegionGround& gro
 
 Result<void> answer_shot(const OpenRegion& open, const std::vector<std::string>& words, PictureBuffer& buffer,
                          PictureProgress& progress) {
-    ORO_TRY(const oro::ShotOptions options, shot_options(open, words));
-    ORO_TRY(const double ceiling_m, oro::unseen_ceiling(options.unseen_ceiling_m));
-    oro::ShotResult shot;
-    ORO_TRY(const oro::Style style, open_shot(open, options, shot));
-    ORO_TRY(const oro::ShotGround ground, oro::ground_of_shot(shot));
-    ORO_TRY(shot.middle, oro::place_in_middle(shot.view, *ground.grids));
+    ORO_TRY(const auto prepared, prepared_shot(open, words));
+    oro::ShotResult& shot = prepared->shot;
+    ORO_TRY(shot.middle, oro::place_in_middle(shot.view, *prepared->ground.grids));
     // What --tolerance chooses changes what the strip says, and not its height.
-    ORO_TRY(std::vector<std::uint8_t> strip, oro::strip_of(shot.view, shot.region, style, shot.middle));
+    ORO_TRY(std::vector<std::uint8_t> strip,
+            oro::strip_of(shot.view, shot.region, prepared->style, shot.middle));
     ORO_CHECK(buffer.begin(shot.view.camera.width_px, shot.view.camera.height_px + shot.view.legend_px));
     const std::lock_guard lock(drawing());
     ORO_TRY(const auto gpu, oro::Gpu::create(oro::gpu_options_from_environment()));
     ORO_TRY(oro::Scene scene,
-            oro::scene_of_shot(options, ceiling_m, *gpu, style, ground, progress.throwing(), shot));
+            oro::scene_of_shot(prepared->options, prepared->ceiling_m, *gpu, prepared->style,
+                               prepared->ground, progress.throwing(), shot));
     ORO_CHECK(oro::check_in_view(shot, "", scene));
-    if (options.view.tolerance) {
-        ORO_TRY(strip, oro::strip_of(shot.view, shot.region, style, shot.middle));
+    if (prepared->options.view.tolerance) {
+        ORO_TRY(strip, oro::strip_of(shot.view, shot.region, prepared->style, shot.middle));
     }
-    return draw_rows(shot, *ground.grids, *gpu, scene, style, strip, buffer, progress);
+    return draw_rows(*prepared, *gpu, scene, strip, buffer, progress);
+}
+
+template <class Value>
+void give_layer(const std::vector<Value>& layer, Value* values) {
+    if (values != nullptr) std::ranges::copy(layer, values);
+}
+
+// Before anything is drawn: the size of layers, and that there is room for those that are wanted.
+Result<void> check_layers_of(const PreparedShot& prepared, const oro_layers& layers, std::size_t* width_px,
+                             std::size_t* height_px) {
+    const oro::Camera& camera = prepared.shot.view.camera;
+    if (prepared.shot.view.map)
+        return oro::bad_argument("options", "--ortho makes a map, which has no layers");
+    if (layers.cover != nullptr && !prepared.shot.view.cover)
+        return oro::bad_argument("cover", "is wanted of a view without land cover");
+    ORO_CHECK(oro::check_layers(camera));
+    *width_px = static_cast<std::size_t>(camera.width_px);
+    *height_px = static_cast<std::size_t>(camera.height_px);
+    if (layers.capacity < *width_px * *height_px)
+        throw oro::TooSmall{"layers: the picture has " + std::to_string(*width_px * *height_px) +
+                            " pixels, and there is room for " + std::to_string(layers.capacity)};
+    return {};
+}
+
+Result<void> answer_layers(const OpenRegion& open, const std::vector<std::string>& words,
+                           const oro_layers& layers, std::size_t* width_px, std::size_t* height_px,
+                           PictureProgress& progress) {
+    ORO_TRY(const auto prepared, prepared_shot(open, words));
+    ORO_CHECK(check_layers_of(*prepared, layers, width_px, height_px));
+    const oro::View& view = prepared->shot.view;
+    const std::lock_guard lock(drawing());
+    ORO_TRY(const auto gpu, oro::Gpu::create(oro::gpu_options_from_environment()));
+    ORO_TRY(oro::Scene scene,
+            oro::scene_of_shot(prepared->options, prepared->ceiling_m, *gpu, prepared->style,
+                               prepared->ground, progress.throwing(), prepared->shot));
+    ORO_CHECK(oro::check_in_view(prepared->shot, "", scene));
+    ORO_TRY(const oro::RasterPath path, oro::choose_path(view.pipeline, *gpu));
+    ORO_TRY(const oro::PictureLayers found,
+            oro::picture_layers(*gpu, scene, view, *prepared->ground.grids, prepared->style, path,
+                                [&](double share) { progress.show(share, "measuring layers"); }));
+    if (progress.stopped()) throw oro::Cancelled{};
+    give_layer(found.longitude_deg, layers.longitude_deg);
+    give_layer(found.latitude_deg, layers.latitude_deg);
+    give_layer(found.H_m, layers.H_m);
+    give_layer(found.h_m, layers.h_m);
+    give_layer(found.distance_m, layers.distance_m);
+    give_layer(found.slope_deg, layers.slope_deg);
+    give_layer(found.source, layers.source);
+    give_layer(found.shadow, layers.shadow);
+    give_layer(found.cover, layers.cover);
+    return {};
 }
 
 Result<oro::PanoramaOptions> panorama_options(const OpenRegion& open, const std::vector<std::string>& words) {
@@ -300,6 +371,21 @@ oro_status oro_shot(oro_region region, size_t count, const char* const* options,
                     size_t capacity, size_t* width_px, size_t* height_px, oro_progress progress, void* user) {
     return draw(&answer_shot, region, count, options, {rgba, capacity, width_px, height_px}, width_px,
                 height_px, progress, user);
+}
+
+oro_status oro_shot_layers(oro_region region, size_t count, const char* const* options,
+                           const oro_layers* layers, size_t* width_px, size_t* height_px,
+                           oro_progress progress, void* user) {
+    return oro::guarded_call([&]() -> Result<void> {
+        ORO_CHECK(oro::check_given("layers", layers));
+        ORO_CHECK(oro::check_size("layers", layers->size, sizeof(oro_layers)));
+        ORO_CHECK(oro::check_given("width_px", width_px));
+        ORO_CHECK(oro::check_given("height_px", height_px));
+        ORO_TRY(const auto open, oro::region_of(region));
+        ORO_TRY(const auto words, oro::strings_of("options", options, count));
+        PictureProgress shown(progress, user);
+        return answer_layers(*open, words, *layers, width_px, height_px, shown);
+    });
 }
 
 oro_status oro_panorama(oro_region region, size_t count, const char* const* options, uint8_t* rgba,

@@ -203,7 +203,7 @@ oro_status follow(Arguments& a) {
                        a.points.size(), &a.count, &a.sums);
 }
 
-std::vector<Call> calls_about_lines() {
+std::vector<Call> calls_about_sights() {
     return {
         [](Arguments& a, Chance& c) { return a.region = c.bad_region(a.closed), look(a); },
         [](Arguments& a, Chance& c) {
@@ -231,6 +231,11 @@ std::vector<Call> calls_about_lines() {
         [](Arguments& a, Chance&) { return oro_sight(a.region, nullptr, &a.to, &a.sight, &a.answer); },
         [](Arguments& a, Chance&) { return oro_sight(a.region, &a.from, nullptr, &a.sight, &a.answer); },
         [](Arguments& a, Chance&) { return oro_sight(a.region, &a.from, &a.to, &a.sight, nullptr); },
+    };
+}
+
+std::vector<Call> calls_about_profiles() {
+    return {
         [](Arguments& a, Chance& c) { return a.region = c.bad_region(a.closed), follow(a); },
         [](Arguments& a, Chance& c) { return a.profile.size = c.bad_size(sizeof a.profile), follow(a); },
         [](Arguments& a, Chance& c) { return a.sums.size = c.bad_size(sizeof a.sums), follow(a); },
@@ -345,10 +350,39 @@ std::vector<Call> calls_about_pictures(Draw draw) {
     };
 }
 
+std::vector<Call> calls_about_layers() {
+    const auto find = [](Arguments& a, const oro_layers* layers) {
+        return oro_shot_layers(a.region, 0, nullptr, layers, &a.width_px, &a.height_px, nullptr, nullptr);
+    };
+    return {
+        [find](Arguments& a, Chance& c) {
+            oro_layers layers{};
+            layers.size = sizeof layers;
+            a.region = c.bad_region(a.closed);
+            return find(a, &layers);
+        },
+        [find](Arguments& a, Chance& c) {
+            oro_layers layers{};
+            layers.size = c.bad_size(sizeof layers);
+            return find(a, &layers);
+        },
+        [find](Arguments& a, Chance&) { return find(a, nullptr); },
+        // No room, and a layer that the view has not.
+        [find](Arguments& a, Chance& c) {
+            oro_layers layers{};
+            layers.size = sizeof layers;
+            layers.capacity = a.deficit_m.size();
+            (c.below(2) == 0 ? layers.cover : layers.H_m) = a.deficit_m.data();
+            return find(a, &layers);
+        },
+    };
+}
+
 std::vector<Call> all_calls() {
     std::vector<Call> calls = calls_about_regions();
-    for (const auto& more : {calls_about_lines(), calls_about_viewsheds(), calls_about_pictures(oro_shot),
-                             calls_about_pictures(oro_panorama)})
+    for (const auto& more :
+         {calls_about_sights(), calls_about_profiles(), calls_about_viewsheds(), calls_about_layers(),
+          calls_about_pictures(oro_shot), calls_about_pictures(oro_panorama)})
         calls.insert(calls.end(), more.begin(), more.end());
     return calls;
 }

@@ -6,10 +6,12 @@ import inspect
 import json
 import math
 import os
+import signal
 import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 from pathlib import Path
 
@@ -297,6 +299,25 @@ class Viewsheds(unittest.TestCase):
         with self.assertRaises(orograph.CancelledError):
             self.region.viewshed(A, progress=lambda share, step: True)
 
+    def test_are_stopped_by_signals(self):
+        # Whenever the signal comes: while the library works, or while Python runs the progress function.
+        began = threading.Event()
+
+        def interrupt():
+            began.wait(60)
+            os.kill(os.getpid(), signal.SIGINT)
+
+        def show(share, step):
+            began.set()
+            time.sleep(0.05)
+
+        thread = threading.Thread(target=interrupt)
+        thread.start()
+        with self.assertRaises(KeyboardInterrupt):
+            self.region.viewshed(A, progress=show)
+        thread.join()
+        self.assertGreater(self.region.viewshed(A, radius_km=1.0).known, 100)
+
     def test_that_cannot_be_are_refused(self):
         for asked, options in [(A, dict(radius_km=0.0)), (A, dict(radius_km=math.nan)), (A, dict(target_m=-1.0)),
                                (A, dict(target_m=math.nan)), ([], {}), (A, dict(targets_on_canopy=True)),
@@ -305,6 +326,92 @@ class Viewsheds(unittest.TestCase):
                 self.region.viewshed(asked, **options)
         with self.assertRaises(orograph.NoDataError):
             self.region.viewshed((1.0, 2.0))
+
+
+class OtherRegions(unittest.TestCase):
+    """Posts in a CRS of their own, a canopy over the ground, a baked file, two grids over each other."""
+
+    def setUp(self):
+        try:
+            from osgeo import gdal
+        except ImportError:
+            self.skipTest("needs python3-gdal")
+        gdal.UseExceptions()
+        gdal.AllRegister()
+        self.gdal = gdal
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def file(self, name):
+        return self.folder.name + "/" + name
+
+    def check(self, data, *words, canopy=None, **options):
+        """Heights, a line of sight and a viewshed, against the program's."""
+        gdal = self.gdal
+        with orograph.open(data, **({} if canopy is None else {"canopy": canopy}), **options) as region:
+            self.assertEqual(region.info, told("info", data, *words))
+            said = told("profile", data, "--along", place(A) + ";" + place(B), *words)
+            self.assertEqual([*region.heights(*A)], [said["begin"]["H_m"], said["begin"]["h_m"]])
+            self.assertEqual([*region.heights(*B)], [said["end"]["H_m"], said["end"]["h_m"]])
+            trees = [] if canopy is None else ["--canopy", canopy]
+            sight = region.sight((*A, 40.0), B)
+            said = told("sight", data, "--from", place(A), "--above", 40, "--to", place(B), *words, *trees)
+            self.assertEqual((sight.visible, sight.target_deficit_m), (said["visible"], said["target_missed_by_m"]))
+            self.assertEqual(sight.obstacle._asdict(), {key: said["obstacle"][key] for key in sight.obstacle._fields})
+            shed = region.viewshed((*A, 40.0), radius_km=2.0)
+            said = told("viewshed", data, "--at", place(A), "--above", 40, "--radius", 2, "--out", self.file("shed.tif"),
+                        "--overwrite", *words, *trees)
+            raster = gdal.Open(self.file("shed.tif"))
+            self.assertEqual((shed.known, shed.seen), (said["cells"], said["seen"]))
+            np.testing.assert_array_equal(shed.observers, raster.ReadAsArray()[0])
+            self.assertEqual(shed.transform, raster.GetGeoTransform())
+            reference = raster.GetSpatialRef()
+            mine = type(reference)()
+            mine.SetFromUserInput(shed.crs)
+            self.assertTrue(mine.IsSame(reference, ["IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES"]))
+            return shed
+
+    def test_posts_in_utm(self):
+        self.gdal.Warp(self.file("utm.tif"), str(DATA), dstSRS="EPSG:32616", xRes=90, yRes=90, resampleAlg="bilinear",
+                       outputType=self.gdal.GDT_Float32)
+        shed = self.check(self.file("utm.tif"))
+        self.assertEqual((shed.transform[1], shed.transform[5]), (90.0, -90.0))
+        self.check(self.file("utm.tif"), "--resample", resample=True)
+
+    def test_a_baked_file(self):
+        program("bake", DATA, "--out", self.file("j.oro"))
+        self.check(self.file("j.oro"))
+
+    def test_two_grids(self):
+        self.gdal.Translate(self.file("fine.tif"), str(DATA), projWin=[-84.28, 36.56, -84.24, 36.53], width=200,
+                            height=150, resampleAlg="cubic")
+        for order in ("finest", "listed"):
+            data = [str(DATA), self.file("fine.tif")]
+            with orograph.open(data, order=order) as region:
+                said = told("profile", *data, "--order", order, "--along", place((36.545, -84.26)) + ";" + place(B))
+                self.assertEqual([*region.heights(36.545, -84.26)], [said["begin"]["H_m"], said["begin"]["h_m"]])
+                self.assertEqual(region.info, told("info", *data, "--order", order))
+                mine = region.shot(at=A, heading=220, size="64x48")
+                program("shot", *data, "--order", order, "--at", place(A), "--heading", 220, "--size", "64x48", "--out",
+                        self.file("p.png"), "--overwrite")
+                np.testing.assert_array_equal(np.moveaxis(mine[..., :3], -1, 0),
+                                              self.gdal.Open(self.file("p.png")).ReadAsArray()[:3])
+
+    def test_a_canopy(self):
+        posts = self.gdal.Open(str(DATA))
+        trees = self.gdal.GetDriverByName("GTiff").Create(self.file("trees.tif"), posts.RasterXSize, posts.RasterYSize, 1,
+                                                          self.gdal.GDT_Float32)
+        trees.SetGeoTransform(posts.GetGeoTransform())
+        trees.SetSpatialRef(posts.GetSpatialRef())
+        trees.GetRasterBand(1).WriteArray(np.full((posts.RasterYSize, posts.RasterXSize), 15.0, np.float32))
+        trees = None
+        under = self.check(str(DATA)).seen
+        over = self.check(str(DATA), canopy=self.file("trees.tif")).seen
+        self.assertLess(over, under)
+        with orograph.open(DATA, canopy=self.file("trees.tif")) as region:
+            with self.assertRaisesRegex(orograph.UsageError, "in the canopy"):
+                region.viewshed(A, radius_km=1.0)
+            self.assertEqual(region.sight(A, B).visible, False)
 
 
 class Pictures(unittest.TestCase):
@@ -342,6 +449,25 @@ class Pictures(unittest.TestCase):
         mine = self.region.panorama(at=A, sector=(10, 60), width=400)
         np.testing.assert_array_equal(mine[..., :3], self.drawn("panorama", "p.png", "--at", place(A), "--sector", "10,60",
                                                                 "--width", "400")[..., :3])
+
+    def test_layers_have_the_values_of_the_program(self):
+        try:
+            from osgeo import gdal
+        except ImportError:
+            self.skipTest("needs python3-gdal")
+        gdal.UseExceptions()
+        files = {"longitude_deg": "longitude", "latitude_deg": "latitude", "H_m": "height", "h_m": "ellipsoidal-height",
+                 "distance_m": "distance", "slope_deg": "slope", "source": "source", "shadow": "shadow"}
+        mine = self.region.layers("--at", place(A), "--heading", 45, size="96x54", names=[*files])
+        with tempfile.TemporaryDirectory() as folder:
+            program("shot", DATA, "--at", place(A), "--heading", "45", "--size", "96x54", "--layers", "--out",
+                    folder + "/p.png")
+            for name, file in files.items():
+                np.testing.assert_array_equal(mine[name], gdal.Open(f"{folder}/p.{file}.tif").ReadAsArray(), name)
+        self.assertGreater(np.isfinite(mine["H_m"]).sum(), 500)
+        for names, words in [(["wrong"], []), (["cover"], []), (["H_m"], ["--ortho"]), (["H_m"], ["--layers"])]:
+            with self.assertRaises(orograph.UsageError):
+                self.region.layers(*words, names=names, size="96x54")
 
     def test_go_into_an_array_of_the_caller(self):
         mine = np.zeros((48, 64, 4), np.uint8)

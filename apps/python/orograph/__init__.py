@@ -12,6 +12,7 @@ answer as from the program.
 import ctypes
 import json
 import os
+import threading
 import weakref
 from collections import namedtuple
 from ctypes import POINTER, byref, c_char_p, c_double, c_float, c_int, c_int64, c_size_t, c_uint8, c_uint64, c_void_p
@@ -135,6 +136,15 @@ class _Window(ctypes.Structure):
                 ("seen", c_size_t)]
 
 
+_LAYERS = {"longitude_deg": np.float64, "latitude_deg": np.float64, "H_m": np.float32, "h_m": np.float32,
+           "distance_m": np.float32, "slope_deg": np.float32, "source": np.float32, "shadow": np.float32,
+           "cover": np.float32}
+
+
+class _Layers(ctypes.Structure):
+    _fields_ = [("size", c_size_t), ("capacity", c_size_t)] + [(name, c_void_p) for name in _LAYERS]
+
+
 _Progress = ctypes.CFUNCTYPE(c_int, c_double, c_char_p, c_void_p)
 
 
@@ -170,6 +180,7 @@ def _load():
             ("oro_viewshed_window", [*eyes, POINTER(_Window)], c_int),
             ("oro_viewshed", [*eyes, c_void_p, c_void_p, c_size_t, POINTER(_Window), *progress], c_int),
             ("oro_grid_crs", [c_uint64, c_size_t, c_char_p, c_size_t, sizes], c_int),
+            ("oro_shot_layers", [c_uint64, c_size_t, texts, POINTER(_Layers), sizes, sizes, *progress], c_int),
             ("oro_shot", picture, c_int), ("oro_panorama", picture, c_int)]:
         function = getattr(library, name)
         function.argtypes, function.restype = arguments, answer
@@ -185,9 +196,13 @@ def version():
     return _library.oro_version().decode()
 
 
-def _check(status):
+def _last_text():
+    return _library.oro_error_text().decode("utf-8", "replace")
+
+
+def _check(status, text=None):
     if status != OK:
-        raise _errors.get(status, Error)(_library.oro_error_text().decode("utf-8", "replace"))
+        raise _errors.get(status, Error)(_last_text() if text is None else text)
 
 
 def _text(value):
@@ -204,25 +219,51 @@ def _texts(values):
     return (c_char_p * len(encoded))(*encoded), len(encoded)
 
 
-class _Steps:
-    """A progress function for C. What Python's own raises stops the call, and is raised from it."""
+class _LongCall:
+    """A call that may be stopped: by its progress function, by what that raises, and by Ctrl-C. In the main thread the
+    call is made by another one, while this one waits for signals: Python raises them here, and never in between."""
 
-    def __init__(self, function):
+    def __init__(self, progress):
+        self.progress = progress
         self.raised = None
-        self.function = function
-        self.for_c = _Progress(self.show)
+        self.is_stopped = False
+        self.for_c = _Progress(self._show)
 
-    def show(self, share, step, user):
+    def _show(self, share, step, user):
         try:
-            return 1 if self.function is not None and self.function(share, step.decode()) else 0
-        except BaseException as raised:  # KeyboardInterrupt among them
-            self.raised = raised
-            return 1
+            if not self.is_stopped and self.progress is not None and self.progress(share, step.decode()):
+                self.is_stopped = True
+        except BaseException as raised:
+            self.raised, self.is_stopped = raised, True
+        return 1 if self.is_stopped else 0
 
-    def check(self, status):
+    def status(self, function, *arguments):
+        """Calls function(*arguments, progress, user) and returns its status. What was raised is raised from here. The
+        arguments keep all alive that the library writes to, as long as it works."""
+        answer, is_done = [FAILED, ""], threading.Event()
+
+        def work():
+            try:
+                answer[:] = function(*arguments, self.for_c, None), _last_text()
+            finally:
+                is_done.set()
+
+        if threading.current_thread() is threading.main_thread():
+            threading.Thread(target=work, daemon=True).start()
+        else:
+            work()
+        while not is_done.is_set():
+            try:
+                is_done.wait()
+            except BaseException as raised:  # KeyboardInterrupt, or what another handler of signals raises
+                self.raised, self.is_stopped = raised, True
         if self.raised is not None:
             raise self.raised
-        _check(status)
+        self.text = answer[1]
+        return answer[0]
+
+    def check(self, function, *arguments):
+        _check(self.status(function, *arguments), self.text)
 
 
 def _asked_text(ask):
@@ -368,9 +409,8 @@ class Region:
         _check(_library.oro_viewshed_window(*asked, byref(window)))
         shape = (window.rows, window.columns)
         deficit, observers = (_buffer(array, shape, np.float32) for array in (out or (None, None)))
-        steps = _Steps(progress)
-        steps.check(_library.oro_viewshed(*asked, _address(deficit), _address(observers), deficit.size, byref(window),
-                                          steps.for_c, None))
+        _LongCall(progress).check(_library.oro_viewshed, *asked, _address(deficit), _address(observers), deficit.size,
+                                  byref(window))
         crs = _asked_text(lambda *room: _library.oro_grid_crs(self._number, window.grid, *room))
         return Viewshed(deficit, observers, tuple(window.transform), crs, window.known, window.seen)
 
@@ -385,16 +425,15 @@ class Region:
     def _draw(self, call, words, progress, out):
         texts, count = _texts(words)
         width, height = c_size_t(), c_size_t()
-        steps = _Steps(progress)
-        size = None if out is None else out.shape
-        if size is None:
-            status = call(self._number, count, texts, None, 0, byref(width), byref(height), steps.for_c, None)
+        long_call = _LongCall(progress)
+        size = getattr(out, "shape", None)
+        if out is None:
+            status = long_call.status(call, self._number, count, texts, None, 0, byref(width), byref(height))
             if status != TOO_SMALL:
-                steps.check(status)
+                _check(status, long_call.text)
             size = (height.value, width.value, 4)
         rgba = _buffer(out, size, np.uint8)
-        steps.check(call(self._number, count, texts, _address(rgba), rgba.nbytes, byref(width), byref(height),
-                         steps.for_c, None))
+        long_call.check(call, self._number, count, texts, _address(rgba), rgba.nbytes, byref(width), byref(height))
         if out is not None and size != (height.value, width.value, 4):
             raise UsageError(f"the picture is {width.value} x {height.value} pixels, and the array is not")
         return rgba
@@ -403,6 +442,27 @@ class Region:
         """A picture as `orograph shot` draws it: an array of uint8 of the shape (rows, columns, 4). Options are those
         of the program: shot(at="46.67,8.06", heading=90, size="800x600"), or words: shot("--at", "46.67,8.06")."""
         return self._draw(_library.oro_shot, _words(words, options), progress, out)
+
+    def layers(self, *words, names=("latitude_deg", "longitude_deg", "H_m"), progress=None, **options):
+        """What each pixel of shot() with the same options shows: a dictionary of arrays of the shape (rows, columns),
+        NaN where it shows no ground. Names are longitude_deg, latitude_deg (float64), H_m, h_m, distance_m, slope_deg,
+        source, shadow, and of views with land cover cover (float32)."""
+        unknown = [name for name in names if name not in _LAYERS]
+        if unknown:
+            raise UsageError(f"{unknown[0]!r} is none of {', '.join(_LAYERS)}")
+        texts, count = _texts(_words(words, options))
+        width, height, long_call = c_size_t(), c_size_t(), _LongCall(progress)
+        asked = _library.oro_shot_layers, self._number, count, texts
+        size = byref(width), byref(height)
+        status = long_call.status(*asked, byref(_Layers(ctypes.sizeof(_Layers))), *size)
+        if status != TOO_SMALL:
+            _check(status, long_call.text)
+        arrays = {name: np.empty((height.value, width.value), _LAYERS[name]) for name in names}
+        layers = _Layers(ctypes.sizeof(_Layers), width.value * height.value,
+                         **{name: array.ctypes.data for name, array in arrays.items()})
+        layers.arrays = arrays  # as long as it
+        long_call.check(*asked, byref(layers), *size)
+        return arrays
 
     def panorama(self, *words, progress=None, out=None, **options):
         """A panorama as `orograph panorama` draws it, with rulers and names: panorama(at="46.67,8.06", width=2000)."""
@@ -422,6 +482,10 @@ def open(paths, *, bbox=None, tile=None, height_unit=None, source_crs=None, sour
     options = _Options(ctypes.sizeof(_Options), _text(bbox), _text(tile), _text(height_unit), _text(source_crs),
                        _text(source_vertical), _text(order), feather_m, bool(strict_datum), bool(fill_voids),
                        bool(resample), cover, cover_count, trees, trees_count, -1.0 if canopy_held is None else canopy_held)
-    number, steps = c_uint64(), _Steps(progress)
-    steps.check(_library.oro_open(texts, count, byref(options), steps.for_c, None, byref(number)))
+    number = c_uint64()
+
+    def open_them(shown, user):
+        return _library.oro_open(texts, count, byref(options), shown, user, byref(number))
+
+    _LongCall(progress).check(open_them)
     return Region(number.value)
