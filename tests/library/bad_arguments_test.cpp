@@ -433,6 +433,33 @@ TEST(LibraryCalls, SeveralThreadsHaveErrorsOfTheirOwn) {
     EXPECT_EQ(oro_close(region), ORO_USAGE);
 }
 
+// Opening reads files, by libraries that have a state of their own.
+TEST(LibraryCalls, SeveralThreadsOpenAndLookAroundAtOnce) {
+    const oro_region shared = open_bundled();
+    Arguments first(shared, 0);
+    ASSERT_EQ(look(first), ORO_OK) << oro_error_text();
+    const auto open_and_ask = [&] {
+        for (int i = 0; i < 4; ++i) {
+            const oro_region own = open_bundled();
+            for (const oro_region region : {own, shared}) {
+                Arguments a(region, 0);
+                EXPECT_EQ(look(a), ORO_OK) << oro_error_text();
+                EXPECT_EQ(a.answer.target_deficit_m, first.answer.target_deficit_m);
+                EXPECT_EQ(oro_viewshed_window(region, 1, &a.from, &a.viewshed, &a.window), ORO_OK);
+                std::vector<float> deficit_m(a.window.rows * a.window.columns), observers(deficit_m.size());
+                EXPECT_EQ(oro_viewshed(region, 1, &a.from, &a.viewshed, deficit_m.data(), observers.data(),
+                                       deficit_m.size(), &a.window, nullptr, nullptr),
+                          ORO_OK);
+            }
+            EXPECT_EQ(oro_close(own), ORO_OK);
+        }
+    };
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i) threads.emplace_back(open_and_ask);
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(oro_close(shared), ORO_OK);
+}
+
 TEST(LibraryCalls, NumbersOfClosedRegionsAreNotGivenAgain) {
     const oro_region first = open_bundled();
     ASSERT_EQ(oro_close(first), ORO_OK);
