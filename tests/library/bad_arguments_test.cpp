@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <functional>
@@ -504,6 +505,47 @@ TEST(LibraryCalls, ASizeThatIsAskedForIsTheSizeThatIsTaken) {
     EXPECT_EQ(observers.back(), 5.0F);
     EXPECT_GT(a.window.seen, 0U);
     EXPECT_LE(a.window.seen, a.window.known);
+    EXPECT_EQ(oro_close(region), ORO_OK);
+}
+
+// What a program that was compiled with the first version of the interface gives: it must be taken for as
+// long as the library has that name. Sizes and offsets are those of x86-64 and Arm, 64 bits, as version 1 had
+// them.
+TEST(LibraryCalls, StructuresOfTheFirstVersionAreTaken) {
+    EXPECT_EQ(offsetof(oro_open_options, canopy_held), 112U);
+    EXPECT_EQ(offsetof(oro_point, above), 24U);
+    EXPECT_EQ(offsetof(oro_position, h_m), 24U);
+    EXPECT_EQ(offsetof(oro_sight_options, on_summit), 24U);
+    EXPECT_EQ(offsetof(oro_sight_answer, without_data_m), 208U);
+    EXPECT_EQ(sizeof(oro_profile_point), 40U);
+    EXPECT_EQ(offsetof(oro_profile_options, climb_threshold_m), 16U);
+    EXPECT_EQ(offsetof(oro_profile_sums, lowest), 64U);
+    EXPECT_EQ(offsetof(oro_viewshed_options, targets_on_canopy), 44U);
+    EXPECT_EQ(offsetof(oro_window, seen), 104U);
+    EXPECT_EQ(offsetof(oro_layers, cover), 80U);
+    const std::string path = (oro::test::bundled_data() / "jacksboro.tif").string();
+    const char* const paths[] = {path.c_str()};
+    oro_region region = 0;
+    Arguments a(0, 0);
+    a.open.size = 120;
+    ASSERT_EQ(oro_open(paths, 1, &a.open, nullptr, nullptr, &region), ORO_OK) << oro_error_text();
+    a.region = region;
+    a.sight.size = 32;
+    a.answer.size = 216;
+    EXPECT_EQ(look(a), ORO_OK) << oro_error_text();
+    a.profile.size = 24;
+    a.sums.size = 72;
+    EXPECT_EQ(
+        oro_profile(region, 3, a.lat_deg.data(), a.lon_deg.data(), &a.profile, nullptr, 0, &a.count, &a.sums),
+        ORO_OK)
+        << oro_error_text();
+    a.viewshed.size = 48;
+    a.window.size = 112;
+    EXPECT_EQ(oro_viewshed_window(region, 1, &a.from, &a.viewshed, &a.window), ORO_OK) << oro_error_text();
+    oro_layers layers{};
+    layers.size = 88;
+    EXPECT_EQ(oro_shot_layers(region, 0, nullptr, &layers, &a.width_px, &a.height_px, nullptr, nullptr),
+              ORO_TOO_SMALL);
     EXPECT_EQ(oro_close(region), ORO_OK);
 }
 

@@ -2,6 +2,7 @@
 must be the same double, every pixel and every post the same byte."""
 
 import ast
+import ctypes
 import inspect
 import json
 import math
@@ -501,6 +502,13 @@ class Stubs(unittest.TestCase):
         args = function.args
         return [arg.arg for arg in args.posonlyargs + args.args + ([args.vararg] if args.vararg else []) +
                 args.kwonlyargs + ([args.kwarg] if args.kwarg else [])]
+
+    def test_structures_are_those_of_the_first_version(self):
+        # As tests/library/bad_arguments_test.cpp has them, of 64 bits.
+        sizes = {"_Options": 120, "_Point": 32, "_Position": 32, "_SightOptions": 32, "_Sight": 216, "_ProfileOptions": 24,
+                 "_ProfileSums": 72, "_ViewshedOptions": 48, "_Window": 112, "_Layers": 88}
+        self.assertEqual({name: ctypes.sizeof(getattr(orograph, name)) for name in sizes}, sizes)
+        self.assertEqual(orograph.POINT_TYPE.itemsize, 40)
 
     def test_are_those_of_the_module(self):
         tree = ast.parse((MODULE / "orograph/__init__.pyi").read_text())
