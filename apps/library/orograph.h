@@ -318,11 +318,11 @@ ORO_API oro_status oro_viewshed_window(oro_region region, size_t count, const or
                                        const oro_viewshed_options* options, oro_window* window);
 
 /*
- * Finds which posts of the window of oro_viewshed_window() are seen from `count` eyes, all with heights above
- * the same. For each post, row by row, clearance_deficit_m becomes 0 where a target over it is seen from one
- * of the eyes, else how much higher it must be, infinite where no height will do; observers becomes the
- * number of eyes that see it; both become ORO_UNKNOWN beyond the radius and over void posts. Each has room
- * for `capacity` values, and is written by the search itself: nothing is copied. *window becomes what
+ * Finds which posts of the window of oro_viewshed_window() are seen from `count` eyes. For each post, row by
+ * row, clearance_deficit_m becomes 0 where a target over it is seen from one of the eyes, else how much
+ * higher it must be, infinite where no height will do; observers becomes the number of eyes that see it; both
+ * become ORO_UNKNOWN beyond the radius and over void posts. Each has room for `capacity` values; what each
+ * eye sees is put straight into them, as the program puts it into its own. *window becomes what
  * oro_viewshed_window() writes, also where the room is too small (ORO_TOO_SMALL). What a call that fails has
  * written to the buffers is worth nothing. Errors: ORO_NO_DATA for no ground under an eye or within the
  * radius; ORO_USAGE for an eye that is none, and for more than 200,000,000 posts.
@@ -351,10 +351,10 @@ ORO_API oro_status oro_grid_crs(oro_region region, size_t grid, char* text, size
  * The pixels go to `rgba`, row by row from the top, 4 bytes each: red, green and blue as in sRGB, and
  * opacity, which is 255 but where a map (--ortho) has no ground. The buffer has room for `capacity` bytes.
  * *width_px and *height_px become the picture's size, also where the room is too small (ORO_TOO_SMALL), which
- * is found before anything is drawn: to ask for the size alone give NULL and 0. What a call that fails has
- * written to the buffer is worth nothing. Pictures are drawn one at a time: a second thread waits. Errors:
- * ORO_USAGE for words, ORO_NO_DATA for an eye over no ground or a view that nothing of the region can be in,
- * ORO_NO_DEVICE.
+ * is found before anything is drawn: to ask for the size alone give NULL and 0 and take ORO_TOO_SMALL. What a
+ * call that fails has written to the buffer is worth nothing. Pictures are drawn one at a time: a second
+ * thread waits. Errors: ORO_USAGE for words, ORO_NO_DATA for an eye over no ground or a view that nothing of
+ * the region can be in, ORO_NO_DEVICE.
  */
 ORO_API oro_status oro_shot(oro_region region, size_t count, const char* const* options, uint8_t* rgba,
                             size_t capacity, size_t* width_px, size_t* height_px, oro_progress progress,
