@@ -19,4 +19,5 @@ driver_packages=(mesa-vulkan-drivers)
 test_packages=(
   libgtest-dev vulkan-validationlayers
   gdal-bin libimage-exiftool-perl xvfb xdotool zip duktape
+  python3-numpy python3-gdal python3-rasterio python3-xarray
 )

@@ -175,6 +175,7 @@ set_tests_properties(
   LabelsOfShots.AreLeftOutWhereTheViewSaysSo
   LabelsOfShots.AreTheSameFromABakedRegion
   LabelsOfShots.AreToldAndDrawnAgain
+  LibraryCalls.AThousandBadOnesEndWithErrors
   Manual.HasEachOptionOfHelp
   ModelOptions.AreSaidAndKeptAndDrawnAgain
   ModelOptions.BadValuesAreRefused

@@ -1,9 +1,9 @@
 // orograph info: what the sources of a region are, and what is missing.
 #include <algorithm>
 #include <cstdio>
-#include <span>
 
 #include "apps/commands/commands.h"
+#include "apps/commands/info_json.h"
 #include "apps/commands/info_text.h"
 #include "apps/drawing/clusters_of_region.h"
 #include "apps/drawing/pipeline_choice.h"
@@ -34,14 +34,6 @@ std::string listed_names(const std::vector<ListedFile>& files) {
         if (++count <= most) names += (names.empty() ? "" : ", ") + file.path;
     }
     return count > most ? names + " and " + std::to_string(count - most) + " more" : names;
-}
-
-nlohmann::ordered_json files_json(const std::vector<ListedFile>& files, bool damaged) {
-    nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    for (const ListedFile& file : files)
-        if (!file.report && file.damaged == damaged)
-            json.push_back(json_object("path", file.path, "reason", file.reason));
-    return json;
 }
 
 // What there is to say of files that make no region together: each by itself. The error stays one, and names
@@ -112,19 +104,13 @@ Result<void> run_info(const InfoOptions& options) {
     bar.clear();
     if (!opened) return without_region(options, listing, opened.error());
     Region region = std::move(*opened);
-    // All of them are listed below.
-    std::erase_if(region.grids.front().notes,
-                  [](const std::string& note) { return note.starts_with(passed_over); });
+    leave_listed_notes_out(region);
     // Of tiles, and of a part of a baked region, all posts are in memory by now.
     if (options.check) ORO_CHECK(check_grids(region));
     const RegionGrid& first = region.grids.front();
     if (options.json) {
-        nlohmann::ordered_json json = json_object(
-            "sources", sources_json(first.sources), "region", region_json(first), "file", file_json(first),
-            "checked", options.check || !first.file, "passed_over", files_json(listing.files, false));
-        for (const RegionGrid& other : std::span(region.grids).subspan(1))
-            json["apart"].push_back(
-                json_object("sources", sources_json(other.sources), "region", region_json(other)));
+        nlohmann::ordered_json json = info_json(region, options.check);
+        json["passed_over"] = files_json(listing.files, false);
         std::printf("%s\n", json_text(json, true).c_str());
         return {};
     }

@@ -92,7 +92,8 @@ class MapRows {
     std::vector<std::uint8_t> rgb_, on_white_;
 };
 
-// That the picture is what tau and the images ask for.
+}  // namespace
+
 Result<void> check_drawn(const Gpu& gpu, Scene& scene, const PictureReport& report) {
     if (!gpu.validation_messages().empty())
         return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};
@@ -103,8 +104,6 @@ Result<void> check_drawn(const Gpu& gpu, Scene& scene, const PictureReport& repo
                          " tiles of images; this view needs more (a smaller --size needs fewer)"};
     return {};
 }
-
-}  // namespace
 
 Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, const View& view,
                                   const Region& region, const RegionGround& ground,

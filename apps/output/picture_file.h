@@ -45,6 +45,10 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
                                   const Style& style, std::span<const std::uint8_t> strip,
                                   const RenderProgress& progress, const RowSink& also = {});
 
+// That a picture that was drawn is what its view asks for. Errors: pages or images of it that the GPU had no
+// memory for; any message of the validation layer, where it is on.
+Result<void> check_drawn(const Gpu& gpu, Scene& scene, const PictureReport& report);
+
 // Writes a picture as above, and gives the file its name.
 Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
                                     const Region& region, const RegionGround& ground,

@@ -3,6 +3,7 @@
 #include <sys/auxv.h>
 
 #include <cstdlib>
+#include <utility>
 
 namespace oro {
 namespace fs = std::filesystem;
@@ -20,10 +21,21 @@ fs::path program_file() {
     return error ? fs::path(started_as) : program;
 }
 
+// "": beside the program.
+fs::path& folder_that_was_set() {
+    static fs::path folder;
+    return folder;
+}
+
 }  // namespace
+
+void set_data_folder(fs::path folder) {
+    folder_that_was_set() = std::move(folder);
+}
 
 fs::path data_folder() {
     if (const char* named = std::getenv("OROGRAPH_DATA")) return named;
+    if (!folder_that_was_set().empty()) return folder_that_was_set();
     return program_file().parent_path().parent_path() / "share" / "orograph";
 }
 

@@ -11,6 +11,7 @@
 #include "apps/report/option_words.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
+#include "apps/view/view_in_region.h"
 #include "apps/view/view_option_table.h"
 #include "core/base/file_there.h"
 #include "core/terrain/ground.h"
@@ -251,6 +252,25 @@ Result<void> open_region_of(const RegionOptions& region_options, const Progress&
     return {};
 }
 
+// All of a view from options that needs its region, which was opened for it.
+Result<void> look_at_region(const ViewOptions& options, View& view, Region& region) {
+    view.own_posts = keeps_own_posts(region);
+    view.several_grids = region.grids.size() > 1;
+    view.fingerprints = fingerprints_of(region);
+    ORO_CHECK(check_own_posts(view, region));
+    leave_covered_grids_out(region);
+    ORO_CHECK(open_files(view));
+    ORO_CHECK(find_graticule_crs(view, region));
+    if (!view.has_geoid) leave_geoid_out(region);
+    const Result<void> placed = place_eye(view, options, region);
+    begin_with_grid_at(view.camera.eye, view, region);
+    if (placed.ok()) aim_sun(view.sun, view.camera.eye);
+    // Ground that could not be read is no ground to stand on, but that is not why there is none.
+    ORO_CHECK(region.grids.front().field.health());
+    ORO_CHECK(placed);
+    return raise_around_eye(view, options, region);
+}
+
 }  // namespace
 
 Result<void> open_recorded_view(const std::string& where, const ViewOptions& view_options,
@@ -304,21 +324,14 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     ORO_TRY(view, view_without_eye(view_options, std::move(request)));
     take_usual_sun(view);
     ORO_TRY(region, open_region(view.region, progress));
-    view.own_posts = keeps_own_posts(region);
-    view.several_grids = region.grids.size() > 1;
-    view.fingerprints = fingerprints_of(region);
-    ORO_CHECK(check_own_posts(view, region));
-    leave_covered_grids_out(region);
-    ORO_CHECK(open_files(view));
-    ORO_CHECK(find_graticule_crs(view, region));
-    if (!view.has_geoid) leave_geoid_out(region);
-    const Result<void> placed = place_eye(view, view_options, region);
-    begin_with_grid_at(view.camera.eye, view, region);
-    if (placed.ok()) aim_sun(view.sun, view.camera.eye);
-    // Ground that could not be read is no ground to stand on, but that is not why there is none.
-    ORO_CHECK(region.grids.front().field.health());
-    ORO_CHECK(placed);
-    return raise_around_eye(view, view_options, region);
+    return look_at_region(view_options, view, region);
+}
+
+Result<void> open_view_in_region(const ViewOptions& options, const RegionRequest& request, View& view,
+                                 Region& region) {
+    ORO_TRY(view, view_without_eye(options, request));
+    take_usual_sun(view);
+    return look_at_region(options, view, region);
 }
 
 }  // namespace oro

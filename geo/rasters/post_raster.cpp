@@ -13,19 +13,6 @@
 namespace oro {
 namespace {
 
-// GDAL's transform: of corners of cells, whose middles are the posts.
-std::array<double, 6> corners_of(const PostRaster& raster) {
-    if (raster.crs) {
-        const auto& m = raster.crs->crs_from_post;
-        const double column = raster.part.first_column - 0.5, row = raster.part.first_row - 0.5;
-        return {m[0] + m[1] * column + m[2] * row, m[1], m[2], m[3] + m[4] * column + m[5] * row, m[4], m[5]};
-    }
-    const PostGrid& grid = raster.grid;
-    const double wide_deg = grid.lon.spacing_deg(), tall_deg = grid.lat.spacing_deg();
-    return {grid.lon.at_deg(raster.part.first_column) - 0.5 * wide_deg, wide_deg, 0.0,
-            grid.lat.at_deg(raster.part.first_row) + 0.5 * tall_deg,    0.0,      -tall_deg};
-}
-
 Result<void> fill(GDALDatasetH dataset, const PostRaster& raster, const GdalMessages& messages,
                   const std::string& path) {
     const auto failed = [&] {
@@ -51,8 +38,20 @@ Result<void> fill(GDALDatasetH dataset, const PostRaster& raster, const GdalMess
 
 }  // namespace
 
+std::array<double, 6> transform_of_posts(const PostGrid& grid, const std::optional<PostsCrs>& crs,
+                                         const GridPart& part) {
+    if (crs) {
+        const auto& m = crs->crs_from_post;
+        const double column = part.first_column - 0.5, row = part.first_row - 0.5;
+        return {m[0] + m[1] * column + m[2] * row, m[1], m[2], m[3] + m[4] * column + m[5] * row, m[4], m[5]};
+    }
+    const double wide_deg = grid.lon.spacing_deg(), tall_deg = grid.lat.spacing_deg();
+    return {grid.lon.at_deg(part.first_column) - 0.5 * wide_deg, wide_deg, 0.0,
+            grid.lat.at_deg(part.first_row) + 0.5 * tall_deg,    0.0,      -tall_deg};
+}
+
 bool place_posts(void* dataset, const PostRaster& raster) {
-    std::array<double, 6> corners = corners_of(raster);
+    std::array<double, 6> corners = transform_of_posts(raster.grid, raster.crs, raster.part);
     if (GDALSetGeoTransform(dataset, corners.data()) != CE_None) return false;
     const SpatialReference crs = raster.crs ? spatial_reference(raster.crs->wkt) : wgs84_degrees();
     if (!crs || GDALSetSpatialRef(dataset, crs.get()) != CE_None) return false;

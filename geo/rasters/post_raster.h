@@ -2,6 +2,7 @@
 // the CRS of its sources.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,6 +27,11 @@ struct PostRaster {
     float no_value{};
     std::vector<std::pair<std::string, std::string>> tags;  // of the file, for people: names in capitals
 };
+
+// GDAL's transform of a raster of a grid's posts, from columns and rows to EPSG:4326 or the posts' CRS: of
+// the corners of cells, whose middles are the posts.
+std::array<double, 6> transform_of_posts(const PostGrid& grid, const std::optional<PostsCrs>& crs,
+                                         const GridPart& part);
 
 // Written whole or not at all: Float32, compressed (DEFLATE), in EPSG:4326 or the posts' CRS; each post is
 // the middle of a cell. Errors: those of WholeFile; what GDAL cannot write (a full disk).

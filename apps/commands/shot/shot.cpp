@@ -12,6 +12,7 @@
 #include "apps/commands/commands.h"
 #include "apps/commands/shot/shot_files.h"
 #include "apps/commands/shot/shot_json.h"
+#include "apps/commands/shot/shot_scene.h"
 #include "apps/commands/shot/shot_views.h"
 #include "apps/drawing/drape.h"
 #include "apps/drawing/mesh_choice.h"
@@ -84,12 +85,6 @@ void say_rims(const Region& region, const RegionCuts& cuts, bool quiet) {
     }
 }
 
-// What a region's grids leave of each other, and the ground that they make.
-struct ShotGround {
-    RegionCuts cuts;
-    std::unique_ptr<const RegionGround> grids;
-};
-
 // Measures what was drawn, the same way, and makes the picture of its errors, which has no name yet.
 Result<WholeFile> verify_shot(const ShotOptions& options, const PictureFiles& files, const ShotGround& ground,
                               const Gpu& gpu, Scene& scene, const Style& style, ShotResult& shot) {
@@ -118,29 +113,6 @@ Result<std::vector<WholeFile>> layers_of(const ShotOptions& options, const Pictu
             layer_files(files.picture, options.overwrite, shot.view, shot.region, layers));
     shot.times.layers_s = seconds_since(start);
     return written;
-}
-
-// The cheapest bundle that keeps the view within the tolerance; single options of the command line win over
-// it.
-Result<void> choose_bundle(const ShotOptions& options, const RegionCuts& cuts, const RegionPagesList& pages,
-                           ShotResult& shot) {
-    ORO_TRY(const double tolerance_px, parse_tolerance(*options.view.tolerance));
-    ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(shot.view, shot.region, cuts));
-    FixedAccuracy fixed;
-    if (options.view.tau_px) fixed.tau_px = shot.view.tau_px;
-    if (options.view.heights) fixed.heights = shot.view.heights;
-    if (options.view.refraction_k || options.view.air) fixed.air = shot.view.model.air;
-    ORO_TRY(shot.choice,
-            choose_accuracy(shot.view, shot.region, truth->ground(), pages, tolerance_px, fixed));
-    apply_bundle(shot.choice->bundle, shot.view);
-    forget_other_bundle(shot.view);
-    const std::string& chosen = shot.view.accuracy.empty() ? shot.choice->bundle.options : shot.view.accuracy;
-    char text[240];
-    std::snprintf(text, sizeof text, "accuracy: %s, predicted error %.3g px%s", chosen.c_str(),
-                  shot.choice->predicted_px,
-                  shot.choice->holds ? "" : ": more than the tolerance, and nothing here comes nearer");
-    say(options.quiet, text);
-    return {};
 }
 
 // What was drawn and measured.
@@ -173,16 +145,9 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
                                const RegionGround& ground, const Gpu& gpu, Scene& scene, const Style& style,
                                ProgressBar& bar, ShotResult& shot) {
     const auto drawing = Clock::now();
-    const Camera& camera = shot.view.camera;
     // Before anything is written. A page that may be in view, and then is not, is told of when it is drawn.
     const auto nothing = nothing_in_view(shot.view, shot.region, options.view_file);
-    if (!shot.view.map) {
-        ORO_TRY(const FramePlan first, scene.plan({camera,
-                                                   {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
-                                                   shot.view.tau_px,
-                                                   shot.view.model}));
-        if (!first.wants_pages() && !nothing.ok()) return nothing.error();
-    }
+    ORO_CHECK(check_in_view(shot, options.view_file, scene));
     ORO_TRY(shot.middle, place_in_middle(shot.view, ground));
     ORO_TRY(const std::vector<std::uint8_t> strip, strip_of(shot.view, shot.region, style, shot.middle));
     const bool checks = is_check(options, files);
@@ -211,17 +176,6 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
     }
     shot.height_step_m = scene.height_step_m();
     return picture;
-}
-
-// A picture that explains a frame has a legend, if nobody wants it without, and it is not too narrow for one.
-// A view that was written without one is drawn again without.
-void choose_legend(const ShotOptions& options, View& view) {
-    if (options.no_legend) view.legend = false;
-    if (options.no_legend || options.view.legend || !options.view.show) return;
-    view.legend = has_own_legend(view);
-    if (!view.legend)
-        say(options.quiet, "note: a picture less than " + std::to_string(least_legend_px) +
-                               " px wide has no room for the legend of --show");
 }
 
 // A picture that goes back to where it came from is not spared; what is written beside it is no view.
@@ -279,34 +233,6 @@ Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, c
     return load_style(shot.view, shot.region.grids.front().field);
 }
 
-// The region, ready to be drawn; what --tolerance chooses is chosen.
-Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& gpu, const Style& style,
-                       const ShotGround& ground, ProgressBar& bar, ShotResult& shot) {
-    const auto start = Clock::now();
-    ORO_TRY(GridPages pages, make_grid_pages(shot.region, ground.cuts, shot.view.exaggeration,
-                                             [&](double share) { bar.show(share, "measuring levels"); }));
-    if (options.view.tolerance) ORO_CHECK(choose_bundle(options, ground.cuts, pointers_to(pages), shot));
-    if (!shot.view.map) {
-        ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
-    }
-    ORO_TRY(const bool clusters, draws_clusters(shot.region, shot.view));
-    ORO_TRY(
-        RegionScene whole,
-        scene_of_region(gpu, shot.region, ground.cuts, std::move(pages),
-                        {shot.view.exaggeration, memory_of_pages(shot.view, options.memory),
-                         shot.view.heights, asks_for_means(style.frame), clusters, shot.view.mesh_level}));
-    Scene& scene = whole.scene;
-    const std::string note = note_of_missing_footprints(style.frame, scene.pages());
-    if (!note.empty()) say(options.quiet, note);
-    shot.has_means = asks_for_means(style.frame) && note.empty();
-    ORO_CHECK(lay_images(shot.view, options.memory, gpu, scene, options.quiet));
-    for (const GridScene& grid : scene.grids())
-        if (!grid.pages().is_seam()) shot.pages += grid.pages().layout(0).count();
-    shot.triangles_at_full_resolution = whole.triangles;
-    shot.times.pages_s = seconds_since(start);
-    return std::move(whole.scene);
-}
-
 // The files beside the picture, as they are asked for: without names yet.
 Result<std::vector<WholeFile>> companion_files(const ShotOptions& options, const PictureFiles& files,
                                                const ShotGround& ground, const Gpu& gpu, Scene& scene,
@@ -348,11 +274,9 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
         ORO_TRY(series.gpu, Gpu::create(gpu_options_from_environment()));
     }
     const Gpu* const gpu = series.gpu.get();
-    ShotGround ground;
-    ORO_TRY(ground.cuts, cut_regions(shot.region));
+    ORO_TRY(const ShotGround ground, ground_of_shot(shot));
     say_rims(shot.region, ground.cuts, options.quiet);
-    ORO_TRY(ground.grids, RegionGround::of(shot.region, ground.cuts, shot.view.exaggeration));
-    ORO_TRY(Scene scene, scene_of(options, ceiling_m, *gpu, style, ground, bar, shot));
+    ORO_TRY(Scene scene, scene_of_shot(options, ceiling_m, *gpu, style, ground, bar.progress(), shot));
     ORO_TRY(DrawnPicture picture, draw_shot(options, files, *ground.grids, *gpu, scene, style, bar, shot));
     const bool checks = is_check(options, files);
     ORO_TRY(std::vector<WholeFile> companions,

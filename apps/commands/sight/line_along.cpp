@@ -112,6 +112,13 @@ Result<LineAlong> line_along(const std::string& text, const std::optional<int>& 
     return line;
 }
 
+Result<LineAlong> line_through(const std::string& option, std::vector<LatLon> places) {
+    LineAlong line;
+    line.places = std::move(places);
+    ORO_CHECK(measure(option, "", line));
+    return line;
+}
+
 std::vector<std::string> names_of_lines(const VectorFile& file) {
     std::vector<std::string> names;
     for (const FileLine& line : lines_of(file)) {

@@ -28,6 +28,10 @@ Result<LineAlong> line_along(const std::string& text, const std::optional<int>& 
 Result<LineAlong> line_of_file(const std::string& option, const std::string& file,
                                const std::optional<int>& number);
 
+// The line through places, of which there are two or more; `option` is what errors call it. Errors (usage):
+// no length.
+Result<LineAlong> line_through(const std::string& option, std::vector<LatLon> places);
+
 // The names of a file's lines, in the order of their numbers: what the field "name" says, or "line 3".
 std::vector<std::string> names_of_lines(const VectorFile& file);
 

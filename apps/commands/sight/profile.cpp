@@ -5,6 +5,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/sight/look_along.h"
+#include "apps/commands/sight/profile_along.h"
 #include "apps/commands/sight/profile_text.h"
 #include "apps/commands/sight/sight_ground.h"
 #include "apps/output/overwrite_guard.h"
@@ -18,42 +19,17 @@
 namespace oro {
 namespace {
 
-// More are a table that nobody can open.
-constexpr double most_steps = 1.0e7;
-constexpr double most_threshold_m = 1.0e4;
-// 25 times round the Earth.
-constexpr double longest_m = 1.0e9;
-
 Result<void> check_words(const ProfileOptions& options) {
     if (options.along.empty())
         return refused(
             "--along", "",
             "is missing: name a file with a line, or places, e.g. --along \"46.57,7.99; 46.62,8.05\"");
-    if (options.step_m && !(*options.step_m > 0.0)) {
-        char text[40];
-        std::snprintf(text, sizeof text, "%.15g", *options.step_m);
-        return refused("--step", text, "must be more than 0");
-    }
-    if (!(options.climb_threshold_m >= 0.0 && options.climb_threshold_m <= most_threshold_m)) {
-        char text[40];
-        std::snprintf(text, sizeof text, "%.15g", options.climb_threshold_m);
-        return refused("--climb-threshold", text, between_words(0.0, most_threshold_m));
-    }
+    ORO_CHECK(check_steps(options));
     if (options.out.empty()) return {};
     const std::string name = lower_case(options.out);
     if (!name.ends_with(".csv") && !name.ends_with(".svg") && !name.ends_with(".geojson"))
         return refused("--out", options.out, "the file's name must end in .csv, .svg or .geojson");
     return check_may_write(options.out, options.overwrite);
-}
-
-Result<void> check_length(const ProfileOptions& options, const LineAlong& line) {
-    const double length_m = line.distances_m.back();
-    if (length_m > longest_m)
-        return refused("--along", options.along, "is longer than 1,000,000 km, 25 times round the Earth");
-    if (options.step_m && length_m / *options.step_m > most_steps)
-        return refused("--step", std::to_string(*options.step_m),
-                       "makes more than 10,000,000 places of this line: give a longer one");
-    return {};
 }
 
 Result<void> write(const ProfileOptions& options, const Profile& profile) {
@@ -74,19 +50,12 @@ Result<void> run_profile(const ProfileOptions& options) {
         ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, ground->region),
                                                {{profile.line.file}, "which the line is read from"}}));
     bar.show(1.0, "following the line");
-    profile.points = profile_points(profile.line, options.step_m, ground->ground());
+    ORO_CHECK(follow_line(options, *ground, profile));
     if (lower_case(options.out).ends_with(".geojson"))
         profile.crossings = crossings_of(profile.line, profile.points, ground->ground());
     ORO_CHECK(ground->region.health());
-    profile.sums = sums_of(profile.points, options.climb_threshold_m);
     bar.clear();
-    if (!profile.sums.highest) {
-        const LatLon& begin = profile.line.places.front();
-        return Error{ErrorKind::no_data, "--along " + options.along,
-                     "no elevation data along the line" +
-                         where_data_are(grid_at(ground->region, begin.lat_deg, begin.lon_deg).field.grid,
-                                        begin.lat_deg, begin.lon_deg)};
-    }
+    ORO_CHECK(check_has_ground(options, *ground, profile));
     for (const std::string& note : profile.line.notes) say(options.quiet, "note: " + note);
     say_notes(ground->region, options.quiet);
     if (!options.out.empty()) ORO_CHECK(write(options, profile));

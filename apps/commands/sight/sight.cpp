@@ -4,7 +4,7 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
-#include "apps/commands/sight/look_along.h"
+#include "apps/commands/sight/sight_between.h"
 #include "apps/cover/canopy_words.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
@@ -33,29 +33,6 @@ Result<void> name_cover(const CoverMap& cover, SightReport& report) {
     ORO_CHECK(name(report.from, report.from_cover));
     ORO_CHECK(name(report.to, report.to_cover));
     return report.obstacle ? name(report.obstacle->point, report.obstacle_cover) : Result<void>();
-}
-
-// An eye in a canopy sees nothing, whatever line leads out of it: the leaves before it hide all.
-void hide_in_canopy(const SightGround& ground, SightReport& report) {
-    const std::optional<double> below_m = ground.in_canopy_m(report.from);
-    if (!below_m) return;
-    report.obstacle = SightHit{};
-    report.obstacle->point = report.from;
-    report.obstacle_distance_m = 0.0;
-    report.target_clearance_deficit_m.reset();
-    Geodetic over = report.from;
-    over.h_m += *below_m + least_above_m;
-    report.eye_clearance_deficit_m = eye_clearance_deficit_m(ground.hiding(), over, report.air, report.to);
-    if (report.eye_clearance_deficit_m) *report.eye_clearance_deficit_m += over.h_m - report.from.h_m;
-}
-
-// What grows at the places that are told of, and whether it is what hides.
-void measure_canopy(const SightGround& ground, SightReport& report) {
-    if (!ground.canopy) return;
-    hide_in_canopy(ground, report);
-    report.from_canopy_m = ground.canopy_m(report.from);
-    report.to_canopy_m = ground.canopy_m(report.to);
-    if (report.obstacle) report.obstacle_canopy_m = ground.canopy_m(report.obstacle->point);
 }
 
 void say_canopy(const SightGround& ground, const SightReport& report, bool quiet) {
@@ -90,9 +67,8 @@ Result<void> run_sight(const SightOptions& options) {
                                                        *ground));
     const Geodetic& to = target.eye;
     bar.show(1.0, "looking");
-    SightReport report = look_along(from.eye, to, air, ground->hiding());
+    SightReport report = sight_between(from.eye, to, air, *ground);
     report.moved = from.moved;
-    measure_canopy(*ground, report);
     ORO_CHECK(ground->region.health());
     if (cover) ORO_CHECK(name_cover(*cover, report));
     bar.clear();

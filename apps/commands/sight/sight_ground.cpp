@@ -71,8 +71,13 @@ Result<std::unique_ptr<const SightGround>> open_sight_ground(const RegionOptions
                                                              const Progress& progress,
                                                              const SightCover& cover) {
     ORO_TRY(const RegionRequest request, region_request(options));
+    ORO_TRY(Region region, open_region(request, progress));
+    return sight_ground_of(std::move(region), cover);
+}
+
+Result<std::unique_ptr<const SightGround>> sight_ground_of(Region region, const SightCover& cover) {
     auto ground = std::make_unique<SightGround>();
-    ORO_TRY(ground->region, open_region(request, progress));
+    ground->region = std::move(region);
     leave_covered_grids_out(ground->region);
     ORO_TRY(ground->grids, RegionGround::of(ground->region, 1.0));
     if (cover.canopy) {

@@ -56,6 +56,8 @@ std::vector<std::string> files_of_cover(const SightCover& cover);
 Result<std::unique_ptr<const SightGround>> open_sight_ground(const RegionOptions& options,
                                                              const Progress& progress,
                                                              const SightCover& cover = {});
+// The same of a region that was opened already. Errors: those of RegionGround::of() and of raise_by_canopy().
+Result<std::unique_ptr<const SightGround>> sight_ground_of(Region region, const SightCover& cover);
 
 // Refuses a height over the ground below 0: `option` is how it was given.
 Result<void> check_above(const char* option, const std::optional<double>& above_m);

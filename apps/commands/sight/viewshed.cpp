@@ -8,6 +8,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/sight/sight_ground.h"
+#include "apps/commands/sight/viewshed_question.h"
 #include "apps/commands/sight/viewshed_report.h"
 #include "apps/cover/canopy_words.h"
 #include "apps/output/overwrite_guard.h"
@@ -26,49 +27,14 @@
 namespace oro {
 namespace {
 
-// How observers came to stand where they do.
-struct Standpoints {
-    std::vector<MovedToSummit> moved;  // of each of them, where they were asked to stand on summits
-    std::vector<std::pair<std::string, MovedToSummit>> walls;  // before those that were not, by their --at
-};
-
 Result<void> check_words(const ViewshedOptions& options) {
     if (options.at.empty()) return refused("--at", "", "is missing: name the place, e.g. --at 46.67,8.06");
-    for (const std::string& at : options.at) {
-        if (const auto place = place_at("--at", at); !place.ok()) return place.error();
-    }
-    if (options.radius_km && !(*options.radius_km >= least_radius_km && *options.radius_km <= most_radius_km))
-        return refused("--radius", all_digits(*options.radius_km),
-                       between_words(least_radius_km, most_radius_km));
-    ORO_CHECK(check_above("--target", options.target_m));
+    ORO_CHECK(check_viewshed(options));
     if (options.out.empty()) return refused("--out", "", "is missing: name the file to write (.tif)");
     const std::string name = lower_case(options.out);
     if (!name.ends_with(".tif") && !name.ends_with(".tiff"))
         return refused("--out", options.out, "the file's name must end in .tif");
     return check_may_write(options.out, options.overwrite);
-}
-
-constexpr const char* on_canopy = "canopy";
-
-Result<void> check_target_on(const ViewshedOptions& options) {
-    if (options.target_on && options.view.canopy.empty())
-        return refused("--target-on", *options.target_on, "needs --canopy");
-    return {};
-}
-
-// An observer in a canopy sees nothing: a viewshed of that is a mistake.
-Result<void> check_eyes(const ViewshedOptions& options, const ViewshedQuestion& question,
-                        const SightGround& ground) {
-    for (std::size_t i = 0; i < question.eyes.size(); ++i) {
-        const std::optional<double> below_m = ground.in_canopy_m(question.eyes[i]);
-        if (!below_m) continue;
-        const double above_m = ground.above_m(question.eyes[i]).value_or(0.0);
-        return refused("--at", options.at[i],
-                       "the observer stands in the canopy, " + metres_words(*below_m) +
-                           " below its top, and sees nothing: --above " +
-                           figure(std::ceil(10.0 * (above_m + *below_m) + 0.01) / 10.0) + " looks over it");
-    }
-    return {};
 }
 
 // What the file says of the canopy, and of what targets stand on.
@@ -158,19 +124,6 @@ std::string sides_beyond(const ViewshedReport& report, const PostGrid& grid) {
     return said;
 }
 
-Result<void> place_eyes(const ViewshedOptions& options, const SightGround& ground, ViewshedQuestion& question,
-                        Standpoints& standpoints) {
-    for (const std::string& at : options.at) {
-        Standing standing{"--at", at, "--above", options.above_m, 2.0, options.altitude_m};
-        standing.on_summit = options.on_summit;
-        ORO_TRY(const Standpoint stood, stand_over_ground(standing, ground));
-        question.eyes.push_back(stood.eye);
-        if (stood.moved) standpoints.moved.push_back(*stood.moved);
-        if (stood.wall) standpoints.walls.emplace_back(at, *stood.wall);
-    }
-    return {};
-}
-
 void say_walls(const Standpoints& standpoints, std::size_t eyes, bool quiet) {
     for (const auto& [at, wall] : standpoints.walls) {
         if (eyes == 1)
@@ -186,19 +139,15 @@ Result<void> run_viewshed(const ViewshedOptions& options) {
     ORO_CHECK(check_words(options));
     ORO_CHECK(check_target_on(options));
     ViewshedQuestion question;
-    question.at = options.at.front();
-    question.target_m = options.target_m.value_or(0.0);
-    question.radius_km = options.radius_km.value_or(usual_radius_km);
-    ORO_TRY(question.air, air_asked_for(options.view.refraction_k, options.view.air, standard_air));
+    ORO_CHECK(begin_question(options, question));
     ORO_TRY(const SightCover cover, open_sight_cover(options.view));
     ProgressBar bar(options.quiet);
     ORO_TRY(const auto ground, open_sight_ground(options.region, bar.progress(), cover));
     ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, ground->region),
                                            {files_of_cover(cover), "which is land cover or a canopy"}}));
     Standpoints standpoints;
-    ORO_CHECK(place_eyes(options, *ground, question, standpoints));
-    ORO_CHECK(check_eyes(options, question, *ground));
-    if (ground->canopy && options.target_on.value_or("") != on_canopy) question.footing = &ground->ground();
+    ORO_CHECK(place_eyes(asked_eyes(options), options.target_on.value_or("") == "canopy", *ground, question,
+                         standpoints));
     const RegionGround& hiding = ground->canopy ? *ground->canopy->grids : *ground->grids;
     ORO_TRY(ViewshedReport report,
             viewshed_report(question, hiding, [&](double share) { bar.show(share, "looking around"); }));

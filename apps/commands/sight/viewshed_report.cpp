@@ -57,24 +57,23 @@ Result<void> make_window(const RegionGround& ground, ViewshedReport& report) {
         return Error{ErrorKind::no_data, "--at " + question.at,
                      "no elevation data within the radius" +
                          where_data_are(grid, question.eyes.front().lat_deg, question.eyes.front().lon_deg)};
-    report.clearance_deficit_m.assign(static_cast<std::size_t>(posts), Viewshed::unknown);
-    report.count.assign(static_cast<std::size_t>(posts), Viewshed::unknown);
     return {};
 }
 
-void take_in(const Viewshed& shed, const PostGrid& grid, ViewshedReport& report) {
+void take_in(const Viewshed& shed, const PostGrid& grid, const ViewshedValues& values,
+             ViewshedReport& report) {
     const GridPart window = turned_near(shed.window, report.window, grid);
     for (int row = window.first_row; row < window.first_row + window.rows; ++row) {
         for (int column = window.first_column; column < window.first_column + window.columns; ++column) {
             const float missed_m = shed.clearance_deficit_m[window.number(row, column)];
             if (missed_m == Viewshed::unknown) continue;
             const std::size_t cell = report.window.number(row, column);
-            float& least_m = report.clearance_deficit_m[cell];
-            if (report.count[cell] == Viewshed::unknown) {
-                report.count[cell] = 0.0F;
+            float& least_m = values.clearance_deficit_m[cell];
+            if (values.count[cell] == Viewshed::unknown) {
+                values.count[cell] = 0.0F;
                 least_m = missed_m;
             }
-            report.count[cell] += missed_m == 0.0F ? 1.0F : 0.0F;
+            values.count[cell] += missed_m == 0.0F ? 1.0F : 0.0F;
             least_m = std::min(least_m, missed_m);
         }
     }
@@ -83,11 +82,18 @@ void take_in(const Viewshed& shed, const PostGrid& grid, ViewshedReport& report)
 
 }  // namespace
 
-Result<ViewshedReport> viewshed_report(const ViewshedQuestion& question, const RegionGround& ground,
-                                       const ViewshedProgress& progress, const std::stop_token& stop) {
+Result<ViewshedReport> viewshed_window(const ViewshedQuestion& question, const RegionGround& ground) {
     ViewshedReport report;
     report.question = question;
     ORO_CHECK(make_window(ground, report));
+    return report;
+}
+
+Result<void> look_around(const RegionGround& ground, const ViewshedValues& values, ViewshedReport& report,
+                         const ViewshedProgress& progress, const std::stop_token& stop) {
+    const ViewshedQuestion& question = report.question;
+    std::ranges::fill(values.clearance_deficit_m, Viewshed::unknown);
+    std::ranges::fill(values.count, Viewshed::unknown);
     const PostGrid& grid = ground.grid(report.grid).field.grid;
     const auto looking = Clock::now();
     for (std::size_t i = 0; i < question.eyes.size(); ++i) {
@@ -99,15 +105,25 @@ Result<ViewshedReport> viewshed_report(const ViewshedQuestion& question, const R
                          [&](double share) {
                              if (progress) progress((static_cast<double>(i) + share) / of_all);
                          }),
-                grid, report);
+                grid, values, report);
+        if (stop.stop_requested()) break;
     }
     report.looking_s = seconds_since(looking);
     ORO_CHECK(ground.ground().health());
     if (stop.stop_requested()) return Error{ErrorKind::failed, "", "stopped"};
-    for (const float count : report.count) {
+    for (const float count : values.count) {
         report.cells += count != Viewshed::unknown;
         report.seen += count > 0.0F;
     }
+    return {};
+}
+
+Result<ViewshedReport> viewshed_report(const ViewshedQuestion& question, const RegionGround& ground,
+                                       const ViewshedProgress& progress, const std::stop_token& stop) {
+    ORO_TRY(ViewshedReport report, viewshed_window(question, ground));
+    report.clearance_deficit_m.resize(report.window.count());
+    report.count.resize(report.window.count());
+    ORO_CHECK(look_around(ground, {report.clearance_deficit_m, report.count}, report, progress, stop));
     return report;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -36,6 +37,21 @@ struct ViewshedReport {
     std::size_t asked{};                     // of the oracle
     double looking_s{};
 };
+
+// Where the values of a window's posts are put, row by row: as many of each as the window has posts.
+struct ViewshedValues {
+    std::span<float> clearance_deficit_m;
+    std::span<float> count;
+};
+
+// The window that a question takes; no values yet. Errors: no data within the radius (no_data); too many
+// posts (usage).
+Result<ViewshedReport> viewshed_window(const ViewshedQuestion& question, const RegionGround& ground);
+
+// Looks around, as viewshed_report() does, and puts the values where they are wanted; the report's own stay
+// empty. Errors: those of viewshed_report(), with values that are then worth nothing.
+Result<void> look_around(const RegionGround& ground, const ViewshedValues& values, ViewshedReport& report,
+                         const ViewshedProgress& progress = {}, const std::stop_token& stop = {});
 
 // Looks around, on as many threads as are worth it. Asked to stop, it ends soon, with an error that nobody
 // need be told. Errors: no data within the radius (no_data); too many posts (usage); posts that cannot be

@@ -1,0 +1,102 @@
+#include "apps/commands/shot/shot_scene.h"
+
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "apps/drawing/drape.h"
+#include "apps/drawing/mesh_choice.h"
+#include "apps/drawing/region_scene.h"
+#include "apps/legend/legend.h"
+#include "apps/report/progress_bar.h"
+#include "apps/view/accuracy.h"
+#include "core/base/elapsed.h"
+#include "core/lod/ground_means.h"
+
+namespace oro {
+namespace {
+
+// The cheapest bundle that keeps the view within the tolerance; single options of the command line win over
+// it.
+Result<void> choose_bundle(const ShotOptions& options, const RegionCuts& cuts, const RegionPagesList& pages,
+                           ShotResult& shot) {
+    ORO_TRY(const double tolerance_px, parse_tolerance(*options.view.tolerance));
+    ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(shot.view, shot.region, cuts));
+    FixedAccuracy fixed;
+    if (options.view.tau_px) fixed.tau_px = shot.view.tau_px;
+    if (options.view.heights) fixed.heights = shot.view.heights;
+    if (options.view.refraction_k || options.view.air) fixed.air = shot.view.model.air;
+    ORO_TRY(shot.choice,
+            choose_accuracy(shot.view, shot.region, truth->ground(), pages, tolerance_px, fixed));
+    apply_bundle(shot.choice->bundle, shot.view);
+    forget_other_bundle(shot.view);
+    const std::string& chosen = shot.view.accuracy.empty() ? shot.choice->bundle.options : shot.view.accuracy;
+    char text[240];
+    std::snprintf(text, sizeof text, "accuracy: %s, predicted error %.3g px%s", chosen.c_str(),
+                  shot.choice->predicted_px,
+                  shot.choice->holds ? "" : ": more than the tolerance, and nothing here comes nearer");
+    say(options.quiet, text);
+    return {};
+}
+
+}  // namespace
+
+Result<ShotGround> ground_of_shot(const ShotResult& shot) {
+    ShotGround ground;
+    ORO_TRY(ground.cuts, cut_regions(shot.region));
+    ORO_TRY(ground.grids, RegionGround::of(shot.region, ground.cuts, shot.view.exaggeration));
+    return ground;
+}
+
+void choose_legend(const ShotOptions& options, View& view) {
+    if (options.no_legend) view.legend = false;
+    if (options.no_legend || options.view.legend || !options.view.show) return;
+    view.legend = has_own_legend(view);
+    if (!view.legend)
+        say(options.quiet, "note: a picture less than " + std::to_string(least_legend_px) +
+                               " px wide has no room for the legend of --show");
+}
+
+Result<Scene> scene_of_shot(const ShotOptions& options, double ceiling_m, const Gpu& gpu, const Style& style,
+                            const ShotGround& ground, const Progress& progress, ShotResult& shot) {
+    const auto start = Clock::now();
+    ORO_TRY(GridPages pages,
+            make_grid_pages(shot.region, ground.cuts, shot.view.exaggeration, [&](double share) {
+                if (progress) progress(share, "measuring levels");
+            }));
+    if (options.view.tolerance) ORO_CHECK(choose_bundle(options, ground.cuts, pointers_to(pages), shot));
+    if (!shot.view.map) {
+        ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
+    }
+    ORO_TRY(const bool clusters, draws_clusters(shot.region, shot.view));
+    ORO_TRY(
+        RegionScene whole,
+        scene_of_region(gpu, shot.region, ground.cuts, std::move(pages),
+                        {shot.view.exaggeration, memory_of_pages(shot.view, options.memory),
+                         shot.view.heights, asks_for_means(style.frame), clusters, shot.view.mesh_level}));
+    Scene& scene = whole.scene;
+    const std::string note = note_of_missing_footprints(style.frame, scene.pages());
+    if (!note.empty()) say(options.quiet, note);
+    shot.has_means = asks_for_means(style.frame) && note.empty();
+    ORO_CHECK(lay_images(shot.view, options.memory, gpu, scene, options.quiet));
+    for (const GridScene& grid : scene.grids())
+        if (!grid.pages().is_seam()) shot.pages += grid.pages().layout(0).count();
+    shot.triangles_at_full_resolution = whole.triangles;
+    shot.times.pages_s = seconds_since(start);
+    return std::move(whole.scene);
+}
+
+Result<void> check_in_view(const ShotResult& shot, const std::string& view_file, Scene& scene) {
+    if (shot.view.map) return {};
+    const Camera& camera = shot.view.camera;
+    ORO_TRY(const FramePlan first, scene.plan({camera,
+                                               {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}},
+                                               shot.view.tau_px,
+                                               shot.view.model}));
+    if (first.wants_pages()) return {};
+    const auto nothing = nothing_in_view(shot.view, shot.region, view_file);
+    return nothing.ok() ? Result<void>() : nothing.error();
+}
+
+}  // namespace oro
