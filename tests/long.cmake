@@ -132,6 +132,9 @@ set_tests_properties(
   GridsOverEachOther.HaveARimThatIsForetold
   GridsOverEachOther.StandInPanoramasWithNames
   GridsUnderImages.LieOnTheSamePlaces
+  GroundTileset.ErrorHoldsOnANetAndBesideVoids
+  GroundTileset.IsTheSameForAnyNumberOfThreads
+  GroundTileset.WallsCloseGapsBetweenLevels
   Help.ExplainsEachOption
   Help.HasNoWordsOfTheParser
   Help.HasTheSameExitLineEverywhere

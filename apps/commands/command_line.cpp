@@ -490,15 +490,15 @@ void add_bake(CLI::App& app, BakingOptions& options) {
 }
 
 void add_export(CLI::App& app, ExportOptions& options) {
-    CLI::App& command =
-        *app.add_subcommand("export", "Write heights in formats of others: GeoTIFF, or tiles for web maps");
+    CLI::App& command = *app.add_subcommand(
+        "export", "Write the ground in formats of others: GeoTIFF, 3D Tiles, tiles for web maps");
     OptionGroup written(command, "The export");
-    written.choice(
-        "--to", options.to, {"cog", "terrain-rgb"},
-        "The format: a Cloud Optimized GeoTIFF of the data's own samples, or PNG tiles for web maps "
-        "whose colours are heights.");
+    written.choice("--to", options.to, {"cog", "terrain-rgb", "3dtiles"},
+                   "The format: a Cloud Optimized GeoTIFF of the data's own samples, PNG tiles for web maps "
+                   "whose colours "
+                   "are heights, or 3D Tiles for globes, with levels whose error is proven.");
     written.option("--out", options.out, "PATH",
-                   "What to write: a file (.tif) of cog, a folder of terrain-rgb.");
+                   "What to write: a file (.tif) of cog, a folder of the others.");
     written.option("--zoom", options.zoom, "RANGE",
                    "Write these zooms of a web map, LOW:HIGH of 0 to 22, as in 5:12. Default: from the one "
                    "that shows all "
@@ -511,7 +511,8 @@ void add_export(CLI::App& app, ExportOptions& options) {
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
     set_help(command, {{"export PATH... --to cog --out FILE.tif [OPTIONS]",
-                        "export PATH... --to terrain-rgb --out FOLDER [OPTIONS]"},
+                        "export PATH... --to terrain-rgb --out FOLDER [OPTIONS]",
+                        "export PATH... --to 3dtiles --out FOLDER [OPTIONS]"},
                        "",
                        "docs/commands/export.md"});
 }

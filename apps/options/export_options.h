@@ -10,8 +10,8 @@ namespace oro {
 
 struct ExportOptions {
     RegionOptions region;
-    std::optional<std::string> to;        // cog, terrain-rgb
-    std::string out;                      // a file of cog, a folder of terrain-rgb
+    std::optional<std::string> to;        // cog, terrain-rgb, 3dtiles
+    std::string out;                      // a file of cog, a folder of the others
     std::optional<std::string> zoom;      // LOW:HIGH
     std::optional<double> hole_height_m;  // what pixels without ground hold
     bool overwrite{false};

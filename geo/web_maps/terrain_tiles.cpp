@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "core/base/parallel.h"
+#include "geo/files/plain_file.h"
 #include "geo/pictures/png_bytes.h"
 
 namespace oro {
@@ -58,19 +59,6 @@ TilePixels pixels_of(const TrueGround& ground, const MercatorTile& tile, double 
         }
     }
     return pixels;
-}
-
-// The folder around it becomes whole as one: no need for each file to.
-Result<void> write_plain_file(const std::string& path, std::span<const std::uint8_t> bytes) {
-    const auto failed = [&](int why) {
-        return Error{ErrorKind::failed, path, "cannot be written: " + std::generic_category().message(why)};
-    };
-    std::FILE* const file = std::fopen(path.c_str(), "wbxe");
-    if (file == nullptr) return failed(errno);
-    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-    const int why = errno;
-    if (std::fclose(file) != 0) return failed(errno);
-    return written ? Result<void>() : failed(why);
 }
 
 Result<void> write_tile(const std::string& folder, const MercatorTile& tile, const TilePixels& pixels,
@@ -173,10 +161,6 @@ ZoomError error_of_zoom(const TrueGround& ground, int zoom, int places) {
     return error;
 }
 
-bool is_number(const std::string& name) {
-    return !name.empty() && std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; });
-}
-
 }  // namespace
 
 std::array<std::uint8_t, 3> terrain_rgb(double H_m) {
@@ -242,28 +226,6 @@ Result<std::vector<ZoomError>> terrain_tiles_error(const TrueGround& ground, con
     });
     ORO_CHECK(ground.health());
     return errors;
-}
-
-Result<void> check_holds_tiles_alone(const std::string& folder) {
-    std::error_code failed;
-    for (fs::recursive_directory_iterator entry(folder, failed), end; !failed && entry != end;
-         entry.increment(failed)) {
-        const fs::path name = entry->path().filename();
-        std::error_code unknown;
-        const bool is_folder = entry->symlink_status(unknown).type() == fs::file_type::directory;
-        const bool is_ours =
-            entry.depth() < 2 && is_folder
-                ? is_number(name.string())
-                : !is_folder &&
-                      (entry.depth() == 2 ? name.extension() == ".png" && is_number(name.stem().string())
-                                          : entry.depth() == 0 && name == "tiles.json");
-        if (!is_ours)
-            return Error{ErrorKind::failed, folder,
-                         "holds " + fs::relative(entry->path(), folder, unknown).string() +
-                             ", which is no tile: it is not replaced"};
-    }
-    if (failed) return Error{ErrorKind::failed, folder, "cannot be read: " + failed.message()};
-    return {};
 }
 
 }  // namespace oro

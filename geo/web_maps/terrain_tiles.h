@@ -53,8 +53,4 @@ struct ZoomError {
 Result<std::vector<ZoomError>> terrain_tiles_error(const TrueGround& ground, const ZoomRange& zooms,
                                                    int places, int threads);
 
-// Whether a folder that is there holds nothing but such tiles and a tiles.json, so that it may be replaced.
-// Errors (failed): a file or folder that is neither, by name.
-Result<void> check_holds_tiles_alone(const std::string& folder);
-
 }  // namespace oro

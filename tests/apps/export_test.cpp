@@ -82,6 +82,44 @@ TEST(ExportCommand, TilesHaveTheHeightsThatSightTells) {
     EXPECT_NEAR(sight["to"]["H_m"].get<double>() - 1.0, H_m, 0.05 + 1e-3);
 }
 
+// jacksboro.tif has 403 x 344 posts of 3 seconds: 4 x 3 pages of 128 x 128 quads, 2 x 2 of every second post,
+// and one.
+TEST(ExportCommand, A3dTilesetHasTheProvenErrors) {
+    const fs::path out = oro::test::scratch_folder() / "tiles";
+    const auto said = object_said_by(export_words("3dtiles", out, {"--json"}));
+    EXPECT_EQ(said["tiles"], 12 + 4 + 1);
+    EXPECT_EQ(said["without_content"], 0);
+    ASSERT_EQ(said["levels"].size(), 3U);
+    EXPECT_EQ(said["levels"][2]["triangles"], 2 * 402 * 343);
+    // Rounding alone where each post is drawn.
+    EXPECT_LT(said["levels"][2]["largest_error_m"].get<double>(), 0.01);
+    const auto tileset = nlohmann::json::parse(bytes_of(out / "tileset.json"));
+    EXPECT_EQ(tileset["asset"]["version"], "1.1");
+    EXPECT_EQ(tileset["root"]["geometricError"], said["levels"][0]["largest_error_m"]);
+    EXPECT_EQ(tileset["metadata"]["properties"]["attribution"], "USGS, public domain");
+    EXPECT_EQ(tileset["metadata"]["properties"]["heights"], said["heights"]);
+    std::uintmax_t bytes = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(out))
+        if (entry.path().extension() == ".glb") bytes += entry.file_size();
+    EXPECT_EQ(bytes, said["bytes"].get<std::uintmax_t>());
+}
+
+TEST(ExportCommand, A3dTilesetReplacesOnlyATileset) {
+    const fs::path folder = oro::test::scratch_folder(), out = folder / "tiles";
+    const Words words = export_words("3dtiles", out);
+    EXPECT_EQ(run_orograph(words).exit_code, 0);
+    EXPECT_EQ(names_in(out), (Words{"0", "1", "2", "tileset.json"}));
+    const std::string before = bytes_of(out / "tileset.json");
+    expect_refusal(run_orograph(words), oro::test::failed, {"is there already (--overwrite replaces it)"});
+    const Words again = export_words("3dtiles", out, {"--overwrite"});
+    EXPECT_EQ(run_orograph(again).exit_code, 0);
+    EXPECT_EQ(bytes_of(out / "tileset.json"), before);
+    oro::test::write_bytes(out / "0" / "0" / "notes.txt", "mine");
+    expect_refusal(run_orograph(again), oro::test::failed, {"notes.txt, which is no tile"});
+    EXPECT_EQ(bytes_of(out / "0" / "0" / "notes.txt"), "mine");
+    EXPECT_EQ(names_in(folder), Words{"tiles"});
+}
+
 TEST(ExportCommand, SparesWhatIsThere) {
     const fs::path folder = oro::test::scratch_folder(), out = folder / "tiles";
     const Words words = export_words("terrain-rgb", out, {"--zoom", "9"});
@@ -119,8 +157,10 @@ TEST(ExportCommand, RefusesWhatHasNoMeaning) {
                    {"--zoom 3:4: needs --to terrain-rgb"});
     expect_refusal(run_orograph(export_words("cog", folder / "t.tif", {"--hole-height", "1"})),
                    oro::test::usage, {"--hole-height", "needs --to terrain-rgb"});
+    expect_refusal(run_orograph(export_words("3dtiles", folder / "t", {"--zoom", "3:4"})), oro::test::usage,
+                   {"--zoom 3:4: needs --to terrain-rgb"});
     expect_refusal(run_orograph(export_words("gltf", folder / "t")), oro::test::usage,
-                   {"choose cog or terrain-rgb"});
+                   {"choose cog, terrain-rgb or 3dtiles"});
     EXPECT_TRUE(names_in(folder).empty());
 }
 

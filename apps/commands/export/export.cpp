@@ -1,4 +1,6 @@
 // orograph export: heights in the formats of others.
+#include <filesystem>
+
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/export/exported_region.h"
@@ -7,6 +9,8 @@
 #include "apps/report/region_json.h"
 #include "apps/view/view.h"
 #include "geo/files/letter_case.h"
+#include "geo/files/numbered_tiles.h"
+#include "geo/files/whole_folder.h"
 #include "geo/opening/open_region.h"
 #include "geo/sources/source_words.h"
 #include "geo/together/covered_grids.h"
@@ -15,8 +19,6 @@ namespace oro {
 namespace {
 
 Result<void> check_file(const ExportOptions& options) {
-    if (options.zoom) return refused("--zoom", *options.zoom, "needs --to terrain-rgb");
-    if (options.hole_height_m) return refused("--hole-height", "", "needs --to terrain-rgb");
     const std::string name = lower_case(options.out);
     if (!name.ends_with(".tif") && !name.ends_with(".tiff"))
         return refused("--out", options.out, "the file's name must end in .tif");
@@ -24,16 +26,30 @@ Result<void> check_file(const ExportOptions& options) {
 }
 
 Result<void> check_words(const ExportOptions& options) {
-    if (!options.to) return refused("--to", "", "is missing: choose cog or terrain-rgb");
+    if (!options.to) return refused("--to", "", "is missing: choose cog, terrain-rgb or 3dtiles");
     if (options.out.empty())
         return refused("--out", "",
                        *options.to == "cog" ? "is missing: name the file to write (.tif)"
                                             : "is missing: name the folder to write");
+    const bool web_map = *options.to == "terrain-rgb";
+    if (options.zoom && !web_map) return refused("--zoom", *options.zoom, "needs --to terrain-rgb");
+    if (options.hole_height_m && !web_map) return refused("--hole-height", "", "needs --to terrain-rgb");
     if (*options.to == "cog") return check_file(options);
+    if (*options.to == "3dtiles") return check_folder(options.out, options.overwrite, ".glb", "tileset.json");
     return check_zoom(options);
 }
 
 }  // namespace
+
+Result<void> check_folder(const std::string& out, bool overwrite, const std::string& extension,
+                          const std::string& index) {
+    std::error_code ignored;
+    if (overwrite && std::filesystem::is_directory(out, ignored))
+        ORO_CHECK(check_holds_tiles_alone(out, extension, index));
+    // Whether it can be written at all.
+    ORO_TRY(const WholeFolder trial, WholeFolder::create(out, overwrite));
+    return {};
+}
 
 std::string heights_words(const Region& region) {
     DifferentWords geoids;
@@ -55,7 +71,9 @@ Result<void> run_export(const ExportOptions& options) {
     ORO_TRY(Region region, open_region(request, bar.progress()));
     leave_covered_grids_out(region);
     ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, region)}));
-    return *options.to == "cog" ? export_cog(options, region, bar) : export_terrain_rgb(options, region, bar);
+    if (*options.to == "cog") return export_cog(options, region, bar);
+    if (*options.to == "3dtiles") return export_3d_tiles(options, region, bar);
+    return export_terrain_rgb(options, region, bar);
 }
 
 }  // namespace oro

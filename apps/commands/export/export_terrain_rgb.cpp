@@ -164,12 +164,7 @@ Result<void> check_zoom(const ExportOptions& options) {
     const double hole_H_m = options.hole_height_m.value_or(0.0);
     if (!(hole_H_m >= least_hole_H_m && hole_H_m <= most_hole_H_m))
         return refused("--hole-height", all_digits(hole_H_m), between_words(least_hole_H_m, most_hole_H_m));
-    std::error_code ignored;
-    if (options.overwrite && std::filesystem::is_directory(options.out, ignored))
-        ORO_CHECK(check_holds_tiles_alone(options.out));
-    // Whether it can be written at all.
-    ORO_TRY(const WholeFolder trial, WholeFolder::create(options.out, options.overwrite));
-    return {};
+    return check_folder(options.out, options.overwrite, ".png", "tiles.json");
 }
 
 Result<void> export_terrain_rgb(const ExportOptions& options, const Region& region, ProgressBar& bar) {

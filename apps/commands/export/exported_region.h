@@ -1,4 +1,4 @@
-// What export writes of, and the two formats that it writes.
+// What export writes of, and the formats that it writes.
 #pragma once
 
 #include <memory>
@@ -23,6 +23,13 @@ Result<void> export_cog(const ExportOptions& options, const Region& region, Prog
 // on standard output. Errors (usage): zooms that are none, or too many tiles; those of WholeFolder and
 // write_terrain_tiles().
 Result<void> export_terrain_rgb(const ExportOptions& options, const Region& region, ProgressBar& bar);
+// Writes the ground of a region's one grid as 3D Tiles whose errors are proven, and tells them on standard
+// output. Errors (usage): several grids, or too many tiles; those of WholeFolder and write_tileset().
+Result<void> export_3d_tiles(const ExportOptions& options, const Region& region, ProgressBar& bar);
+// Refuses a folder that cannot be written, before anything is read; with `overwrite` also one that holds more
+// than tiles with that extension and the file `index`.
+Result<void> check_folder(const std::string& out, bool overwrite, const std::string& extension,
+                          const std::string& index);
 // Refuses zooms that are none before anything is read.
 Result<void> check_zoom(const ExportOptions& options);
 

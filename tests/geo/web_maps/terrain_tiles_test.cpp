@@ -13,6 +13,7 @@
 #include <map>
 #include <random>
 
+#include "geo/files/numbered_tiles.h"
 #include "geo/files/raster_library.h"
 #include "geo/together/region_ground.h"
 #include "tests/support/made_terrain.h"
@@ -241,15 +242,15 @@ TEST(TerrainTiles, OtherThingsInAFolderAreNoTiles) {
     fs::create_directories(folder / "9" / "267");
     std::ofstream(folder / "9" / "267" / "181.png") << "x";
     std::ofstream(folder / "tiles.json") << "{}";
-    EXPECT_TRUE(check_holds_tiles_alone(folder).ok());
+    EXPECT_TRUE(check_holds_tiles_alone(folder, ".png", "tiles.json").ok());
     for (const char* other : {"notes.txt", "9/readme", "9/267/a.png", "9/267/1.txt", "9/267/tiles.json"}) {
         std::ofstream(folder / other) << "x";
-        EXPECT_FALSE(check_holds_tiles_alone(folder).ok()) << other;
+        EXPECT_FALSE(check_holds_tiles_alone(folder, ".png", "tiles.json").ok()) << other;
         fs::remove(folder / other);
     }
     fs::create_directories(folder / "pictures");
-    EXPECT_FALSE(check_holds_tiles_alone(folder).ok());
-    EXPECT_FALSE(check_holds_tiles_alone(folder / "none").ok());
+    EXPECT_FALSE(check_holds_tiles_alone(folder, ".png", "tiles.json").ok());
+    EXPECT_FALSE(check_holds_tiles_alone(folder / "none", ".png", "tiles.json").ok());
 }
 
 }  // namespace

@@ -1,0 +1,109 @@
+// The levels of a grid as 3D Tiles, each with its proven error.
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "apps/command_line/refusals.h"
+#include "apps/commands/export/exported_region.h"
+#include "apps/drawing/region_scene.h"
+#include "apps/report/figures.h"
+#include "apps/report/json_object.h"
+#include "apps/report/json_text.h"
+#include "apps/report/region_json.h"
+#include "core/base/parallel.h"
+#include "core/base/srgb.h"
+#include "geo/files/whole_folder.h"
+#include "geo/tilesets/ground_tileset.h"
+
+namespace oro {
+namespace {
+
+// Of sRGB: what the style `natural` has for bare ground below the snow line.
+constexpr std::array ground_colour{0x91 / 255.0, 0x8B / 255.0, 0x81 / 255.0};
+
+Result<void> check_one_grid(const Region& region) {
+    if (region.grids.size() > 1)
+        return refused("--to", "3dtiles",
+                       "these data are " + std::to_string(region.grids.size()) +
+                           " grids of posts, and a tileset is made of one: name files of one of them");
+    return {};
+}
+
+TilesetRequest request_of(const Region& region) {
+    TilesetRequest request;
+    for (std::size_t i = 0; i < ground_colour.size(); ++i)
+        request.look.colour[i] = light_of_srgb(ground_colour[i]);
+    request.look.attribution = attribution_of(region);
+    request.look.generator = "orograph " OROGRAPH_VERSION;
+    request.metadata = {
+        {"heights", heights_words(region)},
+        {"sourceHeights", source_heights_words(region)},
+        {"attribution", request.look.attribution},
+        {"geometricError",
+         "metres; no point of the surface of all posts is farther from what a tile has for it"}};
+    request.threads = thread_count();
+    return request;
+}
+
+nlohmann::ordered_json levels_json(const TilesetWritten& written) {
+    auto list = nlohmann::ordered_json::array();
+    for (const TilesetLevel& level : written.levels)
+        list.push_back(json_object("level", level.level, "tiles", level.tiles, "without_content",
+                                   level.without_content, "triangles", level.triangles, "bytes", level.bytes,
+                                   "largest_error_m", level.largest_error_m));
+    return list;
+}
+
+void tell_tileset(const ExportOptions& options, const Region& region, const TilesetWritten& written) {
+    std::uint64_t tiles = 0, bytes = 0, without = 0;
+    for (const TilesetLevel& level : written.levels) {
+        tiles += level.tiles;
+        bytes += level.bytes;
+        without += level.without_content;
+    }
+    if (options.json) {
+        auto json = json_object("folder", options.out, "format", "3dtiles", "tiles", tiles, "bytes", bytes,
+                                "without_content", without, "geometric_error_m", written.geometric_error_m,
+                                "heights", heights_words(region), "attribution", attribution_of(region),
+                                "levels", levels_json(written), "notes", all_notes(region));
+        std::printf("%s\n", json_text(json, true).c_str());
+        return;
+    }
+    std::printf("Wrote %s: %s, %s bytes\n", options.out.c_str(), counted(tiles, "tile", "tiles").c_str(),
+                grouped(bytes).c_str());
+    std::printf("Heights: h, above the ellipsoid WGS84; the data's are %s\n", heights_words(region).c_str());
+    if (without > 0)
+        std::printf("Without content: %s, which cannot stand for ground with voids\n",
+                    counted(without, "tile", "tiles").c_str());
+    std::printf("Metres from the ground, at most (proven):\n  level   tiles   triangles   largest\n");
+    for (const TilesetLevel& level : written.levels)
+        std::printf("  %5d  %6s  %10s  %8s\n", level.level, grouped(level.tiles).c_str(),
+                    grouped(level.triangles).c_str(),
+                    level.tiles > 0 ? figure(level.largest_error_m).c_str() : "n/a");
+}
+
+}  // namespace
+
+Result<void> export_3d_tiles(const ExportOptions& options, const Region& region, ProgressBar& bar) {
+    ORO_CHECK(check_one_grid(region));
+    ORO_TRY(const std::unique_ptr<RegionPages> pages,
+            grid_pages(region.grids.front(), {}, 1.0,
+                       [&](double share) { bar.show(share, "measuring levels"); }));
+    if (const std::uint64_t tiles = tileset_pages(*pages); tiles > most_tileset_tiles)
+        return refused("--to", "3dtiles",
+                       grouped(tiles) + " tiles are more than " + grouped(most_tileset_tiles) +
+                           ": give a part of the data with --bbox");
+    ORO_TRY(WholeFolder folder, WholeFolder::create(options.out, options.overwrite));
+    ORO_TRY(const TilesetWritten written,
+            write_tileset(folder.path(), *pages, request_of(region),
+                          [&](double share) { bar.show(share, "writing tiles"); }));
+    ORO_CHECK(region.health());
+    ORO_CHECK(folder.commit());
+    bar.clear();
+    say_notes(region, options.quiet);
+    tell_tileset(options, region, written);
+    return {};
+}
+
+}  // namespace oro

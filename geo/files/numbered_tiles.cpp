@@ -1,0 +1,40 @@
+#include "geo/files/numbered_tiles.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+namespace oro {
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_number(const std::string& name) {
+    return !name.empty() && std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+}  // namespace
+
+Result<void> check_holds_tiles_alone(const std::string& folder, const std::string& extension,
+                                     const std::string& index) {
+    std::error_code failed;
+    for (fs::recursive_directory_iterator entry(folder, failed), end; !failed && entry != end;
+         entry.increment(failed)) {
+        const fs::path name = entry->path().filename();
+        std::error_code unknown;
+        const bool is_folder = entry->symlink_status(unknown).type() == fs::file_type::directory;
+        const bool is_ours = entry.depth() < 2 && is_folder
+                                 ? is_number(name.string())
+                                 : !is_folder && (entry.depth() == 2 ? name.extension() == extension &&
+                                                                           is_number(name.stem().string())
+                                                                     : entry.depth() == 0 && name == index);
+        if (!is_ours)
+            return Error{ErrorKind::failed, folder,
+                         "holds " + fs::relative(entry->path(), folder, unknown).string() +
+                             ", which is no tile: it is not replaced"};
+    }
+    if (failed) return Error{ErrorKind::failed, folder, "cannot be read: " + failed.message()};
+    return {};
+}
+
+}  // namespace oro

@@ -1,0 +1,26 @@
+// Meshes as binary glTF 2.0, as viewers of 3D Tiles read them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geo/tilesets/ground_mesh.h"
+
+namespace oro {
+
+struct GlbLook {
+    std::array<double, 3> colour{};  // of the ground, linear light, 0 .. 1
+    std::string attribution;         // what viewers show as asset.copyright; "" for none
+    std::string generator;
+};
+
+// The bytes of a .glb of a mesh that has a triangle: one node, which the mesh's centre moves in double, one
+// mesh, one buffer. y is up in glTF, so ECEF's (x, y, z) is (x, z, -y); viewers of 3D Tiles turn it back.
+// Positions are the mesh's own bits; parts of normals are rounded to 1/32767 (KHR_mesh_quantization).
+// mesh.extras.groundTriangles: how many of the triangles, the first ones, are ground; the others are walls.
+// Source: Khronos, glTF 2.0 specification; OGC 22-025r4, 3D Tiles 1.1.
+std::vector<std::uint8_t> glb_bytes(const GroundMesh& mesh, const GlbLook& look);
+
+}  // namespace oro

@@ -1,0 +1,139 @@
+// 3D Tiles as a stranger reads them: by the specifications alone, with nothing of what wrote them.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <glm/vec3.hpp>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace oro::test {
+
+struct ReadTile {
+    std::string uri;  // "" for none
+    double error_m{};
+    std::array<double, 6> region{};  // west, south, east, north in radians, lowest, highest in metres
+    int parent{-1};
+    std::vector<int> children;
+    // Of the content: ECEF, and the triangles, the first ones of which are ground.
+    std::vector<glm::dvec3> posts_m, normals;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::size_t ground_triangles{};
+};
+
+inline std::string all_bytes(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+template <class Value>
+Value value_at(const std::string& bytes, std::size_t at) {
+    Value value{};
+    if (at + sizeof(Value) > bytes.size()) {
+        ADD_FAILURE() << "beyond the end";
+        return value;
+    }
+    std::memcpy(&value, bytes.data() + at, sizeof(Value));
+    return value;
+}
+
+// Vectors of an accessor of floats or of normalized shorts, as they stand, y up.
+inline std::vector<glm::dvec3> vectors_of(const nlohmann::json& gltf, const std::string& bin, int accessor) {
+    const auto& of = gltf["accessors"][static_cast<std::size_t>(accessor)];
+    const auto& view = gltf["bufferViews"][of["bufferView"].get<std::size_t>()];
+    EXPECT_EQ(of["type"], "VEC3");
+    const bool shorts = of["componentType"] == 5122;
+    EXPECT_TRUE(shorts || of["componentType"] == 5126);
+    const std::size_t part = shorts ? 2 : 4;
+    const auto stride = view.value("byteStride", 3 * part), count = of["count"].get<std::size_t>();
+    const std::size_t first =
+        view.value("byteOffset", std::size_t{0}) + of.value("byteOffset", std::size_t{0});
+    EXPECT_LE((count - 1) * stride + 3 * part, view["byteLength"].get<std::size_t>());
+    std::vector<glm::dvec3> vectors;
+    for (std::size_t i = 0; i < count; ++i) {
+        std::array<double, 3> parts{};
+        for (std::size_t j = 0; j < 3; ++j) {
+            const std::size_t at = first + i * stride + j * part;
+            parts[j] = shorts ? std::max(-1.0, value_at<std::int16_t>(bin, at) / 32767.0)
+                              : static_cast<double>(value_at<float>(bin, at));
+        }
+        vectors.emplace_back(parts[0], parts[1], parts[2]);
+    }
+    return vectors;
+}
+
+// From glTF's y up to the z up of 3D Tiles (OGC 22-025r4, "glTF transforms"): (x, y, z) is (x, -z, y).
+inline glm::dvec3 z_up(const glm::dvec3& y_up) {
+    return {y_up.x, -y_up.z, y_up.y};
+}
+
+inline void read_glb(const std::string& bytes, ReadTile& tile) {
+    ASSERT_GT(bytes.size(), 28U);
+    EXPECT_EQ(bytes.substr(0, 4), "glTF");
+    EXPECT_EQ(value_at<std::uint32_t>(bytes, 4), 2U);
+    EXPECT_EQ(value_at<std::uint32_t>(bytes, 8), bytes.size());
+    const auto json_size = value_at<std::uint32_t>(bytes, 12);
+    EXPECT_EQ(bytes.substr(16, 4), "JSON");
+    EXPECT_EQ(json_size % 4, 0U);
+    const auto gltf = nlohmann::json::parse(bytes.substr(20, json_size));
+    const auto bin_size = value_at<std::uint32_t>(bytes, 20 + json_size);
+    EXPECT_EQ(bytes.substr(24 + json_size, 4), std::string("BIN\0", 4));
+    const std::string bin = bytes.substr(28 + json_size, bin_size);
+    ASSERT_EQ(bin.size(), bin_size);
+    const auto& node = gltf["nodes"][gltf["scenes"][0]["nodes"][0].get<std::size_t>()];
+    const auto& move = node["translation"];
+    const glm::dvec3 centre(move[0], move[1], move[2]);
+    const auto& mesh = gltf["meshes"][node["mesh"].get<std::size_t>()];
+    const auto& primitive = mesh["primitives"][0];
+    for (const glm::dvec3& position : vectors_of(gltf, bin, primitive["attributes"]["POSITION"]))
+        tile.posts_m.push_back(z_up(position + centre));
+    for (const glm::dvec3& normal : vectors_of(gltf, bin, primitive["attributes"]["NORMAL"]))
+        tile.normals.push_back(z_up(normal));
+    const auto& indices = gltf["accessors"][primitive["indices"].get<std::size_t>()];
+    EXPECT_EQ(indices["componentType"], 5123);
+    const std::size_t at = gltf["bufferViews"][indices["bufferView"].get<std::size_t>()]["byteOffset"];
+    for (std::size_t i = 0; i < indices["count"].get<std::size_t>() / 3; ++i) {
+        auto& triangle = tile.triangles.emplace_back();
+        for (std::size_t j = 0; j < 3; ++j) {
+            triangle[j] = value_at<std::uint16_t>(bin, at + 2 * (3 * i + j));
+            ASSERT_LT(triangle[j], tile.posts_m.size());
+        }
+    }
+    tile.ground_triangles = mesh["extras"]["groundTriangles"];
+}
+
+inline void read_tile(const nlohmann::json& json, const std::filesystem::path& folder, int parent,
+                      std::vector<ReadTile>& tiles) {
+    const auto number = static_cast<int>(tiles.size());
+    tiles.emplace_back();
+    tiles.back().parent = parent;
+    if (parent >= 0) tiles[static_cast<std::size_t>(parent)].children.push_back(number);
+    tiles.back().error_m = json["geometricError"];
+    for (std::size_t i = 0; i < 6; ++i) tiles.back().region[i] = json["boundingVolume"]["region"][i];
+    if (json.contains("content")) {
+        tiles.back().uri = json["content"]["uri"];
+        read_glb(all_bytes(folder / tiles.back().uri), tiles.back());
+    }
+    if (json.contains("children"))
+        for (const auto& child : json["children"]) read_tile(child, folder, number, tiles);
+}
+
+// All tiles, the root first, each after its parent.
+inline std::vector<ReadTile> read_tileset(const std::filesystem::path& folder) {
+    const auto json = nlohmann::json::parse(all_bytes(folder / "tileset.json"));
+    EXPECT_EQ(json["asset"]["version"], "1.1");
+    EXPECT_EQ(json["root"]["refine"], "REPLACE");
+    EXPECT_GE(json["geometricError"].get<double>(), json["root"]["geometricError"].get<double>());
+    std::vector<ReadTile> tiles;
+    read_tile(json["root"], folder, -1, tiles);
+    return tiles;
+}
+
+}  // namespace oro::test
