@@ -83,9 +83,9 @@ class DatasetReader {
     // OGR's. Its header may count none, where it was written as a stream.
     Result<void> check_count(OGRLayerH layer, std::size_t count) const {
         if (format_ != DatasetFormat::flatgeobuf) return {};
-        const GIntBig told = OGR_L_GetFeatureCount(layer, 0);
-        if (told <= 0 || static_cast<std::size_t>(told) == count) return {};
-        return dataset_fault("is cut: it should have " + std::to_string(told) + " features, and has " +
+        const GIntBig stated = OGR_L_GetFeatureCount(layer, 0);
+        if (stated <= 0 || static_cast<std::size_t>(stated) == count) return {};
+        return dataset_fault("is cut: it should have " + std::to_string(stated) + " features, and has " +
                              std::to_string(count));
     }
 

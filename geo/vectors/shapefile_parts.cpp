@@ -69,21 +69,21 @@ Result<PartHead> head_of(const std::string& file, const char* what) {
     return read.ok() ? Result<PartHead>(head) : in_one_line(read.error());
 }
 
-Result<void> check_length(const char* what, std::uint64_t told, std::uint64_t length) {
-    if (length >= told) return {};
-    return shapefile_fault(std::string("its ") + what + " is cut: it should have " + std::to_string(told) +
+Result<void> check_length(const char* what, std::uint64_t stated, std::uint64_t length) {
+    if (length >= stated) return {};
+    return shapefile_fault(std::string("its ") + what + " is cut: it should have " + std::to_string(stated) +
                            " bytes, and has " + std::to_string(length));
 }
 
 // A .shp or .shx counts its length in words of two bytes.
 Result<std::uint64_t> checked_length(const std::string& file, const char* what) {
     ORO_TRY(const PartHead head, head_of(file, what));
-    const std::uint64_t told = 2 * head.number_high_first(24, 4);
-    if (told < shp_header_bytes)
+    const std::uint64_t stated = 2 * head.number_high_first(24, 4);
+    if (stated < shp_header_bytes)
         return shapefile_fault(std::string("its ") + what + " is damaged: it says that it has " +
-                               std::to_string(told) + " bytes");
-    ORO_CHECK(check_length(what, told, head.length));
-    return told;
+                               std::to_string(stated) + " bytes");
+    ORO_CHECK(check_length(what, stated, head.length));
+    return stated;
 }
 
 // The number of records of a .dbf.

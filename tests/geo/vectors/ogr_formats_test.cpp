@@ -164,7 +164,7 @@ TEST(KmzFile, ABombIsNotUnpackedAndNoNameLeadsOut) {
               "holds /doc.kml, whose name leads out of the archive: it is not opened");
     // Only its list says that it has 100 MiB, which is what a bomb looks like before it is unpacked.
     test::ZipEntry bomb{"doc.kml", text};
-    bomb.told_bytes = 100U << 20U;
+    bomb.stated_bytes = 100U << 20U;
     EXPECT_EQ(
         error_in(test::written_zip("a.kmz", {bomb})),
         "holds doc.kml, which would unpack to more than 200 times the archive's length: it is not unpacked");
