@@ -167,8 +167,8 @@ void add_film(CLI::App& app, FilmOptions& options) {
         "Write the pictures of a camera's flight, numbered or as a movie, and go on where it stopped");
     OptionGroup film(command, "The film");
     film.option("FLIGHT", options.path, "",
-                "The camera's path: keys in a .json file, a tour of a .kml file, or a track of a GPX, KML, "
-                "GeoJSON or GeoPackage file.")
+                "The camera's path: keys in a .json file, a tour of a .kml file, or a track of a vector "
+                "file (GPX, KML, GeoJSON, GeoPackage, shapefile ...).")
         .required();
     film.option("--out", options.out, "FOLDER",
                 "Write frame-000001.png and so on into this folder; or an .mp4 file, with ffmpeg. Frames of "
@@ -241,7 +241,8 @@ void add_view(CLI::App& app, WindowOptions& options) {
         .option(
             "--gazetteer", options.gazetteers, "FILE",
             "Find places by the names in this file, too: a dump of GeoNames, a table (CSV) with the columns "
-            "name, lat and lon, or points of GeoJSON, GPX, KML or GeoPackage. May be given several times.")
+            "name, lat and lon, or points of GeoJSON, GPX, KML, GeoPackage, a shapefile ... May be given "
+            "several times.")
         .allow_extra_args(false);  // what follows the file is elevation data
     add_no_paths(command, "The window", options.no_paths);
     add_region_options(command, options.region);
@@ -392,9 +393,10 @@ void add_profile(CLI::App& app, ProfileOptions& options) {
     CLI::App& command =
         *app.add_subcommand("profile", "Tell how high the ground is along a line, as text, table or drawing");
     OptionGroup line(command, "The line");
-    line.option("--along", options.along, "LINE",
-                "A file with a line (GPX, KML, GeoJSON, GeoPackage); or two places or more with ; between "
-                "them, as in \"46.57,7.99; 46.62,8.05\". From place to place it is the shortest way.");
+    line.option(
+        "--along", options.along, "LINE",
+        "A file with a line (GPX, KML, GeoJSON, GeoPackage, shapefile ...); or two places or more with ; "
+        "between them, as in \"46.57,7.99; 46.62,8.05\". From place to place it is the shortest way.");
     line.whole_number("--line", options.line, 1, 1000000000, "N",
                       "Which line of a file that has several, from 1. Default: the only one.");
     line.number("--step", options.step_m, "METRES",

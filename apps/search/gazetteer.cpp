@@ -178,7 +178,7 @@ Result<Columns> columns_in(const std::string& heading, const std::string& path) 
                 ErrorKind::failed, path,
                 "its first line names no column '" + std::string(what) +
                     "': a gazetteer is a dump of GeoNames, a table with the columns name, lat and lon, "
-                    "or points of GeoJSON, GPX, KML or GeoPackage"};
+                    "or points of GeoJSON, GPX, KML, GeoPackage, a shapefile or FlatGeobuf"};
     }
     return columns;
 }
@@ -274,7 +274,11 @@ Result<Gazetteer> read_gazetteer(const std::string& path, const std::optional<Bo
         if (!more) return Error{ErrorKind::failed, path, "is empty"};
     }
     const std::string_view start = trimmed_field(line);
-    for (const char* const of_vectors : {"{", "<", "PK\x03\x04", "SQLite format 3"})
+    // A shapefile begins with the number 9994, whose last byte is the end of a line.
+    constexpr std::string_view shapefile("\0\0\x27", 3);
+    for (const std::string_view of_vectors :
+         {std::string_view("{"), std::string_view("<"), std::string_view("PK\x03\x04"),
+          std::string_view("SQLite format 3"), std::string_view("fgb\x03"), shapefile})
         if (start.starts_with(of_vectors)) return read_points(path, within);
     return read_table(lines, line, path, within, stop);
 }

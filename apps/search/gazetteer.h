@@ -28,7 +28,7 @@ inline constexpr std::size_t most_gazetteer_places = 2'000'000;
 // - a table (CSV) with commas, semicolons or tabs, whose first line names the columns: name, lat or latitude,
 //   lon, lng or longitude; and, if it has them, ele, elevation or height, population, and class, type or
 //   natural. Fields may stand in quotes, not over several lines;
-// - points of GeoJSON, GPX, KML or GeoPackage, whose fields have those names.
+// - points of GeoJSON, GPX, KML, GeoPackage, a shapefile or FlatGeobuf, whose fields have those names.
 //
 // within: places outside this box (of WGS84) are passed over; a dump of the whole Earth can be read so.
 // Tables are read line by line: memory is for the places that are kept. Lines that are none are left out, and

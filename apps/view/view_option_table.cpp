@@ -223,8 +223,9 @@ void add_vectors(Rows looks) {
     looks.setting(
         {"--names FILE", shown_first | changes_looks}, &ViewOptions::names,
         [](auto& view) -> auto& { return view.vectors.names; },
-        "Name the points of a vector file (GPX, KML, GeoJSON, GeoPackage) that the eye sees, with "
-        "height and distance. A window shows them while the eye rests. May be given several times.");
+        "Name the points of a vector file (GPX, KML, GeoJSON, GeoPackage, shapefile, CSV ...) that the "
+        "eye sees, with height and distance. A window shows them while the eye rests. May be given several "
+        "times.");
     looks.setting(
         {"--names-field FIELD", changes_looks, "name"}, &ViewOptions::names_field,
         [](auto& view) -> auto& { return view.vectors.names_field; },

@@ -31,7 +31,8 @@ bool ends_in_one_of(const std::string& path, std::initializer_list<const char*> 
 }
 
 bool is_vector_path(const std::string& path) {
-    return ends_in_one_of(path, {".gpx", ".kml", ".kmz", ".geojson", ".gpkg"});
+    return ends_in_one_of(path,
+                          {".gpx", ".kml", ".kmz", ".geojson", ".topojson", ".csv", ".gpkg", ".shp", ".fgb"});
 }
 
 bool may_carry_view(const std::string& path) {

@@ -8,7 +8,7 @@
 
 namespace oro {
 
-// Opens what the paths name. Vector files (GPX, KML, GeoJSON, GeoPackage) and images lie over the ground that
+// Opens what the paths name. Vector files (GPX, KML, GeoJSON, GeoPackage, shapefiles, CSV ...) and images lie over the ground that
 // is shown;
 // a picture that carries a view moves the eye to where it was taken; the keys of a camera's path are the
 // film; all others together are read in the background as the region that is shown next, and a project as it

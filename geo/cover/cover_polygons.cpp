@@ -242,7 +242,7 @@ Result<void> draw(const std::vector<CodedPolygon>& polygons, const Extent& exten
 
 bool is_vector_file(const std::string& file) {
     const std::string lower = lower_case(file);
-    return std::ranges::any_of(std::array{".gpkg", ".geojson", ".kml", ".kmz"},
+    return std::ranges::any_of(std::array{".gpkg", ".geojson", ".topojson", ".kml", ".kmz", ".shp", ".fgb"},
                                [&](const char* ending) { return lower.ends_with(ending); });
 }
 
@@ -252,7 +252,7 @@ Result<CoverSource> open_cover_polygons(const std::string& file) {
     ORO_TRY(const std::vector<CodedShape> coded, coded_shapes(vectors));
     CoverSource source;
     source.file = file;
-    source.files = {file};
+    source.files = vectors.files;
     source.fingerprint = vectors.fingerprint;
     source.notes = vectors.notes;
     source.crs = "EPSG:4326 WGS 84";

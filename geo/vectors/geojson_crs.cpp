@@ -19,6 +19,11 @@ JsonValue member_of(const JsonValue& object, std::string_view name, const JsonVa
     return otherwise;
 }
 
+Error unknown_crs(const std::string& words) {
+    return {ErrorKind::failed, "",
+            "names a coordinate reference system that PROJ does not know (" + foreign_text(words) + ")"};
+}
+
 }  // namespace
 
 Result<ShapeSplitter> splitter_of_geojson(const JsonValue& root) {
@@ -37,18 +42,20 @@ Result<ShapeSplitter> splitter_of_geojson(const JsonValue& root) {
     }
     const JsonValue code = member_of(properties, "code", absent);
     if (words.empty() && !code.is(JsonValue::Kind::null)) words = "EPSG:" + code.words();
-    const std::string shown = foreign_text(words.empty() ? crs.source() : std::string_view(words));
-    const Error unknown{ErrorKind::failed, "",
-                        "names a coordinate reference system that PROJ does not know (" + shown + ")"};
-    if (words.empty()) return unknown;
+    return words.empty() ? Result<ShapeSplitter>(unknown_crs(std::string(crs.source())))
+                         : splitter_of_words(words);
+}
+
+Result<ShapeSplitter> splitter_of_words(const std::string& words) {
     OGRSpatialReference reference;
     {
         const GdalMessages unsaid;
         // No files and no network.
         const std::array<const char*, 3> limits{"ALLOW_NETWORK_ACCESS=NO", "ALLOW_FILE_ACCESS=NO", nullptr};
-        if (reference.SetFromUserInput(words.c_str(), limits.data()) != OGRERR_NONE) return unknown;
+        if (reference.SetFromUserInput(words.c_str(), limits.data()) != OGRERR_NONE)
+            return unknown_crs(words);
     }
-    // Whatever order the CRS has, GeoJSON writes x before y and longitude before latitude.
+    // Whatever order the CRS has, files write x before y and longitude before latitude.
     reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     return ShapeSplitter::of(OGRSpatialReference::ToHandle(&reference));
 }

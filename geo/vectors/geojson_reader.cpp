@@ -330,6 +330,8 @@ Result<void> read_geojson(std::string_view text, const std::string& name, FileWa
     const JsonValue root(text, std::min(text.find_first_not_of(" \t\r\n", first), text.size()));
     if (!root.is(Kind::object)) return fault("is JSON, but no GeoJSON: it is no object");
     const Members members = root.members();
+    if (const JsonValue* const type = member(members, "type"); type && type->text() == "Topology")
+        return read_topojson(root, watch, file, left_out);
     static constexpr std::array known{"features", "geometry", "coordinates", "geometries"};
     if (std::ranges::none_of(known, [&](const char* one) { return member(members, one) != nullptr; })) {
         const JsonValue* const type = member(members, "type");

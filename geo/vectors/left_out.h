@@ -77,6 +77,8 @@ class LeftOut {
              {std::pair{" that are no finite numbers", " that is no finite number"},
               {" that are no numbers", " that is no number"},
               {" that are none", " that is none"},
+              {" that count from one", " that counts from one"},
+              {" have more fields", " has more fields"},
               {" whose coordinates do not fit their type", " whose coordinates do not fit its type"},
               {" that their coordinate", " that its coordinate"},
               {", which are not followed", ", which is not followed"},

@@ -1,6 +1,9 @@
 #include "geo/vectors/vector_file.h"
 
+#include <cpl_conv.h>
+#include <cpl_string.h>
 #include <sys/stat.h>
+#include <utf8.h>
 
 #include <algorithm>
 #include <array>
@@ -16,6 +19,7 @@
 #include "geo/files/letter_case.h"
 #include "geo/files/raster_library.h"
 #include "geo/files/text_encoding.h"
+#include "geo/vectors/shapefile_parts.h"
 #include "geo/vectors/vector_readers.h"
 #include "geo/vectors/vector_shapes.h"
 #include "geo/vectors/xml_text.h"
@@ -23,7 +27,10 @@
 namespace oro {
 namespace {
 
-constexpr std::size_t features_between_looks = 256;
+// KML is packed to a tenth or a thirtieth of its length; what unpacks to so many times its own was made to.
+constexpr std::uint64_t most_times_unpacked = 200;
+constexpr std::uint64_t longest_prj = 65'536;
+constexpr std::uint64_t most_unpacked_bytes_unasked = std::uint64_t{16} << 20U;
 
 Error fault(const std::string& what) {
     return Error{ErrorKind::failed, "", what};
@@ -31,7 +38,7 @@ Error fault(const std::string& what) {
 
 // What the first bytes and the size of a file say.
 struct Look {
-    enum class Form { text, database, packed };
+    enum class Form { text, database, packed, shapefile, flat };
     Form form{Form::text};
     std::uint64_t bytes{};
 };
@@ -40,6 +47,14 @@ std::uint64_t size_or_0(const std::string& file) {
     std::error_code failed;
     const std::uintmax_t size = std::filesystem::file_size(file, failed);
     return failed ? 0 : size;
+}
+
+// A shapefile is named by its .shp: of its other files the .shx begins as that does.
+Result<void> check_is_whole_shapefile(const std::string& file, bool is_shapefile) {
+    const std::string lower = lower_case(file);
+    const auto ends = [&](const char* ending) { return lower.ends_with(ending); };
+    if (!(is_shapefile && ends(".shx")) && !ends(".dbf") && !ends(".prj") && !ends(".cpg")) return {};
+    return fault("is a part of a shapefile: name its .shp");
 }
 
 Result<Look> probe(const std::string& file, std::vector<std::string>& notes) {
@@ -65,9 +80,12 @@ Result<Look> probe(const std::string& file, std::vector<std::string>& notes) {
                                        {std::string_view("\x28\xb5\x2f\xfd", 4), "zstd"},
                                        {std::string_view("7z\xbc\xaf", 4), "7-Zip"}})
         if (text.starts_with(mark)) return fault(std::string("is packed with ") + packer + ": unpack it");
+    if (text.starts_with(std::string_view("fgb\3fgb", 7))) look.form = Look::Form::flat;
+    if (text.starts_with(std::string_view("\0\0\x27\x0a", 4))) look.form = Look::Form::shapefile;
+    ORO_CHECK(check_is_whole_shapefile(file, look.form == Look::Form::shapefile));
     if (text == std::string_view("SQLite format 3\0", 16)) look.form = Look::Form::database;
     if (look.form == Look::Form::text && look.bytes > longest_vector_text)
-        return fault("is longer than 1 GiB, which is the limit; a GeoPackage may be longer");
+        return fault("is longer than 1 GiB, which is the limit; a GeoPackage or FlatGeobuf may be longer");
     if (look.form != Look::Form::database) return look;
     if (size_or_0(file + "-journal") > 0)
         return fault("was left half written (its -journal is there): open it once with what wrote it");
@@ -85,108 +103,19 @@ Result<void> ended(VectorFile& file, const LeftOut& left_out, std::string_view t
                  (left_out.empty() ? "" : "; left out: " + left_out.words(text)));
 }
 
-struct FreeFeature {
-    void operator()(OGRFeatureH feature) const { OGR_F_Destroy(feature); }
-};
-using Feature = std::unique_ptr<std::remove_pointer_t<OGRFeatureH>, FreeFeature>;
-
-// A database while it is read.
-class Reading {
-  public:
-    Reading(GDALDatasetH dataset, FileWatch& watch, const GdalMessages& messages, VectorFile& file)
-        : dataset_(dataset), watch_(watch), messages_(messages), file_(file) {}
-
-    Result<void> all() {
-        for (int i = 0; i < GDALDatasetGetLayerCount(dataset_); ++i) {
-            const OGRLayerH layer = GDALDatasetGetLayer(dataset_, i);
-            if (layer != nullptr) ORO_CHECK(read_layer(layer));
-        }
-        return ended(file_, left_out_, "");
-    }
-
-  private:
-    Result<void> read_layer(OGRLayerH handle) {
-        VectorLayer layer;
-        layer.name = foreign_text(OGR_L_GetName(handle));
-        const OGRFeatureDefnH definition = OGR_L_GetLayerDefn(handle);
-        if (OGR_FD_GetGeomFieldCount(definition) == 0) {
-            left_out_.add("layers without geometries");
-            return {};
-        }
-        auto splitter = ShapeSplitter::of(OGR_L_GetSpatialRef(handle));
-        if (!splitter.ok()) return fault("layer '" + layer.name + "': " + splitter.error().what);
-        for (int i = 0; i < OGR_FD_GetFieldCount(definition); ++i)
-            layer.fields.push_back(foreign_text(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i))));
-        OGR_L_ResetReading(handle);
-        for (std::size_t count = 0;; ++count) {
-            if (count % features_between_looks == 0 && watch_.spent()) return fault(watch_.fault());
-            const Feature feature(OGR_L_GetNextFeature(handle));
-            if (!feature) break;
-            take(feature.get(), layer, *splitter);
-            if (places_ + splitter->places() > most_vector_places)
-                return fault("has more than " + std::to_string(most_vector_places) +
-                             " places, which is the limit");
-        }
-        if (!messages_.last("").empty())
-            return fault("layer '" + layer.name + "' cannot be read to its end: " + messages_.last(""));
-        places_ += splitter->places();
-        file_.ring_ends += splitter->ring_ends();
-        if (!layer.shapes.empty()) file_.layers.push_back(std::move(layer));
-        return {};
-    }
-
-    void take(OGRFeatureH feature, VectorLayer& layer, ShapeSplitter& splitter) {
-        const OGRGeometryH geometry = OGR_F_GetGeometryRef(feature);
-        if (geometry == nullptr) {
-            left_out_.add("features without a geometry");
-            return;
-        }
-        const std::size_t before = layer.shapes.size();
-        const HeightAbove heights =
-            splitter.heights() == HeightAbove::nothing ? HeightAbove::sea_level : splitter.heights();
-        splitter.split(geometry, {heights, layer.records.size(), &layer.shapes, &left_out_});
-        if (layer.shapes.size() > before) layer.records.push_back(record_of(feature, layer.fields.size()));
-    }
-
-    static VectorRecord record_of(OGRFeatureH feature, std::size_t fields) {
-        VectorRecord record;
-        for (std::size_t i = 0; i < fields; ++i) {
-            const int number = static_cast<int>(i);
-            if (OGR_F_IsFieldSetAndNotNull(feature, number) == 0) continue;
-            std::string text = foreign_text(OGR_F_GetFieldAsString(feature, number));
-            if (!text.empty()) record.push_back({i, std::move(text)});
-        }
-        return record;
-    }
-
-    GDALDatasetH dataset_;
-    FileWatch& watch_;
-    const GdalMessages& messages_;
-    VectorFile& file_;
-    LeftOut left_out_;
-    std::size_t places_{};
-};
-
-Result<void> read_database(VectorFile& file, FileWatch& watch, const GdalMessages& messages) {
-    // Nothing is written beside a database, and what it lists is all that is looked at.
-    static constexpr std::array<const char*, 3> whole{"IMMUTABLE=YES", "LIST_ALL_TABLES=NO", nullptr};
-    const Dataset dataset(GDALOpenEx(file.file.c_str(),
-                                     GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                                     database_vector_drivers(), whole.data(), nullptr));
-    if (!dataset)
-        return fault("is not a vector file in an accepted format (" + trusted_vector_formats() +
-                     "): " + messages.last("unknown format"));
-    // OGR goes on with WGS84 where it does not know a CRS.
-    if (!messages.last("").empty()) return fault("cannot be read: " + messages.last(""));
-    return Reading(dataset.get(), watch, messages, file).all();
-}
-
 Result<std::string> bytes_of_file(const std::string& name) {
     ORO_TRY(const OpenFile opened, OpenFile::open(name, OpenFile::Use::read));
     ORO_TRY(const std::uint64_t size, opened.size());
     std::string bytes(size, '\0');
     ORO_CHECK(opened.read(0, std::as_writable_bytes(std::span(bytes))));
     return bytes;
+}
+
+// Whether a name in an archive is a path to somewhere else.
+bool leads_out(const std::string& name) {
+    const std::filesystem::path path(name);
+    return path.is_absolute() || name.find('\\') != std::string::npos ||
+           std::ranges::find(path, std::filesystem::path("..")) != path.end();
 }
 
 // KML's main file in a packed one: doc.kml, or the first that there is.
@@ -198,11 +127,55 @@ Result<std::string> bytes_of_kmz(const std::string& name) {
     auto main = std::ranges::find(*entries, "doc.kml", &ArchiveEntry::name);
     if (main == entries->end()) main = std::ranges::find_if(*entries, is_kml);
     if (main == entries->end()) return fault("is packed and holds no .kml: unpack it and name what is in it");
+    const std::string shown = foreign_text(main->name);
+    if (leads_out(main->name))
+        return fault("holds " + shown + ", whose name leads out of the archive: it is not opened");
     if (main->bytes > longest_vector_text)
-        return fault("holds " + foreign_text(main->name) + ", which is longer than 1 GiB, the limit");
+        return fault("holds " + shown + ", which is longer than 1 GiB, the limit");
+    if (const std::uint64_t packed = size_or_0(name);
+        main->bytes > most_unpacked_bytes_unasked && main->bytes / most_times_unpacked > packed)
+        return fault("holds " + shown + ", which would unpack to more than " +
+                     std::to_string(most_times_unpacked) + " times the archive's length: it is not unpacked");
     const auto bytes = unpacked(name, name, *main);
     if (!bytes.ok()) return in_one_line(bytes.error());
     return *bytes;
+}
+
+constexpr const char* no_columns =
+    "its first line names no columns of coordinates: a CSV has lat and lon, or WKT, or x and y (E and N) "
+    "with a "
+    "coordinate reference system";
+
+bool may_be_csv(const std::string& name) {
+    const std::string lower = lower_case(name);
+    return lower.ends_with(".csv") || lower.ends_with(".tsv") || lower.ends_with(".txt");
+}
+
+// Text of a spreadsheet of old in UTF-8; as it is where the library cannot turn it.
+std::string from_windows_1252(const std::string& text) {
+    const GdalMessages unsaid;
+    char* const turned = CPLRecode(text.c_str(), "CP1252", CPL_ENC_UTF8);
+    std::string utf8 = turned != nullptr ? turned : text;
+    CPLFree(turned);
+    return utf8;
+}
+
+// The CRS of a table's .prj, on one line; "" where there is none, or where it is a shapefile's.
+Result<std::string> crs_beside(VectorFile& file) {
+    const std::string prj = std::filesystem::path(file.file).replace_extension(".prj").string();
+    std::error_code failed;
+    if (!std::filesystem::is_regular_file(prj, failed) || failed) return std::string();
+    for (const char* const ending : {".shp", ".SHP"})
+        if (std::filesystem::exists(std::filesystem::path(file.file).replace_extension(ending), failed))
+            return std::string();
+    if (size_or_0(prj) > longest_prj)
+        return fault("its .prj is longer than " + std::to_string(longest_prj) + " bytes, which is the limit");
+    ORO_TRY(std::string crs, bytes_of_file(prj));
+    ORO_TRY(crs, utf8_text(std::move(crs)));
+    for (char& c : crs)
+        if (c == '\r' || c == '\n' || c == '\t') c = ' ';
+    file.files.push_back(prj);
+    return crs;
 }
 
 // What a file of text holds: its root says which format it has.
@@ -211,7 +184,7 @@ Result<void> read_text(VectorFile& file, std::string bytes, FileWatch& watch) {
         return fault("is not a vector file in an accepted format (" + trusted_vector_formats() + "): " + why);
     };
     const std::string stem = std::filesystem::path(file.file).stem().string();
-    ORO_TRY(const std::string text, utf8_xml(std::move(bytes)));
+    ORO_TRY(std::string text, utf8_xml(std::move(bytes)));
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     LeftOut left_out;
     if (first != std::string::npos && text[first] == '<') {
@@ -226,18 +199,48 @@ Result<void> read_text(VectorFile& file, std::string bytes, FileWatch& watch) {
         } else {
             return unknown("is XML whose first element is '" + foreign_text(root) + "'");
         }
+    } else if (is_csv(text)) {
+        if (!utf8::is_valid(text.begin(), text.end())) {
+            text = from_windows_1252(text);
+            file.notes.push_back(file.file + ": is no UTF-8 and is read as Windows-1252");
+        }
+        ORO_TRY(const std::string crs, crs_beside(file));
+        ORO_CHECK(read_csv(text, stem, crs, watch, file, left_out));
     } else {
         const Result<void> read = read_geojson(text, stem, watch, file, left_out);
         if (!read.ok())
             return first != std::string::npos && (text[first] == '{' || text[first] == '[')
                        ? read
-                       : unknown("unknown format");
+                       : unknown(may_be_csv(file.file) ? no_columns : "unknown format");
     }
     return ended(file, left_out, text);
 }
 
+// A file that OGR reads.
+Result<void> read_with_ogr(VectorFile& file, DatasetFormat format, FileWatch& watch,
+                           const GdalMessages& messages) {
+    if (format == DatasetFormat::shapefile) {
+        ORO_TRY(ShapefileParts parts, shapefile_parts(file.file));
+        file.files = std::move(parts.files);
+        for (std::string& note : parts.notes) file.notes.push_back(std::move(note));
+    }
+    LeftOut left_out;
+    ORO_CHECK(read_dataset(format, watch, messages, file, left_out));
+    return ended(file, left_out, "");
+}
+
 Result<void> read_all(VectorFile& file, const Look& look, FileWatch& watch, const GdalMessages& messages) {
-    if (look.form == Look::Form::database) return read_database(file, watch, messages);
+    switch (look.form) {
+        case Look::Form::database:
+            return read_with_ogr(file, DatasetFormat::geopackage, watch, messages);
+        case Look::Form::shapefile:
+            return read_with_ogr(file, DatasetFormat::shapefile, watch, messages);
+        case Look::Form::flat:
+            return read_with_ogr(file, DatasetFormat::flatgeobuf, watch, messages);
+        case Look::Form::text:
+        case Look::Form::packed:
+            break;
+    }
     const bool is_packed = look.form == Look::Form::packed;
     Result<std::string> bytes = is_packed ? bytes_of_kmz(file.file) : bytes_of_file(file.file);
     if (!bytes.ok()) return fault(bytes.error().what);
@@ -275,6 +278,7 @@ Result<VectorFile> read_vectors(const std::string& name, double limit_s) {
     const GdalMessages messages;
     VectorFile file;
     file.file = name;
+    file.files = {name};
     const auto with_name = [&](const Error& error) { return Error{error.kind, name, error.what}; };
     const Result<Look> look = probe(name, file.notes);
     if (!look.ok()) return with_name(look.error());
@@ -282,7 +286,7 @@ Result<VectorFile> read_vectors(const std::string& name, double limit_s) {
     const Result<void> read = read_all(file, *look, watch, messages);
     if (!watch.fault().empty()) return Error{ErrorKind::failed, name, watch.fault()};
     if (!read.ok()) return with_name(read.error());
-    ORO_TRY(file.fingerprint, files_fingerprint({name}));
+    ORO_TRY(file.fingerprint, files_fingerprint(file.files));
     return file;
 }
 

@@ -1,4 +1,5 @@
-// Points, lines and polygons of GPX, KML, GeoJSON and GeoPackage files, as latitudes and longitudes of WGS84.
+// Points, lines and polygons of vector files (GPX, KML, GeoJSON, GeoPackage, shapefiles, CSV ...), as
+// latitudes and longitudes of WGS84.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +14,8 @@
 namespace oro {
 
 // What the heights of a shape count from. GPX, KML's absolute ones and compound CRSs say sea level (whichever
-// geoid they mean), GeoJSON (RFC 7946) and CRSs of three axes the ellipsoid. Those of a GeoPackage whose CRS
-// says nothing are taken to count from sea level. KML's clampToGround, its default, has none.
+// geoid they mean), GeoJSON (RFC 7946), TopoJSON and CRSs of three axes the ellipsoid. Those of other files
+// whose CRS says nothing are taken to count from sea level. KML's clampToGround, its default, has none.
 enum class HeightAbove { nothing, sea_level, ellipsoid, ground };
 
 struct VectorPlace {
@@ -57,8 +58,10 @@ struct VectorLayer {
 struct VectorFile {
     std::string file;
     std::vector<VectorLayer> layers;  // those that have shapes
-    std::uint64_t fingerprint{};      // fingerprint of the file's bytes
-    std::vector<std::string> notes;   // what a user must know, one line each: what was left out, and why
+    std::vector<std::string>
+        files;                    // that were read: `file`, and those that a shapefile or CSV has beside it
+    std::uint64_t fingerprint{};  // fingerprint of these files' bytes
+    std::vector<std::string> notes;  // what a user must know, one line each: what was left out, and why
     std::size_t
         places_left_out{};    // of all places that the file writes, those in no shape; notes tell of them
     std::size_t ring_ends{};  // places that tell the first of a polygon's ring again at its end
@@ -72,13 +75,15 @@ inline constexpr std::uint64_t longest_vector_text = std::uint64_t{1} << 30U;
 inline constexpr std::size_t most_vector_places = 50'000'000;
 
 // Reads all of a file: GPX (waypoints, routes, tracks), KML (with Google's tracks; packed as KMZ, too),
-// GeoJSON, GeoPackage. Collections are split, curves become lines (an arc one for each degree), a KML Model
+// GeoJSON, TopoJSON, CSV (columns lat and lon, x and y with a CRS, or WKT), GeoPackage, shapefiles,
+// FlatGeobuf. Collections are split, curves become lines (an arc one for each degree), a KML Model
 // is a point and a GroundOverlay a polygon. Places are turned into WGS84's by PROJ's best operation for the
 // layer's CRS (one that GeoJSON names as it did before RFC 7946, too). Coordinates that are no numbers, and
 // such as have no place on the Earth, are left out, a line is broken where one of its places is none, and
 // notes tell how often, why and in which line first. Opens regular files of this machine, and no other; takes
 // limit_s at most, and a second more for each MiB. Errors: a file that is not there, empty, damaged or of
-// another format (with the line, of text); one that has nothing with a place; a CRS that PROJ does not know.
+// another format (with the line, of text); a shapefile without its .shx or .prj; one that has nothing with a
+// place; a CRS that PROJ does not know.
 Result<VectorFile> read_vectors(const std::string& file, double limit_s = 30.0);
 
 }  // namespace oro

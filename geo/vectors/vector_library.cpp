@@ -3,8 +3,6 @@
 #include <ogrsf_frmts.h>
 #include <sqlite3.h>
 
-#include <array>
-
 #include "geo/files/guarded_files.h"
 #include "geo/files/raster_library.h"
 
@@ -30,19 +28,28 @@ void start_vectors() {
     static const bool is_started = [] {
         start_gdal();
         RegisterOGRGeoPackage();
+        RegisterOGRShape();
+        RegisterOGRFlatGeobuf();
         return true;
     }();
     (void)is_started;
     sqlite3_auto_extension(reinterpret_cast<void (*)()>(&watch_database));  // once, however often
 }
 
-const char* const* database_vector_drivers() {
-    static constexpr std::array<const char*, 2> names{"GPKG", nullptr};
-    return names.data();
+const char* dataset_driver(DatasetFormat format) {
+    switch (format) {
+        case DatasetFormat::shapefile:
+            return "ESRI Shapefile";
+        case DatasetFormat::flatgeobuf:
+            return "FlatGeobuf";
+        case DatasetFormat::geopackage:
+            break;
+    }
+    return "GPKG";
 }
 
 std::string trusted_vector_formats() {
-    return "GPX, KML, GeoJSON, GeoPackage";
+    return "GPX, KML, KMZ, GeoJSON, TopoJSON, CSV, GeoPackage, shapefile, FlatGeobuf";
 }
 
 }  // namespace oro

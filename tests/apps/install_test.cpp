@@ -53,7 +53,9 @@ TEST(Install, HasItsDesktopFilesPagesAndCompletion) {
              "fish/vendor_completions.d/orograph.fish", "man/man1/orograph.1", "man/man1/orograph-shot.1",
              "man/man1/orograph-doctor.1", "applications/" + id + ".desktop", "mime/packages/" + id + ".xml",
              "metainfo/" + id + ".metainfo.xml", "icons/hicolor/scalable/apps/" + id + ".svg",
-             "icons/hicolor/symbolic/apps/" + id + "-symbolic.svg"})
+             "icons/hicolor/symbolic/apps/" + id + "-symbolic.svg",
+             "qgis/python/plugins/orograph/metadata.txt", "qgis/python/plugins/orograph/algorithms/base.py",
+             "qgis/python/plugins/orograph/styles/viewshed.qml", "qgis/python/plugins/orograph/icon.svg"})
         EXPECT_FALSE(bytes_of(share / file).empty()) << file;
     // What was written when the program was built is what it prints.
     const std::string program = (folder / "bin" / "orograph").string();

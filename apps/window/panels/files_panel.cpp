@@ -94,9 +94,9 @@ void build_files_panel(Viewer& viewer) {
             open_now(viewer, {viewer.folder});
         tip(is_folder ? "All elevation of this folder, as one region" : "This file");
         quiet_text(
-            "Elevation takes the place of what is shown. Images, tracks and places (GPX, KML, GeoJSON) lie "
-            "over "
-            "it. A picture of this program moves the eye to where it was taken. Files may be dropped, too.");
+            "Elevation takes the place of what is shown. Images, tracks and places (GPX, KML, GeoJSON, CSV, "
+            "shapefiles) lie over it. A picture of this program moves the eye to where it was taken. Files "
+            "may be dropped, too.");
         if (is_folder && listing.folder != viewer.folder) listing = listing_of(viewer.folder);
         ImGui::BeginChild("##list", {0.0F, scaled_px(210.0F)}, true);
         if (!listing.error.empty()) quiet_text(listing.error.c_str());

@@ -228,8 +228,8 @@ TEST(GeoJsonFile, BrokenJsonIsToldWithItsLine) {
               none + "2: more follows after its end");
     EXPECT_EQ(line_of(written("a.geojson", "{\"a\":" + std::string(200, '[') + std::string(200, ']') + "}")),
               none + "1: lists within lists are more than 128 deep");
-    EXPECT_EQ(line_of(written("a.geojson", "{\"type\":\"Topology\",\"arcs\":[]}")),
-              "error: is JSON, but no GeoJSON: its type is 'Topology'");
+    EXPECT_EQ(line_of(written("a.geojson", R"({"type":"CovJSON","arcs":[]})")),
+              "error: is JSON, but no GeoJSON: its type is 'CovJSON'");
 }
 
 // Marks and encodings that editors put before a text: all of one place.

@@ -43,13 +43,13 @@ inline std::string kml(const std::string& content) {
            "</Document></kml>";
 }
 
-// A GeoPackage of one layer, `shapes`, of geometries as WKT and their names. `epsg`: 0 for no CRS.
-inline std::string geopackage(const std::string& name, int epsg,
-                              const std::vector<std::pair<std::string, std::string>>& shapes) {
+// A file of one layer that OGR writes, of geometries as WKT and their names. `epsg`: 0 for no CRS.
+inline std::string vector_dataset(const std::string& name, const char* driver, int epsg,
+                                  const std::vector<std::pair<std::string, std::string>>& shapes) {
     GDALAllRegister();
     const std::string path = (scratch_folder() / name).string();
     const GDALDatasetH dataset =
-        GDALCreate(GDALGetDriverByName("GPKG"), path.c_str(), 0, 0, 0, GDT_Unknown, nullptr);
+        GDALCreate(GDALGetDriverByName(driver), path.c_str(), 0, 0, 0, GDT_Unknown, nullptr);
     const OGRSpatialReferenceH crs = epsg > 0 ? OSRNewSpatialReference(nullptr) : nullptr;
     if (crs != nullptr) {
         OSRImportFromEPSG(crs, epsg);
@@ -74,6 +74,11 @@ inline std::string geopackage(const std::string& name, int epsg,
     GDALClose(dataset);
     if (crs != nullptr) OSRDestroySpatialReference(crs);
     return path;
+}
+// A GeoPackage whose layer is called `shapes`.
+inline std::string geopackage(const std::string& name, int epsg,
+                              const std::vector<std::pair<std::string, std::string>>& shapes) {
+    return vector_dataset(name, "GPKG", epsg, shapes);
 }
 
 }  // namespace oro::test

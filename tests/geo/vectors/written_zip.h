@@ -21,6 +21,7 @@ struct ZipEntry {
     std::string name, bytes;
     std::uint32_t crc;
     std::uint16_t flags{}, method{};
+    std::size_t stated_bytes{bytes.size()};  // its length, as the archive tells it
 };
 
 // PKWARE's APPNOTE 6.3: local headers with their bytes, the list of files, the record at the end.
@@ -34,7 +35,7 @@ inline std::string written_zip(const std::string& name, const std::vector<ZipEnt
     for (const ZipEntry& entry : entries) {
         const std::string common = number(20, 2) + number(entry.flags, 2) + number(entry.method, 2) +
                                    number(0, 4) + number(entry.crc, 4) + number(entry.bytes.size(), 4) +
-                                   number(entry.bytes.size(), 4) + number(entry.name.size(), 2) +
+                                   number(entry.stated_bytes, 4) + number(entry.name.size(), 2) +
                                    number(0, 2);
         list += "PK\1\2" + number(20, 2) + common + number(0, 10) + number(zip.size(), 4) + entry.name;
         zip += "PK\3\4" + common + entry.name + entry.bytes;

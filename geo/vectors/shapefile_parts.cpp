@@ -1,0 +1,129 @@
+#include "geo/vectors/shapefile_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "core/base/open_file.h"
+
+namespace oro {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t shp_header_bytes = 100;
+constexpr std::uint64_t dbf_header_bytes = 32;
+constexpr std::uint64_t shx_record_bytes = 8;
+
+Error shapefile_fault(const std::string& what) {
+    return Error{ErrorKind::failed, "", what};
+}
+
+// The file beside `file` with another ending, or "" where there is none.
+std::string part_beside(const std::string& file, const char* small, const char* capital) {
+    for (const char* const ending : {small, capital}) {
+        fs::path path(file);
+        path.replace_extension(ending);
+        std::error_code failed;
+        if (fs::is_regular_file(path, failed) && !failed) return path.string();
+    }
+    return "";
+}
+
+// The beginning of a file, and its length.
+struct PartHead {
+    std::array<unsigned char, dbf_header_bytes> bytes{};
+    std::uint64_t length{};
+
+    [[nodiscard]] std::uint64_t number_low_first(std::size_t at, std::size_t count) const {
+        std::uint64_t value = 0;
+        for (std::size_t i = count; i > 0; --i) value = value << 8U | bytes[at + i - 1];
+        return value;
+    }
+    [[nodiscard]] std::uint64_t number_high_first(std::size_t at, std::size_t count) const {
+        std::uint64_t value = 0;
+        for (std::size_t i = 0; i < count; ++i) value = value << 8U | bytes[at + i];
+        return value;
+    }
+};
+
+Result<PartHead> head_of(const std::string& file, const char* what) {
+    const auto in_one_line = [&](const Error& error) {
+        return shapefile_fault(std::string("its ") + what + " " + error.what);
+    };
+    Result<OpenFile> opened = OpenFile::open(file, OpenFile::Use::read);
+    if (!opened.ok()) return in_one_line(opened.error());
+    const Result<std::uint64_t> length = opened->size();
+    if (!length.ok()) return in_one_line(length.error());
+    PartHead head;
+    head.length = *length;
+    const Error cut = shapefile_fault(std::string("its ") + what + " is cut: it has " +
+                                      std::to_string(head.length) + " bytes");
+    if (head.length < head.bytes.size()) return cut;
+    const Result<void> read = opened->read(0, std::as_writable_bytes(std::span(head.bytes)));
+    return read.ok() ? Result<PartHead>(head) : in_one_line(read.error());
+}
+
+Result<void> check_length(const char* what, std::uint64_t stated, std::uint64_t length) {
+    if (length >= stated) return {};
+    return shapefile_fault(std::string("its ") + what + " is cut: it should have " + std::to_string(stated) +
+                           " bytes, and has " + std::to_string(length));
+}
+
+// A .shp or .shx counts its length in words of two bytes.
+Result<std::uint64_t> checked_length(const std::string& file, const char* what) {
+    ORO_TRY(const PartHead head, head_of(file, what));
+    const std::uint64_t stated = 2 * head.number_high_first(24, 4);
+    if (stated < shp_header_bytes)
+        return shapefile_fault(std::string("its ") + what + " is damaged: it says that it has " +
+                               std::to_string(stated) + " bytes");
+    ORO_CHECK(check_length(what, stated, head.length));
+    return stated;
+}
+
+// The number of records of a .dbf.
+Result<std::uint64_t> checked_records(const std::string& file) {
+    ORO_TRY(const PartHead head, head_of(file, ".dbf"));
+    const std::uint64_t records = head.number_low_first(4, 4), header = head.number_low_first(8, 2),
+                        record = head.number_low_first(10, 2);
+    ORO_CHECK(check_length(".dbf", header + records * record, head.length));
+    return records;
+}
+
+}  // namespace
+
+Result<ShapefileParts> shapefile_parts(const std::string& file) {
+    ShapefileParts parts;
+    const std::string shx = part_beside(file, ".shx", ".SHX"), dbf = part_beside(file, ".dbf", ".DBF"),
+                      prj = part_beside(file, ".prj", ".PRJ"), cpg = part_beside(file, ".cpg", ".CPG");
+    for (const auto& [part, what] :
+         {std::pair{&shx, ".shx, which says where each shape stands"},
+          {&prj, ".prj, which says in which coordinate reference system its places are"}})
+        if (part->empty())
+            return shapefile_fault("is a shapefile without its " + std::string(what) +
+                                   ": put it beside the .shp, under the same name");
+    ORO_CHECK(checked_length(file, ".shp"));
+    ORO_TRY(const std::uint64_t index_bytes, checked_length(shx, ".shx"));
+    if (dbf.empty()) {
+        parts.notes.push_back(file +
+                              ": is a shapefile without its .dbf: its shapes are read, their names and "
+                              "other fields are not there");
+    } else {
+        ORO_TRY(const std::uint64_t records, checked_records(dbf));
+        const std::uint64_t shapes = (index_bytes - shp_header_bytes) / shx_record_bytes;
+        if (records != shapes)
+            parts.notes.push_back(file + ": its .shx counts " + std::to_string(shapes) +
+                                  " shapes and its .dbf " + std::to_string(records) +
+                                  " records: the two may not belong together");
+    }
+    for (const std::string& part : {file, shx, dbf, prj, cpg})
+        if (!part.empty()) parts.files.push_back(part);
+    return parts;
+}
+
+}  // namespace oro
