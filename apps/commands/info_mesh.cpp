@@ -35,7 +35,8 @@ nlohmann::ordered_json mesh_json(const SourceMesh& mesh, const MeshCensus& censu
                        "open_chains", census.open_chains, "rim_edges", census.rim_edges, "crowded_edges",
                        census.crowded_edges, "turned_edges", census.turned_edges, "degenerate",
                        census.degenerate, "duplicates", census.duplicates, "not_finite", mesh.not_finite,
-                       "invisible", mesh.invisible, "polygons_cut", mesh.polygons_cut);
+                       "invisible", mesh.invisible, "polygons_cut", mesh.polygons_cut, "polygons_crossing",
+                       mesh.polygons_crossing);
 }
 
 void print_range(const char* what, double least, double most) {
@@ -77,14 +78,17 @@ void print_mesh(const SourceMesh& mesh, const MeshCensus& census) {
     print_left_out(mesh.not_finite, "with a vertex that is no finite place");
     print_left_out(mesh.invisible, "that the file calls invisible");
     if (mesh.polygons_cut > 0)
-        std::printf("  polygons:      %s of more than three corners, cut into fans\n",
+        std::printf("  polygons:      %s of more than three corners, cut into triangles\n",
                     counted(mesh.polygons_cut, "polygon", "polygons").c_str());
+    if (mesh.polygons_crossing > 0)
+        std::printf("  not simple:    %s without an area, or crossing themselves\n",
+                    counted(mesh.polygons_crossing, "polygon", "polygons").c_str());
 }
 
 }  // namespace
 
 bool names_meshes(const std::vector<std::string>& paths) {
-    return !paths.empty() && std::ranges::all_of(paths, is_mesh_name);
+    return !paths.empty() && std::ranges::all_of(paths, is_mesh_file);
 }
 
 Result<void> run_mesh_info(const InfoOptions& options) {

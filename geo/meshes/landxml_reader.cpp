@@ -65,17 +65,13 @@ struct LandXmlReader {
         }
         const std::string text = text_of(node);
         std::string_view words = text;
-        SourceTriangle triangle{};
-        for (std::uint32_t& corner : triangle) {
-            const std::string word(take_word(words));
-            const auto found = points.find(word);
-            if (word.empty() || found == points.end())
-                return fault(node, word.empty() ? "a face has fewer than three points"
-                                                : "there is no point " + shown_word(word));
-            corner = found->second;
+        std::vector<std::uint32_t> corners;  // three, or four of a grid's cell
+        for (std::string_view word = take_word(words); !word.empty(); word = take_word(words)) {
+            const auto found = points.find(std::string(word));
+            if (found == points.end()) return fault(node, "there is no point " + shown_word(word));
+            corners.push_back(found->second);
         }
-        if (!take_word(words).empty()) return fault(node, "a face has more than three points");
-        mesh.triangles.push_back(triangle);
+        if (const char* const reason = add_polygon(corners, mesh)) return fault(node, reason);
         return {};
     }
 
@@ -112,7 +108,10 @@ Result<SourceMesh> read_landxml(std::string_view bytes) {
         }
     }
     const std::string code = child_named(xml.root(), "CoordinateSystem").attribute("epsgCode").value();
-    if (!code.empty()) reader.mesh.crs = code.starts_with("EPSG:") ? code : "EPSG:" + code;
+    long long number = 0;
+    const std::string_view digits = std::string_view(code).substr(code.starts_with("EPSG:") ? 5 : 0);
+    // Some programs write 0, or words, where they know of none.
+    if (whole_number_in(digits, number) && number > 0) reader.mesh.crs = "EPSG:" + std::to_string(number);
     for (const pugi::xml_node list : xml.root().children()) {
         if (local_name(list) != "Surfaces") continue;
         for (const pugi::xml_node child : list.children())

@@ -7,6 +7,7 @@
 
 #include "core/base/open_file.h"
 #include "geo/meshes/mesh_readers.h"
+#include "geo/meshes/polygon_cut.h"
 
 namespace oro {
 namespace {
@@ -38,6 +39,22 @@ Result<std::string> mesh_bytes(const std::string& path) {
     return bytes;
 }
 
+// The local name of a text's first element: behind a byte order mark, declarations and comments.
+std::string_view first_element(std::string_view text) {
+    for (std::size_t at = text.find('<'); at != std::string_view::npos; at = text.find('<')) {
+        text.remove_prefix(at + 1);
+        if (text.starts_with("!--")) {
+            const std::size_t end = text.find("-->");
+            if (end == std::string_view::npos) return "";
+            text.remove_prefix(end);
+        }
+        if (text.starts_with('?') || text.starts_with('!') || text.starts_with("-->")) continue;
+        const std::string_view name = text.substr(0, text.find_first_of(" \t\r\n/>"));
+        return name.substr(name.find(':') == std::string_view::npos ? 0 : name.find(':') + 1);
+    }
+    return "";
+}
+
 // Drops triangles with a vertex that is not finite, and keeps the parts where they are.
 void drop_not_finite(SourceMesh& mesh) {
     std::size_t kept = 0, part = 0;
@@ -57,6 +74,27 @@ void drop_not_finite(SourceMesh& mesh) {
 }
 
 }  // namespace
+
+const char* add_polygon(const std::vector<std::uint32_t>& corners, SourceMesh& mesh) {
+    if (corners.size() < 3) return "a face has fewer than three corners";
+    if (corners.size() > most_polygon_corners) return "a face has more than 10,000 corners";
+    const bool is_sound = cut_polygon(mesh.vertices, {corners}, mesh.triangles);
+    if (corners.size() > 3) ++mesh.polygons_cut;
+    if (!is_sound) ++mesh.polygons_crossing;
+    return nullptr;
+}
+
+bool is_mesh_file(const std::string& path) {
+    if (mesh_ending(path) != "xml") return is_mesh_name(path);
+    constexpr std::uint64_t most_looked_at = 65536;
+    const Result<OpenFile> file = OpenFile::open(path, OpenFile::Use::read);
+    if (!file.ok()) return false;
+    const Result<std::uint64_t> size = file->size();
+    if (!size.ok()) return false;
+    std::string bytes(std::min(*size, most_looked_at), '\0');
+    if (!file->read(0, std::as_writable_bytes(std::span(bytes))).ok()) return false;
+    return first_element(bytes) == "LandXML";
+}
 
 bool is_mesh_name(const std::string& path) {
     return mesh_reader_for(path) != nullptr;

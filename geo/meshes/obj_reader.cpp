@@ -28,10 +28,7 @@ Result<void> obj_face(std::string_view words, std::size_t line, SourceMesh& mesh
                                   std::to_string(mesh.vertices.size()) + " vertices before it");
         corners.push_back(*corner);
     }
-    if (corners.size() < 3) return mesh_fault("line", line, "a face has fewer than three corners");
-    if (corners.size() > 3) ++mesh.polygons_cut;
-    for (std::size_t i = 2; i < corners.size(); ++i)
-        mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+    if (const char* const fault = add_polygon(corners, mesh)) return mesh_fault("line", line, fault);
     return {};
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "geo/meshes/mesh_readers.h"
 #include "geo/meshes/mesh_words.h"
+#include "geo/meshes/polygon_cut.h"
 
 namespace oro {
 namespace {
@@ -71,13 +73,21 @@ class PlyReader {
         mesh_.format = "PLY";
         ORO_CHECK(header());
         for (const PlyElement& element : elements_) ORO_CHECK(body(element));
-        for (const SourceTriangle& triangle : mesh_.triangles) {
-            for (const std::uint32_t corner : triangle) {
+        // Faces may stand before the vertices.
+        std::vector<std::uint32_t> polygon;
+        std::size_t first = 0;
+        for (const std::uint32_t count : counts_) {
+            polygon.assign(corners_.begin() + static_cast<std::ptrdiff_t>(first),
+                           corners_.begin() + static_cast<std::ptrdiff_t>(first + count));
+            first += count;
+            for (const std::uint32_t corner : polygon) {
                 if (corner >= mesh_.vertices.size())
                     return Error{ErrorKind::failed, "",
                                  "the corner " + std::to_string(corner) + " is none of its " +
                                      std::to_string(mesh_.vertices.size()) + " vertices, which begin with 0"};
             }
+            if (const char* const fault = add_polygon(polygon, mesh_))
+                return Error{ErrorKind::failed, "", fault};
         }
         return std::move(mesh_);
     }
@@ -176,18 +186,14 @@ class PlyReader {
 
     Result<void> face(const std::vector<double>& corners) {
         if (corners.size() < 3) return fault("a face has fewer than three corners");
+        if (corners.size() > most_polygon_corners) return fault("a face has more than 10,000 corners");
         constexpr double most = 4294967295.0;
-        SourceTriangle triangle{};
-        if (corners.size() > 3) ++mesh_.polygons_cut;
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            if (!(corners[i] >= 0.0 && corners[i] < most &&
-                  corners[i] == static_cast<double>(static_cast<std::uint32_t>(corners[i]))))
+        for (const double corner : corners) {
+            if (!(corner >= 0.0 && corner < most && corner == std::floor(corner)))
                 return fault("a corner of a face is no number of a vertex");
-            triangle[std::min<std::size_t>(i, 2)] = static_cast<std::uint32_t>(corners[i]);
-            if (i < 2) continue;
-            mesh_.triangles.push_back(triangle);
-            triangle[1] = triangle[2];
+            corners_.push_back(static_cast<std::uint32_t>(corner));
         }
+        counts_.push_back(static_cast<std::uint32_t>(corners.size()));
         return {};
     }
 
@@ -228,6 +234,7 @@ class PlyReader {
     std::string_view bytes_, rest_;
     PlyLayout layout_{PlyLayout::text};
     std::vector<PlyElement> elements_;
+    std::vector<std::uint32_t> corners_, counts_;  // of the faces, and how many of each
     SourceMesh mesh_;
 };
 

@@ -25,12 +25,13 @@ struct SourceMesh {
     std::vector<glm::dvec3> vertices;  // east (x), north (y), height, in the file's units
     std::vector<SourceTriangle> triangles;
     std::vector<MeshPart> parts;
-    std::string unit;             // as the file names it: "foot"; "" where it names none
-    double metres_per_unit{1.0};  // of `unit`; 1 where there is none
-    std::string crs;              // that the file states, as "EPSG:2056"; "" where it states none
-    std::size_t not_finite{};     // triangles left out: a vertex is NaN or infinite
-    std::size_t invisible{};      // triangles left out: the file says that they are not to be seen
-    std::size_t polygons_cut{};   // polygons of more than three corners, cut as fans from the first one
+    std::string unit;                 // as the file names it: "foot"; "" where it names none
+    double metres_per_unit{1.0};      // of `unit`; 1 where there is none
+    std::string crs;                  // that the file states, as "EPSG:2056"; "" where it states none
+    std::size_t not_finite{};         // triangles left out: a vertex is NaN or infinite
+    std::size_t invisible{};          // triangles left out: the file says that they are not to be seen
+    std::size_t polygons_cut{};       // polygons of more than three corners, cut into triangles
+    std::size_t polygons_crossing{};  // ... of which no cut is sound: they cross themselves, or have no area
 };
 
 }  // namespace oro

@@ -124,6 +124,29 @@ TEST(MeshFile, LandXmlHasItsOrderAndInvisibleFaces) {
     EXPECT_EQ(mesh->parts.at(0).name, "EG");
 }
 
+// Many files are named .xml: only LandXML is a mesh.
+TEST(MeshFile, LooksIntoXml) {
+    EXPECT_TRUE(is_mesh_file(mesh_written(
+        "l.xml", "\xEF\xBB\xBF<?xml version=\"1.0\"?>\n<!-- <gpx> -->\n" + landxml("<F>1 a 7</F>"))));
+    EXPECT_TRUE(is_mesh_file(mesh_written("m.XML", "<lx:LandXML xmlns:lx=\"a\"/>")));
+    EXPECT_FALSE(is_mesh_file(mesh_written("g.xml", "<?xml version=\"1.0\"?><gpx><!-- <LandXML> --></gpx>")));
+    EXPECT_FALSE(is_mesh_file(mesh_written("k.xml", "<!DOCTYPE LandXML><kml/>")));
+    EXPECT_FALSE(is_mesh_file(mesh_written("c.xml", "<!-- <LandXML>")));
+    EXPECT_FALSE(is_mesh_file(mesh_written("e.xml", "")));
+    EXPECT_FALSE(is_mesh_file("no/such/file.xml"));
+    EXPECT_TRUE(is_mesh_file("no/such/file.stl"));
+}
+
+TEST(MeshFile, LandXmlHasCellsOfGridsAndNoCrsZero) {
+    std::string text = landxml("<F>1 a 7 9</F>");
+    text.replace(text.find("2056"), 4, "0");
+    text.replace(text.find("</Pnts>"), 0, "<P id=\"9\">1200009 2600009 433</P>");
+    const auto mesh = read_mesh(mesh_written("grid.xml", text));
+    ASSERT_TRUE(mesh.ok()) << mesh.error().line();
+    EXPECT_EQ(mesh->triangles.size(), 2U);
+    EXPECT_EQ(mesh->crs, "");
+}
+
 TEST(MeshFile, RefusesBadInputInOneLine) {
     EXPECT_EQ(refusal("a.obj", ""), "no triangles");
     EXPECT_EQ(refusal("b.obj", "v 0 0 0\n"), "no triangles");
