@@ -4,6 +4,7 @@
 
 #include "apps/commands/commands.h"
 #include "apps/commands/info_json.h"
+#include "apps/commands/info_mesh.h"
 #include "apps/commands/info_text.h"
 #include "apps/drawing/clusters_of_region.h"
 #include "apps/drawing/pipeline_choice.h"
@@ -94,6 +95,7 @@ Result<void> check_grids(const Region& region) {
 }  // namespace
 
 Result<void> run_info(const InfoOptions& options) {
+    if (names_meshes(options.region.paths)) return run_mesh_info(options);
     ORO_TRY(RegionRequest request, region_request(options.region));
     request.allow_multiple_grids = true;
     ProgressBar bar(options.quiet);

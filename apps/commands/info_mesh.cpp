@@ -1,0 +1,111 @@
+#include "apps/commands/info_mesh.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "apps/command_line/refusals.h"
+#include "apps/options/region_option_table.h"
+#include "apps/report/figures.h"
+#include "apps/report/json_object.h"
+#include "apps/report/json_text.h"
+#include "core/base/one_line.h"
+#include "geo/meshes/mesh_census.h"
+#include "geo/meshes/mesh_file.h"
+
+namespace oro {
+namespace {
+
+std::size_t part_triangles(const SourceMesh& mesh, std::size_t part) {
+    const std::size_t end =
+        part + 1 < mesh.parts.size() ? mesh.parts[part + 1].first_triangle : mesh.triangles.size();
+    return end - mesh.parts[part].first_triangle;
+}
+
+nlohmann::ordered_json mesh_json(const SourceMesh& mesh, const MeshCensus& census) {
+    nlohmann::ordered_json parts = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < mesh.parts.size(); ++i)
+        parts.push_back(json_object("name", mesh.parts[i].name, "triangles", part_triangles(mesh, i)));
+    const auto stated = [](const std::string& word) {
+        return word.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(word);
+    };
+    return json_object("path", mesh.path, "format", mesh.format, "crs", stated(mesh.crs), "unit",
+                       stated(mesh.unit), "triangles", census.triangles, "vertices", census.vertices, "parts",
+                       std::move(parts), "least", json_list(census.least.x, census.least.y, census.least.z),
+                       "most", json_list(census.most.x, census.most.y, census.most.z), "rims", census.rims,
+                       "open_chains", census.open_chains, "rim_edges", census.rim_edges, "crowded_edges",
+                       census.crowded_edges, "turned_edges", census.turned_edges, "degenerate",
+                       census.degenerate, "duplicates", census.duplicates, "not_finite", mesh.not_finite,
+                       "invisible", mesh.invisible, "polygons_cut", mesh.polygons_cut, "polygons_crossing",
+                       mesh.polygons_crossing);
+}
+
+void print_range(const char* what, double least, double most) {
+    std::printf("  %-14s %.3f to %.3f\n", what, least, most);
+}
+
+void print_left_out(std::size_t count, const char* why) {
+    if (count > 0)
+        std::printf("  left out:      %s %s\n", counted(count, "triangle", "triangles").c_str(), why);
+}
+
+void print_mesh(const SourceMesh& mesh, const MeshCensus& census) {
+    std::printf("%s: %s, %s, %s\n", one_line(mesh.path).c_str(), mesh.format.c_str(),
+                counted(census.triangles, "triangle", "triangles").c_str(),
+                counted(census.vertices, "vertex", "vertices").c_str());
+    constexpr std::size_t most_parts = 20;
+    for (std::size_t i = 0; i < std::min(most_parts, mesh.parts.size()); ++i)
+        std::printf("  part:          %s, %s\n", one_line(mesh.parts[i].name).c_str(),
+                    counted(part_triangles(mesh, i), "triangle", "triangles").c_str());
+    if (mesh.parts.size() > most_parts) std::printf("  and %zu more parts\n", mesh.parts.size() - most_parts);
+    std::printf("  CRS:           %s\n",
+                mesh.crs.empty() ? "the file states none" : one_line(mesh.crs).c_str());
+    std::printf("  unit:          %s\n",
+                mesh.unit.empty() ? "the file states none" : one_line(mesh.unit).c_str());
+    print_range("east:", census.least.x, census.most.x);
+    print_range("north:", census.least.y, census.most.y);
+    print_range("height:", census.least.z, census.most.z);
+    std::printf("  rims:          %zu closed, of %s\n", census.rims,
+                counted(census.rim_edges, "edge", "edges").c_str());
+    if (census.open_chains > 0)
+        std::printf("  open chains:   %zu of edges of one triangle\n", census.open_chains);
+    std::printf("  crowded:       %s of three and more triangles\n",
+                counted(census.crowded_edges, "edge", "edges").c_str());
+    std::printf("  turned:        %s between triangles that face opposite ways\n",
+                counted(census.turned_edges, "edge", "edges").c_str());
+    std::printf("  degenerate:    %s without an area\n",
+                counted(census.degenerate, "triangle", "triangles").c_str());
+    std::printf("  duplicates:    %s\n", counted(census.duplicates, "triangle", "triangles").c_str());
+    print_left_out(mesh.not_finite, "with a vertex that is no finite place");
+    print_left_out(mesh.invisible, "that the file calls invisible");
+    if (mesh.polygons_cut > 0)
+        std::printf("  polygons:      %s of more than three corners, cut into triangles\n",
+                    counted(mesh.polygons_cut, "polygon", "polygons").c_str());
+    if (mesh.polygons_crossing > 0)
+        std::printf("  not simple:    %s without an area, or crossing themselves\n",
+                    counted(mesh.polygons_crossing, "polygon", "polygons").c_str());
+}
+
+}  // namespace
+
+bool names_meshes(const std::vector<std::string>& paths) {
+    return !paths.empty() && std::ranges::all_of(paths, is_mesh_file);
+}
+
+Result<void> run_mesh_info(const InfoOptions& options) {
+    if (const char* option = first_given_of_region(options.region); option != nullptr)
+        return refused(option, "", "says nothing of a mesh: it is for elevation data");
+    if (options.check) return refused("--check", "", "says nothing of a mesh: meshes are always read whole");
+    nlohmann::ordered_json meshes = nlohmann::ordered_json::array();
+    for (const std::string& path : options.region.paths) {
+        ORO_TRY(const SourceMesh mesh, read_mesh(path));
+        const MeshCensus census = census_of(mesh);
+        if (options.json)
+            meshes.push_back(mesh_json(mesh, census));
+        else
+            print_mesh(mesh, census);
+    }
+    if (options.json) std::printf("%s\n", json_text(json_object("meshes", std::move(meshes)), true).c_str());
+    return {};
+}
+
+}  // namespace oro

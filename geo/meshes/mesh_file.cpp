@@ -1,0 +1,121 @@
+#include "geo/meshes/mesh_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <span>
+
+#include "core/base/open_file.h"
+#include "geo/meshes/mesh_readers.h"
+#include "geo/meshes/polygon_cut.h"
+
+namespace oro {
+namespace {
+
+std::string mesh_ending(const std::string& path) {
+    const std::size_t dot = path.rfind('.');
+    std::string ending = dot == std::string::npos ? "" : path.substr(dot + 1);
+    std::ranges::transform(ending, ending.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending;
+}
+
+using MeshReader = Result<SourceMesh> (*)(std::string_view);
+MeshReader mesh_reader_for(const std::string& path) {
+    const std::string ending = mesh_ending(path);
+    if (ending == "obj") return read_obj;
+    if (ending == "ply") return read_ply;
+    if (ending == "stl") return read_stl;
+    return ending == "xml" || ending == "landxml" ? read_landxml : nullptr;
+}
+
+Result<std::string> mesh_bytes(const std::string& path) {
+    ORO_TRY(const OpenFile file, OpenFile::open(path, OpenFile::Use::read));
+    ORO_TRY(const std::uint64_t size, file.size());
+    if (size > most_mesh_bytes)
+        return Error{ErrorKind::failed, path, "is larger than 1 GiB; a mesh may have so much"};
+    std::string bytes(size, '\0');
+    ORO_CHECK(file.read(0, std::as_writable_bytes(std::span(bytes))));
+    return bytes;
+}
+
+// The local name of a text's first element: behind a byte order mark, declarations and comments.
+std::string_view first_element(std::string_view text) {
+    for (std::size_t at = text.find('<'); at != std::string_view::npos; at = text.find('<')) {
+        text.remove_prefix(at + 1);
+        if (text.starts_with("!--")) {
+            const std::size_t end = text.find("-->");
+            if (end == std::string_view::npos) return "";
+            text.remove_prefix(end);
+        }
+        if (text.starts_with('?') || text.starts_with('!') || text.starts_with("-->")) continue;
+        const std::string_view name = text.substr(0, text.find_first_of(" \t\r\n/>"));
+        return name.substr(name.find(':') == std::string_view::npos ? 0 : name.find(':') + 1);
+    }
+    return "";
+}
+
+// Drops triangles with a vertex that is not finite, and keeps the parts where they are.
+void drop_not_finite(SourceMesh& mesh) {
+    std::size_t kept = 0, part = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        for (; part < mesh.parts.size() && mesh.parts[part].first_triangle <= i; ++part)
+            mesh.parts[part].first_triangle = kept;
+        const SourceTriangle triangle = mesh.triangles[i];
+        const bool finite = std::ranges::all_of(triangle, [&](std::uint32_t corner) {
+            const glm::dvec3& at = mesh.vertices[corner];
+            return std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z);
+        });
+        if (finite) mesh.triangles[kept++] = triangle;
+    }
+    for (; part < mesh.parts.size(); ++part) mesh.parts[part].first_triangle = kept;
+    mesh.not_finite = mesh.triangles.size() - kept;
+    mesh.triangles.resize(kept);
+}
+
+}  // namespace
+
+const char* add_polygon(const std::vector<std::uint32_t>& corners, SourceMesh& mesh) {
+    if (corners.size() < 3) return "a face has fewer than three corners";
+    if (corners.size() > most_polygon_corners) return "a face has more than 10,000 corners";
+    const bool is_sound = cut_polygon(mesh.vertices, {corners}, mesh.triangles);
+    if (corners.size() > 3) ++mesh.polygons_cut;
+    if (!is_sound) ++mesh.polygons_crossing;
+    return nullptr;
+}
+
+bool is_mesh_file(const std::string& path) {
+    if (mesh_ending(path) != "xml") return is_mesh_name(path);
+    constexpr std::uint64_t most_looked_at = 65536;
+    const Result<OpenFile> file = OpenFile::open(path, OpenFile::Use::read);
+    if (!file.ok()) return false;
+    const Result<std::uint64_t> size = file->size();
+    if (!size.ok()) return false;
+    std::string bytes(std::min(*size, most_looked_at), '\0');
+    if (!file->read(0, std::as_writable_bytes(std::span(bytes))).ok()) return false;
+    return first_element(bytes) == "LandXML";
+}
+
+bool is_mesh_name(const std::string& path) {
+    return mesh_reader_for(path) != nullptr;
+}
+
+Result<SourceMesh> read_mesh(const std::string& path) {
+    const MeshReader reader = mesh_reader_for(path);
+    if (reader == nullptr)
+        return Error{ErrorKind::failed, path, "is no mesh by its name: .obj, .ply, .stl, .xml are"};
+    ORO_TRY(const std::string bytes, mesh_bytes(path));
+    Result<SourceMesh> read = reader(bytes);
+    if (!read.ok()) return Error{read.error().kind, path, read.error().what};
+    SourceMesh mesh = std::move(*read);
+    mesh.path = path;
+    if (mesh.triangles.empty())
+        return Error{ErrorKind::failed, path,
+                     mesh.invisible > 0 ? "no triangles: all are marked invisible" : "no triangles"};
+    drop_not_finite(mesh);
+    if (mesh.triangles.empty())
+        return Error{ErrorKind::failed, path, "no triangles: each has a vertex that is no finite place"};
+    return mesh;
+}
+
+}  // namespace oro

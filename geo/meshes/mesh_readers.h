@@ -1,0 +1,24 @@
+// One reader a format, over the bytes of a whole file. Each gives a mesh without its path, or an Error
+// without its place: the reason, with the line or the byte. Vertices that are not finite stay; read_mesh()
+// drops their triangles.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "core/base/result.h"
+#include "geo/meshes/source_mesh.h"
+
+namespace oro {
+
+// Adds a polygon of a mesh, three corners or more, and counts it. Its vertices are there. A reason where it
+// has too many corners.
+const char* add_polygon(const std::vector<std::uint32_t>& corners, SourceMesh& mesh);
+
+Result<SourceMesh> read_obj(std::string_view bytes);
+Result<SourceMesh> read_ply(std::string_view bytes);
+Result<SourceMesh> read_stl(std::string_view bytes);
+Result<SourceMesh> read_landxml(std::string_view bytes);
+
+}  // namespace oro

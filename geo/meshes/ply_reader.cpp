@@ -1,0 +1,249 @@
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geo/meshes/mesh_readers.h"
+#include "geo/meshes/mesh_words.h"
+#include "geo/meshes/polygon_cut.h"
+
+namespace oro {
+namespace {
+
+enum class PlyLayout { text, little_endian, big_endian };
+
+// A number's type: its bytes in a binary file.
+struct PlyType {
+    enum class Kind { whole, unsigned_whole, real };
+    std::size_t bytes;
+    Kind kind;
+};
+
+struct PlyProperty {
+    std::string name;
+    PlyType type;
+    std::optional<PlyType> count;  // of a list
+};
+
+struct PlyElement {
+    std::string name;
+    std::uint64_t count;
+    std::vector<PlyProperty> properties{};
+};
+
+std::optional<PlyType> ply_type(std::string_view name) {
+    using enum PlyType::Kind;
+    if (name == "char" || name == "int8") return PlyType{1, whole};
+    if (name == "uchar" || name == "uint8") return PlyType{1, unsigned_whole};
+    if (name == "short" || name == "int16") return PlyType{2, whole};
+    if (name == "ushort" || name == "uint16") return PlyType{2, unsigned_whole};
+    if (name == "int" || name == "int32") return PlyType{4, whole};
+    if (name == "uint" || name == "uint32") return PlyType{4, unsigned_whole};
+    if (name == "float" || name == "float32") return PlyType{4, real};
+    if (name == "double" || name == "float64") return PlyType{8, real};
+    return std::nullopt;
+}
+
+template <class T>
+double ply_value(const char* from) {
+    T value;
+    std::memcpy(&value, from, sizeof value);
+    return static_cast<double>(value);
+}
+
+// The value of 1 to 8 bytes in this machine's order (little endian).
+double ply_number(const char* from, PlyType type) {
+    using enum PlyType::Kind;
+    if (type.kind == real) return type.bytes == 4 ? ply_value<float>(from) : ply_value<double>(from);
+    const bool is_signed = type.kind == whole;
+    if (type.bytes == 1) return is_signed ? ply_value<std::int8_t>(from) : ply_value<std::uint8_t>(from);
+    if (type.bytes == 2) return is_signed ? ply_value<std::int16_t>(from) : ply_value<std::uint16_t>(from);
+    return is_signed ? ply_value<std::int32_t>(from) : ply_value<std::uint32_t>(from);
+}
+
+class PlyReader {
+  public:
+    explicit PlyReader(std::string_view bytes) : bytes_(bytes), rest_(bytes) {}
+
+    Result<SourceMesh> all() {
+        mesh_.format = "PLY";
+        ORO_CHECK(header());
+        for (const PlyElement& element : elements_) ORO_CHECK(body(element));
+        // Faces may stand before the vertices.
+        std::vector<std::uint32_t> polygon;
+        std::size_t first = 0;
+        for (const std::uint32_t count : counts_) {
+            polygon.assign(corners_.begin() + static_cast<std::ptrdiff_t>(first),
+                           corners_.begin() + static_cast<std::ptrdiff_t>(first + count));
+            first += count;
+            for (const std::uint32_t corner : polygon) {
+                if (corner >= mesh_.vertices.size())
+                    return Error{ErrorKind::failed, "",
+                                 "the corner " + std::to_string(corner) + " is none of its " +
+                                     std::to_string(mesh_.vertices.size()) + " vertices, which begin with 0"};
+            }
+            if (const char* const fault = add_polygon(polygon, mesh_))
+                return Error{ErrorKind::failed, "", fault};
+        }
+        return std::move(mesh_);
+    }
+
+  private:
+    [[nodiscard]] Error fault(const std::string& why) const {
+        return mesh_fault("byte", bytes_.size() - rest_.size(), why);
+    }
+
+    Result<void> header() {
+        if (take_line(rest_) != "ply") return Error{ErrorKind::failed, "", "is no PLY: it begins otherwise"};
+        bool has_format = false;
+        while (!rest_.empty()) {
+            std::string_view line = take_line(rest_);
+            const std::string_view key = take_word(line);
+            if (key == "end_header") {
+                if (!has_format) return fault("the header names no format");
+                return {};
+            }
+            if (key == "format") {
+                const std::string_view name = take_word(line);
+                has_format = true;
+                if (name == "binary_little_endian")
+                    layout_ = PlyLayout::little_endian;
+                else if (name == "binary_big_endian")
+                    layout_ = PlyLayout::big_endian;
+                else if (name != "ascii")
+                    return fault("an unknown format: " + shown_word(name));
+            } else if (key == "element") {
+                const std::string_view name = take_word(line);
+                long long count = -1;
+                if (!whole_number_in(take_word(line), count) || count < 0)
+                    return fault("an element without a count");
+                elements_.push_back({std::string(name), static_cast<std::uint64_t>(count)});
+            } else if (key == "property") {
+                ORO_CHECK(property(line));
+            }
+        }
+        return fault("the header has no end");
+    }
+
+    Result<void> property(std::string_view line) {
+        if (elements_.empty()) return fault("a property before the first element");
+        std::string_view word = take_word(line);
+        std::optional<PlyType> count;
+        if (word == "list") {
+            count = ply_type(take_word(line));
+            if (!count || count->kind == PlyType::Kind::real)
+                return fault("a list without a type of its count");
+            word = take_word(line);
+        }
+        const auto type = ply_type(word);
+        if (!type) return fault("an unknown type: " + shown_word(word));
+        elements_.back().properties.push_back({std::string(take_word(line)), *type, count});
+        return {};
+    }
+
+    // The fewest bytes that one of an element takes: what a header promises is held against the file's
+    // length.
+    [[nodiscard]] std::uint64_t fewest_bytes(const PlyElement& element) const {
+        std::uint64_t sum = 0;
+        for (const PlyProperty& property : element.properties)
+            sum += layout_ == PlyLayout::text ? 2
+                   : property.count           ? property.count->bytes
+                                              : property.type.bytes;
+        return std::max<std::uint64_t>(sum, 1);
+    }
+
+    Result<double> number(PlyType type) {
+        if (layout_ == PlyLayout::text) {
+            const std::string_view word = take_word(rest_);
+            double value = 0.0;
+            if (word.empty()) return fault("the file ends too early");
+            if (!mesh_number(word, value)) return fault(shown_word(word) + " is no number");
+            return value;
+        }
+        if (rest_.size() < type.bytes) return fault("the file ends too early");
+        char copy[8];
+        std::memcpy(copy, rest_.data(), type.bytes);
+        rest_.remove_prefix(type.bytes);
+        if (layout_ == PlyLayout::big_endian) std::reverse(copy, copy + type.bytes);
+        return ply_number(copy, type);
+    }
+
+    Result<void> list(const PlyProperty& property, std::vector<double>& values) {
+        ORO_TRY(const double count, number(*property.count));
+        const auto most =
+            static_cast<double>(rest_.size() / (layout_ == PlyLayout::text ? 1 : property.type.bytes));
+        if (!(count >= 0.0 && count <= most)) return fault("a list is longer than the file");
+        values.resize(static_cast<std::size_t>(count));
+        for (double& value : values) {
+            ORO_TRY(value, number(property.type));
+        }
+        return {};
+    }
+
+    Result<void> face(const std::vector<double>& corners) {
+        if (corners.size() < 3) return fault("a face has fewer than three corners");
+        if (corners.size() > most_polygon_corners) return fault("a face has more than 10,000 corners");
+        constexpr double most = 4294967295.0;
+        for (const double corner : corners) {
+            if (!(corner >= 0.0 && corner < most && corner == std::floor(corner)))
+                return fault("a corner of a face is no number of a vertex");
+            corners_.push_back(static_cast<std::uint32_t>(corner));
+        }
+        counts_.push_back(static_cast<std::uint32_t>(corners.size()));
+        return {};
+    }
+
+    Result<void> body(const PlyElement& element) {
+        if (element.count > rest_.size() / fewest_bytes(element))
+            return fault("the header promises " + std::to_string(element.count) + " of " +
+                         shown_word(element.name) + ", more than the file can hold");
+        const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
+        if (is_vertex) {
+            for (const char* axis : {"x", "y", "z"}) {
+                if (std::ranges::none_of(element.properties, [&](const PlyProperty& property) {
+                        return property.name == axis && !property.count;
+                    }))
+                    return fault(std::string("vertices have no ") + axis);
+            }
+            mesh_.vertices.reserve(element.count);
+        }
+        std::vector<double> values;
+        for (std::uint64_t i = 0; i < element.count; ++i) {
+            glm::dvec3 place{};
+            for (const PlyProperty& property : element.properties) {
+                if (property.count) {
+                    ORO_CHECK(list(property, values));
+                    if (is_face && (property.name == "vertex_indices" || property.name == "vertex_index"))
+                        ORO_CHECK(face(values));
+                    continue;
+                }
+                ORO_TRY(const double value, number(property.type));
+                if (property.name == "x") place.x = value;
+                if (property.name == "y") place.y = value;
+                if (property.name == "z") place.z = value;
+            }
+            if (is_vertex) mesh_.vertices.push_back(place);
+        }
+        return {};
+    }
+
+    std::string_view bytes_, rest_;
+    PlyLayout layout_{PlyLayout::text};
+    std::vector<PlyElement> elements_;
+    std::vector<std::uint32_t> corners_, counts_;  // of the faces, and how many of each
+    SourceMesh mesh_;
+};
+
+}  // namespace
+
+static_assert(std::endian::native == std::endian::little);
+
+Result<SourceMesh> read_ply(std::string_view bytes) {
+    return PlyReader(bytes).all();
+}
+
+}  // namespace oro

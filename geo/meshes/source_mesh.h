@@ -1,0 +1,37 @@
+// A mesh of triangles as a file has it: in double, in the file's own CRS and units.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+namespace oro {
+
+// A named part of a mesh: the triangles from `first_triangle` to the next part's first.
+struct MeshPart {
+    std::string name;  // "" where the file gives none
+    std::size_t first_triangle{};
+};
+
+using SourceTriangle = std::array<std::uint32_t, 3>;  // numbers of vertices, from 0
+
+// What a file of triangles holds. Each triangle's vertices are there, and are finite.
+struct SourceMesh {
+    std::string path;
+    std::string format;                // "OBJ", "PLY", "STL", "LandXML"
+    std::vector<glm::dvec3> vertices;  // east (x), north (y), height, in the file's units
+    std::vector<SourceTriangle> triangles;
+    std::vector<MeshPart> parts;
+    std::string unit;                 // as the file names it: "foot"; "" where it names none
+    double metres_per_unit{1.0};      // of `unit`; 1 where there is none
+    std::string crs;                  // that the file states, as "EPSG:2056"; "" where it states none
+    std::size_t not_finite{};         // triangles left out: a vertex is NaN or infinite
+    std::size_t invisible{};          // triangles left out: the file says that they are not to be seen
+    std::size_t polygons_cut{};       // polygons of more than three corners, cut into triangles
+    std::size_t polygons_crossing{};  // ... of which no cut is sound: they cross themselves, or have no area
+};
+
+}  // namespace oro
