@@ -449,7 +449,7 @@ void add_viewshed(CLI::App& app, ViewshedOptions& options) {
                        "docs/commands/viewshed.md"});
 }
 
-void add_bake(CLI::App& app, BakingOptions& options) {
+void add_bake(CLI::App& app, BakePartOptions& options) {
     CLI::App& command = *app.add_subcommand(
         "bake", "Write elevation data into one file (.oro) that opens at once, however large it is");
     OptionGroup file(command, "The file");
@@ -457,6 +457,15 @@ void add_bake(CLI::App& app, BakingOptions& options) {
     file.choice("--mesh", options.mesh, {"grid", "clusters"},
                 "What is drawn of it: blocks of the grid (default), or clusters beside them, which take some "
                 "seconds a tile to build, and a fraction of the triangles.");
+    CLI::Option& shard = file.option("--shard", options.shard, "PART",
+                                     "Do a part of what takes long, NUMBER/COUNT as in 2/4, and write it "
+                                     "beside the file: FILE.oro.part-2of4. "
+                                     "Several machines then bake a region together.");
+    file.flag("--join", options.join,
+              "Bake from the parts that --shard has written, all of them. The file has the bytes of one that "
+              "one "
+              "machine bakes. Not with --shard.")
+        .excludes(&shard);
     file.flag("--overwrite", options.overwrite, "Replace a file that is there.");
     add_region_options(command, options.region);
     add_json(command, options.json);

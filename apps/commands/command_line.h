@@ -2,6 +2,7 @@
 #pragma once
 
 #include "apps/commands/options.h"
+#include "apps/options/bake_part_options.h"
 #include "apps/options/export_options.h"
 #include "apps/options/serve_options.h"
 
@@ -20,7 +21,7 @@ struct CommandLine {
     SightOptions sight;
     ProfileOptions profile;
     ViewshedOptions viewshed;
-    BakingOptions bake;
+    BakePartOptions bake;
     ExportOptions exporting;
     ServeOptions serve;
     InfoOptions info;

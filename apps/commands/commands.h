@@ -10,8 +10,9 @@ class App;
 
 namespace oro {
 
-struct ExportOptions;  // apps/options/export_options.h
-struct ServeOptions;   // apps/options/serve_options.h
+struct BakePartOptions;  // apps/options/bake_part_options.h
+struct ExportOptions;    // apps/options/export_options.h
+struct ServeOptions;     // apps/options/serve_options.h
 
 // Writes a geotagged picture and, beside it, its view; with --verify also a picture of its errors.
 Result<void> run_shot(const ShotOptions& options);
@@ -35,8 +36,9 @@ Result<void> run_profile(const ProfileOptions& options);
 Result<void> run_viewshed(const ViewshedOptions& options);
 // Opens a window to fly over a region.
 Result<void> run_view(const WindowOptions& options);
-// Writes a region with all its levels into a file, or goes on with one that was broken off.
-Result<void> run_bake(const BakingOptions& options);
+// Writes a region with all its levels into a file, or goes on with one that was broken off; or a part of what
+// that takes, or joins such parts.
+Result<void> run_bake(const BakePartOptions& options);
 // Writes the heights of a region in a format of others.
 Result<void> run_export(const ExportOptions& options);
 // Serves a folder to browsers, read-only, until it is interrupted.
