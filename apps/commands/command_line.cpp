@@ -503,6 +503,35 @@ void add_export(CLI::App& app, ExportOptions& options) {
                        "docs/commands/export.md"});
 }
 
+void add_batch(CLI::App& app, BatchOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "batch", "Run the commands of a list, and go on where it stopped; several machines may share it");
+    OptionGroup list(command, "The list");
+    list.option("JOBS", options.jobs, "",
+                "A file with a JSON object on each line: {\"command\": \"shot\", \"path\": \"alps\", \"at\": "
+                "\"46.57,7.99\", \"out\": \"a.png\"}. Names are those of the command's options.")
+        .required();
+    list.option(
+        "--each", options.each, "FILE",
+        "Do each line for each place of this file: a table (.csv) whose first line names its fields, or "
+        "points of GPX, KML, GeoJSON or GeoPackage. {name} in a line is the place's name, and so is each "
+        "field; {lat}, {lon} and {number} are there, too.");
+    list.option(
+        "--shard", options.shard, "PART",
+        "Do a part of the list, NUMBER/COUNT: 2/4 does the second of each four lines. Several machines "
+        "then do a list together.");
+    list.option("--log", options.log, "FILE",
+                "Keep the record of what is done in this file. Default: JOBS.done, beside the list.");
+    list.flag("--check", options.check, "Look at each line, tell what is to be done, and do nothing.");
+    list.flag("--overwrite", options.overwrite, "Replace files that are there, and are not of the same job.");
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "what the commands print, and errors");
+    set_help(command,
+             {{"batch JOBS [OPTIONS]"},
+              "A line that fails is told, and the rest is done. What is done already is not done again.",
+              "docs/commands/batch.md"});
+}
+
 void add_serve(CLI::App& app, ServeOptions& options) {
     CLI::App& command = *app.add_subcommand("serve", "Serve a folder to browsers on this machine, read-only");
     OptionGroup served(command, "The folder");
@@ -584,6 +613,7 @@ void add_commands(CLI::App& app, CommandLine& line) {
     add_viewshed(app, line.viewshed);
     add_bake(app, line.bake);
     add_export(app, line.exporting);
+    add_batch(app, line.batch);
     add_serve(app, line.serve);
     add_info(app, line.info);
     add_doctor(app, line.doctor);

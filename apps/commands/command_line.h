@@ -3,6 +3,7 @@
 
 #include "apps/commands/options.h"
 #include "apps/options/bake_part_options.h"
+#include "apps/options/batch_options.h"
 #include "apps/options/export_options.h"
 #include "apps/options/serve_options.h"
 
@@ -23,6 +24,7 @@ struct CommandLine {
     ViewshedOptions viewshed;
     BakePartOptions bake;
     ExportOptions exporting;
+    BatchOptions batch;
     ServeOptions serve;
     InfoOptions info;
     DoctorOptions doctor;

@@ -11,6 +11,7 @@ class App;
 namespace oro {
 
 struct BakePartOptions;  // apps/options/bake_part_options.h
+struct BatchOptions;     // apps/options/batch_options.h
 struct ExportOptions;    // apps/options/export_options.h
 struct ServeOptions;     // apps/options/serve_options.h
 
@@ -41,6 +42,8 @@ Result<void> run_view(const WindowOptions& options);
 Result<void> run_bake(const BakePartOptions& options);
 // Writes the heights of a region in a format of others.
 Result<void> run_export(const ExportOptions& options);
+// Runs the commands of a list, one after the other, and tells which failed.
+Result<void> run_batch(const BatchOptions& options);
 // Serves a folder to browsers, read-only, until it is interrupted.
 Result<void> run_serve(const ServeOptions& options);
 // Tells what the sources of a region are and what is missing.

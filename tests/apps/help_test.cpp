@@ -18,8 +18,8 @@ using oro::test::run_orograph;
 using oro::test::run_program;
 using oro::test::Words;
 
-const Words commands{"shot",  "panorama", "film",     "view", "compare", "plan",  "trade", "sun",
-                     "sight", "profile",  "viewshed", "bake", "export",  "serve", "info",  "doctor"};
+const Words commands{"shot",    "panorama", "film", "view",   "compare", "plan",  "trade", "sun",   "sight",
+                     "profile", "viewshed", "bake", "export", "batch",   "serve", "info",  "doctor"};
 const std::string exit_line =
     "\nExit code: 0 done, 1 failed, 2 wrong arguments, 3 no data in the region, 4 no suitable GPU.\n";
 
@@ -96,7 +96,7 @@ TEST(Help, HasTheSameHeadingsInTheSameOrder) {
         if (command == "sight" || command == "viewshed") wanted = {order[0], order[3], order[4]};
         if (command == "profile") wanted = {order[0], order[4]};
         if (command == "bake" || command == "export" || command == "info") wanted = {order[0], order[4]};
-        if (command == "doctor" || command == "serve") wanted = {order[4]};
+        if (command == "doctor" || command == "serve" || command == "batch") wanted = {order[4]};
         EXPECT_EQ(found, wanted) << command;
     }
 }

@@ -32,7 +32,7 @@ void expect_lines(const std::vector<Refused>& all) {
 TEST(RefusedOptions, NoCommandIsOneForHelpEither) {
     const std::string these =
         "; these are shot, panorama, film, view, compare, plan, trade, sun, sight, profile, viewshed, bake, "
-        "export, serve, info "
+        "export, batch, serve, info "
         "and "
         "doctor";
     expect_lines({{{"nonsense", "--help"}, "there is no command \"nonsense\"" + these},
@@ -164,7 +164,7 @@ TEST(RefusedOptions, NamesThatThereAreNot) {
          {{"soar"},
           "there is no command \"soar\"; these are shot, panorama, film, view, compare, plan, trade, sun, "
           "sight, "
-          "profile, viewshed, bake, export, serve, info and doctor"}});
+          "profile, viewshed, bake, export, batch, serve, info and doctor"}});
 }
 
 TEST(RefusedOptions, NamesOfFilesToWrite) {
@@ -172,6 +172,8 @@ TEST(RefusedOptions, NamesOfFilesToWrite) {
     expect_lines(
         {{{"shot", file, "--out", "p.bmp"},
           "--out p.bmp: a picture's name ends in .png, .jpg, .jpeg, .tif or .tiff"},
+         {{"batch", "none.jsonl", "--shard", "0/4"},
+          "--shard 0/4: must be NUMBER/COUNT, the number from 1 to the count: 2/4"},
          {{"compare", "p.png", "--out", "e.jpg"}, "--out e.jpg: the picture of errors must be a .png"},
          {{"compare", "p.png", "--out", "e"}, "--out e: the picture of errors must be a .png"},
          {{"bake", file, "--out", "r.tif"}, "--out r.tif: the file's name must end in .oro"},

@@ -14,6 +14,7 @@
 #include "apps/commands/shot/shot_json.h"
 #include "apps/commands/shot/shot_views.h"
 #include "apps/drawing/drape.h"
+#include "apps/drawing/kept_drawing.h"
 #include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/picking.h"
 #include "apps/drawing/pipeline_choice.h"
@@ -238,7 +239,7 @@ Result<void> spare_files_of(const ShotOptions& options, const PictureFiles& file
 struct ShotSeries {
     std::optional<View> opened;
     Region region;
-    std::unique_ptr<Gpu> gpu;
+    std::shared_ptr<const Gpu> gpu;
 };
 
 // The view of a shot, and its region. listed: the view itself, of several; null: it is in its file, or in
@@ -279,32 +280,55 @@ Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, c
     return load_style(shot.view, shot.region.grids.front().field);
 }
 
+// A shot's scene, and its key where it can be left to the next one; "" where it cannot.
+struct ShotScene {
+    RegionScene whole;
+    std::string key;
+};
+
 // The region, ready to be drawn; what --tolerance chooses is chosen.
-Result<Scene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& gpu, const Style& style,
-                       const ShotGround& ground, ProgressBar& bar, ShotResult& shot) {
+Result<ShotScene> scene_of(const ShotOptions& options, double ceiling_m, const Gpu& gpu, const Style& style,
+                           const ShotGround& ground, ProgressBar& bar, ShotResult& shot) {
     const auto start = Clock::now();
-    ORO_TRY(GridPages pages, make_grid_pages(shot.region, ground.cuts, shot.view.exaggeration,
-                                             [&](double share) { bar.show(share, "measuring levels"); }));
-    if (options.view.tolerance) ORO_CHECK(choose_bundle(options, ground.cuts, pointers_to(pages), shot));
+    GridPages pages;
+    const bool asks = options.view.tolerance.has_value();
+    const auto make_pages = [&]() -> Result<void> {
+        ORO_TRY(pages, make_grid_pages(shot.region, ground.cuts, shot.view.exaggeration,
+                                       [&](double share) { bar.show(share, "measuring levels"); }));
+        return {};
+    };
+    if (asks) {
+        ORO_CHECK(make_pages());
+        ORO_CHECK(choose_bundle(options, ground.cuts, pointers_to(pages), shot));
+    }
     if (!shot.view.map) {
         ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
     }
     ORO_TRY(const bool clusters, draws_clusters(shot.region, shot.view));
-    ORO_TRY(
-        RegionScene whole,
-        scene_of_region(gpu, shot.region, ground.cuts, std::move(pages),
-                        {shot.view.exaggeration, memory_of_pages(shot.view, options.memory),
-                         shot.view.heights, asks_for_means(style.frame), clusters, shot.view.mesh_level}));
-    Scene& scene = whole.scene;
+    const bool means = asks_for_means(style.frame);
+    std::string key;
+    std::optional<RegionScene> whole;
+    if (keeps_drawing() && !asks) {
+        key = scene_key(shot.view, options.memory, means, clusters);
+        whole = take_kept_scene(key);
+    }
+    const bool is_kept = whole.has_value();
+    if (!is_kept) {
+        if (!asks) ORO_CHECK(make_pages());
+        ORO_TRY(whole, scene_of_region(gpu, shot.region, ground.cuts, std::move(pages),
+                                       {shot.view.exaggeration, memory_of_pages(shot.view, options.memory),
+                                        shot.view.heights, means, clusters, shot.view.mesh_level}));
+    }
+    Scene& scene = whole->scene;
     const std::string note = note_of_missing_footprints(style.frame, scene.pages());
     if (!note.empty()) say(options.quiet, note);
-    shot.has_means = asks_for_means(style.frame) && note.empty();
-    ORO_CHECK(lay_images(shot.view, options.memory, gpu, scene, options.quiet));
+    shot.has_means = means && note.empty();
+    if (!is_kept) ORO_CHECK(lay_images(shot.view, options.memory, gpu, scene, options.quiet));
     for (const GridScene& grid : scene.grids())
         if (!grid.pages().is_seam()) shot.pages += grid.pages().layout(0).count();
-    shot.triangles_at_full_resolution = whole.triangles;
+    shot.triangles_at_full_resolution = whole->triangles;
     shot.times.pages_s = seconds_since(start);
-    return std::move(whole.scene);
+    return ShotScene{std::move(*whole), std::move(key)};
 }
 
 // The files beside the picture, as they are asked for: without names yet.
@@ -345,14 +369,15 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
     bar.clear();
     ORO_CHECK(say_notes(options, shot));
     if (!series.gpu) {
-        ORO_TRY(series.gpu, Gpu::create(gpu_options_from_environment()));
+        ORO_TRY(series.gpu, gpu_to_draw_with());
     }
     const Gpu* const gpu = series.gpu.get();
     ShotGround ground;
     ORO_TRY(ground.cuts, cut_regions(shot.region));
     say_rims(shot.region, ground.cuts, options.quiet);
     ORO_TRY(ground.grids, RegionGround::of(shot.region, ground.cuts, shot.view.exaggeration));
-    ORO_TRY(Scene scene, scene_of(options, ceiling_m, *gpu, style, ground, bar, shot));
+    ORO_TRY(ShotScene drawn, scene_of(options, ceiling_m, *gpu, style, ground, bar, shot));
+    Scene& scene = drawn.whole.scene;
     ORO_TRY(DrawnPicture picture, draw_shot(options, files, *ground.grids, *gpu, scene, style, bar, shot));
     const bool checks = is_check(options, files);
     ORO_TRY(std::vector<WholeFile> companions,
@@ -365,6 +390,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
         say(options.quiet, files.picture + " is there already, and its view draws the same " +
                                (shot.same_bytes ? "bytes" : "pixels"));
     // The next view may look at the same region.
+    if (!drawn.key.empty()) leave_scene(drawn.key, std::move(drawn.whole));
     series.region = std::move(shot.region);
     return finished;
 }
