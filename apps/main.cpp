@@ -17,8 +17,7 @@
 #include "apps/command_line/help.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/command_line.h"
-#include "apps/commands/commands.h"
-#include "apps/commands/coordinates.h"
+#include "apps/commands/run_command.h"
 #include "apps/output/interruption.h"
 #include "apps/report/library_versions.h"
 #include "core/base/files_read.h"
@@ -89,39 +88,6 @@ int reported_unforeseen(const char* what) {
     std::abort();
 }
 
-// Of a command that only prints: it has failed where what it read was changed meanwhile. Those that write
-// files have looked before these got their names.
-oro::Result<void> of_unchanged_files(const oro::Result<void>& result) {
-    return result.ok() ? oro::check_files_unchanged() : result;
-}
-
-int run_command(CLI::App& app, oro::CommandLine& line, const std::vector<std::string>& words) {
-    if (const auto taken = oro::take_coordinates(line); !taken.ok()) return reported(taken.error());
-    if (app.got_subcommand("shot")) return exit_code(oro::run_shot(line.shot));
-    if (app.got_subcommand("panorama")) return exit_code(oro::run_panorama(line.panorama));
-    if (app.got_subcommand("film")) return exit_code(oro::run_film(line.film));
-    if (app.got_subcommand("compare")) return exit_code(oro::run_compare(line.compare));
-    if (app.got_subcommand("view")) return exit_code(oro::run_view(line.view));
-    if (app.got_subcommand("plan")) return exit_code(of_unchanged_files(oro::run_plan(line.plan)));
-    if (app.got_subcommand("trade")) {
-        for (const std::string& word : words) line.trade.command += (&word == words.data() ? "" : " ") + word;
-        return exit_code(oro::run_trade(line.trade));
-    }
-    if (app.got_subcommand("sun")) return exit_code(of_unchanged_files(oro::run_sun(line.sun)));
-    if (app.got_subcommand("sight")) return exit_code(of_unchanged_files(oro::run_sight(line.sight)));
-    if (app.got_subcommand("profile")) return exit_code(oro::run_profile(line.profile));
-    if (app.got_subcommand("viewshed")) return exit_code(oro::run_viewshed(line.viewshed));
-    if (app.got_subcommand("horizon")) return exit_code(oro::run_horizon(line.horizon));
-    if (app.got_subcommand("bake")) return exit_code(oro::run_bake(line.bake));
-    if (app.got_subcommand("export")) return exit_code(oro::run_export(line.exporting));
-    if (app.got_subcommand("serve")) return exit_code(oro::run_serve(line.serve));
-    if (app.got_subcommand("info")) return exit_code(of_unchanged_files(oro::run_info(line.info)));
-    if (app.got_subcommand("fetch")) return exit_code(oro::run_fetch(line.fetch));
-    if (app.got_subcommand("completion")) return exit_code(oro::run_completion(app, line.completion));
-    if (app.got_subcommand("manual")) return exit_code(oro::run_manual(app, line.manual));
-    return exit_code(oro::run_doctor(line.doctor));
-}
-
 // The program's own in the first line, then those of the libraries that it reads and draws with.
 std::string versions() {
     std::string text = "orograph " OROGRAPH_VERSION "\n";
@@ -154,7 +120,7 @@ int run_command_line(int argc, char** argv) {
             app.exit(e);
         return exit_code({});
     }
-    return run_command(app, line, words);
+    return exit_code(oro::run_command(app, line, words));
 }
 
 }  // namespace

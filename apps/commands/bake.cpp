@@ -8,8 +8,11 @@
 #include <span>
 
 #include "apps/baking/cluster_bake.h"
+#include "apps/baking/shared_bake.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
+#include "apps/options/bake_part_options.h"
+#include "apps/options/shard.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
@@ -19,6 +22,7 @@
 #include "apps/view/view.h"
 #include "core/baked/bake.h"
 #include "core/baked/file_pages.h"
+#include "core/baked/measured_parts.h"
 #include "core/baked/region_file.h"
 #include "core/base/checksum.h"
 #include "core/base/elapsed.h"
@@ -162,14 +166,26 @@ void add(BakeReport& sum, const BakeReport& part) {
     sum.triangles += part.triangles;
 }
 
+// What one grid is baked from where others have measured it.
+Result<std::optional<MeasuredParts>> parts_for(const BakePartOptions& options, const PostGrid& grid,
+                                               const BakeOptions& how) {
+    std::optional<MeasuredParts> parts;
+    if (!options.join) return parts;
+    ORO_TRY(parts, MeasuredParts::open(grid, how));
+    return parts;
+}
+
 // Each grid by itself, then all of them into one file.
-Result<BakeReport> bake_grids(const Region& region, const BakingOptions& options, ProgressBar& bar) {
+Result<BakeReport> bake_grids(const Region& region, const BakePartOptions& options, ProgressBar& bar) {
     const std::vector<RegionGrid>& grids = region.grids;
     BakeReport report;
     ORO_TRY(const BakeHold hold, BakeHold::take(options.out, options.overwrite));
     std::vector<ContainerPart> parts;
+    std::vector<MeasuredParts> measured;
     for (std::size_t i = 0; i < grids.size(); ++i) {
-        ORO_TRY(const BakeOptions how, options_for(grids[i], path_of_grid(options.out, i), true));
+        ORO_TRY(BakeOptions how, options_for(grids[i], path_of_grid(options.out, i), true));
+        ORO_TRY(std::optional<MeasuredParts> of_grid, parts_for(options, grids[i].field.grid, how));
+        how.parts = of_grid ? &*of_grid : nullptr;
         const std::string what =
             "baking grid " + std::to_string(i + 1) + " of " + std::to_string(grids.size());
         ORO_TRY(const BakeReport baked, bake_part(grids[i].field, how, [&](double share) {
@@ -180,35 +196,91 @@ Result<BakeReport> bake_grids(const Region& region, const BakingOptions& options
         // Ranks without gaps: a file whose posts are all void had one, and is left out.
         const auto before = [&](const RegionGrid& other) { return other.rank < grids[i].rank; };
         parts.push_back({how.path, static_cast<std::uint32_t>(std::ranges::count_if(grids, before))});
+        if (of_grid) measured.push_back(std::move(*of_grid));
     }
     ORO_CHECK(join_parts(options.out, options.overwrite, parts));
+    for (const MeasuredParts& of_grid : measured) remove_parts(of_grid);
     return report;
 }
 
-Result<BakeReport> bake_all(const Region& region, const BakingOptions& options, ProgressBar& bar,
-                            std::optional<ClusterBakeReport>& clusters) {
-    if (region.grids.size() > 1) return bake_grids(region, options, bar);
-    const RegionGrid& grid = region.grids.front();
-    ORO_TRY(const BakeOptions how, options_for(grid, options.out, options.overwrite));
-    if (options.mesh == "clusters") {
+Result<BakeReport> bake_grid(const RegionGrid& grid, const BakePartOptions& options, ProgressBar& bar,
+                             std::optional<ClusterBakeReport>& clusters) {
+    ORO_TRY(BakeOptions how, options_for(grid, options.out, options.overwrite));
+    const bool has_clusters = options.mesh == "clusters";
+    BakeOptions of_parts = how;
+    if (has_clusters) of_parts.path = path_of_grid(options.out, 0);
+    ORO_TRY(const std::optional<MeasuredParts> parts, parts_for(options, grid.field.grid, of_parts));
+    how.parts = parts ? &*parts : nullptr;
+    BakeReport report;
+    if (has_clusters) {
         ORO_TRY(clusters, bake_clusters(grid.field, how,
                                         [&](double share, const char* what) { bar.show(share, what); }));
-        return clusters->region;
+        report = clusters->region;
+    } else {
+        ORO_TRY(report, bake_region(grid.field, how, [&](double share) {
+                    bar.show(share, "baking");
+                    return true;
+                }));
     }
-    return bake_region(grid.field, how, [&](double share) {
-        bar.show(share, "baking");
-        return true;
-    });
+    if (parts) remove_parts(*parts);
+    return report;
+}
+
+Result<BakeReport> bake_all(const Region& region, const BakePartOptions& options, ProgressBar& bar,
+                            std::optional<ClusterBakeReport>& clusters) {
+    if (region.grids.size() > 1) return bake_grids(region, options, bar);
+    return bake_grid(region.grids.front(), options, bar, clusters);
+}
+
+BakePart part_of(const Shard& shard) {
+    return {static_cast<std::uint64_t>(shard.number), static_cast<std::uint64_t>(shard.count)};
+}
+
+// The files of a part of a bake.
+std::vector<std::string> files_of_part(const BakingOptions& options, const Region& region,
+                                       const Shard& shard) {
+    std::vector<std::string> files;
+    const bool is_one = region.grids.size() == 1 && options.mesh != "clusters";
+    for (std::size_t i = 0; i < region.grids.size(); ++i)
+        files.push_back(
+            path_of_measured_part(is_one ? options.out : path_of_grid(options.out, i), part_of(shard)));
+    return files;
+}
+
+// A part of the work, into files beside the one that will be baked.
+Result<void> bake_part_of_region(const BakePartOptions& options, const Region& region, const Shard& shard,
+                                 double read_s, ProgressBar& bar) {
+    const auto building = Clock::now();
+    SharedBakeReport report;
+    const std::vector<RegionGrid>& grids = region.grids;
+    for (std::size_t i = 0; i < grids.size(); ++i) {
+        ORO_TRY(const BakeOptions how,
+                options_for(grids[i], grids.size() > 1 ? path_of_grid(options.out, i) : options.out, true));
+        ORO_CHECK(bake_shared(
+            grids[i].field, how, part_of(shard), options.mesh == "clusters",
+            [&](double share, const char* what) { bar.show(share, what); }, report));
+    }
+    bar.clear();
+    for (const std::string& file : report.files)
+        say(options.quiet, (report.rows > 0 ? "wrote " : "is there already: ") + file);
+    if (!options.json) return {};
+    nlohmann::ordered_json json =
+        json_object("shard", json_object("number", shard.number, "count", shard.count), "files", report.files,
+                    "rows", report.rows, "windows", report.windows, "times_s",
+                    json_object("read", read_s, "measure", seconds_since(building)));
+    std::printf("%s\n", json_text(json, true).c_str());
+    return {};
 }
 
 // All is in memory: what was read is held against what it was, and against what will be written. From here on
 // the program reads files of its own making.
-Result<void> end_reading(const BakingOptions& options, const Region& region) {
+Result<void> end_reading(const BakingOptions& options, const Region& region, const Shard& shard) {
     ORO_CHECK(check_files_unchanged());
     std::vector<std::string> written = files_of_bake(options.out);
     written.push_back(path_of_clusters(options.out));
     for (std::size_t i = 0; i < region.grids.size(); ++i)
         for (const std::string& file : files_of_bake(path_of_grid(options.out, i))) written.push_back(file);
+    for (std::string& file : files_of_part(options, region, shard)) written.push_back(std::move(file));
     ORO_CHECK(spare_inputs(written, {files_of_ground(options.region.paths, region)}));
     forget_files_read();
     return {};
@@ -216,7 +288,8 @@ Result<void> end_reading(const BakingOptions& options, const Region& region) {
 
 }  // namespace
 
-Result<void> run_bake(const BakingOptions& options) {
+Result<void> run_bake(const BakePartOptions& options) {
+    ORO_TRY(const Shard shard, parse_shard(options.shard));
     ORO_TRY(const RegionRequest request, region_request(options.region));
     ORO_CHECK(check_out(options));
     ProgressBar bar(options.quiet);
@@ -226,10 +299,11 @@ Result<void> run_bake(const BakingOptions& options) {
     ORO_TRY(Region region, open_region(request, bar.progress()));
     if (options.mesh == "clusters") ORO_CHECK(check_clusters(region));
     ORO_CHECK(take_into_memory(region));
-    ORO_CHECK(end_reading(options, region));
+    ORO_CHECK(end_reading(options, region, shard));
     baked.read_s = seconds_since(reading);
     bar.clear();
     say_notes(region, options.quiet);
+    if (!options.shard.empty()) return bake_part_of_region(options, region, shard, baked.read_s, bar);
     baked.notes = all_notes(region);
     const auto building = Clock::now();
     ORO_TRY(baked.report, bake_all(region, options, bar, baked.clusters));

@@ -473,7 +473,7 @@ void add_horizon(CLI::App& app, HorizonOptions& options) {
                        "docs/commands/horizon.md"});
 }
 
-void add_bake(CLI::App& app, BakingOptions& options) {
+void add_bake(CLI::App& app, BakePartOptions& options) {
     CLI::App& command = *app.add_subcommand(
         "bake", "Write elevation data into one file (.oro) that opens at once, however large it is");
     OptionGroup file(command, "The file");
@@ -481,6 +481,15 @@ void add_bake(CLI::App& app, BakingOptions& options) {
     file.choice("--mesh", options.mesh, {"grid", "clusters"},
                 "What is drawn of it: blocks of the grid (default), or clusters beside them, which take some "
                 "seconds a tile to build, and a fraction of the triangles.");
+    CLI::Option& shard = file.option("--shard", options.shard, "PART",
+                                     "Do a part of what takes long, NUMBER/COUNT as in 2/4, and write it "
+                                     "beside the file: FILE.oro.part-2of4. "
+                                     "Several machines then bake a region together.");
+    file.flag("--join", options.join,
+              "Bake from the parts that --shard has written, all of them. The file has the bytes of one that "
+              "one "
+              "machine bakes. Not with --shard.")
+        .excludes(&shard);
     file.flag("--overwrite", options.overwrite, "Replace a file that is there.");
     add_region_options(command, options.region);
     add_json(command, options.json);
@@ -517,6 +526,35 @@ void add_export(CLI::App& app, ExportOptions& options) {
                         "export PATH... --to 3dtiles --out FOLDER [OPTIONS]"},
                        "",
                        "docs/commands/export.md"});
+}
+
+void add_batch(CLI::App& app, BatchOptions& options) {
+    CLI::App& command = *app.add_subcommand(
+        "batch", "Run the commands of a list, and go on where it stopped; several machines may share it");
+    OptionGroup list(command, "The list");
+    list.option("JOBS", options.jobs, "",
+                "A file with a JSON object on each line: {\"command\": \"shot\", \"path\": \"alps\", \"at\": "
+                "\"46.57,7.99\", \"out\": \"a.png\"}. Names are those of the command's options.")
+        .required();
+    list.option(
+        "--each", options.each, "FILE",
+        "Do each line for each place of this file: a table (.csv) whose first line names its fields, or "
+        "points of GPX, KML, GeoJSON or GeoPackage. {name} in a line is the place's name, and so is each "
+        "field; {lat}, {lon} and {number} are there, too.");
+    list.option(
+        "--shard", options.shard, "PART",
+        "Do a part of the list, NUMBER/COUNT: 2/4 does the second of each four lines. Several machines "
+        "then do a list together.");
+    list.option("--log", options.log, "FILE",
+                "Keep the record of what is done in this file. Default: JOBS.done, beside the list.");
+    list.flag("--check", options.check, "Look at each line, tell what is to be done, and do nothing.");
+    list.flag("--overwrite", options.overwrite, "Replace files that are there, and are not of the same job.");
+    add_json(command, options.json);
+    add_quiet(command, options.quiet, "what the commands print, and errors");
+    set_help(command,
+             {{"batch JOBS [OPTIONS]"},
+              "A line that fails is told, and the rest is done. What is done already is not done again.",
+              "docs/commands/batch.md"});
 }
 
 void add_serve(CLI::App& app, ServeOptions& options) {
@@ -629,6 +667,7 @@ void add_commands(CLI::App& app, CommandLine& line) {
     add_horizon(app, line.horizon);
     add_bake(app, line.bake);
     add_export(app, line.exporting);
+    add_batch(app, line.batch);
     add_serve(app, line.serve);
     add_info(app, line.info);
     add_fetch(app, line.fetch);

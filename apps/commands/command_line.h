@@ -2,6 +2,8 @@
 #pragma once
 
 #include "apps/commands/options.h"
+#include "apps/options/bake_part_options.h"
+#include "apps/options/batch_options.h"
 #include "apps/options/export_options.h"
 #include "apps/options/fetch_options.h"
 #include "apps/options/horizon_options.h"
@@ -23,8 +25,9 @@ struct CommandLine {
     ProfileOptions profile;
     ViewshedOptions viewshed;
     HorizonOptions horizon;
-    BakingOptions bake;
+    BakePartOptions bake;
     ExportOptions exporting;
+    BatchOptions batch;
     ServeOptions serve;
     InfoOptions info;
     FetchOptions fetch;

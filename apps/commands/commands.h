@@ -11,9 +11,11 @@ class App;
 
 namespace oro {
 
-struct ExportOptions;   // apps/options/export_options.h
-struct ServeOptions;    // apps/options/serve_options.h
-struct HorizonOptions;  // apps/options/horizon_options.h
+struct BakePartOptions;  // apps/options/bake_part_options.h
+struct BatchOptions;     // apps/options/batch_options.h
+struct ExportOptions;    // apps/options/export_options.h
+struct ServeOptions;     // apps/options/serve_options.h
+struct HorizonOptions;   // apps/options/horizon_options.h
 
 // Writes a geotagged picture and, beside it, its view; with --verify also a picture of its errors.
 Result<void> run_shot(const ShotOptions& options);
@@ -39,10 +41,13 @@ Result<void> run_viewshed(const ViewshedOptions& options);
 Result<void> run_horizon(const HorizonOptions& options);
 // Opens a window to fly over a region.
 Result<void> run_view(const WindowOptions& options);
-// Writes a region with all its levels into a file, or goes on with one that was broken off.
-Result<void> run_bake(const BakingOptions& options);
+// Writes a region with all its levels into a file, or goes on with one that was broken off; or a part of what
+// that takes, or joins such parts.
+Result<void> run_bake(const BakePartOptions& options);
 // Writes the heights of a region in a format of others.
 Result<void> run_export(const ExportOptions& options);
+// Runs the commands of a list, one after the other, and tells which failed.
+Result<void> run_batch(const BatchOptions& options);
 // Serves a folder to browsers, read-only, until it is interrupted.
 Result<void> run_serve(const ServeOptions& options);
 // Tells what the sources of a region are and what is missing.

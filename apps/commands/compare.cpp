@@ -8,6 +8,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/drawing/drape.h"
+#include "apps/drawing/kept_drawing.h"
 #include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
@@ -108,7 +109,7 @@ Result<void> run_compare(const CompareOptions& options) {
         ORO_CHECK(
             spare_inputs({options.out}, {files_of_picture(view, region), files_of_view(options.view_file)}));
     ORO_TRY(const Style style, load_style(view, region.grids.front().field));
-    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
+    ORO_TRY(const std::shared_ptr<const Gpu> gpu, gpu_to_draw_with());
     ORO_TRY(const RegionCuts cuts, cut_regions(region));
     ORO_TRY(GridPages pages, make_grid_pages(region, cuts, view.exaggeration,
                                              [&](double share) { bar.show(share, "measuring levels"); }));

@@ -9,6 +9,7 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
+#include "apps/drawing/kept_drawing.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/eye/asked_summit.h"
@@ -173,7 +174,7 @@ Result<void> run_trade(const TradeOptions& options) {
         return refused("--view", options.view_file,
                        "was drawn with --geoid none; trade needs one that was not");
     ORO_TRY(const Style style, load_style(view, region.grids.front().field));
-    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
+    ORO_TRY(const std::shared_ptr<const Gpu> gpu, gpu_to_draw_with());
     ORO_TRY(const RasterPath path, choose_path(view.pipeline, *gpu));
     Trade trade(view, region, *gpu, path, style.frame, options.repeats, options.memory);
     ORO_CHECK(trade.prepare());

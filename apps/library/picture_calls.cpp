@@ -243,9 +243,10 @@ Result<void> answer_shot(const OpenRegion& open, const std::vector<std::string>&
     ORO_CHECK(buffer.begin(shot.view.camera.width_px, shot.view.camera.height_px + shot.view.legend_px));
     const std::lock_guard lock(drawing());
     ORO_TRY(const auto gpu, oro::Gpu::create(oro::gpu_options_from_environment()));
-    ORO_TRY(oro::Scene scene,
+    ORO_TRY(oro::ShotScene drawn,
             oro::scene_of_shot(prepared->options, prepared->ceiling_m, *gpu, prepared->style,
                                prepared->ground, progress.throwing(), shot));
+    oro::Scene& scene = drawn.whole.scene;
     ORO_CHECK(oro::check_in_view(shot, "", scene));
     if (prepared->options.view.tolerance) {
         ORO_TRY(strip, oro::strip_of(shot.view, shot.region, prepared->style, shot.middle));
@@ -283,9 +284,10 @@ Result<void> answer_layers(const OpenRegion& open, const std::vector<std::string
     const oro::View& view = prepared->shot.view;
     const std::lock_guard lock(drawing());
     ORO_TRY(const auto gpu, oro::Gpu::create(oro::gpu_options_from_environment()));
-    ORO_TRY(oro::Scene scene,
+    ORO_TRY(oro::ShotScene drawn,
             oro::scene_of_shot(prepared->options, prepared->ceiling_m, *gpu, prepared->style,
                                prepared->ground, progress.throwing(), prepared->shot));
+    oro::Scene& scene = drawn.whole.scene;
     ORO_CHECK(oro::check_in_view(prepared->shot, "", scene));
     ORO_TRY(const oro::RasterPath path, oro::choose_path(view.pipeline, *gpu));
     ORO_TRY(const oro::PictureLayers found,

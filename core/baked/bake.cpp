@@ -7,10 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/baked/measured_parts.h"
 #include "core/baked/page_compression.h"
 #include "core/baked/region_file.h"
 #include "core/base/parallel.h"
 #include "core/lod/pyramid.h"
+#include "core/lod/row_deviations.h"
 #include "core/terrain/page.h"
 
 namespace oro {
@@ -89,8 +91,23 @@ class Bake {
                             const StitchedDeviations& stitched) { return take(slot, page, stitched); };
         return hooks;
     }
+    // Of rows that parts have; nothing where there are none.
+    [[nodiscard]] KnownDeviations known(const MeasuredParts* parts) {
+        if (parts == nullptr) return {};
+        return [this, parts](const PageIndex& page, int row, RowDeviations& deviations) {
+            const Result<void> read = parts->row(page, row, deviations);
+            return read.ok() || keep_fault(read.error());
+        };
+    }
 
   private:
+    // False, for what asks whether something could be read.
+    bool keep_fault(const Error& fault) {
+        const std::scoped_lock lock(mutex_);
+        if (!fault_) fault_ = fault;
+        return false;
+    }
+
     [[nodiscard]] bool is_found(const PageIndex& index) const {
         return writer_.order().number(index) < found_;
     }
@@ -103,11 +120,7 @@ class Bake {
         PagePayload payload;
         Result<void> read = writer_.payload(number, payload);
         if (read.ok()) read = writer_.stitched(number, measured.stitched);
-        if (!read.ok()) {
-            const std::scoped_lock lock(mutex_);
-            if (!fault_) fault_ = read.error();
-            return false;
-        }
+        if (!read.ok()) return keep_fault(read.error());
         measured.error_m = payload.error_m;
         measured.lod_radius_m = payload.lod_radius_m;
         return true;
@@ -134,7 +147,7 @@ class Bake {
     std::uint64_t found_;
     std::vector<std::optional<Result<EncodedPage>>> encoded_;
     std::mutex mutex_;
-    std::optional<Error> fault_;  // the first page that could not be read again
+    std::optional<Error> fault_;  // the first page, or row of a part, that could not be read
 };
 
 }  // namespace
@@ -155,7 +168,8 @@ Result<BakeReport> bake_region(const HeightField& field, const RegionOutline& ou
         const DrawnHeights heights = drawn_heights(field, 1.0, options.threads);
         Bake bake(field, writer, progress);
         const Result<LevelPyramid> built =
-            build_pyramid_with(field.grid, outline.shape, heights, options.threads, bake.hooks(), false);
+            build_pyramid_from(field.grid, outline.shape, heights, options.threads, bake.hooks(), false,
+                               bake.known(options.parts));
         if (!built.ok()) return built.error();
     }
     ORO_CHECK(writer.finish());

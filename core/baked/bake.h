@@ -11,12 +11,17 @@
 
 namespace oro {
 
+class MeasuredParts;  // core/baked/measured_parts.h
+
 struct BakeOptions {
     std::string path;  // of the finished file
     bool overwrite{false};
     std::uint64_t fingerprint{};  // of the sources' state: a broken bake goes on only where it is the same
     std::string description;      // goes into the file, see RegionOutline
     int threads{1};
+    // What was measured of the region's nodes, by parts that outlive the bake; null: all is measured here.
+    // The file has the same bytes.
+    const MeasuredParts* parts{};
 };
 
 struct BakeReport {

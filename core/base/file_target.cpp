@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "core/base/files_of_job.h"
 #include "core/base/open_file.h"
 
 namespace oro {
@@ -76,7 +77,10 @@ int take_file_name(const std::string& from, const std::string& to, bool overwrit
 
 Result<void> give_name(const std::string& partial, const std::string& to, bool overwrite) {
     const int why = take_file_name(partial, to, overwrite);
-    if (why == 0) return {};
+    if (why == 0) {
+        note_file_written(to);
+        return {};
+    }
     if (why == EEXIST && !overwrite)
         return fault(to,
                      "appeared while it was being written, and is left as it is; the new one is " + partial);

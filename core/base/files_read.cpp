@@ -10,7 +10,9 @@
 #include <set>
 #include <thread>
 #include <utility>
+#include <vector>
 
+#include "core/base/files_of_job.h"
 #include "core/base/open_file.h"
 
 namespace oro {
@@ -33,6 +35,11 @@ struct FilesRead {
     std::map<std::string, StateAtOpening> states;
     std::set<Identity> replaceable;
     std::string changed, how;  // the first that was another when it was opened again
+    // Of jobs (files_of_job.h).
+    bool has_jobs{};
+    std::map<std::string, StateAtOpening> states_of_job;
+    std::vector<std::string> written;
+    std::map<Identity, std::string> written_before;  // by other jobs
 };
 
 // Until the end of the program: threads may still read.
@@ -111,6 +118,7 @@ void forget_file_read(const std::string& path) {
     FilesRead& all = files_read();
     const std::scoped_lock lock(all.mutex);
     all.states.erase(path);
+    all.states_of_job.erase(path);
     if (all.changed == path) all.changed.clear();
 }
 
@@ -122,7 +130,10 @@ void remember_file_read(const std::string& path, const struct stat& found) {
         if (!all.remembers) return true;
         const auto known = all.states.find(path);
         if (known == all.states.end()) {
-            if (is_settled) all.states.emplace(path, state);
+            if (is_settled) {
+                all.states.emplace(path, state);
+                if (all.has_jobs) all.states_of_job.emplace(path, state);
+            }
             return is_settled;
         }
         if (std::string how = change_between(known->second, state); !how.empty() && all.changed.empty()) {
@@ -168,6 +179,9 @@ Result<void> check_not_read(const std::string& target) {
                          "would replace " + path + ", which is read here" +
                              (path == target ? "" : " (by the name " + target + ")")};
     }
+    if (const auto before = all.written_before.find(identity); before != all.written_before.end())
+        return Error{ErrorKind::usage, "--out",
+                     "would replace " + before->second + ", which another job wrote"};
     return {};
 }
 
@@ -177,6 +191,77 @@ void let_replace(const std::string& target) {
     FilesRead& all = files_read();
     const std::scoped_lock lock(all.mutex);
     all.replaceable.insert(state_of(found).identity);
+}
+
+struct FilesReadSoFar {
+    std::map<std::string, StateAtOpening> states;
+};
+
+void begin_files_of_job() {
+    FilesRead& all = files_read();
+    const std::scoped_lock lock(all.mutex);
+    for (const std::string& path : all.written) {
+        struct stat found {};
+        if (stat(path.c_str(), &found) == 0) all.written_before[state_of(found).identity] = path;
+    }
+    all.has_jobs = all.remembers = true;
+    all.states.clear();
+    all.states_of_job.clear();
+    all.replaceable.clear();
+    all.changed.clear();
+    all.written.clear();
+}
+
+void end_files_of_jobs() {
+    FilesRead& all = files_read();
+    const std::scoped_lock lock(all.mutex);
+    all.has_jobs = false;
+    all.states_of_job.clear();
+    all.written.clear();
+    all.written_before.clear();
+}
+
+std::vector<FileOfJob> files_read_of_job() {
+    FilesRead& all = files_read();
+    const std::scoped_lock lock(all.mutex);
+    std::vector<FileOfJob> files;
+    for (const auto& [path, state] : all.states_of_job)
+        files.push_back({path, state.bytes, state.written.count()});
+    return files;
+}
+
+void note_file_written(const std::string& path) {
+    FilesRead& all = files_read();
+    const std::scoped_lock lock(all.mutex);
+    if (all.has_jobs && std::ranges::find(all.written, path) == all.written.end())
+        all.written.push_back(path);
+}
+
+std::vector<std::string> files_written_of_job() {
+    FilesRead& all = files_read();
+    const std::scoped_lock lock(all.mutex);
+    return all.written;
+}
+
+std::shared_ptr<const FilesReadSoFar> files_read_so_far() {
+    FilesRead& all = files_read();
+    const std::scoped_lock lock(all.mutex);
+    return std::make_shared<const FilesReadSoFar>(FilesReadSoFar{all.states});
+}
+
+bool are_unchanged(const FilesReadSoFar& files) {
+    return std::ranges::all_of(files.states, [](const auto& file) {
+        struct stat found {};
+        return stat(file.first.c_str(), &found) == 0 && change_between(file.second, state_of(found)).empty();
+    });
+}
+
+void remember_again(const FilesReadSoFar& files) {
+    FilesRead& all = files_read();
+    const std::scoped_lock lock(all.mutex);
+    if (!all.remembers) return;
+    all.states.insert(files.states.begin(), files.states.end());
+    if (all.has_jobs) all.states_of_job.insert(files.states.begin(), files.states.end());
 }
 
 }  // namespace oro

@@ -265,4 +265,20 @@ Result<void> bake_in_windows(const HeightField& field, const WindowedBake& how) 
     return {};
 }
 
+Result<std::size_t> bake_windows_of_part(const HeightField& field, const WindowedBake& how,
+                                         std::size_t number, std::size_t count) {
+    const Stage first = stages_of(how, field.grid).front();
+    if (first.windows == 1) return std::size_t{0};
+    const std::shared_ptr<const CellDiagonals> diagonals = CellDiagonals::of(field, how.threads);
+    const GridBounds bounds(field.grid, highest_steps_of(field, how.threads));
+    const WindowedRegion region{field, diagonals.get(), bounds, first.sizes, how.threads};
+    std::size_t built = 0;
+    for (std::size_t i = number - 1; i < first.windows; i += count, ++built) {
+        if (how.progress) how.progress(static_cast<double>(i) / static_cast<double>(first.windows));
+        if (const auto window = window_file(region, how, first, nullptr, i); !window.ok())
+            return window.error();
+    }
+    return built;
+}
+
 }  // namespace oro

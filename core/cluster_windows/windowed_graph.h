@@ -35,4 +35,10 @@ struct WindowedBake {
 // as write_cluster_graph(); windows that are damaged, or do not agree.
 Result<void> bake_in_windows(const HeightField& field, const WindowedBake& how);
 
+// Builds every count-th of the first stage's windows, from window number - 1 on (number: 1 .. count), and
+// leaves them for bake_in_windows() of the same region, which takes them. Gives their number; none where the
+// region is built in one go. Errors: as bake_in_windows().
+Result<std::size_t> bake_windows_of_part(const HeightField& field, const WindowedBake& how,
+                                         std::size_t number, std::size_t count);
+
 }  // namespace oro

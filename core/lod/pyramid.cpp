@@ -11,6 +11,7 @@
 #include "core/base/parallel.h"
 #include "core/lod/levels_gpu.h"
 #include "core/lod/node_deviations.h"
+#include "core/lod/row_deviations.h"
 
 namespace oro {
 namespace {
@@ -43,8 +44,10 @@ glm::dvec3 ecef_of(const PageSummary& page, const glm::dvec3& in_page_m) {
 class LevelBuilder {
   public:
     LevelBuilder(const PostGrid& region, const RegionShape& shape, const DrawnHeights& heights,
-                 const LevelPyramid& pyramid, int level, std::vector<StitchedDeviations> stitched_below_m)
+                 const LevelPyramid& pyramid, int level, std::vector<StitchedDeviations> stitched_below_m,
+                 const KnownDeviations& known)
         : region_(region),
+          known_(known),
           shape_(shape),
           heights_(heights),
           wraps_longitude_(pyramid.wraps_longitude),
@@ -64,7 +67,9 @@ class LevelBuilder {
     std::vector<StitchedDeviations> take_stitched() { return std::move(stitched_m_); }
 
   private:
-    void finish_node(int node_row, int node_column, const PageSummary& page, gpu::MeshletBounds& bounds);
+    [[nodiscard]] RowDeviations deviations_of(const PageIndex& page, int row) const;
+    void finish_node(int node_row, int node_column, const PageSummary& page, const RowDeviations& measured,
+                     gpu::MeshletBounds& bounds);
     void sum_up(PyramidPage& page) const;
     static void sum_up_quarter(PyramidPage& page, int number);
     void hold_pages_below(PyramidPage& page) const;
@@ -72,6 +77,7 @@ class LevelBuilder {
     void visit_nodes_below(int node_row, int node_column, const Visit& visit) const;
 
     const PostGrid& region_;
+    const KnownDeviations& known_;
     const RegionShape& shape_;
     const DrawnHeights& heights_;
     bool wraps_longitude_;
@@ -105,16 +111,19 @@ void LevelBuilder::visit_nodes_below(int node_row, int node_column, const Visit&
     }
 }
 
+RowDeviations LevelBuilder::deviations_of(const PageIndex& page, int row) const {
+    RowDeviations measured;
+    if (known_ && known_(page, row, measured)) return measured;
+    return measured_row(deviations_, grid_, page, row);
+}
+
 // Error and lod sphere of a node. What is drawn around it one level finer is stitched to it, and good enough
 // by its word alone: its error is at least that of their stitched triangles.
 void LevelBuilder::finish_node(int node_row, int node_column, const PageSummary& page,
-                               gpu::MeshletBounds& bounds) {
-    const NodeDeviation deviation = deviations_.deviation(node_row, node_column);
-    for (std::size_t i = 0; i < 4; ++i)
-        of_node(stitched_m_, grid_, node_row, node_column)[i] = std::min(
-            static_cast<float>(rounded_up(std::min<double>(deviation.stitched_m[i], gpu::unfit_error_m))),
-            gpu::unfit_error_m);
-    double error_m = std::min<double>(deviation.own_m, gpu::unfit_error_m);
+                               const RowDeviations& measured, gpu::MeshletBounds& bounds) {
+    const auto in_row = static_cast<std::size_t>(node_column % side);
+    of_node(stitched_m_, grid_, node_row, node_column) = measured.stitched_m[in_row];
+    double error_m = measured.own_m[in_row];
     const bool fits = error_m < gpu::unfit_error_m;
     if (bounds.radius < 0.0F) {
         // Nothing is drawn for it; it is unfit when there is something that should be.
@@ -214,6 +223,7 @@ void LevelBuilder::build(std::size_t number, const PyramidHooks& hooks, int thre
     const bool known = hooks.recall && hooks.recall(index, measured);
     if (known) stitched_m_[number] = measured.stitched;
     in_parallel(side, threads, [&](int row) {
+        const RowDeviations measured_of_row = known ? RowDeviations{} : deviations_of(index, row);
         for (int i = row * side; i < (row + 1) * side; ++i) {
             const int node_row = index.row * side + row;
             const int node_column = index.column * side + i % side;
@@ -221,7 +231,7 @@ void LevelBuilder::build(std::size_t number, const PyramidHooks& hooks, int thre
                 block.meshlets[i].error_m = measured.error_m[static_cast<std::size_t>(i)];
                 block.meshlets[i].lod_radius = measured.lod_radius_m[static_cast<std::size_t>(i)];
             } else if (node_row < grid_.row.nodes() && node_column < grid_.column.nodes()) {
-                finish_node(node_row, node_column, page.summary, block.meshlets[i]);
+                finish_node(node_row, node_column, page.summary, measured_of_row, block.meshlets[i]);
             }
         }
     });
@@ -275,9 +285,32 @@ LevelPyramid build_pyramid(const PostGrid& grid, const RegionShape& shape, const
     return build_pyramid_with(grid, shape, heights, threads, hooks).value();  // such a sink has no errors
 }
 
+RowDeviations measured_row(const NodeDeviations& deviations, const LevelGrid& level, const PageIndex& page,
+                           int row) {
+    RowDeviations measured;
+    const int node_row = page.row * side + row;
+    if (node_row >= level.row.nodes()) return measured;
+    for (int i = 0; i < side && page.column * side + i < level.column.nodes(); ++i) {
+        const auto at = static_cast<std::size_t>(i);
+        const NodeDeviation deviation = deviations.deviation(node_row, page.column * side + i);
+        measured.own_m[at] = std::min<double>(deviation.own_m, gpu::unfit_error_m);
+        for (std::size_t edge = 0; edge < 4; ++edge)
+            measured.stitched_m[at][edge] = std::min(static_cast<float>(rounded_up(std::min<double>(
+                                                         deviation.stitched_m[edge], gpu::unfit_error_m))),
+                                                     gpu::unfit_error_m);
+    }
+    return measured;
+}
+
 Result<LevelPyramid> build_pyramid_with(const PostGrid& grid, const RegionShape& shape,
                                         const DrawnHeights& heights, int threads, const PyramidHooks& hooks,
                                         bool keep_levels) {
+    return build_pyramid_from(grid, shape, heights, threads, hooks, keep_levels, {});
+}
+
+Result<LevelPyramid> build_pyramid_from(const PostGrid& grid, const RegionShape& shape,
+                                        const DrawnHeights& heights, int threads, const PyramidHooks& hooks,
+                                        bool keep_levels, const KnownDeviations& known) {
     assert(threads >= 1);
     LevelPyramid pyramid{shape, grid.wraps_longitude(), {}};
     std::vector<gpu::PageBlock> blocks(PyramidHooks::pages_at_a_time);
@@ -285,7 +318,7 @@ Result<LevelPyramid> build_pyramid_with(const PostGrid& grid, const RegionShape&
     pyramid.levels.reserve(static_cast<std::size_t>(levels));
     std::vector<StitchedDeviations> stitched_m;
     for (int k = 0; k < levels; ++k) {
-        LevelBuilder builder(grid, shape, heights, pyramid, k, std::move(stitched_m));
+        LevelBuilder builder(grid, shape, heights, pyramid, k, std::move(stitched_m), known);
         PyramidLevel& level = pyramid.levels.emplace_back();
         level.grid = level_grid(grid, k);
         level.layout = level.grid.pages();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/base/file_target.h"
+#include "core/base/files_of_job.h"
 #include "core/base/files_read.h"
 #include "core/base/open_file.h"
 
@@ -158,6 +159,7 @@ Result<void> commit_together(std::span<WholeFile* const> files) {
         }
         taken.push_back(std::move(now));
     }
+    for (const WholeFile* const file : files) note_file_written(file->path_);
     return {};
 }
 

@@ -1,8 +1,15 @@
 #include "geo/opening/open_region.h"
 
+#include <unistd.h>
+
+#include <cstdint>
+#include <memory>
 #include <new>
+#include <optional>
+#include <tuple>
 #include <utility>
 
+#include "core/base/files_of_job.h"
 #include "core/base/files_read.h"
 #include "geo/files/library_faults.h"
 #include "geo/files/raster_library.h"
@@ -74,15 +81,89 @@ Error with_order_of_box(Error fault, const RegionRequest& request) {
     return fault;
 }
 
+// What keep_last_region() keeps.
+struct KeptRegion {
+    RegionRequest request;
+    Region region;
+    std::shared_ptr<const FilesReadSoFar> files;
+};
+struct RegionKeeping {
+    bool keeps{};
+    std::size_t read{};
+    std::optional<KeptRegion> last;
+};
+
+RegionKeeping& keeping() {
+    static RegionKeeping kept;
+    return kept;
+}
+
+bool same_box(const std::optional<BoundingBox>& a, const std::optional<BoundingBox>& b) {
+    if (!a || !b) return a.has_value() == b.has_value();
+    return a->west_deg == b->west_deg && a->south_deg == b->south_deg && a->east_deg == b->east_deg &&
+           a->north_deg == b->north_deg;
+}
+
+bool asks_for_same(const RegionRequest& a, const RegionRequest& b) {
+    const auto rest = [](const RegionRequest& one) {
+        return std::tie(one.paths, one.strict_datum, one.fill_voids, one.resample, one.listed_first,
+                        one.feather_m, one.height_unit, one.source_crs, one.source_vertical,
+                        one.allow_multiple_grids);
+    };
+    return rest(a) == rest(b) && same_box(a.box, b.box);
+}
+
+// What a copy of a region takes in main memory, nearly all of it.
+std::uint64_t bytes_of(const Region& region) {
+    std::uint64_t floats = 0;
+    for (const RegionGrid& grid : region.grids)
+        floats += grid.field.H_m.size() + grid.field.N_of_posts_m.size() + grid.field.undulation.N_m.size();
+    return floats * sizeof(float);
+}
+
+void keep(const RegionRequest& request, const Region& region) {
+    const long pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGESIZE);
+    keeping().last.reset();
+    if (pages > 0 && page_bytes > 0 &&
+        bytes_of(region) > static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_bytes) / 4)
+        return;
+    keeping().last = KeptRegion{request, region, files_read_so_far()};
+}
+
+Result<Region> read_or_kept(const RegionRequest& request, const Progress& progress) {
+    RegionKeeping& kept = keeping();
+    if (!kept.keeps) return read_region(request, progress);
+    if (kept.last && asks_for_same(kept.last->request, request) && are_unchanged(*kept.last->files)) {
+        remember_again(*kept.last->files);
+        return kept.last->region;
+    }
+    kept.last.reset();
+    ++kept.read;
+    return read_region(request, progress);
+}
+
 }  // namespace
+
+void keep_last_region() {
+    keeping() = {true, 0, std::nullopt};
+}
+
+void keep_no_region() {
+    keeping() = {};
+}
+
+std::size_t regions_read() {
+    return keeping().read;
+}
 
 Result<Region> open_region(const RegionRequest& request, const Progress& progress) {
     try {
-        Result<Region> region = read_region(request, progress);
+        Result<Region> region = read_or_kept(request, progress);
         if (region.ok()) ORO_CHECK(libraries_are_sound());
         // Also where it could not be read: a file that is being rewritten is not damaged.
         ORO_CHECK(check_files_unchanged());
         if (!region.ok()) return with_order_of_box(region.error(), request);
+        if (keeping().keeps && !keeping().last) keep(request, *region);
         return region;
     } catch (const std::bad_alloc&) {
         return Error{ErrorKind::failed, "region too large",

@@ -2,6 +2,8 @@
 // height field that they make together.
 #pragma once
 
+#include <cstddef>
+
 #include "core/base/progress.h"
 #include "core/base/result.h"
 #include "geo/region/region.h"
@@ -20,5 +22,15 @@ namespace oro {
 // honoured with strict_datum, a baked region beside other paths or with an option that was decided when it
 // was baked (ErrorKind::usage).
 Result<Region> open_region(const RegionRequest& request, const Progress& progress = {});
+
+// From now on the region that was opened last is kept, and open_region() gives a copy of it to whoever asks
+// for the same while its files stay what they were: for one job after the other. Regions whose posts would
+// take more than a quarter of the machine's memory are not kept. To be called by the thread that opens
+// regions.
+void keep_last_region();
+// No longer: what was kept is given up.
+void keep_no_region();
+// How often open_region() has read a region since keep_last_region().
+std::size_t regions_read();
 
 }  // namespace oro

@@ -6,9 +6,9 @@
 namespace oro::test {
 
 inline const Words& command_names() {
-    static const Words names{"shot",  "panorama", "film",  "view",    "compare",  "plan",
-                             "trade", "sun",      "sight", "profile", "viewshed", "horizon",
-                             "bake",  "export",   "serve", "info",    "fetch",    "doctor"};
+    static const Words names{"shot",  "panorama", "film",    "view",     "compare", "plan", "trade",
+                             "sun",   "sight",    "profile", "viewshed", "horizon", "bake", "export",
+                             "batch", "serve",    "info",    "fetch",    "doctor"};
     return names;
 }
 

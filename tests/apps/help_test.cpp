@@ -97,7 +97,8 @@ TEST(Help, HasTheSameHeadingsInTheSameOrder) {
             wanted = {order[0], order[3], order[4]};
         if (command == "profile") wanted = {order[0], order[4]};
         if (command == "bake" || command == "export" || command == "info") wanted = {order[0], order[4]};
-        if (command == "doctor" || command == "serve" || command == "fetch") wanted = {order[4]};
+        if (command == "doctor" || command == "serve" || command == "fetch" || command == "batch")
+            wanted = {order[4]};
         EXPECT_EQ(found, wanted) << command;
     }
 }
@@ -107,7 +108,8 @@ TEST(Help, ExplainsEachOption) {
     const Words flags{"--verify",       "--layers",     "--ortho",        "--legend",    "--no-paths",
                       "--data-changed", "--overwrite",  "--json",         "-q, --quiet", "--check",
                       "--no-legend",    "--fill-voids", "--strict-datum", "-h, --help",  "--resample",
-                      "--on-summit",    "--kml",        "--geopose",      "--cors",      "--dry-run"};
+                      "--on-summit",    "--kml",        "--geopose",      "--cors",      "--dry-run",
+                      "--join"};
     for (const std::string& command : commands) {
         const auto options = options_in(help_of({command}));
         EXPECT_GE(options.size(), 2U) << command;

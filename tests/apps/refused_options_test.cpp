@@ -167,6 +167,8 @@ TEST(RefusedOptions, NamesOfFilesToWrite) {
     expect_lines(
         {{{"shot", file, "--out", "p.bmp"},
           "--out p.bmp: a picture's name ends in .png, .jpg, .jpeg, .tif or .tiff"},
+         {{"batch", "none.jsonl", "--shard", "0/4"},
+          "--shard 0/4: must be NUMBER/COUNT, the number from 1 to the count: 2/4"},
          {{"compare", "p.png", "--out", "e.jpg"}, "--out e.jpg: the picture of errors must be a .png"},
          {{"compare", "p.png", "--out", "e"}, "--out e: the picture of errors must be a .png"},
          {{"bake", file, "--out", "r.tif"}, "--out r.tif: the file's name must end in .oro"},

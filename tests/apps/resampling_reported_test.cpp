@@ -170,9 +170,10 @@ TEST_F(ResamplingReported, AFolderIsListedWhateverIsInIt) {
     EXPECT_EQ(outcome.exit_code, 1);
     ASSERT_EQ(outcome.err_lines().size(), 1U) << outcome.err;
     expect_words(outcome.err, {"broken.tif: cannot be opened as a raster"});
-    expect_words(outcome.out, {"N46E008.hgt\n", "not read", "cannot be opened: 1 file\n",
-                               "broken.tif  cannot be opened as a raster", "passed over, without elevation: 1 file\n",
-                               "hills.asc  states no coordinate reference system"});
+    expect_words(outcome.out,
+                 {"N46E008.hgt\n", "not read", "cannot be opened: 1 file\n",
+                  "broken.tif  cannot be opened as a raster", "passed over, without elevation: 1 file\n",
+                  "hills.asc  states no coordinate reference system"});
     const json reported = oro::test::one_object(run_orograph({"info", folder, "--json"}).out);
     EXPECT_EQ(reported.at("sources").size(), 1U);
     EXPECT_EQ(reported.at("not_opened").size(), 1U);

@@ -15,6 +15,7 @@
 #include "apps/commands/film/film_frames.h"
 #include "apps/commands/film/film_path.h"
 #include "apps/commands/film/movie.h"
+#include "apps/drawing/kept_drawing.h"
 #include "apps/drawing/mesh_choice.h"
 #include "apps/eye/standpoint.h"
 #include "apps/film/frame_range.h"
@@ -306,7 +307,7 @@ void tell(const FilmOptions& options, const FilmFiles& files, const CameraPath& 
 Result<void> film_it(const FilmOptions& options, const FilmFiles& files, const CameraPath& path,
                      ProgressBar& bar, View& view, Region& region, FilmReport& report) {
     const auto drawing = Clock::now();
-    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
+    ORO_TRY(const std::shared_ptr<const Gpu> gpu, gpu_to_draw_with());
     FilmFrames film(options, *gpu, view, region);
     ORO_TRY(std::vector<FilmFrame> frames, frames_of(options, files, path, view, report));
     std::vector<std::string> written;

@@ -7,6 +7,7 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/drawing/drape.h"
+#include "apps/drawing/kept_drawing.h"
 #include "apps/options/view_limits.h"
 #include "apps/panorama/elevations.h"
 #include "apps/report/progress_bar.h"
@@ -81,7 +82,7 @@ Result<Style> style_of_panorama(const View& view, const Region& region) {
 Result<CylinderPicture> draw_panorama(const View& view, const Region& region, const RegionCuts& cuts,
                                       const TrueGround& ground, const Style& style, const Cylinder& around,
                                       const PanoramaDrawing& drawing, const Progress& progress) {
-    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
+    ORO_TRY(const std::shared_ptr<const Gpu> gpu, gpu_to_draw_with());
     ORO_TRY(GridPages pages, make_grid_pages(
                                  region, cuts, view.exaggeration,
                                  [&](double share) { progress(share, "measuring levels"); }, drawing.stop));

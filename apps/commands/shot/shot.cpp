@@ -15,6 +15,7 @@
 #include "apps/commands/shot/shot_scene.h"
 #include "apps/commands/shot/shot_views.h"
 #include "apps/drawing/drape.h"
+#include "apps/drawing/kept_drawing.h"
 #include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/picking.h"
 #include "apps/drawing/pipeline_choice.h"
@@ -192,7 +193,7 @@ Result<void> spare_files_of(const ShotOptions& options, const PictureFiles& file
 struct ShotSeries {
     std::optional<View> opened;
     Region region;
-    std::unique_ptr<Gpu> gpu;
+    std::shared_ptr<const Gpu> gpu;
 };
 
 // The view of a shot, and its region. listed: the view itself, of several; null: it is in its file, or in
@@ -271,12 +272,13 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
     bar.clear();
     ORO_CHECK(say_notes(options, shot));
     if (!series.gpu) {
-        ORO_TRY(series.gpu, Gpu::create(gpu_options_from_environment()));
+        ORO_TRY(series.gpu, gpu_to_draw_with());
     }
     const Gpu* const gpu = series.gpu.get();
     ORO_TRY(const ShotGround ground, ground_of_shot(shot));
     say_rims(shot.region, ground.cuts, options.quiet);
-    ORO_TRY(Scene scene, scene_of_shot(options, ceiling_m, *gpu, style, ground, bar.progress(), shot));
+    ORO_TRY(ShotScene drawn, scene_of_shot(options, ceiling_m, *gpu, style, ground, bar.progress(), shot));
+    Scene& scene = drawn.whole.scene;
     ORO_TRY(DrawnPicture picture, draw_shot(options, files, *ground.grids, *gpu, scene, style, bar, shot));
     const bool checks = is_check(options, files);
     ORO_TRY(std::vector<WholeFile> companions,
@@ -289,6 +291,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
         say(options.quiet, files.picture + " is there already, and its view draws the same " +
                                (shot.same_bytes ? "bytes" : "pixels"));
     // The next view may look at the same region.
+    if (!drawn.key.empty()) leave_scene(drawn.key, std::move(drawn.whole));
     series.region = std::move(shot.region);
     return finished;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "apps/drawing/drape.h"
+#include "apps/drawing/kept_drawing.h"
 #include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/legend/legend.h"
@@ -58,33 +59,50 @@ void choose_legend(const ShotOptions& options, View& view) {
                                " px wide has no room for the legend of --show");
 }
 
-Result<Scene> scene_of_shot(const ShotOptions& options, double ceiling_m, const Gpu& gpu, const Style& style,
-                            const ShotGround& ground, const Progress& progress, ShotResult& shot) {
+Result<ShotScene> scene_of_shot(const ShotOptions& options, double ceiling_m, const Gpu& gpu,
+                                const Style& style, const ShotGround& ground, const Progress& progress,
+                                ShotResult& shot) {
     const auto start = Clock::now();
-    ORO_TRY(GridPages pages,
-            make_grid_pages(shot.region, ground.cuts, shot.view.exaggeration, [&](double share) {
-                if (progress) progress(share, "measuring levels");
-            }));
-    if (options.view.tolerance) ORO_CHECK(choose_bundle(options, ground.cuts, pointers_to(pages), shot));
+    GridPages pages;
+    const bool asks = options.view.tolerance.has_value();
+    const auto make_pages = [&]() -> Result<void> {
+        ORO_TRY(pages, make_grid_pages(shot.region, ground.cuts, shot.view.exaggeration, [&](double share) {
+                    if (progress) progress(share, "measuring levels");
+                }));
+        return {};
+    };
+    if (asks) {
+        ORO_CHECK(make_pages());
+        ORO_CHECK(choose_bundle(options, ground.cuts, pointers_to(pages), shot));
+    }
     if (!shot.view.map) {
         ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
     }
     ORO_TRY(const bool clusters, draws_clusters(shot.region, shot.view));
-    ORO_TRY(
-        RegionScene whole,
-        scene_of_region(gpu, shot.region, ground.cuts, std::move(pages),
-                        {shot.view.exaggeration, memory_of_pages(shot.view, options.memory),
-                         shot.view.heights, asks_for_means(style.frame), clusters, shot.view.mesh_level}));
-    Scene& scene = whole.scene;
+    const bool means = asks_for_means(style.frame);
+    std::string key;
+    std::optional<RegionScene> whole;
+    if (keeps_drawing() && !asks) {
+        key = scene_key(shot.view, options.memory, means, clusters);
+        whole = take_kept_scene(key);
+    }
+    const bool is_kept = whole.has_value();
+    if (!is_kept) {
+        if (!asks) ORO_CHECK(make_pages());
+        ORO_TRY(whole, scene_of_region(gpu, shot.region, ground.cuts, std::move(pages),
+                                       {shot.view.exaggeration, memory_of_pages(shot.view, options.memory),
+                                        shot.view.heights, means, clusters, shot.view.mesh_level}));
+    }
+    Scene& scene = whole->scene;
     const std::string note = note_of_missing_footprints(style.frame, scene.pages());
     if (!note.empty()) say(options.quiet, note);
-    shot.has_means = asks_for_means(style.frame) && note.empty();
-    ORO_CHECK(lay_images(shot.view, options.memory, gpu, scene, options.quiet));
+    shot.has_means = means && note.empty();
+    if (!is_kept) ORO_CHECK(lay_images(shot.view, options.memory, gpu, scene, options.quiet));
     for (const GridScene& grid : scene.grids())
         if (!grid.pages().is_seam()) shot.pages += grid.pages().layout(0).count();
-    shot.triangles_at_full_resolution = whole.triangles;
+    shot.triangles_at_full_resolution = whole->triangles;
     shot.times.pages_s = seconds_since(start);
-    return std::move(whole.scene);
+    return ShotScene{std::move(*whole), std::move(key)};
 }
 
 Result<void> check_in_view(const ShotResult& shot, const std::string& view_file, Scene& scene) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/commands/shot/shot_json.h"
+#include "apps/drawing/region_scene.h"
 #include "apps/options/options.h"
 #include "apps/view/style.h"
 #include "core/base/progress.h"
@@ -27,10 +28,17 @@ Result<ShotGround> ground_of_shot(const ShotResult& shot);
 // A view that was written without one is drawn again without.
 void choose_legend(const ShotOptions& options, View& view);
 
+// A shot's scene, and its key where it can be left to the next one (leave_scene()); "" where it cannot.
+struct ShotScene {
+    RegionScene whole;
+    std::string key;
+};
+
 // The region of a shot, ready to be drawn; what --tolerance chooses is chosen. ceiling_m: unseen_ceiling().
 // Errors: those of levels, of choosing, of images, and of the device.
-Result<Scene> scene_of_shot(const ShotOptions& options, double ceiling_m, const Gpu& gpu, const Style& style,
-                            const ShotGround& ground, const Progress& progress, ShotResult& shot);
+Result<ShotScene> scene_of_shot(const ShotOptions& options, double ceiling_m, const Gpu& gpu,
+                                const Style& style, const ShotGround& ground, const Progress& progress,
+                                ShotResult& shot);
 
 // Before a picture is drawn. Errors: nothing of the region can be in view, and the eye is not over it
 // (nothing_in_view()).

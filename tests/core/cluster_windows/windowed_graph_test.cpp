@@ -78,6 +78,37 @@ TEST_F(WindowedGraph, HasTheBytesOfOneGoInStages) {
     }
 }
 
+// Windows that several machines have built, of the first stage.
+TEST_F(WindowedGraph, HasTheBytesOfOneGoFromParts) {
+    const ClusterTerrain terrain(rough_field(47.0, 8.0, 320, 400));
+    const std::string whole = in_one_go(terrain);
+    WindowedBake bake = how(path_, 1, 40'000);
+    bake.stages = {{1, 40'000}, {2, 70'000}};
+    WindowSizes first = bake.stages.front();
+    const std::size_t windows = windows_of(terrain.heights.rows, terrain.heights.columns, first).size();
+    ASSERT_GT(windows, 2U);
+    std::size_t built = 0;
+    for (std::size_t number = 1; number <= 3; ++number) {
+        const auto part = bake_windows_of_part(terrain.field, bake, number, 3);
+        ASSERT_TRUE(part.ok()) << part.error().line();
+        built += *part;
+    }
+    EXPECT_EQ(built, windows);
+    EXPECT_EQ(files(), 1U + windows) << "the whole and all windows";
+    const auto times = [&] {
+        std::vector<fs::file_time_type> all;
+        for (std::size_t i = 0; i < windows; ++i)
+            all.push_back(fs::last_write_time(path_of_window(bake.path, i)));
+        return all;
+    };
+    const auto before = times();
+    // They are taken: nothing is built again.
+    ASSERT_TRUE(bake_windows_of_part(terrain.field, bake, 1, 1).ok());
+    EXPECT_EQ(times(), before);
+    EXPECT_TRUE(in_windows(terrain.field, bake) == whole);
+    EXPECT_EQ(files(), 2U) << "windows are gone";
+}
+
 // Flat ground, where groups go on as long as moves cost nothing.
 TEST_F(WindowedGraph, HasTheBytesOfOneGoOverASea) {
     const ClusterTerrain terrain(coast_field(420, 560));

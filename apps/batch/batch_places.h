@@ -1,0 +1,33 @@
+// Places of a table or a vector file, for each of which a line of a list is a job of its own.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+
+namespace oro {
+
+// A place with what is known of it: `number` from 1, and all fields of its file. A point of a vector file
+// also has `lat` and `lon` in degrees, and `ele` in metres where it has a height, whatever its file calls
+// them.
+struct BatchPlace {
+    std::size_t number{};
+    std::map<std::string, std::string> fields;
+
+    // For messages: its number, and its name where it has one.
+    [[nodiscard]] std::string words() const;
+};
+
+// A table is a .csv (fields between commas, semicolons or tabs, the first line their names, "..." around
+// text), a vector file one that read_vectors() reads: its points. Errors: those of reading; no place; a line
+// of a table with more fields than names.
+Result<std::vector<BatchPlace>> read_places(const std::string& file);
+
+// The text with what a place has in the place of each {field}; {{ and }} are braces. Errors (usage): a field
+// that the place does not have; a brace alone.
+Result<std::string> with_fields(const std::string& text, const BatchPlace& place, bool is_file_name);
+
+}  // namespace oro
