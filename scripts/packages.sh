@@ -6,7 +6,7 @@ build_packages=(
   libgdal-dev libgeographiclib-dev libproj-dev proj-data libgeos-dev libsqlite3-dev
   libglm-dev libglfw3-dev libimgui-dev libcli11-dev nlohmann-json3-dev
   libpng-dev libjpeg-dev libtiff-dev libexif-dev libfreetype-dev libharfbuzz-dev fonts-dejavu-core
-  libzstd-dev libxxhash-dev liberfa-dev libpugixml-dev libutfcpp-dev libcpp-httplib-dev libssl-dev
+  libzstd-dev libxxhash-dev liberfa-dev libpugixml-dev libutfcpp-dev libcpp-httplib-dev libssl-dev libmeshoptimizer-dev
 )
 
 # To tell a GPU with mesh shaders from one without; only where there is a GPU.

@@ -91,8 +91,8 @@ TEST(ExportCommand, A3dTilesetHasTheProvenErrors) {
     EXPECT_EQ(said["without_content"], 0);
     ASSERT_EQ(said["levels"].size(), 3U);
     EXPECT_EQ(said["levels"][2]["triangles"], 2 * 402 * 343);
-    // Rounding alone where each post is drawn.
-    EXPECT_LT(said["levels"][2]["largest_error_m"].get<double>(), 0.01);
+    // Rounding alone where each post is drawn: steps of 2^-4 m at most.
+    EXPECT_LT(said["levels"][2]["largest_error_m"].get<double>(), 0.07);
     const auto tileset = nlohmann::json::parse(bytes_of(out / "tileset.json"));
     EXPECT_EQ(tileset["asset"]["version"], "1.1");
     EXPECT_EQ(tileset["root"]["geometricError"], said["levels"][0]["largest_error_m"]);
