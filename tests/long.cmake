@@ -230,6 +230,8 @@ set_tests_properties(
   ProfileCommand.AMillionPlacesAreALine
   ProfileCommand.FilesHaveLinesOrAreRefused
   ProfileCommand.WhatIsWrongIsSaidInOneLine
+  QuantizedTiles.CornersHaveTheGroundsHeights
+  QuantizedTiles.HorizonHidesNothingThatIsSeen
   RecordedView.DataThatAreGoneCanBeNamed
   RecordedView.LimitsAreTheSameOnBothSides
   RecordedView.NamesThatAreNoUtf8LeadToTheirFiles

@@ -502,20 +502,23 @@ void add_bake(CLI::App& app, BakePartOptions& options) {
 
 void add_export(CLI::App& app, ExportOptions& options) {
     CLI::App& command = *app.add_subcommand(
-        "export", "Write the ground in formats of others: GeoTIFF, 3D Tiles, tiles for web maps");
+        "export", "Write the ground in formats of others: GeoTIFF, 3D Tiles, tiles for maps and globes");
     OptionGroup written(command, "The export");
-    written.choice("--to", options.to, {"cog", "terrain-rgb", "3dtiles"},
-                   "The format: a Cloud Optimized GeoTIFF of the data's own samples, PNG tiles for web maps "
-                   "whose colours "
-                   "are heights, or 3D Tiles for globes, with levels whose error is proven.");
+    written.choice(
+        "--to", options.to, {"cog", "terrain-rgb", "3dtiles", "quantized-mesh"},
+        "The format: a Cloud Optimized GeoTIFF of the data's own samples, PNG tiles for web maps whose "
+        "colours are heights, 3D Tiles with levels whose error is proven, or tiles of terrain for globes.");
     written.option("--out", options.out, "PATH",
                    "What to write: a file (.tif) of cog, a folder of the others.");
     written.option("--zoom", options.zoom, "RANGE",
-                   "Write these zooms of a web map, LOW:HIGH of 0 to 22, as in 5:12. Default: from the one "
-                   "that shows all "
-                   "the data in a tile to the one whose pixels are as close as the data. Needs terrain-rgb.");
-    written.number("--hole-height", options.hole_height_m, "METRES",
-                   "Height of pixels without ground, -10000 to 10000 (default 0). Needs terrain-rgb.");
+                   "Write these zooms of a web map, LOW:HIGH of 0 to 22, as in 5:12, or of a globe, 0:HIGH. "
+                   "Default: up to the "
+                   "one whose pixels or quads are as close as the data, of a web map from the one that shows "
+                   "all the data in a "
+                   "tile. Needs terrain-rgb or quantized-mesh.");
+    written.number(
+        "--hole-height", options.hole_height_m, "METRES",
+        "Height of places without ground, -10000 to 10000 (default 0). Needs terrain-rgb or quantized-mesh.");
     written.flag("--overwrite", options.overwrite,
                  "Replace a file that is there, or a folder that holds such tiles and nothing else.");
     add_region_options(command, options.region);
@@ -523,7 +526,8 @@ void add_export(CLI::App& app, ExportOptions& options) {
     add_quiet(command, options.quiet, "the result and errors");
     set_help(command, {{"export PATH... --to cog --out FILE.tif [OPTIONS]",
                         "export PATH... --to terrain-rgb --out FOLDER [OPTIONS]",
-                        "export PATH... --to 3dtiles --out FOLDER [OPTIONS]"},
+                        "export PATH... --to 3dtiles --out FOLDER [OPTIONS]",
+                        "export PATH... --to quantized-mesh --out FOLDER [OPTIONS]"},
                        "",
                        "docs/commands/export.md"});
 }

@@ -17,10 +17,12 @@ struct GlbLook {
 };
 
 // The bytes of a .glb of a mesh that has a triangle: one node, which the mesh's centre moves in double, one
-// mesh, one buffer. y is up in glTF, so ECEF's (x, y, z) is (x, z, -y); viewers of 3D Tiles turn it back.
-// Positions are the mesh's own bits; parts of normals are rounded to 1/32767 (KHR_mesh_quantization).
-// mesh.extras.groundTriangles: how many of the triangles, the first ones, are ground; the others are walls.
-// Source: Khronos, glTF 2.0 specification; OGC 22-025r4, 3D Tiles 1.1.
+// mesh, one buffer that is compressed (EXT_meshopt_compression; a viewer that does not know it cannot read
+// the file). y is up in glTF, so ECEF's (x, y, z) is (x, z, -y); viewers of 3D Tiles turn it back. Positions
+// of ground are the mesh's own bits, as float32. Parts of normals are 1/1000 off at most
+// (KHR_mesh_quantization). Triangles come in another order. mesh.extras.groundTriangles: how many of them,
+// the first ones, are ground; the others are walls. Source: Khronos, glTF 2.0 specification; OGC 22-025r4, 3D
+// Tiles 1.1.
 std::vector<std::uint8_t> glb_bytes(const GroundMesh& mesh, const GlbLook& look);
 
 }  // namespace oro

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <optional>
@@ -49,7 +50,8 @@ class MeshBuilder {
         mesh_.box = {unset, unset, -unset, -unset, summary.lowest_h_m, summary.highest_h_m};
         middle_lon_deg_ = summary.origin.lon_deg;
     }
-    GroundMesh build(const TileWalls& walls) {
+    GroundMesh build(const TileWalls& walls, double step_m) {
+        mesh_.step_m = step_m;
         for (int row = 0; row < quads; ++row)
             for (int column = 0; column < quads; ++column) add_quad(row, column);
         mesh_.ground_triangles = mesh_.indices.size() / 3;
@@ -134,7 +136,7 @@ glm::dvec3 MeshBuilder::normal_of(const Post& post) const {
 }
 
 std::uint32_t MeshBuilder::add_vertex(const glm::dvec3& ecef_m, const glm::vec3& normal) {
-    mesh_.positions_m.emplace_back(ecef_m - mesh_.centre_m);
+    mesh_.positions_m.emplace_back(glm::round((ecef_m - mesh_.centre_m) / mesh_.step_m) * mesh_.step_m);
     mesh_.normals.push_back(normal);
     return static_cast<std::uint32_t>(mesh_.positions_m.size() - 1);
 }
@@ -204,9 +206,9 @@ void MeshBuilder::widen_box(double down_m, double out_m) {
         longest_m = std::max<double>(longest_m, glm::length(position));
     // A chord is off the arc above it by less than this; so is it off a meridian or a parallel.
     const double step_m = 2.0 * longest_m / quads + 1.0;
-    const double sag_m = step_m * step_m / wgs84_b_m + 0.01;
+    const double sag_m = step_m * step_m / wgs84_b_m + mesh_.step_m + 0.01;
     box.lowest_h_m -= down_m + sag_m;
-    box.highest_h_m += 0.01;
+    box.highest_h_m += mesh_.step_m + 0.01;
     const double aside_deg = deg_from_radians(Radians{(out_m + sag_m) / (0.99 * wgs84_b_m)});
     box.south_deg = std::max(-90.0, box.south_deg - aside_deg);
     box.north_deg = std::min(90.0, box.north_deg + aside_deg);
@@ -226,11 +228,12 @@ void MeshBuilder::widen_box(double down_m, double out_m) {
 
 }  // namespace
 
-Result<GroundMesh> ground_mesh(const RegionPages& pages, const PageIndex& page, const TileWalls& walls) {
+Result<GroundMesh> ground_mesh(const RegionPages& pages, const PageIndex& page, const TileBounds& bounds) {
     const auto block = std::make_unique<gpu::PageBlock>();
     ORO_CHECK(pages.load(page, *block));
     ORO_TRY(const PageRecord record, pages.record(page));
-    return MeshBuilder(pages.facts().grid, page, record.summary, *block).build(walls);
+    return MeshBuilder(pages.facts().grid, page, record.summary, *block)
+        .build(bounds.walls(page), bounds.step_m(page));
 }
 
 }  // namespace oro

@@ -21,7 +21,9 @@ struct TileBox {
 // Triangles are anticlockwise, seen from above or, of walls, from outside.
 struct GroundMesh {
     glm::dvec3 centre_m{0.0};  // ECEF
-    // ECEF less the centre, rounded to float: off by 2^-24 of the distance from it at most.
+    // ECEF less the centre, in whole steps: half a step off along each axis at most. Those of ground have 23
+    // bits and a sign, and so are the same in float.
+    double step_m{};
     std::vector<glm::vec3> positions_m;
     std::vector<glm::vec3>
         normals;  // unit, ECEF, of the ground around the vertex; a wall has those of its edge
@@ -30,8 +32,8 @@ struct GroundMesh {
     TileBox box;  // holds all triangles, walls included
 };
 
-// The page with all its quads, each post in its place in double before it is rounded; posts without a height
-// leave out what lies between them. Errors: a file that cannot be read.
-Result<GroundMesh> ground_mesh(const RegionPages& pages, const PageIndex& page, const TileWalls& walls);
+// The page with all its quads and its walls, each post in its place in double before it is rounded; posts
+// without a height leave out what lies between them. Errors: a file that cannot be read.
+Result<GroundMesh> ground_mesh(const RegionPages& pages, const PageIndex& page, const TileBounds& bounds);
 
 }  // namespace oro

@@ -109,7 +109,7 @@ Result<void> TilesetWriter::make_folders(int level) const {
 Result<WrittenPage> TilesetWriter::write_page(const PageIndex& page) const {
     WrittenPage written;
     if (!bounds_.drawn(page) || std::isinf(bounds_.error_m(page))) return written;
-    ORO_TRY(const GroundMesh mesh, ground_mesh(pages_, page, bounds_.walls(page)));
+    ORO_TRY(const GroundMesh mesh, ground_mesh(pages_, page, bounds_));
     if (mesh.ground_triangles == 0) return written;
     const std::vector<std::uint8_t> glb = glb_bytes(mesh, request_.look);
     ORO_CHECK(write_plain_file(folder_ + "/" + tile_name(page), glb));

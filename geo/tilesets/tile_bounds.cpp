@@ -13,9 +13,8 @@ namespace {
 
 // Above the radii of curvature anywhere. Source: wgs84_a_m^2 / wgs84_b_m, at a pole.
 constexpr double largest_radius_m = 6399594.0;
-// A position that is rounded to float is off by this share of its distance from the centre at most.
-constexpr double float_share = 0x1.0p-24;
-
+// Three coordinates that are half a step off: sqrt(3) / 2, rounded up.
+constexpr double rounded_share = 0.8661;
 // How far a flat triangle of a level lies from the one that is linear in row, column and height, at most; as
 // in core/lod/node_deviations.cpp, with both radii of curvature at their largest. dh_m: between its posts.
 double sag_m(const PostGrid& grid, int level, double highest_h_m, double dh_m) {
@@ -25,6 +24,16 @@ double sag_m(const PostGrid& grid, int level, double highest_h_m, double dh_m) {
         return 0.125 * (grid.net->bend() * radius_m * both * both + 2.02 * dh_m * both +
                         2.0 * grid.net->kink() * radius_m * both);
     return 0.125 * 1.0001 * (radius_m * both * both + 2.0 * dh_m * both);
+}
+
+// See TileBounds::step_m().
+double step_of_m(double certified_m, double post_m, double radius_m) {
+    constexpr double finest_m = 0x1.0p-11, coarsest_of_posts_m = 0x1.0p-4, share = 0x1.0p-10;
+    // A post is no farther from the sphere's centre than this, and a coordinate has 23 bits and a sign.
+    const double least_m = 2.0 * radius_m * 0x1.0p-22;
+    const double wanted_m =
+        std::max({finest_m, std::min(coarsest_of_posts_m, share * post_m), share * certified_m});
+    return std::max(std::exp2(std::floor(std::log2(wanted_m))), std::exp2(std::ceil(std::log2(least_m))));
 }
 
 // Where the page's posts are closest to each other.
@@ -60,9 +69,11 @@ Result<TileBounds::Bound> TileBounds::bound_of(const PageIndex& page) const {
     bound.drawn = summary.triangles > 0;
     const double certified_m = page.level == 0 ? 0.0 : static_cast<double>(summary.largest_error_m);
     const double dh_m = summary.highest_h_m - summary.lowest_h_m;
-    bound.sag_m = static_cast<float>(sag_m(grid, page.level, summary.highest_h_m, dh_m));
     const PostSpacing apart = post_spacing_at_page(grid, page);
     bound.post_m = std::min(apart.row_m, apart.column_m);
+    const bool fits = certified_m < static_cast<double>(gpu::unfit_error_m);
+    bound.step_m = step_of_m(fits ? certified_m : 0.0, bound.post_m, std::max(1.0, summary.radius_m));
+    bound.beside_m = sag_m(grid, page.level, summary.highest_h_m, dh_m) + bound.step_m;
     if (bound.drawn) bound.lowest_h_m = summary.lowest_h_m, bound.highest_h_m = summary.highest_h_m;
     // Of the pages below it.
     double error_m = 0.0, shown_error_m = -1.0;
@@ -76,15 +87,15 @@ Result<TileBounds::Bound> TileBounds::bound_of(const PageIndex& page) const {
         bound.highest_h_m = std::max(bound.highest_h_m, at(child).highest_h_m);
         bound.post_m = std::min(bound.post_m, at(child).post_m);
     }
-    if (certified_m >= static_cast<double>(gpu::unfit_error_m)) {
+    if (!fits) {
         bound.error_m = unbounded_m;
         bound.shown_error_m = shown_error_m;
         return bound;
     }
     // The surface's own triangles lie within the certificate of the page's heights.
     const double surface_sag_m = sag_m(grid, 0, summary.highest_h_m + certified_m, dh_m + 2.0 * certified_m);
-    bound.error_m = std::max(
-        error_m, certified_m + surface_sag_m + 0.5 * height_step_m + float_share * 2.0 * summary.radius_m);
+    bound.error_m =
+        std::max(error_m, certified_m + surface_sag_m + 0.5 * height_step_m + rounded_share * bound.step_m);
     if (bound.drawn) bound.shown_error_m = bound.error_m;
     return bound;
 }
@@ -136,12 +147,12 @@ TileWalls TileBounds::walls(const PageIndex& page) const {
             const Bound& other = at(*index);
             if (other.shown_error_m < 0.0) continue;
             error_m = std::max(error_m, other.shown_error_m);
-            beside_m = std::max(beside_m, static_cast<double>(other.sag_m));
+            beside_m = std::max(beside_m, other.beside_m);
             steepness = std::max(steepness, (other.highest_h_m - other.lowest_h_m) / other.post_m);
             lowest_h_m = std::min(lowest_h_m, other.lowest_h_m);
         }
         if (error_m < 0.0) continue;
-        walls.out_m[edge] = 2.0 * (static_cast<double>(own.sag_m) + beside_m);
+        walls.out_m[edge] = 2.0 * (own.beside_m + beside_m);
         walls.down_m[edge] =
             own.error_m + error_m +
             std::min(1.5 * walls.out_m[edge] * steepness, own.highest_h_m - lowest_h_m + beside_m);

@@ -22,7 +22,7 @@ struct TileWalls {
 };
 
 // The bounds of the pages of a grid, each drawn alone with all its quads by flat triangles between posts that
-// are rounded to float around a centre. Read once, of what the certificates say; 48 bytes a page.
+// are rounded to steps around a centre. Read once, of what the certificates say; 64 bytes a page.
 class TileBounds {
   public:
     // `pages` outlive them. Errors: a file that cannot be read.
@@ -36,6 +36,9 @@ class TileBounds {
     // rounding of positions to float. unbounded_m where the page cannot stand for what it covers, and never
     // on level 0.
     [[nodiscard]] double error_m(const PageIndex& page) const { return at(page).error_m; }
+    // The step that positions of the page are rounded to, along each axis: a power of two, a thousandth of
+    // the error or of the way between posts, 2^-11 m at least, and as large as the page takes with 23 bits.
+    [[nodiscard]] double step_m(const PageIndex& page) const { return at(page).step_m; }
     // Walls that close what may open to any neighbour that a viewer can draw beside this page: a page of the
     // same level, one below that, or one of a coarser level that does not cover this page. Two edges are off
     // the surface by their pages' errors at most, so their sum is deep enough where both lie above one line.
@@ -51,8 +54,9 @@ class TileBounds {
         // none.
         double lowest_h_m{std::numeric_limits<double>::infinity()};
         double highest_h_m{-std::numeric_limits<double>::infinity()};
-        double post_m{};  // from a post of level 0 to the next, at least
-        float sag_m{};
+        double post_m{};    // from a post of level 0 to the next, at least
+        double beside_m{};  // how far edges may be beside each other: sag and step
+        double step_m{};
         bool drawn{};
     };
     explicit TileBounds(const RegionPages& pages) : pages_(&pages) {}

@@ -13,6 +13,7 @@
 #include "core/base/parallel.h"
 #include "geo/files/plain_file.h"
 #include "geo/pictures/png_bytes.h"
+#include "geo/web_maps/random_places.h"
 
 namespace oro {
 namespace fs = std::filesystem;
@@ -95,21 +96,6 @@ void remove_empty_folders(const std::string& folder, std::span<const MercatorTil
         fs::remove(folder + "/" + std::to_string(column.zoom), ignored);
 }
 
-// Numbers of [0, 1), the same of every library. Source: S. Vigna, splitmix64.
-class Random {
-  public:
-    explicit Random(std::uint64_t seed) : state_(seed) {}
-    double next() {
-        std::uint64_t bits = state_ += 0x9E3779B97F4A7C15U;
-        bits = (bits ^ (bits >> 30U)) * 0xBF58476D1CE4E5B9U;
-        bits = (bits ^ (bits >> 27U)) * 0x94D049BB133111EBU;
-        return static_cast<double>((bits ^ (bits >> 31U)) >> 11U) * 0x1.0p-53;
-    }
-
-  private:
-    std::uint64_t state_;
-};
-
 // Where a zoom's pixels put the ground at a place; nothing where one of the four around it has none.
 std::optional<double> encoded_H_m(const TrueGround& ground, int zoom, const PostPlace& place) {
     const MercatorPixel pixel = mercator_pixel(zoom, place.lat_deg, place.lon_deg);
@@ -127,28 +113,14 @@ std::optional<double> encoded_H_m(const TrueGround& ground, int zoom, const Post
     return H_m;
 }
 
-// A place in one of the grids' boxes.
-PostPlace random_place(std::span<const PostGrid* const> grids, double posts, Random& random) {
-    double number = random.next() * posts;
-    const PostGrid* grid = grids.front();
-    for (const PostGrid* const one : grids) {
-        grid = one;
-        if (number < static_cast<double>(one->post_count())) break;
-        number -= static_cast<double>(one->post_count());
-    }
-    const double row = random.next() * (grid->rows() - 1);
-    return grid->place_at(row, random.next() * (grid->columns() - 1));
-}
-
 ZoomError error_of_zoom(const TrueGround& ground, int zoom, int places) {
     constexpr int tries_a_place = 20;
     ZoomError error{zoom, 0, 0.0, 0.0};
     const auto grids = grids_of(ground);
-    double posts = 0.0, squares_m2 = 0.0;
-    for (const PostGrid* const grid : grids) posts += static_cast<double>(grid->post_count());
-    Random random(static_cast<std::uint64_t>(zoom));
+    double squares_m2 = 0.0;
+    RandomShares random(static_cast<std::uint64_t>(zoom));
     for (int i = 0; i < tries_a_place * places && error.places < static_cast<std::uint64_t>(places); ++i) {
-        const PostPlace place = random_place(grids, posts, random);
+        const PostPlace place = random_place(grids, random);
         if (std::abs(place.lat_deg) >= mercator_limit_deg) continue;
         const std::optional<double> is_m = ground_H_m(ground, place.lat_deg, place.lon_deg);
         const std::optional<double> has_m = is_m ? encoded_H_m(ground, zoom, place) : std::nullopt;

@@ -112,20 +112,22 @@ TEST(RefusedOptions, Numbers) {
 
 TEST(RefusedOptions, MissingValues) {
     const std::string file = bundled();
-    expect_lines({{{"plan", file, "--at"}, "--at: a value must follow: --at PLACE"},
-                  {{"plan", file, "--at", "--above", "3"}, "--at: a value must follow: --at PLACE"},
-                  {{"plan", file, "--samples", "--json"}, "--samples: a value must follow: --samples N"},
-                  {{"plan", file, "--tau", ""}, "--tau: its value is empty"},
-                  {{"trade", file, "--views", ""}, "--views: its value is empty"},
-                  {{"plan", ""}, "PATH: its value is empty"},
-                  {{"plan"}, "PATH: is missing: name a file or a folder of elevation data"},
-                  {{"compare"}, "PICTURE: is missing (orograph compare --help tells what it is)"},
-                  {{"shot", file}, "--out: is missing: name the picture to write (.png, .jpg or .tif)"},
-                  {{"bake", file}, "--out: is missing: name the file to write (.oro)"},
-                  {{"export", file}, "--to: is missing: choose cog, terrain-rgb or 3dtiles"},
-                  {{"export", file, "--to", "cog"}, "--out: is missing: name the file to write (.tif)"},
-                  {{"export", file, "--to", "terrain-rgb"}, "--out: is missing: name the folder to write"},
-                  {{"export", file, "--to", "3dtiles"}, "--out: is missing: name the folder to write"}});
+    expect_lines(
+        {{{"plan", file, "--at"}, "--at: a value must follow: --at PLACE"},
+         {{"plan", file, "--at", "--above", "3"}, "--at: a value must follow: --at PLACE"},
+         {{"plan", file, "--samples", "--json"}, "--samples: a value must follow: --samples N"},
+         {{"plan", file, "--tau", ""}, "--tau: its value is empty"},
+         {{"trade", file, "--views", ""}, "--views: its value is empty"},
+         {{"plan", ""}, "PATH: its value is empty"},
+         {{"plan"}, "PATH: is missing: name a file or a folder of elevation data"},
+         {{"compare"}, "PICTURE: is missing (orograph compare --help tells what it is)"},
+         {{"shot", file}, "--out: is missing: name the picture to write (.png, .jpg or .tif)"},
+         {{"bake", file}, "--out: is missing: name the file to write (.oro)"},
+         {{"export", file}, "--to: is missing: choose cog, terrain-rgb, 3dtiles or quantized-mesh"},
+         {{"export", file, "--to", "cog"}, "--out: is missing: name the file to write (.tif)"},
+         {{"export", file, "--to", "terrain-rgb"}, "--out: is missing: name the folder to write"},
+         {{"export", file, "--to", "3dtiles"}, "--out: is missing: name the folder to write"},
+         {{"export", file, "--to", "quantized-mesh"}, "--out: is missing: name the folder to write"}});
 }
 
 TEST(RefusedOptions, OptionsThatExcludeEachOther) {

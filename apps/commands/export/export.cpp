@@ -26,17 +26,22 @@ Result<void> check_file(const ExportOptions& options) {
 }
 
 Result<void> check_words(const ExportOptions& options) {
-    if (!options.to) return refused("--to", "", "is missing: choose cog, terrain-rgb or 3dtiles");
+    if (!options.to)
+        return refused("--to", "", "is missing: choose cog, terrain-rgb, 3dtiles or quantized-mesh");
     if (options.out.empty())
         return refused("--out", "",
                        *options.to == "cog" ? "is missing: name the file to write (.tif)"
                                             : "is missing: name the folder to write");
-    const bool web_map = *options.to == "terrain-rgb";
-    if (options.zoom && !web_map) return refused("--zoom", *options.zoom, "needs --to terrain-rgb");
-    if (options.hole_height_m && !web_map) return refused("--hole-height", "", "needs --to terrain-rgb");
+    const bool has_zooms = *options.to == "terrain-rgb" || *options.to == "quantized-mesh";
+    const char* const needed = "needs --to terrain-rgb or quantized-mesh";
+    if (options.zoom && !has_zooms) return refused("--zoom", *options.zoom, needed);
+    if (options.hole_height_m && !has_zooms) return refused("--hole-height", "", needed);
     if (*options.to == "cog") return check_file(options);
     if (*options.to == "3dtiles") return check_folder(options.out, options.overwrite, ".glb", "tileset.json");
-    return check_zoom(options);
+    ORO_CHECK(check_zoom(options));
+    return *options.to == "terrain-rgb"
+               ? check_folder(options.out, options.overwrite, ".png", "tiles.json")
+               : check_folder(options.out, options.overwrite, ".terrain", "layer.json");
 }
 
 }  // namespace
@@ -73,6 +78,7 @@ Result<void> run_export(const ExportOptions& options) {
     ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, region)}));
     if (*options.to == "cog") return export_cog(options, region, bar);
     if (*options.to == "3dtiles") return export_3d_tiles(options, region, bar);
+    if (*options.to == "quantized-mesh") return export_quantized_mesh(options, region, bar);
     return export_terrain_rgb(options, region, bar);
 }
 

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "apps/options/export_options.h"
 #include "apps/report/progress_bar.h"
 #include "core/base/result.h"
 #include "geo/region/region.h"
+#include "geo/web_maps/terrain_tiles.h"
 
 namespace oro {
 
@@ -30,7 +33,22 @@ Result<void> export_3d_tiles(const ExportOptions& options, const Region& region,
 // than tiles with that extension and the file `index`.
 Result<void> check_folder(const std::string& out, bool overwrite, const std::string& extension,
                           const std::string& index);
-// Refuses zooms that are none before anything is read.
+// Writes the ground of a region as tiles of terrain for globes with a layer.json, measures their error, and
+// tells it on standard output. Errors: as export_terrain_rgb().
+Result<void> export_quantized_mesh(const ExportOptions& options, const Region& region, ProgressBar& bar);
+
+// LOW:HIGH. Errors (usage): what is no such range.
+Result<ZoomRange> zooms_from(const std::string& text);
+// Refuses zooms and heights of holes that are none before anything is read.
 Result<void> check_zoom(const ExportOptions& options);
+// Most tiles of a web map or globe.
+inline constexpr double most_web_tiles = 4.0e6;
+// Of each zoom, how far random places were from the ground; and the same as lines for people.
+inline constexpr int measured_places = 10000;
+nlohmann::ordered_json errors_json(const std::vector<ZoomError>& errors);
+void tell_errors(const std::vector<ZoomError>& errors);
+// What there is of the map: west, south, east, north, within limit_deg of the equator. TileJSON lets no box
+// cross 180 degrees.
+std::vector<double> bounds_of(const Region& region, double limit_deg);
 
 }  // namespace oro

@@ -58,8 +58,8 @@ class TileInPosts {
             Corners corners{};
             for (std::size_t j = 0; j < 3; ++j) {
                 const PostNumber& post = posts_[tile.triangles[i][j]];
-                EXPECT_NEAR(post.row, std::round(post.row), 1e-3);
-                EXPECT_NEAR(post.column, std::round(post.column), 1e-3);
+                EXPECT_NEAR(post.row, std::round(post.row), 0.01);
+                EXPECT_NEAR(post.column, std::round(post.column), 0.01);
                 corners[j] = {std::round(post.row), std::round(post.column)};
             }
             const auto [first_row, last_row] = std::minmax({corners[0].row, corners[1].row, corners[2].row});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <meshoptimizer.h>
 
 #include <array>
 #include <cstdint>
@@ -44,27 +45,57 @@ Value value_at(const std::string& bytes, std::size_t at) {
     return value;
 }
 
+// The bytes of a view, decompressed. Source: Khronos, EXT_meshopt_compression.
+inline std::string view_bytes(const nlohmann::json& gltf, const std::string& bin, std::size_t number) {
+    const auto& view = gltf["bufferViews"][number];
+    EXPECT_TRUE(gltf["buffers"][view["buffer"].get<std::size_t>()]["extensions"]["EXT_meshopt_compression"]
+                    ["fallback"]
+                        .get<bool>());
+    const auto& packed = view["extensions"]["EXT_meshopt_compression"];
+    EXPECT_EQ(packed["buffer"], 0);
+    const auto count = packed["count"].get<std::size_t>(), stride = packed["byteStride"].get<std::size_t>();
+    EXPECT_EQ(view["byteLength"], count * stride);
+    const auto first = packed["byteOffset"].get<std::size_t>(),
+               size = packed["byteLength"].get<std::size_t>();
+    EXPECT_LE(first + size, bin.size());
+    const auto* const from = reinterpret_cast<const unsigned char*>(bin.data()) + first;
+    std::string bytes(count * stride, '\0');
+    if (packed["mode"] == "TRIANGLES") {
+        EXPECT_EQ(meshopt_decodeIndexBuffer(bytes.data(), count, stride, from, size), 0);
+        return bytes;
+    }
+    EXPECT_EQ(packed["mode"], "ATTRIBUTES");
+    EXPECT_EQ(meshopt_decodeVertexBuffer(bytes.data(), count, stride, from, size), 0);
+    if (packed["filter"] == "EXPONENTIAL") meshopt_decodeFilterExp(bytes.data(), count, stride);
+    if (packed["filter"] == "OCTAHEDRAL") meshopt_decodeFilterOct(bytes.data(), count, stride);
+    return bytes;
+}
+
 // Vectors of an accessor of floats or of normalized shorts, as they stand, y up.
 inline std::vector<glm::dvec3> vectors_of(const nlohmann::json& gltf, const std::string& bin, int accessor) {
     const auto& of = gltf["accessors"][static_cast<std::size_t>(accessor)];
-    const auto& view = gltf["bufferViews"][of["bufferView"].get<std::size_t>()];
+    const auto number = of["bufferView"].get<std::size_t>();
+    const std::string bytes = view_bytes(gltf, bin, number);
     EXPECT_EQ(of["type"], "VEC3");
     const bool shorts = of["componentType"] == 5122;
     EXPECT_TRUE(shorts || of["componentType"] == 5126);
     const std::size_t part = shorts ? 2 : 4;
-    const auto stride = view.value("byteStride", 3 * part), count = of["count"].get<std::size_t>();
-    const std::size_t first =
-        view.value("byteOffset", std::size_t{0}) + of.value("byteOffset", std::size_t{0});
-    EXPECT_LE((count - 1) * stride + 3 * part, view["byteLength"].get<std::size_t>());
+    const auto stride = gltf["bufferViews"][number]["byteStride"].get<std::size_t>(),
+               count = of["count"].get<std::size_t>();
+    EXPECT_EQ(count * stride, bytes.size());
     std::vector<glm::dvec3> vectors;
     for (std::size_t i = 0; i < count; ++i) {
         std::array<double, 3> parts{};
         for (std::size_t j = 0; j < 3; ++j) {
-            const std::size_t at = first + i * stride + j * part;
-            parts[j] = shorts ? std::max(-1.0, value_at<std::int16_t>(bin, at) / 32767.0)
-                              : static_cast<double>(value_at<float>(bin, at));
+            const std::size_t at = i * stride + j * part;
+            parts[j] = shorts ? std::max(-1.0, value_at<std::int16_t>(bytes, at) / 32767.0)
+                              : static_cast<double>(value_at<float>(bytes, at));
         }
         vectors.emplace_back(parts[0], parts[1], parts[2]);
+        for (std::size_t j = 0; of.contains("min") && j < 3; ++j) {
+            EXPECT_GE(parts[j], of["min"][j].get<double>());
+            EXPECT_LE(parts[j], of["max"][j].get<double>());
+        }
     }
     return vectors;
 }
@@ -98,11 +129,11 @@ inline void read_glb(const std::string& bytes, ReadTile& tile) {
         tile.normals.push_back(z_up(normal));
     const auto& indices = gltf["accessors"][primitive["indices"].get<std::size_t>()];
     EXPECT_EQ(indices["componentType"], 5123);
-    const std::size_t at = gltf["bufferViews"][indices["bufferView"].get<std::size_t>()]["byteOffset"];
+    const std::string bytes_of_indices = view_bytes(gltf, bin, indices["bufferView"].get<std::size_t>());
     for (std::size_t i = 0; i < indices["count"].get<std::size_t>() / 3; ++i) {
         auto& triangle = tile.triangles.emplace_back();
         for (std::size_t j = 0; j < 3; ++j) {
-            triangle[j] = value_at<std::uint16_t>(bin, at + 2 * (3 * i + j));
+            triangle[j] = value_at<std::uint16_t>(bytes_of_indices, 2 * (3 * i + j));
             ASSERT_LT(triangle[j], tile.posts_m.size());
         }
     }
