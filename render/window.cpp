@@ -407,15 +407,34 @@ void Window::blit(VkCommandBuffer commands, const Image& picture, const VkExtent
     if (columns.is_empty() || part.height == 0) return;
     const bool scaled = columns.from_end_px - columns.from_px != columns.to_end_px - columns.to_px ||
                         part.height != swapchain_extent_.height;
-    VkImageBlit region{};
-    region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.srcOffsets[0] = {columns.from_px, 0, 0};
-    region.srcOffsets[1] = {columns.from_end_px, static_cast<std::int32_t>(part.height), 1};
-    region.dstOffsets[0] = {columns.to_px, 0, 0};
-    region.dstOffsets[1] = {columns.to_end_px, static_cast<std::int32_t>(swapchain_extent_.height), 1};
-    vkCmdBlitImage(commands, picture.handle.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, images_[index],
-                   VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region,
-                   scaled ? VK_FILTER_LINEAR : VK_FILTER_NEAREST);
+    const auto copy = [&](VkOffset2D from, VkOffset2D from_end, VkOffset2D to, VkOffset2D to_end,
+                          VkFilter filter) {
+        if (from.x >= from_end.x || from.y >= from_end.y || to.x >= to_end.x || to.y >= to_end.y) return;
+        VkImageBlit region{};
+        region.srcSubresource = region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+        region.srcOffsets[0] = {from.x, from.y, 0};
+        region.srcOffsets[1] = {from_end.x, from_end.y, 1};
+        region.dstOffsets[0] = {to.x, to.y, 0};
+        region.dstOffsets[1] = {to_end.x, to_end.y, 1};
+        vkCmdBlitImage(commands, picture.handle.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, images_[index],
+                       VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, filter);
+    };
+    const VkOffset2D from{columns.from_px, 0}, to{columns.to_px, 0};
+    const VkOffset2D from_end{columns.from_end_px, static_cast<std::int32_t>(part.height)};
+    const VkOffset2D to_end{columns.to_end_px, static_cast<std::int32_t>(swapchain_extent_.height)};
+    if (!scaled) return copy(from, from_end, to, to_end, VK_FILTER_NEAREST);
+    // A linear filter takes what lies beside the part, too, which nobody has drawn. So the part's last column
+    // and row are copied by themselves.
+    const VkOffset2D inner_end{from_end.x - 1, from_end.y - 1};
+    const auto scaled_px = [](std::int32_t px, std::int32_t source_px, std::int32_t target_px) {
+        return static_cast<std::int32_t>(std::int64_t{px} * target_px / source_px);
+    };
+    const VkOffset2D split{to.x + scaled_px(inner_end.x - from.x, from_end.x - from.x, to_end.x - to.x),
+                           to.y + scaled_px(inner_end.y - from.y, from_end.y - from.y, to_end.y - to.y)};
+    copy(from, inner_end, to, split, VK_FILTER_LINEAR);
+    copy({inner_end.x, 0}, from_end, {split.x, 0}, to_end, VK_FILTER_NEAREST);
+    copy({from.x, inner_end.y}, {inner_end.x, from_end.y}, {to.x, split.y}, {split.x, to_end.y},
+         VK_FILTER_NEAREST);
 }
 
 // The picture, as large as the window or scaled to it, a second one beside it, and what lies over both.

@@ -64,9 +64,7 @@ void list_folder(Viewer& viewer, const Listing& listing) {
         if (ImGui::Selectable((name + "/").c_str()))
             viewer.folder = (fs::path(viewer.folder) / name).string();
     for (const std::string& name : listing.files)
-        if (ImGui::Selectable(name.c_str(), false, ImGuiSelectableFlags_AllowDoubleClick) &&
-            ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
-            open_now(viewer, {(fs::path(viewer.folder) / name).string()});
+        if (ImGui::Selectable(name.c_str())) open_now(viewer, {(fs::path(viewer.folder) / name).string()});
 }
 
 }  // namespace

@@ -28,9 +28,13 @@ std::string in_crs(const Viewer& viewer, const SeenPlace& seen) {
     return text + std::string(" in ") + crs->name() + "\n";
 }
 
-// Where the pointer is, or the picture's middle where it is elsewhere.
+// Where the pointer is, or the picture's middle where it is elsewhere; while the eye moves, where that is.
 void place_words(const Viewer& viewer) {
     if (!viewer.has_picture && !viewer.is_shown) return ImGui::TextDisabled("loading the ground");
+    if (is_moving(viewer)) {
+        const Geodetic& eye = viewer.view.camera.eye;
+        return ImGui::TextDisabled("the eye is at %.5f, %.5f", eye.lat_deg, eye.lon_deg);
+    }
     const bool pointed = viewer.under_pointer.has_value();
     const auto& place = reported_place(viewer);
     if (!place || !place->seen) {
@@ -85,8 +89,9 @@ void height_words(const Viewer& viewer) {
     tip(words);
 }
 
+// Not while the eye moves: what is in the middle is looked for at rest.
 void scale_bar(const Viewer& viewer) {
-    if (!viewer.in_middle || !viewer.in_middle->seen) return;
+    if (is_moving(viewer) || !viewer.in_middle || !viewer.in_middle->seen) return;
     const Camera& camera = viewer.view.camera;
     const double distance_m = viewer.in_middle->seen->seen_distance_m;
     const double m_per_px = 2.0 * camera.half_fov_tangent().y * distance_m / camera.height_px;

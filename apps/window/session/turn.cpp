@@ -183,6 +183,11 @@ Result<void> look_around(Session& session, const WindowInput& input, bool is_new
     return {};
 }
 
+std::optional<glm::dvec2> point_under_pointer(const Viewer& viewer) {
+    if (!viewer.under_pointer) return std::nullopt;
+    return viewer.under_pointer->point_px;
+}
+
 Result<void> grant_wishes(Viewer& viewer) {
     // What a wish wishes for comes after the next picture.
     const auto wishes = std::exchange(viewer.wishes, {});
@@ -258,9 +263,13 @@ Result<bool> turn(Session& session) {
     ORO_CHECK(grant_wishes(viewer));
     if (viewer.leaves) return false;
     advance_eye(viewer);
-    if (!is_moving(viewer) && (session.looks_under_pointer || !input.events.empty())) {
+    // Panels know that the pointer has come to them or left them once they have been shown again.
+    const bool is_asked = session.looks_under_pointer || !input.events.empty();
+    if (!is_moving(viewer) && (is_asked || session.frames_due > 0)) {
+        const auto before = point_under_pointer(viewer);
         ORO_CHECK(look_around(session, input, std::exchange(session.looks_under_pointer, false)));
-        session.frames_due = std::max(session.frames_due, 1);
+        if (is_asked || point_under_pointer(viewer) != before)
+            session.frames_due = std::max(session.frames_due, 1);
     }
     session.changed = std::exchange(viewer.wants_picture, false) || session.changed;
     // The eye stands on ground that was asked for: it ends as a page does that cannot be drawn.
