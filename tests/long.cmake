@@ -643,6 +643,7 @@ set_tests_properties(
   TreePictures.AreNoGround
   TreePictures.AreTheSameByBothWaysOfDrawing
   TreePictures.AreTheSameInTiles
+  TreePictures.AreTheSameWhereHiddenOnesAreDrawn
   Triangles/FullLists.PicturesAreThoseOfListsWithRoom/blocks
   Triangles/FullLists.PicturesAreThoseOfListsWithRoom/clusters
   Triangles/FullLists.WhatCannotBeClippedIsAnError/clusters
