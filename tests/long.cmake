@@ -41,6 +41,9 @@ set_tests_properties(
   Bake.VoidsAreToldAndFilledWhenBaking
   BashCompletion.OfChoicesAndStyles
   BashCompletion.OfCommandsAndOptions
+  Batch.AListThatWasKilledGoesOn
+  Batch.PartsMakeTheWhole
+  Batch.WhatIsDoneIsNotDoneAgain
   BrokenOffBake.KilledAtAnyMoment
   CanopyCommand.AnEyeUnderTreesSeesNothing
   CanopyCommand.PanoramasNameWhatIsSeenOverIt
@@ -262,6 +265,7 @@ set_tests_properties(
   SeveralViews.AreDrawnOneAfterTheOther
   SeveralViews.MayBeAListInAFile
   SeveralViews.NeedNumberedNames
+  SharedBakeCommand.HasTheBytesOfOneMachineOfSeveralGrids
   Shot.AntimeridianAndPoles
   Shot.EyeBelowSeaLevelAndFacingNorth
   Shot.GrindelwaldFirst
@@ -850,6 +854,7 @@ set_tests_properties(
   Voids.WhatNoSourceCoversStaysAHole
   WindowedGraph.GoesOnAfterABreak
   WindowedGraph.HasTheBytesOfOneGo
+  WindowedGraph.HasTheBytesOfOneGoFromParts
   WindowedGraph.HasTheBytesOfOneGoInStages
   WindowedGraph.HasTheBytesOfOneGoOverASea
   WorldBox.EveryPartOfEveryWorldIsTheRastersOwn

@@ -161,6 +161,11 @@ TEST_F(JobFile, WhatIsNoListIsRefusedAsAWhole) {
         ASSERT_FALSE(jobs.ok()) << text;
         EXPECT_NE(jobs.error().what.find(words), std::string::npos) << jobs.error().line();
     }
+    // More than 1 GiB, all of it a hole.
+    std::filesystem::resize_file(file, std::uintmax_t{1} << 34U);
+    const auto huge = read_jobs(file.string());
+    ASSERT_FALSE(huge.ok());
+    EXPECT_NE(huge.error().what.find("a list of jobs has at most 1 GiB"), std::string::npos);
     EXPECT_FALSE(read_jobs(file.parent_path().string()).ok());
     EXPECT_FALSE(read_jobs("/nowhere/jobs.jsonl").ok());
 }
