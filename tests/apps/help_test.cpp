@@ -106,7 +106,7 @@ TEST(Help, ExplainsEachOption) {
     const Words flags{"--verify",       "--layers",     "--ortho",        "--legend",    "--no-paths",
                       "--data-changed", "--overwrite",  "--json",         "-q, --quiet", "--check",
                       "--no-legend",    "--fill-voids", "--strict-datum", "-h, --help",  "--resample",
-                      "--on-summit",    "--kml",        "--geopose",      "--cors"};
+                      "--on-summit",    "--kml",        "--geopose",      "--cors",      "--stac"};
     for (const std::string& command : commands) {
         const auto options = options_in(help_of({command}));
         EXPECT_GE(options.size(), 2U) << command;
