@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "apps/output/relative_reference.h"
@@ -147,10 +149,21 @@ void put_direction(const View& view, ordered_json& properties) {
     properties["orograph:fov_deg"] = view.camera.vertical_fov_deg;
 }
 
+// The number of a CRS that a map's frame defines as EPSG:2056; nothing of one that is WKT.
+std::optional<int> epsg_number(std::string_view definition) {
+    constexpr std::string_view authority = "EPSG:";
+    if (!definition.starts_with(authority)) return std::nullopt;
+    definition.remove_prefix(authority.size());
+    int number = 0;
+    const auto [end, fault] =
+        std::from_chars(definition.data(), definition.data() + definition.size(), number);
+    if (fault != std::errc() || end != definition.data() + definition.size()) return std::nullopt;
+    return number;
+}
+
 void put_projection(const MapFrame& map, ordered_json& properties) {
-    constexpr std::string_view epsg = "EPSG:";
-    if (map.crs.starts_with(epsg)) {
-        properties["proj:epsg"] = std::stoi(map.crs.substr(epsg.size()));
+    if (const std::optional<int> number = epsg_number(map.crs)) {
+        properties["proj:epsg"] = *number;
     } else {
         properties["proj:epsg"] = nullptr;
         properties["proj:wkt2"] = map.crs;
