@@ -39,6 +39,12 @@ void add_geopose(OptionGroup& group, bool& geopose) {
         "Write NAME.geopose.json beside each picture: the eye's place and direction as an OGC GeoPose.");
 }
 
+void add_stac(OptionGroup& group, bool& stac) {
+    group.flag(
+        "--stac", stac,
+        "Write NAME.stac.json beside each picture: a STAC item, by which catalogues of images find it.");
+}
+
 void add_shot(CLI::App& app, ShotOptions& options) {
     CLI::App& command = *app.add_subcommand(
         "shot", "Write a picture of terrain that tells where it was taken from and can be drawn again");
@@ -62,6 +68,7 @@ void add_shot(CLI::App& app, ShotOptions& options) {
                  "height (above sea level), ellipsoidal-height, distance, slope, source and shadow.");
     add_kml(picture, options.kml);
     add_geopose(picture, options.geopose);
+    add_stac(picture, options.stac);
     picture.flag(
         "--ortho", options.ortho,
         "Draw a map from straight above instead, of all the data or of --bbox: a GeoTIFF with opacity "
@@ -91,8 +98,9 @@ void add_shot(CLI::App& app, ShotOptions& options) {
     set_help(command, {{"shot PATH... --out FILE [OPTIONS]", "shot --view PICTURE [--out FILE] [OPTIONS]"},
                        "",
                        "docs/commands/shot.md"});
-    list_later(command, {"--time", "--layers", "--kml", "--geopose", "--ortho", "--crs", "--resolution",
-                         "--legend", "--no-legend", "--unseen-ceiling", "--no-paths", "--data-changed"});
+    list_later(command,
+               {"--time", "--layers", "--kml", "--geopose", "--stac", "--ortho", "--crs", "--resolution",
+                "--legend", "--no-legend", "--unseen-ceiling", "--no-paths", "--data-changed"});
 }
 
 void add_panorama(CLI::App& app, PanoramaOptions& options) {
@@ -119,6 +127,7 @@ void add_panorama(CLI::App& app, PanoramaOptions& options) {
         "may be changed.");
     add_time(command, "The picture", options.view);
     add_geopose(picture, options.geopose);
+    add_stac(picture, options.stac);
     add_no_paths(command, "The picture", options.no_paths);
     add_data_changed(command, options.data_changed);
     picture.flag("--overwrite", options.overwrite, "Replace a file that is there.");
@@ -138,7 +147,7 @@ void add_panorama(CLI::App& app, PanoramaOptions& options) {
                         "panorama --view PICTURE --out FILE [OPTIONS]"},
                        "The Earth's curvature always counts.",
                        "docs/commands/panorama.md"});
-    list_later(command, {"--ridges", "--time", "--geopose", "--no-paths", "--data-changed"});
+    list_later(command, {"--ridges", "--time", "--geopose", "--stac", "--no-paths", "--data-changed"});
 }
 
 // How a camera follows a track.
@@ -185,6 +194,7 @@ void add_film(CLI::App& app, FilmOptions& options) {
     add_time(command, "The film", options.view);
     add_kml(film, options.kml);
     add_geopose(film, options.geopose);
+    add_stac(film, options.stac);
     film.flag("--legend", options.view.legend,
               "Add a strip below each frame: north, scale, colours, eye, sun and where the data come from.");
     film.flag("--no-legend", options.no_legend, "Leave out the strip that films of --show have.")
@@ -202,8 +212,8 @@ void add_film(CLI::App& app, FilmOptions& options) {
              {{"film FLIGHT PATH... --out FOLDER [OPTIONS]", "film FLIGHT PATH... --out FILE.mp4 [OPTIONS]"},
               "A film that was stopped goes on when the same command is given again.",
               "docs/commands/film.md"});
-    list_later(command, {"--format", "--line", "--time", "--kml", "--geopose", "--legend", "--no-legend",
-                         "--no-paths"});
+    list_later(command, {"--format", "--line", "--time", "--kml", "--geopose", "--stac", "--legend",
+                         "--no-legend", "--no-paths"});
 }
 
 void add_compare(CLI::App& app, CompareOptions& options) {

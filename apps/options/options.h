@@ -88,6 +88,7 @@ struct ShotOptions {
     bool quiet{false};
     bool kml{false};                      // a PhotoOverlay beside the picture
     bool geopose{false};                  // a GeoPose beside it
+    bool stac{false};                     // a STAC item beside it
     std::vector<std::string> view_files;  // as given; view_file: the one that a picture is drawn from
 };
 
@@ -110,6 +111,7 @@ struct FilmOptions {
     std::optional<std::string> look_ahead;  // along a track
     bool kml{false};
     bool geopose{false};
+    bool stac{false};
     bool no_legend{false};
     bool no_paths{false};
     bool overwrite{false};
@@ -217,6 +219,7 @@ struct PanoramaOptions {
     bool json{false};
     bool quiet{false};
     bool geopose{false};  // beside the picture
+    bool stac{false};     // beside the picture
 };
 
 struct WindowOptions {

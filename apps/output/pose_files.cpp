@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "apps/output/relative_reference.h"
+#include "apps/output/stac_item.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/xml_escape.h"
@@ -18,20 +20,6 @@ namespace fs = std::filesystem;
 
 constexpr double photo_distance_m = 10.0;
 
-// A file's name as a relative reference (RFC 3986): what is no letter, digit, '-', '.', '_' or '~' by its hex
-// digits.
-std::string reference_to(const std::string& name) {
-    std::string reference;
-    for (const char c : name) {
-        const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                           c == '-' || c == '.' || c == '_' || c == '~';
-        char hex[8];
-        std::snprintf(hex, sizeof hex, "%%%02X", static_cast<unsigned>(static_cast<unsigned char>(c)));
-        reference += plain ? std::string(1, c) : std::string(hex);
-    }
-    return reference;
-}
-
 // An element with a number, exact to 1e-9.
 std::string element(const char* name, double value) {
     char text[120];
@@ -42,6 +30,20 @@ std::string element(const char* name, double value) {
 std::string beside(const std::string& picture, const char* ending) {
     const fs::path path(picture);
     return (path.extension() == ".png" ? fs::path(path).replace_extension() : path).string() + ending;
+}
+
+// The item of a picture, and of what lies beside it.
+std::string stac_item_of(const std::string& picture, PoseChoice choice, const View& view) {
+    const auto name_of = [](const std::string& file) { return fs::path(file).filename().string(); };
+    std::vector<StacAsset> assets{
+        {"picture", name_of(picture), picture_media_type(picture, view.map.has_value()), "visual"}};
+    if (choice.kml)
+        assets.push_back(
+            {"kml", name_of(beside(picture, ".kml")), "application/vnd.google-earth.kml+xml", "metadata"});
+    if (choice.geopose)
+        assets.push_back(
+            {"geopose", name_of(beside(picture, ".geopose.json")), "application/json", "metadata"});
+    return stac_item_json(view, name_of(picture), assets);
 }
 
 }  // namespace
@@ -92,6 +94,7 @@ std::vector<std::string> pose_paths(const std::string& picture, PoseChoice choic
     std::vector<std::string> paths;
     if (choice.kml) paths.push_back(beside(picture, ".kml"));
     if (choice.geopose) paths.push_back(beside(picture, ".geopose.json"));
+    if (choice.stac) paths.push_back(beside(picture, ".stac.json"));
     return paths;
 }
 
@@ -102,6 +105,7 @@ std::vector<PoseText> pose_texts(const std::string& picture, PoseChoice choice, 
         texts.push_back(
             {beside(picture, ".kml"), photo_overlay_kml(view, N_m, fs::path(picture).filename().string())});
     if (choice.geopose) texts.push_back({beside(picture, ".geopose.json"), geopose_json(view.camera)});
+    if (choice.stac) texts.push_back({beside(picture, ".stac.json"), stac_item_of(picture, choice, view)});
     return texts;
 }
 

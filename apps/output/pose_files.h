@@ -1,4 +1,5 @@
-// What other programs read beside a picture: where it was taken from, as a KML PhotoOverlay and as a GeoPose.
+// What other programs read beside a picture: where it was taken from, as a KML PhotoOverlay, as a GeoPose and
+// as a STAC item.
 #pragma once
 
 #include <array>
@@ -16,8 +17,7 @@ namespace oro {
 struct PoseChoice {
     bool kml{};
     bool geopose{};
-
-    [[nodiscard]] bool any() const { return kml || geopose; }
+    bool stac{};
 };
 
 // A unit quaternion (x, y, z, w) with w not below 0: the rotation from the camera's axes to east, north, up
@@ -34,8 +34,8 @@ std::string geopose_json(const Camera& camera);
 // above sea level.
 std::string photo_overlay_kml(const View& view, double N_m, const std::string& picture_name);
 
-// NAME.kml and NAME.geopose.json beside NAME.png; NAME.jpg.kml and so on beside other pictures. Each with
-// what it holds.
+// NAME.kml, NAME.geopose.json and NAME.stac.json beside NAME.png; NAME.jpg.kml and so on beside other
+// pictures. Each with what it holds.
 struct PoseText {
     std::string file;
     std::string text;

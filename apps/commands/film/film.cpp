@@ -86,9 +86,11 @@ Result<FilmFiles> film_files(const FilmOptions& options) {
                                      : !options.shard.empty() ? "--shard"
                                                               : nullptr)
             return refused(part, "", "draws a part of the frames: name a folder in --out, not an .mp4");
-        if (options.kml || options.geopose)
-            return refused(options.kml ? "--kml" : "--geopose", "",
-                           "is written beside frames: name a folder in --out, not an .mp4");
+        if (options.kml || options.geopose || options.stac)
+            return refused(options.kml       ? "--kml"
+                           : options.geopose ? "--geopose"
+                                             : "--stac",
+                           "", "is written beside frames: name a folder in --out, not an .mp4");
         ORO_TRY(files.ffmpeg, ffmpeg_in_path(options.out));
         files.movie = options.out;
         files.folder = options.out + ".frames";
@@ -221,7 +223,7 @@ Result<std::vector<WholeFile>> missing_poses(const FilmOptions& options, const s
     const Geodetic& eye = view.camera.eye;
     const double N_m =
         grid_at(region, eye.lat_deg, eye.lon_deg).field.undulation.at_m(eye.lat_deg, eye.lon_deg);
-    std::vector<PoseText> texts = pose_texts(file, {options.kml, options.geopose}, view, N_m);
+    std::vector<PoseText> texts = pose_texts(file, {options.kml, options.geopose, options.stac}, view, N_m);
     std::vector<PoseText> missing;
     for (PoseText& one : texts) {
         ORO_TRY(const bool there, is_there(one.file));
@@ -313,7 +315,8 @@ Result<void> film_it(const FilmOptions& options, const FilmFiles& files, const C
     std::vector<std::string> written;
     for (const FilmFrame& frame : frames) {
         written.push_back(files.frame(frame.number));
-        for (const std::string& pose : pose_paths(written.back(), {options.kml, options.geopose}))
+        for (const std::string& pose :
+             pose_paths(written.back(), {options.kml, options.geopose, options.stac}))
             written.push_back(pose);
     }
     if (!files.movie.empty()) written.push_back(files.movie);

@@ -36,7 +36,7 @@ Result<void> check_out(const PanoramaOptions& options) {
         return refused("--out", options.out,
                        "the file's name must end in .png, .jpg, .jpeg, .tif, .tiff or .svg");
     ORO_CHECK(check_may_write(options.out, options.overwrite));
-    for (const std::string& pose : pose_paths(options.out, {false, options.geopose}))
+    for (const std::string& pose : pose_paths(options.out, {false, options.geopose, options.stac}))
         ORO_CHECK(check_may_write(pose, options.overwrite));
     return {};
 }
@@ -55,7 +55,7 @@ void say_notes_of(const PanoramaOptions& options, const PanoramaReport& report) 
 
 void tell(const PanoramaOptions& options, const Style& style, const PanoramaReport& report) {
     say(options.quiet, "wrote " + options.out);
-    for (const std::string& pose : pose_paths(options.out, {false, options.geopose}))
+    for (const std::string& pose : pose_paths(options.out, {false, options.geopose, options.stac}))
         say(options.quiet, "wrote " + pose);
     const PanoramaNames& names = report.laid.names;
     if (names.without_letters > 0)
@@ -86,7 +86,7 @@ Result<void> run_panorama(const PanoramaOptions& options) {
     ORO_TRY(report.on_summit, asked_summit(options.view, report.region, view.exaggeration));
     if (options.no_paths) view.tells_paths = false;
     say_edited(view, options.quiet);
-    std::vector<std::string> outputs = pose_paths(options.out, {false, options.geopose});
+    std::vector<std::string> outputs = pose_paths(options.out, {false, options.geopose, options.stac});
     outputs.push_back(options.out);
     ORO_CHECK(spare_inputs(
         outputs, {files_of_picture(view, report.region), {{options.view_file}, "which is the view"}}));
@@ -119,7 +119,8 @@ Result<void> run_panorama(const PanoramaOptions& options) {
     view.camera.height_px = report.laid.sheet.height_px;
     view.fingerprints = written.fingerprints;
     ORO_TRY(std::vector<WholeFile> together,
-            pose_files(pose_texts(options.out, {false, options.geopose}, view, 0.0), options.overwrite));
+            pose_files(pose_texts(options.out, {false, options.geopose, options.stac}, view, 0.0),
+                       options.overwrite));
     together.push_back(std::move(written.file));
     std::vector<WholeFile*> files;
     for (WholeFile& file : together) files.push_back(&file);

@@ -121,7 +121,7 @@ void tell(const ShotOptions& options, const PictureFiles& files, bool checks, co
           const Gpu& gpu, const Style& style) {
     if (!checks) say(options.quiet, "wrote " + files.picture);
     if (!checks && shot.view.map) say(options.quiet, "wrote " + world_file_path(files.picture));
-    for (const std::string& pose : pose_paths(files.picture, {options.kml, options.geopose}))
+    for (const std::string& pose : pose_paths(files.picture, {options.kml, options.geopose, options.stac}))
         say(options.quiet, "wrote " + pose);
     if (shot.layers)
         for (const char* layer : layers_of_view(shot.view.cover != nullptr))
@@ -251,7 +251,7 @@ Result<std::vector<WholeFile>> companion_files(const ShotOptions& options, const
     const RegionGrid& at_eye = shot.region.grids.front();
     const Geodetic& eye = shot.view.camera.eye;
     ORO_TRY(std::vector<WholeFile> poses,
-            pose_files(pose_texts(files.picture, {options.kml, options.geopose}, shot.view,
+            pose_files(pose_texts(files.picture, {options.kml, options.geopose, options.stac}, shot.view,
                                   at_eye.field.undulation.at_m(eye.lat_deg, eye.lon_deg)),
                        options.overwrite));
     for (WholeFile& pose : poses) companions.push_back(std::move(pose));

@@ -69,7 +69,7 @@ std::vector<std::string> written_files(const ShotOptions& options, const Picture
     if (!is_check(options, files)) all.push_back(files.picture);
     if (options.verify) all.push_back(files.error);
     if (options.ortho && !is_check(options, files)) all.push_back(world_file_path(files.picture));
-    for (const std::string& pose : pose_paths(files.picture, {options.kml, options.geopose}))
+    for (const std::string& pose : pose_paths(files.picture, {options.kml, options.geopose, options.stac}))
         all.push_back(pose);
     if (options.layers)
         for (const char* layer : layers_of_view(options.covers))

@@ -163,12 +163,16 @@ TEST_F(Film, PartsAreTheWholeTogether) {
 
 // Beside each frame, and again where they are gone; shot writes the same.
 TEST_F(Film, FramesHaveTheirPosesBesideThem) {
-    const Words poses = joined(at_nine, {"--kml", "--geopose", "--frames", "3:3", "-q"});
+    const Words poses = joined(at_nine, {"--kml", "--geopose", "--stac", "--frames", "3:3", "-q"});
     ASSERT_EQ(film(poses, out).exit_code, 0);
-    const Words all{"frame-000003.geopose.json", "frame-000003.kml", "frame-000003.png"};
+    const Words all{"frame-000003.geopose.json", "frame-000003.kml", "frame-000003.png",
+                    "frame-000003.stac.json"};
     EXPECT_EQ(names_in(out), all);
     const json pose = json::parse(bytes_of(out / all[0]));
     EXPECT_EQ(pose["position"], json::parse(R"({"lat": 36.58, "lon": -84.21, "h": 800.5})"));
+    const json item = json::parse(bytes_of(out / all[3]));
+    EXPECT_EQ(item["geometry"]["coordinates"], json::parse("[-84.21, 36.58, 800.5]"));
+    EXPECT_EQ(item["assets"]["geopose"]["href"], "./frame-000003.geopose.json");
     const std::string kml = bytes_of(out / all[1]);
     EXPECT_NE(kml.find("<href>frame-000003.png</href>"), std::string::npos) << kml;
     fs::remove(out / all[1]);
@@ -180,10 +184,18 @@ TEST_F(Film, FramesHaveTheirPosesBesideThem) {
     fs::create_directory(folder / "shot");
     const fs::path shot = folder / "shot" / "frame-000003.png";
     ASSERT_EQ(
-        run_orograph({"shot", "--view", out / all[2], "--out", shot, "--kml", "--geopose", "-q"}).exit_code,
+        run_orograph({"shot", "--view", out / all[2], "--out", shot, "--kml", "--geopose", "--stac", "-q"})
+            .exit_code,
         0);
     EXPECT_EQ(bytes_of(folder / "shot" / all[0]), bytes_of(out / all[0]));
     EXPECT_EQ(bytes_of(folder / "shot" / all[1]), kml);
+    EXPECT_EQ(bytes_of(folder / "shot" / all[3]), bytes_of(out / all[3]));
+    // A map has an item, and no pose.
+    const Words map{"shot",       bundled(), "--ortho",
+                    "--size",     "64x48",   "--crs",
+                    "EPSG:32616", "--out",   (folder / "n.png").string()};
+    ASSERT_EQ(run_orograph(joined(map, {"--stac", "-q"})).exit_code, 0);
+    EXPECT_EQ(json::parse(bytes_of(folder / "n.stac.json"))["properties"]["proj:epsg"], 32616);
     expect_refusal(run_orograph({"shot", bundled(), "--ortho", "--out", folder / "m.tif", "--kml"}),
                    oro::test::usage, {"--kml", "not for maps"});
 }

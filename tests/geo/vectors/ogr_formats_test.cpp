@@ -1,15 +1,23 @@
 // Shapefiles and FlatGeobuf, whole, in parts and cut.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <iterator>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geo/vectors/vector_file.h"
 #include "tests/geo/vectors/written_vectors.h"
 #include "tests/geo/vectors/written_zip.h"
+#include "tests/support/asked_count.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -152,6 +160,59 @@ TEST(FlatGeobuf, CutAtAnyByteIsAnError) {
         const std::string said = error_in(cut);
         EXPECT_NE(said, "is read") << bytes << " of " << whole.size() << " bytes";
         EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+    }
+}
+
+// What a damaged file gives is in place, or it is an error of one line. No signal ends the program, and none
+// takes longer than the limit of reading.
+void expect_sound(const std::string& file) {
+    const auto read = read_vectors(file, 5.0);
+    if (!read.ok()) {
+        EXPECT_EQ(read.error().line().find('\n'), std::string::npos) << read.error().line();
+        return;
+    }
+    for (const VectorLayer& layer : read->layers)
+        for (const VectorShape& shape : layer.shapes) {
+            ASSERT_LT(shape.record, layer.records.size());
+            for (const auto& path : shape.paths)
+                for (const VectorPlace& place : path) {
+                    ASSERT_LE(std::abs(place.lat_deg), 90.0);
+                    ASSERT_LE(std::abs(place.lon_deg), 180.0);
+                }
+        }
+}
+
+// OROGRAPH_DAMAGED_VECTORS=N damages so many files instead of 150, OROGRAPH_DAMAGED_SEED=N from
+// another seed.
+TEST(DamagedVectors, AreReadWithoutHarm) {
+    const std::uint64_t files = test::asked_number("OROGRAPH_DAMAGED_VECTORS", 150),
+                        seed = test::asked_number("OROGRAPH_DAMAGED_SEED", 3);
+    std::cout << files << " files, seed " << seed << "\n";
+    std::mt19937_64 random(seed);
+    const auto below = [&](std::size_t count) {
+        return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
+    };
+    const std::vector<std::pair<std::string, std::string>> shapes{
+        {"POLYGON ((8 46,8 47,9 47,9 46,8 46),(8.2 46.2,8.4 46.2,8.4 46.4,8.2 46.2))", "lake"},
+        {"MULTIPOLYGON (((1 2,1 3,2 3,1 2)),((5 6,5 7,6 7,5 6)))", "two"},
+        {"POLYGON ((-1 -2,-1 3,2 3,-1 -2))", "Ü"}};
+    const std::string shp = vector_dataset("a.shp", "ESRI Shapefile", 2056, shapes),
+                      fgb = vector_dataset("a.fgb", "FlatGeobuf", 4326, shapes);
+    std::vector<fs::path> parts{fgb};
+    for (const char* const ending : {".shp", ".shx", ".dbf", ".prj"})
+        parts.push_back(fs::path(shp).replace_extension(ending));
+    for (std::uint64_t i = 0; i < files; ++i) {
+        const fs::path& part = parts[below(parts.size())];
+        const std::string whole = bytes_in(part);
+        std::string damaged = whole;
+        for (std::size_t bytes = 1 + below(4); bytes > 0; --bytes)
+            // Half of them among the first, where lengths and offsets stand.
+            damaged[below(below(2) == 0 ? std::min<std::size_t>(damaged.size(), 120) : damaged.size())] =
+                static_cast<char>(below(2) == 0 ? below(256) : std::array{0, 255, 127, 128}[below(4)]);
+        std::ofstream(part, std::ios::binary) << damaged;
+        expect_sound(part == parts.front() ? fgb : shp);
+        std::ofstream(part, std::ios::binary) << whole;
+        if (HasFailure()) FAIL() << "file " << i << " of seed " << seed << ", " << part.filename();
     }
 }
 

@@ -21,7 +21,7 @@ class PictureOfEye(OrographAlgorithm):
         self.add_number("HEIGHT", "Height (pixels)", 720, 1, 65500, whole=True)
         self.add_style()
         self.addParameter(
-            QgsProcessingParameterBoolean("POSE", "Write its pose beside it (KML PhotoOverlay, GeoPose)", False)
+            QgsProcessingParameterBoolean("POSE", "Write its pose beside it (KML PhotoOverlay, GeoPose, STAC item)", False)
         )
         self.add_options()
         self.addParameter(
@@ -52,7 +52,7 @@ class PictureOfEye(OrographAlgorithm):
                 "--size",
                 f"{width}x{height}",
                 *self.style(parameters, context),
-                *(["--kml", "--geopose"] if has_pose else []),
+                *(["--kml", "--geopose", "--stac"] if has_pose else []),
                 *self.options(parameters, context),
                 "--out",
                 output,
