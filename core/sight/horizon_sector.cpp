@@ -18,7 +18,11 @@ PlanePost direction_of(double number) {
 }  // namespace
 
 HorizonSector::HorizonSector(const EyePlane& plane, int ranges, int first, int count)
-    : plane_(plane), ranges_(ranges), first_(first), own_(static_cast<std::size_t>(count)) {
+    : plane_(plane),
+      ranges_(ranges),
+      first_(first),
+      own_(static_cast<std::size_t>(count)),
+      lowest_(static_cast<std::size_t>(count), Horizon::none) {
     for (int i = 0; i <= count; ++i) borders_.push_back(direction_of(4.0 * (first + i) / ranges));
 }
 
@@ -63,15 +67,16 @@ void HorizonSector::add_edge(std::int64_t one, std::int64_t other, bool is_rim) 
     for (; step <= length; ++step) {
         const int number = wrapped(from + step - first_);
         if (number >= count) break;
-        Range& range = own_[static_cast<std::size_t>(number)];
-        range.has_rim |= is_rim;
-        if (most < range.lowest) continue;
-        add_to(range, number, edge, step == 0, step == length);
+        if (is_rim) own_[static_cast<std::size_t>(number)].has_rim = true;
+        if (most < lowest_[static_cast<std::size_t>(number)]) continue;
+        add_to(number, edge, step == 0, step == length);
     }
 }
 
 // begins, ends: the edge does so within the range.
-void HorizonSector::add_to(Range& range, int number, const Edge& edge, bool begins, bool ends) {
+void HorizonSector::add_to(int number, const Edge& edge, bool begins, bool ends) {
+    Range& range = own_[static_cast<std::size_t>(number)];
+    double& lowest_of_range = lowest_[static_cast<std::size_t>(number)];
     const PlanePost &right = plane_.post(edge.right), &left = plane_.post(edge.left);
     const PlanePost &low = borders_[static_cast<std::size_t>(number)],
                     &high = borders_[static_cast<std::size_t>(number) + 1];
@@ -95,11 +100,11 @@ void HorizonSector::add_to(Range& range, int number, const Edge& edge, bool begi
         highest = std::max(most_right, most_left);
     else if (is_near)
         highest = std::numeric_limits<double>::infinity();
-    if (!(highest >= range.lowest)) return;
+    if (!(highest >= lowest_of_range)) return;
     if (!begins && !ends && !is_near) {
         const double lowest = std::min(at_right, at_left) - slack;
-        if (lowest > range.lowest) {
-            range.lowest = lowest;
+        if (lowest > lowest_of_range) {
+            lowest_of_range = lowest;
             int kept = 0;
             for (int i = 0; i < range.count; ++i) {
                 const Edge& its = range.edges[static_cast<std::size_t>(i)];
@@ -120,10 +125,26 @@ void HorizonSector::add_to(Range& range, int number, const Edge& edge, bool begi
     range.edges[static_cast<std::size_t>(range.count++)] = {edge.right, edge.left, highest};
 }
 
+bool HorizonSector::is_above(const PlanePost& post, double reach, double tangent) const {
+    const double scale = 0.25 * ranges_, count = static_cast<double>(own_.size());
+    double place = azimuth_number(post) * scale - first_;
+    // Of a neighbouring sector's posts on the other side of east.
+    const double elsewhere = 0.5 * (ranges_ - count);
+    if (place - count > elsewhere) place -= ranges_;
+    if (-place > elsewhere) place += ranges_;
+    const double before = std::floor(place - reach * scale), after = std::floor(place + reach * scale);
+    const int to = static_cast<int>(std::min(after, count - 1.0));
+    bool above = true;
+    for (int number = static_cast<int>(std::max(before, 0.0)); number <= to; ++number)
+        above = above && tangent < lowest_[static_cast<std::size_t>(number)];
+    return above;
+}
+
 bool HorizonSector::horizon(const PlanePost& target, Horizon& horizon) const {
     const int number = static_cast<int>(azimuth_number(target) * 0.25 * ranges_) - first_;
     const int count = static_cast<int>(own_.size());
-    const Range& range = own_[static_cast<std::size_t>(std::clamp(number, 0, count - 1))];
+    const auto own = static_cast<std::size_t>(std::clamp(number, 0, count - 1));
+    const Range& range = own_[own];
     horizon.has_rim |= range.has_rim;
     const double length_m = target.distance_m;
     for (int i = 0; i < range.count; ++i) {
@@ -138,7 +159,7 @@ bool HorizonSector::horizon(const PlanePost& target, Horizon& horizon) const {
         const double height_m = (right.z * of_right + left.z * of_left) / sum;
         horizon.add(height_m + plane_.bulge_m(right, left, of_left / sum), distance_m, plane_.error_m());
     }
-    return range.left_out == Horizon::none || range.left_out < std::max(range.lowest, horizon.lowest);
+    return range.left_out == Horizon::none || range.left_out < std::max(lowest_[own], horizon.lowest);
 }
 
 }  // namespace oro

@@ -44,6 +44,10 @@ class HorizonSector {
     // Takes the edge between two posts in; those that are farther than a target must come after it.
     // `is_rim`: there is ground on one side of it only.
     void add_edge(std::int64_t one, std::int64_t other, bool is_rim);
+    // True where no edge of a post counts: all that begin or end there, or at a post that is nearer, lie
+    // within `reach` of the post's azimuth, as azimuth_number() counts, are seen no higher than at `tangent`,
+    // and have ground on both sides. add_edge() would change nothing.
+    [[nodiscard]] bool is_above(const PlanePost& post, double reach, double tangent) const;
     // The horizon in a target's own direction; false where too many edges came together.
     [[nodiscard]] bool horizon(const PlanePost& target, Horizon& horizon) const;
 
@@ -55,14 +59,13 @@ class HorizonSector {
     // Edges that may be the highest anywhere in a range of azimuths.
     struct Range {
         static constexpr int most = 16;
-        double lowest{Horizon::none};    // everywhere in it something is as high
         double left_out{Horizon::none};  // nothing that found no room was higher
         int count{0};
         bool has_rim{false};
         std::array<Edge, most> edges;
     };
     [[nodiscard]] double most_tangent(const PlanePost& right, const PlanePost& left, double turned) const;
-    void add_to(Range& range, int number, const Edge& edge, bool begins, bool ends);
+    void add_to(int number, const Edge& edge, bool begins, bool ends);
     [[nodiscard]] double tangent_at(const PlanePost& right, const PlanePost& left, const PlanePost& towards,
                                     double& distance_m) const;
 
@@ -70,6 +73,7 @@ class HorizonSector {
     int ranges_;
     int first_;
     std::vector<Range> own_;
+    std::vector<double> lowest_;      // of each range: everywhere in it something is as high
     std::vector<PlanePost> borders_;  // directions, one more than ranges
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -16,7 +17,9 @@
 namespace oro {
 namespace {
 
-constexpr int sectors = 64;
+// Ranges of azimuths are counted in 64ths of a turn, so that they are the same however many sectors there
+// are.
+constexpr int most_sectors = 64;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // Posts of a sector by their distance, and those of its neighbours whose edges reach into it.
@@ -25,6 +28,12 @@ struct Entry {
     int column;
     bool visits;  // is another sector's
 };
+
+// So many that threads end at about the same time. Each takes posts of its neighbours, so not more than that.
+int sectors_for(int threads) {
+    return std::clamp(static_cast<int>(std::bit_ceil(8U * static_cast<unsigned>(std::max(threads, 1)))), 8,
+                      most_sectors);
+}
 
 class Sweep {
   public:
@@ -37,7 +46,8 @@ class Sweep {
           footing_(footing),
           target_m_(std::max(request.target_m, least_above_m)),
           observer_(surface, request.eye, request.air),
-          plane_(surface, observer_, window, request.threads) {
+          plane_(surface, observer_, window, request.threads),
+          sectors_(sectors_for(request.threads)) {
         const Geodetic& eye = request.eye;
         const double radius_m = gaussian_radius_m(eye.lat_deg);
         centre_m_ = radius_m + eye.h_m;
@@ -66,6 +76,12 @@ class Sweep {
     [[nodiscard]] bool walk(std::int64_t from, const PlanePost& target, double until_m,
                             Horizon& horizon) const;
     [[nodiscard]] bool in_reach(const PlanePost& post) const;
+    // By how much the azimuth's number differs, at most, between a post and its neighbours. It grows by at
+    // most 1 a radian; an angle is at most half of pi times its sine, and 1.05 times it where that is small.
+    [[nodiscard]] double azimuth_reach(const PlanePost& post) const {
+        const double sine = plane_.longest_edge_m() / std::max(post.distance_m, 1.0e-9);
+        return sine < 0.25 ? 1.05 * sine : 4.0 * sine;
+    }
     void add_edges(std::int64_t number, HorizonSector& sector) const;
     [[nodiscard]] float ask_oracle(const Entry& entry, double target_m, double rise_m,
                                    std::size_t& asked) const;
@@ -78,6 +94,7 @@ class Sweep {
     Observer observer_;
     EyePlane plane_;
     Shells shells_;
+    int sectors_;
     int ranges_{};
     double centre_m_{};       // from the eye down to the centre of curvature
     double reach_tangent_{};  // of the radius as an angle there
@@ -98,22 +115,20 @@ void Sweep::for_entries_of_row(int row, const Take& take) const {
         if (std::isnan(post.z) || !in_reach(post)) continue;
         const double distance_m = post.distance_m;
         const int shell = std::min(static_cast<int>(distance_m / shells_.width_m), shells_.count - 1);
-        const double place = azimuth_number(post) * (sectors / 4.0);
-        const int own = static_cast<int>(place) % sectors;
+        const double place = azimuth_number(post) * (0.25 * sectors_);
+        const int own = static_cast<int>(place) % sectors_;
         Entry entry{row, column, false};
         take(own, shell, entry);
         entry.visits = true;
-        // The number of an azimuth grows by at most the square root of 2 a radian.
-        const double reach =
-            1.5 * plane_.longest_edge_m() / std::max(distance_m, 1.0e-9) * (sectors / 4.0) * 1.1;
+        const double reach = azimuth_reach(post) * (0.25 * sectors_);
         if (reach >= 1.0) {
-            for (int sector = 0; sector < sectors; ++sector) {
+            for (int sector = 0; sector < sectors_; ++sector) {
                 if (sector != own) take(sector, shell, entry);
             }
             continue;
         }
-        if (place - own < reach) take((own + sectors - 1) % sectors, shell, entry);
-        if (own + 1 - place < reach) take((own + 1) % sectors, shell, entry);
+        if (place - own < reach) take((own + sectors_ - 1) % sectors_, shell, entry);
+        if (own + 1 - place < reach) take((own + 1) % sectors_, shell, entry);
     }
 }
 
@@ -123,7 +138,7 @@ void Sweep::sort_posts() {
     shells_.count = static_cast<int>(1.1 * request_.radius_m / shells_.width_m) + 2;
     // Edges that a shell's own horizon does not hold yet come so near a post of it, and are one edge long.
     plane_.bound_tangents(1.01 * (shells_.width_m + 2.0 * plane_.longest_edge_m()), request_.threads);
-    const auto slots = static_cast<std::size_t>(sectors) * static_cast<std::size_t>(shells_.count);
+    const auto slots = static_cast<std::size_t>(sectors_) * static_cast<std::size_t>(shells_.count);
     const auto slot = [&](int sector, int shell) {
         return static_cast<std::size_t>(sector) * static_cast<std::size_t>(shells_.count) +
                static_cast<std::size_t>(shell);
@@ -161,6 +176,10 @@ void Sweep::sort_posts() {
 // Those to nearer posts, each once: it is the farther post's.
 void Sweep::add_edges(std::int64_t number, HorizonSector& sector) const {
     const PlanePost& post = plane_.post(number);
+    // Most ground lies below what is nearer: then no edge of the post is looked at. (Near posts that have no
+    // height, where ground ends, there is no such bound.)
+    const double most = plane_.most_tangent_around(number);
+    if (most < infinite && sector.is_above(post, azimuth_reach(post), most)) return;
     const double own2 = along(post, post);
     const EyePlane::Neighbours next = plane_.neighbours(number);
     for (int i = 0; i < next.count; ++i) {
@@ -314,19 +333,27 @@ float Sweep::deficit_over_surface_m(const Entry& entry, double target_m, const H
         return t_m;
     };
     if (horizon.tangent == Horizon::none) return in_doubt ? ask_oracle(entry, target_m, -1.0, asked) : 0.0F;
-    const double rise_m = needed_m(horizon.tangent) - target_m;
-    if (in_doubt) return ask_oracle(entry, target_m, rise_m, asked);
+    const auto rise_m = [&] { return needed_m(horizon.tangent) - target_m; };
+    if (in_doubt) return ask_oracle(entry, target_m, rise_m(), asked);
     // What a target's own way up turns from the line of sight, and what is rounded.
     const double aside = std::abs(up.x * post.y - up.y * post.x) / s_m;
     const double slack_m = 1.0e-5 + 1.0e-9 * s_m + 10.0 * aside * target_m;
-    if (needed_m(horizon.highest) - target_m < -slack_m) return 0.0F;
+    // Without a division: whether a line at a tangent runs higher over the post than so, and well so.
+    const auto is_over = [&](double tangent, double t_m) {
+        const double there_m = s_m + t_m * up_s;
+        const double over_line_m = ground_z_m + t_m * up.z + bend * there_m * there_m - tangent * there_m;
+        return over_line_m < -0.1 * slack_m && up.z + (2.0 * bend * there_m - tangent) * up_s > 0.5;
+    };
     // Below ground that ends a line may run free.
-    if (!horizon.has_rim && needed_m(horizon.lowest) - target_m > slack_m) return static_cast<float>(rise_m);
-    return ask_oracle(entry, target_m, rise_m, asked);
+    if (!horizon.has_rim && is_over(horizon.lowest, target_m + slack_m)) return static_cast<float>(rise_m());
+    if (needed_m(horizon.highest) - target_m < -slack_m) return 0.0F;
+    if (!horizon.has_rim && needed_m(horizon.lowest) - target_m > slack_m)
+        return static_cast<float>(rise_m());
+    return ask_oracle(entry, target_m, rise_m(), asked);
 }
 
 void Sweep::sweep_sector(int sector, Viewshed& viewshed, std::size_t& asked) const {
-    const int each = ranges_ / sectors;
+    const int each = ranges_ / sectors_;
     HorizonSector horizon(plane_, ranges_, sector * each, each);
     const std::size_t* const begins =
         shells_.begins.data() + static_cast<std::size_t>(sector) * static_cast<std::size_t>(shells_.count);
@@ -354,16 +381,16 @@ Viewshed Sweep::result(const ViewshedProgress& progress) {
     sort_posts();
     // Ranges about as wide as posts are apart at the rim.
     const double around = 4.0 * request_.radius_m / plane_.longest_edge_m();
-    ranges_ = sectors * std::clamp(static_cast<int>(8.0 * around / sectors), 4, 1 << 14);
+    ranges_ = most_sectors * std::clamp(static_cast<int>(8.0 * around / most_sectors), 4, 1 << 14);
     std::mutex telling;
     int done = 0;
     std::atomic<std::size_t> asked{0};
-    in_parallel(sectors, request_.threads, [&](int sector) {
+    in_parallel(sectors_, request_.threads, [&](int sector) {
         std::size_t own = 0;
         sweep_sector(sector, viewshed, own);
         asked += own;
         const std::lock_guard lock(telling);
-        if (progress) progress(static_cast<double>(++done) / sectors);
+        if (progress) progress(static_cast<double>(++done) / sectors_);
     });
     viewshed.asked = asked;
     return viewshed;
