@@ -11,6 +11,7 @@
 #include "geo/region/region_fingerprints.h"
 #include "geo/region/region_grid.h"
 #include "geo/sources/notes.h"
+#include "geo/sources/row_scans.h"
 
 namespace oro {
 namespace {
@@ -68,6 +69,10 @@ Result<void> lay_row(SourceOnGrid& placed, int row_number, Row& row, GeoidOfRegi
         to.surface.lay_later(row_number, first_column, row.beyond);
         found.fingerprint.add(row.beyond);
     }
+    constexpr double most_m = std::numeric_limits<float>::max();
+    if (!any_beyond(row.heights, static_cast<float>(std::min(report.lowest_m, most_m)),
+                    static_cast<float>(std::max(report.highest_m, -most_m))))
+        return {};
     for (const float height : row.heights) {
         if (is_void(height)) continue;
         report.lowest_m = std::min(report.lowest_m, static_cast<double>(height));

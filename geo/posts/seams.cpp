@@ -7,6 +7,8 @@
 #include <numeric>
 #include <string_view>
 
+#include "geo/sources/row_scans.h"
+
 namespace oro {
 namespace {
 
@@ -105,6 +107,38 @@ std::uint64_t JoinedSurface::lay(int row, int first_column, std::span<const floa
                                  SeamReport& of_source) {
     const std::size_t start = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid_.columns()) +
                               static_cast<std::size_t>(first_column);
+    std::uint64_t voids_filled = 0;
+    constexpr std::size_t piece = 128;
+    for (std::size_t c = 0; c < heights.size(); c += piece) {
+        const std::size_t count = std::min(piece, heights.size() - c);
+        const std::span part = heights.subspan(c, count);
+        const std::span inside_of_part = inside.subspan(c, count);
+        if (!lay_on_none(start + c, part, inside_of_part, own_posts))
+            voids_filled += lay_posts(start + c, part, inside_of_part, own_posts, of_source);
+    }
+    return voids_filled;
+}
+
+// What most posts are: a source has heights for all of a stretch, and none was there before. False where that
+// is not so; then nothing is laid.
+bool JoinedSurface::lay_on_none(std::size_t post, std::span<const float> heights,
+                                std::span<const unsigned char> inside, bool own_posts) {
+    const std::size_t count = heights.size();
+    const std::span there = std::span(heights_).subspan(post, count);
+    const std::span marks = std::span(marks_).subspan(post, count);
+    const auto any = [](unsigned char mark) { return mark != 0; };
+    if (std::ranges::find(inside, static_cast<unsigned char>(0)) != inside.end() ||
+        std::ranges::any_of(marks, any) || !all_void(there) || any_void(heights))
+        return false;
+    std::ranges::copy(heights, there.begin());
+    std::ranges::fill(marks, static_cast<unsigned char>(covered_mark | (own_posts ? own_mark : 0)));
+    return true;
+}
+
+// Post by post. Gives what lay() gives.
+std::uint64_t JoinedSurface::lay_posts(std::size_t start, std::span<const float> heights,
+                                       std::span<const unsigned char> inside, bool own_posts,
+                                       SeamReport& of_source) {
     std::uint64_t voids_filled = 0;
     for (std::size_t c = 0; c < heights.size(); ++c) {
         if (!inside[c]) continue;

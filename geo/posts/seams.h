@@ -65,6 +65,10 @@ class JoinedSurface {
         std::size_t post;
         float height;
     };
+    bool lay_on_none(std::size_t post, std::span<const float> heights, std::span<const unsigned char> inside,
+                     bool own_posts);
+    std::uint64_t lay_posts(std::size_t start, std::span<const float> heights,
+                            std::span<const unsigned char> inside, bool own_posts, SeamReport& of_source);
     void unite_pole(int row);
 
     PostGrid grid_;

@@ -233,14 +233,20 @@ void SourceOnGrid::row(int row, std::span<float> heights, std::span<float> beyon
 void SourceOnGrid::copy_row(int row, std::span<float> heights, std::span<unsigned char> inside) const {
     const auto source_row =
         static_cast<int>((row - row_shift_) * source_->lat_axis.direction * grid_.lat.step);
-    for (std::size_t c = 0; c < heights.size(); ++c) {
-        const auto column = static_cast<int>(rect_.first_column + static_cast<int>(c) - column_shift_);
-        if (source_row < 0 || source_row >= source_->lat_axis.count || column < 0 ||
-            column >= source_->lon_axis.count)
-            continue;
-        heights[c] = block_.at(source_row, column);
-        inside[c] = 1;
-    }
+    if (source_row < 0 || source_row >= source_->lat_axis.count) return;
+    // Those columns of the stretch that the source has.
+    const std::int64_t first = rect_.first_column - column_shift_;
+    const std::int64_t from = std::max<std::int64_t>(0, -first);
+    const std::int64_t to =
+        std::min<std::int64_t>(static_cast<std::int64_t>(heights.size()), source_->lon_axis.count - first);
+    if (to <= from) return;
+    const auto skipped = static_cast<std::size_t>(from), count = static_cast<std::size_t>(to - from);
+    const PostWindow& window = block_.window;
+    const std::size_t post =
+        static_cast<std::size_t>(source_row - window.row) * static_cast<std::size_t>(window.columns) +
+        static_cast<std::size_t>(first + from - window.column);
+    std::ranges::copy(std::span(block_.height_m).subspan(post, count), heights.subspan(skipped).begin());
+    std::ranges::fill(inside.subspan(skipped, count), static_cast<unsigned char>(1));
 }
 
 void SourceOnGrid::interpolate_row(int row, std::span<float> heights, std::span<unsigned char> inside) const {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <span>
 #include <string>
 #include <system_error>
 
@@ -18,6 +19,7 @@
 #include "geo/files/letter_case.h"
 #include "geo/files/raster_library.h"
 #include "geo/sources/raster_parts.h"
+#include "geo/sources/row_scans.h"
 
 namespace oro {
 namespace {
@@ -97,33 +99,35 @@ Result<void> check_packing(VSILFILE* file, std::uint64_t bytes_left, const GdalM
 // How rough posts are, read with their bytes in the tile's order and in the other one.
 class ByteOrder {
   public:
-    void add_row(const std::vector<unsigned char>& row, const PostWindow& window) {
-        for (int c = window.column + 1; c < window.column + window.columns; ++c) {
-            const std::size_t at = 2 * static_cast<std::size_t>(c);
-            add(row[at - 2], row[at - 1], row[at], row[at + 1]);
-        }
+    void add(const HgtRow& row) {
+        pairs_ += row.pairs;
+        steps_m_ += row.steps_m;
+        swapped_m_ += row.swapped_steps_m;
     }
     // True where noise from one end of the numbers to the other becomes a surface in the other order.
     [[nodiscard]] bool seems_swapped() const {
-        constexpr double least_pairs = 1000.0, least_step_m = 20.0, smoother = 20.0;
+        constexpr std::int64_t least_pairs = 1000, least_step_m = 20, smoother = 20;
         return pairs_ >= least_pairs && steps_m_ >= least_step_m * pairs_ &&
                steps_m_ >= smoother * swapped_m_;
     }
 
   private:
-    double pairs_{}, steps_m_{}, swapped_m_{};
-
-    static double number(unsigned char high, unsigned char low) {
-        return static_cast<double>(static_cast<std::int16_t>(high << 8 | low));
-    }
-    void add(unsigned char a, unsigned char b, unsigned char c, unsigned char d) {
-        for (const double value : {number(a, b), number(c, d), number(b, a), number(d, c)})
-            if (value == static_cast<double>(hgt_void)) return;
-        ++pairs_;
-        steps_m_ += std::abs(number(a, b) - number(c, d));
-        swapped_m_ += std::abs(number(b, a) - number(d, c));
-    }
+    std::int64_t pairs_{}, steps_m_{}, swapped_m_{};
 };
+
+// Counts what a row of a block's window holds. `stored`: its bytes.
+void add_row(const HgtRow& row, std::span<const unsigned char> stored, PostBlock& block) {
+    if (row.lowest <= row.highest) {
+        block.lowest_stored_m = std::min(block.lowest_stored_m, static_cast<double>(row.lowest));
+        block.highest_stored_m = std::max(block.highest_stored_m, static_cast<double>(row.highest));
+    }
+    block.voids += static_cast<std::uint64_t>(row.voids + row.implausible);
+    for (std::size_t i = 0; row.implausible > 0 && i < stored.size(); i += 2) {
+        const auto value = static_cast<std::int16_t>(stored[i] << 8 | stored[i + 1]);
+        if (value != hgt_void && (value < lowest_plausible_m || value > highest_plausible_m))
+            count_implausible(block, static_cast<double>(value));
+    }
+}
 
 std::string srtm_attribution(const SourcePath& path) {
     const std::string names = lower_case(path.name + " " + path.archive);
@@ -216,8 +220,10 @@ Result<PostBlock> read_hgt(const Source& source, const PostWindow& window) {
     }
     PostBlock block;
     block.window = window;
-    block.height_m.reserve(static_cast<std::size_t>(window.rows) * static_cast<std::size_t>(window.columns));
+    const auto columns = static_cast<std::size_t>(window.columns);
+    block.height_m.resize(static_cast<std::size_t>(window.rows) * columns);
     std::vector<unsigned char> row(2 * side);
+    const std::span stored = std::span(row).subspan(2 * static_cast<std::size_t>(window.column), 2 * columns);
     ByteOrder order;
     VSIFSeekL(file.get(), static_cast<vsi_l_offset>(window.row) * row.size(), SEEK_SET);
     for (int r = 0; r < window.rows; ++r) {
@@ -229,20 +235,10 @@ Result<PostBlock> read_hgt(const Source& source, const PostWindow& window) {
                              : "ends in post row " + std::to_string(window.row + r) + " of " +
                                    std::to_string(side) + ": " +
                                    messages.last("the file is truncated or its packing is damaged")};
-        order.add_row(row, window);
-        for (int c = window.column; c < window.column + window.columns; ++c) {
-            const std::size_t byte = 2 * static_cast<std::size_t>(c);
-            const auto value = static_cast<std::int16_t>(row[byte] << 8 | row[byte + 1]);
-            const bool empty = value == hgt_void;
-            const bool implausible = !empty && (value < lowest_plausible_m || value > highest_plausible_m);
-            if (!empty) {
-                block.lowest_stored_m = std::min(block.lowest_stored_m, static_cast<double>(value));
-                block.highest_stored_m = std::max(block.highest_stored_m, static_cast<double>(value));
-            }
-            block.voids += empty || implausible;
-            if (implausible) count_implausible(block, static_cast<double>(value));
-            block.height_m.push_back(empty || implausible ? void_height_m : static_cast<float>(value));
-        }
+        const HgtRow found = decode_hgt_row(
+            stored, std::span(block.height_m).subspan(static_cast<std::size_t>(r) * columns, columns));
+        order.add(found);
+        add_row(found, stored, block);
     }
     if (order.seems_swapped())
         return Error{ErrorKind::failed, source.report.path,

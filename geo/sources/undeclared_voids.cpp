@@ -7,6 +7,9 @@
 #include <map>
 #include <span>
 
+#include "core/terrain/post_grid.h"
+#include "geo/sources/row_scans.h"
+
 namespace oro {
 namespace {
 
@@ -46,10 +49,18 @@ struct HeightEnds {
     Ends lowest{1.0F};
     Ends highest{-1.0F};
     void add(std::span<const float> heights_m) {
-        for (const float height_m : heights_m) {
-            if (is_void(height_m)) continue;
-            lowest.add(height_m);
-            highest.add(height_m);
+        constexpr std::size_t piece = 1024;
+        for (std::size_t first = 0; first < heights_m.size(); first += piece) {
+            const auto part = heights_m.subspan(first, std::min(piece, heights_m.size() - first));
+            // Nearly everywhere nothing is lower than the lowest few.
+            if (lowest.count() == most_values && highest.count() == most_values &&
+                !any_beyond(part, lowest.at(most_values - 1), highest.at(most_values - 1)))
+                continue;
+            for (const float height_m : part) {
+                if (is_void(height_m)) continue;
+                lowest.add(height_m);
+                highest.add(height_m);
+            }
         }
     }
 };
@@ -242,9 +253,11 @@ class Survey {
     std::uint64_t beyond_{};
     double beyond_stored_{};
 
+    // The whole metre, without a call: above 0 a conversion rounds down.
     [[nodiscard]] std::size_t bin_of(double value_m) const {
-        return static_cast<std::size_t>(
-            std::clamp(std::floor(value_m - base_m_), 0.0, static_cast<double>(bins - 1)));
+        const double bin = value_m - base_m_;
+        if (!(bin > 0.0)) return 0;
+        return bin < static_cast<double>(bins - 1) ? static_cast<std::size_t>(bin) : bins - 1;
     }
     [[nodiscard]] std::uint64_t posts_between(double from_m, double to_m) const {
         std::uint64_t posts = 0;
@@ -365,15 +378,47 @@ double step_to_neighbours_m(const PostBlock& block, std::size_t post, std::size_
     return largest_m;
 }
 
+// Which posts of a row may be so far from a neighbour: all that are, and few others.
+void mark_near_steps(const PostBlock& block, std::size_t row, std::size_t columns, double step_m,
+                     std::vector<unsigned char>& marks) {
+    const std::span all(block.height_m);
+    const std::span heights = all.subspan(row * columns, columns);
+    const auto least_m = static_cast<float>(step_m);
+    const std::span marked(marks);
+    std::ranges::fill(marked, static_cast<unsigned char>(0));
+    mark_steps(heights.first(columns - 1), heights.last(columns - 1), least_m, marked.first(columns - 1));
+    mark_steps(heights.last(columns - 1), heights.first(columns - 1), least_m, marked.last(columns - 1));
+    if (row > 0) mark_steps(heights, all.subspan((row - 1) * columns, columns), least_m, marked);
+    if ((row + 2) * columns <= all.size())
+        mark_steps(heights, all.subspan((row + 1) * columns, columns), least_m, marked);
+}
+
+// True where two neighbours anywhere may be so far apart.
+bool has_near_step(const PostBlock& block, double step_m) {
+    const auto columns = static_cast<std::size_t>(block.window.columns);
+    const std::span all(block.height_m);
+    const auto least_m = static_cast<float>(step_m);
+    for (std::size_t first = 0; columns > 0 && first + columns <= all.size(); first += columns) {
+        const std::span heights = all.subspan(first, columns);
+        if (any_step(heights.first(columns - 1), heights.last(columns - 1), least_m)) return true;
+        if (first + 2 * columns <= all.size() &&
+            any_step(heights, all.subspan(first + columns, columns), least_m))
+            return true;
+    }
+    return false;
+}
+
 void add_to_surveys(const PostBlock& block, double rim_m, Surveys& surveys) {
     const auto columns = static_cast<std::size_t>(block.window.columns);
     surveys.ends.add(block.height_m);
     surveys.low.add_beyond(block);
     surveys.high.add_beyond(block);
+    std::vector<unsigned char> marks(columns);
     for (std::size_t post = 0; post < block.height_m.size(); ++post) {
         const float height_m = block.height_m[post];
+        if (post % columns == 0) mark_near_steps(block, post / columns, columns, rim_m, marks);
         if (is_void(height_m)) continue;
-        const bool is_calm = step_to_neighbours_m(block, post, columns) < rim_m;
+        const bool is_calm = marks[post % columns] == 0 || step_to_neighbours_m(block, post, columns) < rim_m;
         surveys.low.add(height_m, is_calm);
         surveys.high.add(height_m, is_calm);
         if (const float level_m = plateau_at(block, post, columns); !is_void(level_m)) {
@@ -500,6 +545,7 @@ bool is_suspicious(const Source& source, const PostBlock& block) {
                 return true;
     const auto columns = static_cast<std::size_t>(block.window.columns);
     const double step_m = std::clamp(steep_m_per_m * source.report.spacing_m, 150.0, least_sea_cliff_m);
+    if (!has_near_step(block, step_m)) return false;
     for (std::size_t post = 0; post < block.height_m.size(); ++post)
         if (!is_void(block.height_m[post]) && step_to_neighbours_m(block, post, columns) >= step_m)
             return true;
