@@ -18,6 +18,56 @@ namespace {
 // IEEE 69(1), 1981.
 constexpr float neighbour_weight = 0.8F;
 
+constexpr int band_levels = 5;  // that a band of rows makes of its own posts
+
+// As std::lround(), which is a call: of what a float holds with its halves.
+std::int32_t rounded(float value) {
+    const auto whole = static_cast<std::int32_t>(value);
+    const float rest = value - static_cast<float>(whole);
+    return whole + (rest >= 0.5F ? 1 : 0) - (rest <= -0.5F ? 1 : 0);
+}
+
+// How the ground rises at a row's posts, from their three rows, by loops without a branch: down, to the
+// south, and right, to the east, in steps over two spacings and the weights of them all. `unknown`: posts
+// that are void, or beside one.
+struct RowSlopes {
+    std::vector<float> down, right;
+    std::vector<std::int32_t> unknown;
+};
+
+float rise_between(std::int32_t before, std::int32_t after) {
+    // Where one is void the number does not count, but has to be one.
+    return 0.5F * static_cast<float>(static_cast<std::int32_t>(static_cast<std::uint32_t>(after) -
+                                                               static_cast<std::uint32_t>(before)));
+}
+
+// Of `count` posts with one before and one after them, put from number `at` on.
+void measure_slopes(const std::int32_t* north, const std::int32_t* here, const std::int32_t* south, int count,
+                    float weight, int at, RowSlopes& slopes) {
+    float* const down = slopes.down.data() + at;
+    float* const right = slopes.right.data() + at;
+    std::int32_t* const unknown = slopes.unknown.data() + at;
+    const auto is_none = [](std::int32_t steps) {
+        return static_cast<std::int32_t>(steps == void_height_steps);
+    };
+    for (int c = 0; c < count; ++c) {
+        float rise = rise_between(north[c], south[c]);
+        rise += weight * rise_between(north[c - 1], south[c - 1]);
+        rise += weight * rise_between(north[c + 1], south[c + 1]);
+        down[c] = rise;
+    }
+    for (int c = 0; c < count; ++c) {
+        float rise = rise_between(here[c - 1], here[c + 1]);
+        rise += weight * rise_between(north[c - 1], north[c + 1]);
+        rise += weight * rise_between(south[c - 1], south[c + 1]);
+        right[c] = rise;
+    }
+    for (int c = 0; c < count; ++c)
+        unknown[c] = is_none(north[c - 1]) | is_none(north[c]) | is_none(north[c + 1]) |
+                     is_none(here[c - 1]) | is_none(here[c]) | is_none(here[c + 1]) | is_none(south[c - 1]) |
+                     is_none(south[c]) | is_none(south[c + 1]);
+}
+
 }  // namespace
 
 // Sums over the posts of a square.
@@ -41,6 +91,193 @@ struct GroundMeans::Sums {
     }
 };
 
+// The sums of some posts of a row, number by number, and one post more that has none.
+struct GroundMeans::PostRow {
+    explicit PostRow(int columns) {
+        const std::size_t count = static_cast<std::size_t>(columns) + 1;
+        for (std::vector<float>* const part : {&x, &y, &z, &xx, &xy, &yy, &h_m, &hh_m2, &posts})
+            part->assign(count, 0.0F);
+        slopes.down.assign(count, 0.0F);
+        slopes.right.assign(count, 0.0F);
+        slopes.unknown.assign(count, 1);
+    }
+    void put(int column, const Sums& sums) {
+        const auto at = static_cast<std::size_t>(column);
+        x[at] = sums.x;
+        y[at] = sums.y;
+        z[at] = sums.z;
+        xx[at] = sums.xx;
+        xy[at] = sums.xy;
+        yy[at] = sums.yy;
+        h_m[at] = sums.h_m;
+        hh_m2[at] = sums.hh_m2;
+        posts[at] = sums.posts;
+    }
+    [[nodiscard]] Sums at(int column) const {
+        const auto i = static_cast<std::size_t>(column);
+        return {x[i], y[i], z[i], xx[i], xy[i], yy[i], h_m[i], hh_m2[i], posts[i]};
+    }
+    std::vector<float> x, y, z, xx, xy, yy, h_m, hh_m2, posts;
+    RowSlopes slopes;
+
+    // Of `count` posts from column `first` on, put from number `at` on, none of them at the region's rim:
+    // what GroundMeans::post() gives of each, bit by bit, where neither it nor one beside it is void.
+    void measure(const GroundMeans& means, int row, int first, int count, int at, float weight);
+};
+
+void GroundMeans::PostRow::measure(const GroundMeans& means, int row, int first, int count, int at,
+                                   float weight) {
+    const std::int32_t* const here = means.heights_.row(row) + first;
+    measure_slopes(means.heights_.row(row - 1) + first, here, means.heights_.row(row + 1) + first, count,
+                   weight, at, slopes);
+    const RowScale& scale = means.rows_[static_cast<std::size_t>(row)];
+    const float whole = 1.0F + weight + weight;
+    const float down_per_step = scale.down_per_m / whole, right_per_step = scale.right_per_m / whole;
+    const float* const downs = slopes.down.data() + at;
+    const float* const rights = slopes.right.data() + at;
+    float *const to_x = x.data() + at, *const to_y = y.data() + at, *const to_z = z.data() + at;
+    for (int c = 0; c < count; ++c) {
+        const float down = downs[c] * down_per_step, right = rights[c] * right_per_step;
+        const float length = std::sqrt(down * down + right * right + 1.0F);
+        to_x[c] = -right / length;
+        to_y[c] = down / length;
+        to_z[c] = 1.0F / length;
+    }
+    float *const to_xx = xx.data() + at, *const to_xy = xy.data() + at, *const to_yy = yy.data() + at;
+    for (int c = 0; c < count; ++c) {
+        to_xx[c] = to_x[c] * to_x[c];
+        to_xy[c] = to_x[c] * to_y[c];
+        to_yy[c] = to_y[c] * to_y[c];
+    }
+    const auto step_m = static_cast<float>(height_step_m);
+    const float exaggeration = means.exaggeration_;
+    float *const to_h_m = h_m.data() + at, *const to_hh_m2 = hh_m2.data() + at;
+    for (int c = 0; c < count; ++c) {
+        to_h_m[c] = static_cast<float>(here[c]) * step_m / exaggeration;
+        to_hh_m2[c] = to_h_m[c] * to_h_m[c];
+    }
+    std::fill_n(posts.data() + at, count, 1.0F);
+}
+
+// How squares come of posts: in bands of rows, from the finest level on.
+struct GroundMeans::Bands {
+    GroundMeans& means;
+
+    void add_levels(int threads);
+
+  private:
+    // The posts of a row from one column on: by vector code where that can be.
+    static void put_row(const GroundMeans& means, int row, int first, int count, float weight,
+                        PostRow& posts);
+    friend class GroundMeans;
+    [[nodiscard]] Sums of_posts(int row, int column, const PostRow& upper, const PostRow& lower) const;
+    template <class Square>
+    static Sums of_squares(int row, int column, const Level& finer, const Square& square);
+    void add_band(int band, int top, std::vector<Sums>& sums_of_top);
+    void add_level(int number, std::vector<Sums>& below);
+};
+
+void GroundMeans::Bands::put_row(const GroundMeans& means, int row, int first, int count, float weight,
+                                 PostRow& posts) {
+    const PostGrid& grid = means.grid_;
+    const bool has_rows = !grid.net && row > 0 && row + 1 < grid.rows();
+    // Those with a post on each side.
+    const int from = std::max(first, 1), to = std::min(first + count, grid.columns() - 1);
+    if (has_rows && to > from) posts.measure(means, row, from, to - from, from - first, weight);
+    for (int i = 0; i < count; ++i) {
+        const bool is_known = has_rows && first + i >= from && first + i < to &&
+                              posts.slopes.unknown[static_cast<std::size_t>(i)] == 0;
+        if (!is_known) posts.put(i, means.post(row, first + i, weight));
+    }
+    posts.put(count, {});
+}
+void GroundMeans::Bands::add_levels(int threads) {
+    const int last = static_cast<int>(means.levels_.size()) - 1, top = std::min(band_levels, last);
+    if (top == 0) return;
+    std::vector<Sums> below(means.levels_[static_cast<std::size_t>(top)].squares.size());
+    in_parallel(means.levels_[static_cast<std::size_t>(top)].rows, threads,
+                [&](int band) { add_band(band, top, below); });
+    for (int level = top + 1; level <= last; ++level) add_level(level, below);
+}
+
+// Four posts make a square of level 1.
+GroundMeans::Sums GroundMeans::Bands::of_posts(int row, int column, const PostRow& upper,
+                                               const PostRow& lower) const {
+    Sums sums;
+    sums.add(upper.at(2 * column));
+    sums.add(upper.at(2 * column + 1));
+    if (2 * row + 1 >= means.grid_.rows()) return sums;
+    sums.add(lower.at(2 * column));
+    sums.add(lower.at(2 * column + 1));
+    return sums;
+}
+
+// Four squares of the level below make one.
+template <class Square>
+GroundMeans::Sums GroundMeans::Bands::of_squares(int row, int column, const Level& finer,
+                                                 const Square& square) {
+    Sums sums;
+    for (int part = 0; part < 4; ++part) {
+        const int of_row = 2 * row + part / 2, of_column = 2 * column + part % 2;
+        if (of_row < finer.rows && of_column < finer.columns) sums.add(square(of_row, of_column));
+    }
+    return sums;
+}
+
+// The squares over 2^top rows of posts, of level 1 to `top`, of which there is one row.
+void GroundMeans::Bands::add_band(int band, int top, std::vector<Sums>& sums_of_top) {
+    std::vector<Sums> below, sums;
+    const int posts = means.levels_.front().columns;
+    PostRow upper(posts), lower(posts);
+    for (int number = 1; number <= top; ++number) {
+        Level& level = means.levels_[static_cast<std::size_t>(number)];
+        const Level& finer = means.levels_[static_cast<std::size_t>(number) - 1];
+        const int first = band << (top - number);
+        const int rows = std::min(1 << (top - number), level.rows - first);
+        const auto columns = static_cast<std::size_t>(level.columns);
+        sums.resize(static_cast<std::size_t>(rows) * columns);
+        const auto of_band = [&](int row, int column) -> const Sums& {
+            return below[static_cast<std::size_t>(row - 2 * first) * static_cast<std::size_t>(finer.columns) +
+                         static_cast<std::size_t>(column)];
+        };
+        for (int row = first; row < first + rows; ++row) {
+            if (number == 1) {
+                put_row(means, 2 * row, 0, posts, neighbour_weight, upper);
+                if (2 * row + 1 < means.grid_.rows())
+                    put_row(means, 2 * row + 1, 0, posts, neighbour_weight, lower);
+            }
+            Sums* const to = sums.data() + static_cast<std::size_t>(row - first) * columns;
+            gpu::MeansSquare* const squares = level.squares.data() + static_cast<std::size_t>(row) * columns;
+            for (int column = 0; column < level.columns; ++column) {
+                to[column] = number == 1 ? of_posts(row, column, upper, lower)
+                                         : of_squares(row, column, finer, of_band);
+                squares[column] = packed(to[column]);
+            }
+        }
+        std::swap(below, sums);
+    }
+    std::ranges::copy(below, sums_of_top.begin() +
+                                 static_cast<std::ptrdiff_t>(static_cast<std::size_t>(band) * below.size()));
+}
+
+// A level above those of bands, from the sums of the one below it, which then are its own.
+void GroundMeans::Bands::add_level(int number, std::vector<Sums>& below) {
+    Level& level = means.levels_[static_cast<std::size_t>(number)];
+    const Level& finer = means.levels_[static_cast<std::size_t>(number) - 1];
+    std::vector<Sums> sums(level.squares.size());
+    for (int row = 0; row < level.rows; ++row)
+        for (int column = 0; column < level.columns; ++column) {
+            const std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(level.columns) +
+                                   static_cast<std::size_t>(column);
+            sums[at] = of_squares(row, column, finer, [&](int of_row, int of_column) -> const Sums& {
+                return below[static_cast<std::size_t>(of_row) * static_cast<std::size_t>(finer.columns) +
+                             static_cast<std::size_t>(of_column)];
+            });
+            level.squares[at] = packed(sums[at]);
+        }
+    below = std::move(sums);
+}
+
 GroundMeans::GroundMeans(const PostGrid& grid, const DrawnHeights& heights, double exaggeration, int threads)
     : grid_(grid),
       heights_(heights),
@@ -56,8 +293,12 @@ GroundMeans::GroundMeans(const PostGrid& grid, const DrawnHeights& heights, doub
     }
     if (grid.net) measure_net();
     levels_.push_back({grid.rows(), wraps_longitude_ ? grid.columns() - 1 : grid.columns(), {}});
-    std::vector<Sums> below;
-    for (int level = 1; level < level_count(grid); ++level) add_level(below, threads);
+    for (int level = 1; level < level_count(grid); ++level) {
+        const int rows = (levels_.back().rows + 1) / 2, columns = (levels_.back().columns + 1) / 2;
+        levels_.push_back({rows, columns, {}});
+        levels_.back().squares.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+    }
+    Bands{*this}.add_levels(threads);
 }
 
 void GroundMeans::measure_net() {
@@ -138,38 +379,10 @@ GroundMeans::Sums GroundMeans::post(int row, int column, float neighbour_share) 
     return {x, y, 1.0F / length, x * x, x * y, y * y, h_m, h_m * h_m, 1.0F};
 }
 
-// Four squares of the level below make one.
-void GroundMeans::add_level(std::vector<Sums>& below, int threads) {
-    const Level& finer = levels_.back();
-    Level level{(finer.rows + 1) / 2, (finer.columns + 1) / 2, {}};
-    const std::size_t count = static_cast<std::size_t>(level.rows) * static_cast<std::size_t>(level.columns);
-    std::vector<Sums> sums(count);
-    level.squares.resize(count);
-    const auto finer_at = [&](int row, int column) {
-        if (row >= finer.rows || column >= finer.columns) return Sums{};
-        if (finer.squares.empty()) return post(row, column, neighbour_weight);
-        return below[static_cast<std::size_t>(row) * static_cast<std::size_t>(finer.columns) +
-                     static_cast<std::size_t>(column)];
-    };
-    in_parallel(level.rows, threads, [&](int row) {
-        for (int column = 0; column < level.columns; ++column) {
-            const std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(level.columns) +
-                                   static_cast<std::size_t>(column);
-            for (int part = 0; part < 4; ++part)
-                sums[at].add(finer_at(2 * row + part / 2, 2 * column + part % 2));
-            level.squares[at] = packed(sums[at]);
-        }
-    });
-    below = std::move(sums);
-    levels_.push_back(std::move(level));
-}
-
 // See shaders/shared.h, PageMeans.
 gpu::MeansSquare GroundMeans::packed(const Sums& sums) {
     if (sums.posts == 0.0F) return {};
-    const auto part = [&](float sum) {
-        return static_cast<std::int32_t>(std::lround(sum / sums.posts * gpu::means_normal_steps));
-    };
+    const auto part = [&](float sum) { return rounded(sum / sums.posts * gpu::means_normal_steps); };
     const auto x = static_cast<std::uint32_t>(part(sums.x)), y = static_cast<std::uint32_t>(part(sums.y));
     const auto z = static_cast<std::uint32_t>(std::max(part(sums.z), 1));
     const float h_m = sums.h_m / sums.posts;
@@ -186,9 +399,7 @@ std::uint32_t GroundMeans::packed_spread(const Sums& sums) {
     const float along_y = std::sqrt(std::max(0.0F, sums.yy / sums.posts - y * y));
     const float both = along_x * along_y;
     const float correlation = both > 1.0e-6F ? (sums.xy / sums.posts - x * y) / both : 0.0F;
-    const auto steps = [](float part, float count) {
-        return static_cast<std::int32_t>(std::lround(std::clamp(part, -1.0F, 1.0F) * count));
-    };
+    const auto steps = [](float part, float count) { return rounded(std::clamp(part, -1.0F, 1.0F) * count); };
     return static_cast<std::uint32_t>(steps(along_x, gpu::means_spread_steps)) |
            static_cast<std::uint32_t>(steps(along_y, gpu::means_spread_steps)) << 11U |
            static_cast<std::uint32_t>(steps(correlation, gpu::means_correlation_steps)) << 22U;
@@ -197,18 +408,31 @@ std::uint32_t GroundMeans::packed_spread(const Sums& sums) {
 void GroundMeans::page(const PageIndex& index, gpu::PageMeans& means) const {
     constexpr int apron = static_cast<int>(gpu::means_apron), stride = static_cast<int>(gpu::means_stride);
     const Level& level = levels_[static_cast<std::size_t>(index.level)];
-    for (int i = 0; i < stride * stride; ++i) {
-        const int row = index.row * static_cast<int>(gpu::page_quads) + i / stride - apron;
-        int column = index.column * static_cast<int>(gpu::page_quads) + i % stride - apron;
-        if (wraps_longitude_) column = (column + level.columns) % level.columns;
-        gpu::MeansSquare& square = means.squares[i];
-        square = {};
-        if (row >= 0 && row < level.rows && column >= 0 && column < level.columns)
-            square =
+    const int first_row = index.row * static_cast<int>(gpu::page_quads) - apron;
+    const int first_column = index.column * static_cast<int>(gpu::page_quads) - apron;
+    // Round the Earth columns go on at the other side.
+    const int from = wraps_longitude_ ? 0 : std::max(0, -first_column);
+    const int to = wraps_longitude_ ? stride : std::min(stride, level.columns - first_column);
+    PostRow posts(stride);
+    for (int i = 0; i < stride; ++i) {
+        const int row = first_row + i;
+        gpu::MeansSquare* const squares = means.squares + i * stride;
+        std::fill_n(squares, stride, gpu::MeansSquare{});
+        if (row < 0 || row >= level.rows || from >= to) continue;
+        if (index.level == 0 && !wraps_longitude_) {
+            Bands::put_row(*this, row, first_column + from, to - from, 0.0F, posts);
+            for (int j = from; j < to; ++j) squares[j] = packed(posts.at(j - from));
+            continue;
+        }
+        for (int j = from; j < to; ++j) {
+            const int column =
+                wraps_longitude_ ? (first_column + j + level.columns) % level.columns : first_column + j;
+            squares[j] =
                 index.level == 0
                     ? packed(post(row, column, 0.0F))
                     : level.squares[static_cast<std::size_t>(row) * static_cast<std::size_t>(level.columns) +
                                     static_cast<std::size_t>(column)];
+        }
     }
 }
 

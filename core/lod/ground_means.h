@@ -18,8 +18,7 @@ namespace oro {
 class GroundMeans {
   public:
     // The work is shared between `threads` (at least 1), with one result for any number. Keeps 4 bytes a
-    // post, takes 12 more while it works. `grid` and `heights` must
-    // outlive it.
+    // post, and works in bands of rows. `grid` and `heights` must outlive it.
     GroundMeans(const PostGrid& grid, const DrawnHeights& heights, double exaggeration, int threads);
 
     // Puts the means of a page into `means`; squares without a post have 0.
@@ -38,7 +37,8 @@ class GroundMeans {
     // neighbour_share: weight of the slopes of the posts beside it.
     [[nodiscard]] Sums post(int row, int column, float neighbour_share) const;
     [[nodiscard]] std::int32_t steps(int row, int column) const;
-    void add_level(std::vector<Sums>& below, int threads);
+    struct PostRow;
+    struct Bands;
 
     const PostGrid& grid_;
     const DrawnHeights& heights_;

@@ -3,13 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <glm/packing.hpp>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <random>
 
 #include "core/terrain/drawn_heights.h"
+#include "core/terrain/level_grid.h"
+#include "tests/core/lod/old_ground_means.h"
 #include "tests/support/made_terrain.h"
 #include "tests/support/rough_terrain.h"
 
@@ -118,6 +124,52 @@ TEST(GroundMeans, AreThoseOfAllPosts) {
             }
         }
     }
+}
+
+// Rows by vector code, in bands of 128, against one post after the other: the same bits on every level. Sizes
+// that end within a band and within squares, holes from single posts to half of all, and cliffs.
+TEST(GroundMeans, AreBitByBitThoseOfPostsOneByOne) {
+    constexpr unsigned seed = 20261128;
+    std::printf("seed %u\n", seed);
+    std::mt19937 random(seed);
+    const auto page = std::make_unique<gpu::PageMeans>();
+    std::size_t compared = 0, empty = 0;
+    for (const auto& [rows, columns, one_void_in] : {std::array{257, 131, 1000000}, std::array{301, 420, 40},
+                                                     std::array{300, 290, 2}, std::array{400, 130, 7}}) {
+        HeightField field = test::rough_field(46.9, 8.1, rows, columns);
+        for (float& H_m : field.H_m) {
+            if (random() % static_cast<unsigned>(one_void_in) == 0)
+                H_m = void_height_m;
+            else if (random() % 50U == 0)
+                H_m += static_cast<float>(random() % 3000U);
+        }
+        const double exaggeration = one_void_in == 40 ? 1.7 : 1.0;
+        const DrawnHeights heights = drawn_heights(field, exaggeration, 1);
+        const GroundMeans means(field.grid, heights, exaggeration, 3);
+        const test::OldGroundMeans old(field.grid, heights, static_cast<float>(exaggeration));
+        ASSERT_GT(level_count(field.grid), 1);
+        for (int level = 0; level < level_count(field.grid); ++level) {
+            means.page({0, 0, level}, *page);
+            const int end_row = std::min(128, ((rows - 1) >> level) + 1),
+                      end_column = std::min(128, ((columns - 1) >> level) + 1);
+            for (int i = 0; i < end_row * end_column; ++i) {
+                const int row = i / end_column, column = i % end_column;
+                // Single posts are sharper.
+                const gpu::MeansSquare expected = test::OldGroundMeans::packed(
+                    level == 0 ? old.post(row, column, 0.0F) : old.sums(level, row, column));
+                const gpu::MeansSquare& square = page->squares[static_cast<std::size_t>(
+                    (row + static_cast<int>(gpu::means_apron)) * static_cast<int>(gpu::means_stride) +
+                    column + static_cast<int>(gpu::means_apron))];
+                ASSERT_EQ(square.normal, expected.normal) << level << ": " << row << ", " << column;
+                ASSERT_EQ(square.height, expected.height) << level << ": " << row << ", " << column;
+                ASSERT_EQ(square.spread, expected.spread) << level << ": " << row << ", " << column;
+                ++compared;
+                empty += expected.normal == 0;
+            }
+        }
+    }
+    EXPECT_GT(compared, 50000U);
+    EXPECT_GT(empty, 10U);
 }
 
 // Squares beyond a page's rim are those of the page beside it.
