@@ -64,8 +64,11 @@ class Sweep {
         double width_m{};
     };
     void sort_posts();
+    static constexpr std::uint32_t visits_before = 1, visits_after = 2, visits_all = 4, visit_bits = 3;
+    static constexpr std::uint32_t no_slot = ~0U;
+    [[nodiscard]] std::uint32_t slot_of(const PlanePost& post) const;
     template <class Take>
-    void for_entries_of_row(int row, const Take& take) const;
+    void for_entries(std::uint32_t slot_and_visits, const Take& take) const;
     void sweep_sector(int sector, Viewshed& viewshed, std::size_t& asked) const;
     [[nodiscard]] double target_over_surface_m(const Entry& entry) const;
     [[nodiscard]] float clearance_deficit_m(const Entry& entry, const HorizonSector& sector, double shell_m,
@@ -107,29 +110,34 @@ bool Sweep::in_reach(const PlanePost& post) const {
     return across2 <= most_m * most_m;
 }
 
-// take(sector, shell, entry) for each entry that comes of a row.
+// Where a post goes: the number of its own sector's shell, and who it visits.
+std::uint32_t Sweep::slot_of(const PlanePost& post) const {
+    if (std::isnan(post.z) || !in_reach(post)) return no_slot;
+    const int shell = std::min(static_cast<int>(post.distance_m / shells_.width_m), shells_.count - 1);
+    const double place = azimuth_number(post) * (0.25 * sectors_);
+    const int own = static_cast<int>(place) % sectors_;
+    const double reach = azimuth_reach(post) * (0.25 * sectors_);
+    const std::uint32_t visits = reach >= 1.0 ? visits_all
+                                              : (place - own < reach ? visits_before : 0U) |
+                                                    (own + 1 - place < reach ? visits_after : 0U);
+    return static_cast<std::uint32_t>(own * shells_.count + shell) << visit_bits | visits;
+}
+
+// take(slot, is_visit) for each entry that comes of a post.
 template <class Take>
-void Sweep::for_entries_of_row(int row, const Take& take) const {
-    for (int column = 0; column < window_.columns; ++column) {
-        const PlanePost& post = plane_.post(plane_.number(row, column));
-        if (std::isnan(post.z) || !in_reach(post)) continue;
-        const double distance_m = post.distance_m;
-        const int shell = std::min(static_cast<int>(distance_m / shells_.width_m), shells_.count - 1);
-        const double place = azimuth_number(post) * (0.25 * sectors_);
-        const int own = static_cast<int>(place) % sectors_;
-        Entry entry{row, column, false};
-        take(own, shell, entry);
-        entry.visits = true;
-        const double reach = azimuth_reach(post) * (0.25 * sectors_);
-        if (reach >= 1.0) {
-            for (int sector = 0; sector < sectors_; ++sector) {
-                if (sector != own) take(sector, shell, entry);
-            }
-            continue;
+void Sweep::for_entries(std::uint32_t slot_and_visits, const Take& take) const {
+    const int slot = static_cast<int>(slot_and_visits >> visit_bits), count = shells_.count;
+    const int all = sectors_ * count;
+    take(slot, false);
+    if ((slot_and_visits & visits_all) != 0) {
+        for (int other = slot % count; other < all; other += count) {
+            if (other != slot) take(other, true);
         }
-        if (place - own < reach) take((own + sectors_ - 1) % sectors_, shell, entry);
-        if (own + 1 - place < reach) take((own + 1) % sectors_, shell, entry);
+        return;
     }
+    if ((slot_and_visits & visits_before) != 0) take(slot < count ? slot + all - count : slot - count, true);
+    if ((slot_and_visits & visits_after) != 0)
+        take(slot + count < all ? slot + count : slot + count - all, true);
 }
 
 void Sweep::sort_posts() {
@@ -139,23 +147,27 @@ void Sweep::sort_posts() {
     // Edges that a shell's own horizon does not hold yet come so near a post of it, and are one edge long.
     plane_.bound_tangents(1.01 * (shells_.width_m + 2.0 * plane_.longest_edge_m()), request_.threads);
     const auto slots = static_cast<std::size_t>(sectors_) * static_cast<std::size_t>(shells_.count);
-    const auto slot = [&](int sector, int shell) {
-        return static_cast<std::size_t>(sector) * static_cast<std::size_t>(shells_.count) +
-               static_cast<std::size_t>(shell);
-    };
+    const auto columns = static_cast<std::size_t>(window_.columns);
+    std::vector<std::uint32_t> slot_of_post(static_cast<std::size_t>(window_.rows) * columns);
     // Each part of the rows first counts its posts, then puts them behind those of the parts before it.
     const int parts = std::clamp(request_.threads, 1, window_.rows);
     std::vector<std::vector<std::size_t>> next(static_cast<std::size_t>(parts),
                                                std::vector<std::size_t>(slots, 0));
-    const auto rows_of_part = [&](int part, const auto& take) {
+    const auto posts_of_part = [&](int part, const auto& take) {
         const auto first = [&](int number) {
             return static_cast<int>(static_cast<std::int64_t>(window_.rows) * number / parts);
         };
-        for (int row = first(part); row < first(part + 1); ++row) for_entries_of_row(row, take);
+        std::size_t post = static_cast<std::size_t>(first(part)) * columns;
+        for (int row = first(part); row < first(part + 1); ++row)
+            for (int column = 0; column < window_.columns; ++column, ++post)
+                take(row, column, slot_of_post[post]);
     };
     in_parallel(parts, request_.threads, [&](int part) {
-        rows_of_part(part, [&](int sector, int shell, const Entry&) {
-            ++next[static_cast<std::size_t>(part)][slot(sector, shell)];
+        std::vector<std::size_t>& counts = next[static_cast<std::size_t>(part)];
+        posts_of_part(part, [&](int row, int column, std::uint32_t& slot) {
+            slot = slot_of(plane_.post(plane_.number(row, column)));
+            if (slot == no_slot) return;
+            for_entries(slot, [&](int in, bool) { ++counts[static_cast<std::size_t>(in)]; });
         });
     });
     shells_.begins.assign(slots + 1, 0);
@@ -167,8 +179,12 @@ void Sweep::sort_posts() {
     shells_.begins[slots] = sum;
     shells_.entries.resize(sum);
     in_parallel(parts, request_.threads, [&](int part) {
-        rows_of_part(part, [&](int sector, int shell, const Entry& entry) {
-            shells_.entries[next[static_cast<std::size_t>(part)][slot(sector, shell)]++] = entry;
+        std::vector<std::size_t>& ends = next[static_cast<std::size_t>(part)];
+        posts_of_part(part, [&](int row, int column, std::uint32_t slot) {
+            if (slot == no_slot) return;
+            for_entries(slot, [&](int in, bool visits) {
+                shells_.entries[ends[static_cast<std::size_t>(in)]++] = {row, column, visits};
+            });
         });
     });
 }
