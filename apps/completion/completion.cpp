@@ -36,7 +36,7 @@ const std::vector<FileRow>& file_rows() {
         {"profile", "--out", {"csv", "svg", "geojson"}},
         {"viewshed", "--out", {"tif", "tiff"}},
         {"bake", "--out", {"oro"}},
-        {"export", "--out", {"tif", "tiff"}},
+        {"export", "--out", {"tif", "tiff", "glb"}},
     };
     return rows;
 }
