@@ -135,6 +135,7 @@ set_tests_properties(
   GridsOverEachOther.HaveARimThatIsForetold
   GridsOverEachOther.StandInPanoramasWithNames
   GridsUnderImages.LieOnTheSamePlaces
+  GroundModel.IsWithinItsErrorAndWithoutGaps
   GroundTileset.ErrorHoldsOnANetAndBesideVoids
   GroundTileset.IsTheSameForAnyNumberOfThreads
   GroundTileset.WallsCloseGapsBetweenLevels

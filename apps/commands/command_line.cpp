@@ -514,12 +514,12 @@ void add_export(CLI::App& app, ExportOptions& options) {
     CLI::App& command = *app.add_subcommand(
         "export", "Write the ground in formats of others: GeoTIFF, 3D Tiles, tiles for maps and globes");
     OptionGroup written(command, "The export");
-    written.choice(
-        "--to", options.to, {"cog", "terrain-rgb", "3dtiles", "quantized-mesh"},
-        "The format: a Cloud Optimized GeoTIFF of the data's own samples, PNG tiles for web maps whose "
-        "colours are heights, 3D Tiles with levels whose error is proven, or tiles of terrain for globes.");
+    written.choice("--to", options.to, {"cog", "terrain-rgb", "3dtiles", "quantized-mesh", "gltf"},
+                   "The format: a Cloud Optimized GeoTIFF of the data's own samples, PNG tiles for web maps "
+                   "whose colours are heights, 3D Tiles with levels whose error is proven, tiles of terrain "
+                   "for globes, or one glTF model.");
     written.option("--out", options.out, "PATH",
-                   "What to write: a file (.tif) of cog, a folder of the others.");
+                   "What to write: a file of cog (.tif) or gltf (.glb), a folder of the others.");
     written.option("--zoom", options.zoom, "RANGE",
                    "Write these zooms of a web map, LOW:HIGH of 0 to 22, as in 5:12, or of a globe, 0:HIGH. "
                    "Default: up to the "
@@ -529,6 +529,10 @@ void add_export(CLI::App& app, ExportOptions& options) {
     written.number(
         "--hole-height", options.hole_height_m, "METRES",
         "Height of places without ground, -10000 to 10000 (default 0). Needs terrain-rgb or quantized-mesh.");
+    written.number("--max-error", options.max_error_m, "METRES",
+                   "How far a model may be from the ground, 0 to 100000: the larger, the fewer triangles "
+                   "(default 0, every "
+                   "sample). Needs gltf.");
     written.flag("--overwrite", options.overwrite,
                  "Replace a file that is there, or a folder that holds such tiles and nothing else.");
     add_region_options(command, options.region);
@@ -537,7 +541,8 @@ void add_export(CLI::App& app, ExportOptions& options) {
     set_help(command, {{"export PATH... --to cog --out FILE.tif [OPTIONS]",
                         "export PATH... --to terrain-rgb --out FOLDER [OPTIONS]",
                         "export PATH... --to 3dtiles --out FOLDER [OPTIONS]",
-                        "export PATH... --to quantized-mesh --out FOLDER [OPTIONS]"},
+                        "export PATH... --to quantized-mesh --out FOLDER [OPTIONS]",
+                        "export PATH... --to gltf --out FILE.glb [OPTIONS]"},
                        "",
                        "docs/commands/export.md"});
 }

@@ -37,7 +37,7 @@ const std::vector<FileRow>& file_rows() {
         {"viewshed", "--out", {"tif", "tiff"}},
         {"horizon", "--out", {"tif", "tiff"}},
         {"bake", "--out", {"oro"}},
-        {"export", "--out", {"tif", "tiff"}},
+        {"export", "--out", {"tif", "tiff", "glb"}},
     };
     return rows;
 }

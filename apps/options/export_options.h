@@ -10,10 +10,11 @@ namespace oro {
 
 struct ExportOptions {
     RegionOptions region;
-    std::optional<std::string> to;        // cog, terrain-rgb, 3dtiles, quantized-mesh
-    std::string out;                      // a file of cog, a folder of the others
+    std::optional<std::string> to;        // cog, terrain-rgb, 3dtiles, quantized-mesh, gltf
+    std::string out;                      // a file of cog and gltf, a folder of the others
     std::optional<std::string> zoom;      // LOW:HIGH
     std::optional<double> hole_height_m;  // what places without ground hold
+    std::optional<double> max_error_m;    // of a model
     bool overwrite{false};
     bool json{false};
     bool quiet{false};

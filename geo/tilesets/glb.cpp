@@ -251,24 +251,29 @@ Json gltf_json(const GroundMesh& mesh, const GlbLook& look, const Views& views) 
 }  // namespace
 
 std::vector<std::uint8_t> glb_bytes(const GroundMesh& mesh, const GlbLook& look) {
-    constexpr std::uint32_t magic = 0x46546C67, version = 2, json_chunk = 0x4E4F534A,
-                            binary_chunk = 0x004E4942;
-    const Views views = views_of(mesh, ordered(mesh));
+    Views views = views_of(mesh, ordered(mesh));
     const std::string text =
         gltf_json(mesh, look, views).dump(-1, ' ', false, Json::error_handler_t::replace);
-    std::vector<std::uint8_t> json(text.begin(), text.end());
-    pad(json, ' ');
+    return glb_around(text, std::move(views.bytes));
+}
+
+std::vector<std::uint8_t> glb_around(const std::string& json, std::vector<std::uint8_t> buffer) {
+    constexpr std::uint32_t magic = 0x46546C67, version = 2, json_chunk = 0x4E4F534A,
+                            binary_chunk = 0x004E4942;
+    std::vector<std::uint8_t> text(json.begin(), json.end());
+    pad(text, ' ');
+    pad(buffer, 0);
     constexpr std::size_t header_bytes = 12, chunk_header_bytes = 8;
-    const std::size_t all = header_bytes + 2 * chunk_header_bytes + json.size() + views.bytes.size();
+    const std::size_t all = header_bytes + 2 * chunk_header_bytes + text.size() + buffer.size();
     std::vector<std::uint8_t> bytes;
     bytes.reserve(all);
     for (const std::uint32_t word : {magic, version, static_cast<std::uint32_t>(all),
-                                     static_cast<std::uint32_t>(json.size()), json_chunk})
+                                     static_cast<std::uint32_t>(text.size()), json_chunk})
         append(bytes, word);
-    bytes.insert(bytes.end(), json.begin(), json.end());
-    append(bytes, static_cast<std::uint32_t>(views.bytes.size()));
+    bytes.insert(bytes.end(), text.begin(), text.end());
+    append(bytes, static_cast<std::uint32_t>(buffer.size()));
     append(bytes, binary_chunk);
-    bytes.insert(bytes.end(), views.bytes.begin(), views.bytes.end());
+    bytes.insert(bytes.end(), buffer.begin(), buffer.end());
     return bytes;
 }
 

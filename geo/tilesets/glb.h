@@ -24,5 +24,7 @@ struct GlbLook {
 // the first ones, are ground; the others are walls. Source: Khronos, glTF 2.0 specification; OGC 22-025r4, 3D
 // Tiles 1.1.
 std::vector<std::uint8_t> glb_bytes(const GroundMesh& mesh, const GlbLook& look);
+// The bytes of a .glb around a text of JSON and its one buffer.
+std::vector<std::uint8_t> glb_around(const std::string& json, std::vector<std::uint8_t> buffer);
 
 }  // namespace oro

@@ -10,6 +10,7 @@
 #include "core/terrain/cell_diagonal.h"
 #include "core/terrain/drawn_heights.h"
 #include "core/terrain/page_posts.h"
+#include "geo/tilesets/post_place.h"
 
 namespace oro {
 namespace {
@@ -22,22 +23,6 @@ struct PlacedPost {
     glm::dvec3 up{0.0};  // the ellipsoid's normal
     bool there{};
 };
-
-glm::dvec3 ecef_of(const glm::dvec3& up, double h_m) {
-    const double normal_m = wgs84_a_m / std::sqrt(1.0 - wgs84_e2 * up.z * up.z);
-    return {(normal_m + h_m) * up.x, (normal_m + h_m) * up.y, (normal_m * (1.0 - wgs84_e2) + h_m) * up.z};
-}
-
-glm::dvec3 up_at(const PostGrid& grid, int row, int column) {
-    if (grid.net) {
-        glm::dvec3 normal;
-        grid.net->normals_of_row(row, column, {&normal, 1});
-        return normal;
-    }
-    const SineCosine lat = sine_cosine_deg(row_lat_deg(grid, row));
-    const SineCosine lon = sine_cosine_deg(grid.lon.at_deg(column));
-    return {lat.cosine * lon.cosine, lat.cosine * lon.sine, lat.sine};
-}
 
 // Makes the mesh of a page from its block.
 class MeshBuilder {
@@ -98,8 +83,8 @@ void MeshBuilder::place_posts(const PostGrid& grid, const PageIndex& page) {
             const std::int32_t steps = block_.heights[number];
             const std::optional<PageIndex> post = region.region_post(row, column);
             if (steps == void_height_steps || !post) continue;
-            const glm::dvec3 up = up_at(grid, post->row, post->column);
-            posts_[number] = {ecef_of(up, steps * height_step_m), up, true};
+            const glm::dvec3 up = post_up(grid, post->row, post->column);
+            posts_[number] = {ecef_above(up, steps * height_step_m), up, true};
         }
     }
 }

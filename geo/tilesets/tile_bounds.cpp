@@ -15,17 +15,6 @@ namespace {
 constexpr double largest_radius_m = 6399594.0;
 // Three coordinates that are half a step off: sqrt(3) / 2, rounded up.
 constexpr double rounded_share = 0.8661;
-// How far a flat triangle of a level lies from the one that is linear in row, column and height, at most; as
-// in core/lod/node_deviations.cpp, with both radii of curvature at their largest. dh_m: between its posts.
-double sag_m(const PostGrid& grid, int level, double highest_h_m, double dh_m) {
-    const double both = std::ldexp(grid.row_step_rad(), level) + std::ldexp(grid.column_step_rad(), level);
-    const double radius_m = largest_radius_m + std::max(0.0, highest_h_m);
-    if (grid.net)
-        return 0.125 * (grid.net->bend() * radius_m * both * both + 2.02 * dh_m * both +
-                        2.0 * grid.net->kink() * radius_m * both);
-    return 0.125 * 1.0001 * (radius_m * both * both + 2.0 * dh_m * both);
-}
-
 // See TileBounds::step_m().
 double step_of_m(double certified_m, double post_m, double radius_m) {
     constexpr double finest_m = 0x1.0p-11, coarsest_of_posts_m = 0x1.0p-4, share = 0x1.0p-10;
@@ -56,6 +45,16 @@ PostSpacing post_spacing_at_page(const PostGrid& grid, const PageIndex& page) {
 
 }  // namespace
 
+// As in core/lod/node_deviations.cpp, with both radii of curvature at their largest.
+double flat_triangle_sag_m(const PostGrid& grid, int level, double highest_h_m, double dh_m) {
+    const double both = std::ldexp(grid.row_step_rad(), level) + std::ldexp(grid.column_step_rad(), level);
+    const double radius_m = largest_radius_m + std::max(0.0, highest_h_m);
+    if (grid.net)
+        return 0.125 * (grid.net->bend() * radius_m * both * both + 2.02 * dh_m * both +
+                        2.0 * grid.net->kink() * radius_m * both);
+    return 0.125 * 1.0001 * (radius_m * both * both + 2.0 * dh_m * both);
+}
+
 const TileBounds::Bound& TileBounds::at(const PageIndex& page) const {
     return levels_[static_cast<std::size_t>(page.level)]
                   [pages_->layout(page.level).number(page.row, page.column)];
@@ -73,7 +72,7 @@ Result<TileBounds::Bound> TileBounds::bound_of(const PageIndex& page) const {
     bound.post_m = std::min(apart.row_m, apart.column_m);
     const bool fits = certified_m < static_cast<double>(gpu::unfit_error_m);
     bound.step_m = step_of_m(fits ? certified_m : 0.0, bound.post_m, std::max(1.0, summary.radius_m));
-    bound.beside_m = sag_m(grid, page.level, summary.highest_h_m, dh_m) + bound.step_m;
+    bound.beside_m = flat_triangle_sag_m(grid, page.level, summary.highest_h_m, dh_m) + bound.step_m;
     if (bound.drawn) bound.lowest_h_m = summary.lowest_h_m, bound.highest_h_m = summary.highest_h_m;
     // Of the pages below it.
     double error_m = 0.0, shown_error_m = -1.0;
@@ -93,7 +92,8 @@ Result<TileBounds::Bound> TileBounds::bound_of(const PageIndex& page) const {
         return bound;
     }
     // The surface's own triangles lie within the certificate of the page's heights.
-    const double surface_sag_m = sag_m(grid, 0, summary.highest_h_m + certified_m, dh_m + 2.0 * certified_m);
+    const double surface_sag_m =
+        flat_triangle_sag_m(grid, 0, summary.highest_h_m + certified_m, dh_m + 2.0 * certified_m);
     bound.error_m =
         std::max(error_m, certified_m + surface_sag_m + 0.5 * height_step_m + rounded_share * bound.step_m);
     if (bound.drawn) bound.shown_error_m = bound.error_m;

@@ -21,6 +21,10 @@ struct TileWalls {
     std::array<double, 4> out_m{};
 };
 
+// How far a flat triangle between posts of a level lies from the one that is linear in row, column and
+// height, at most, in metres. dh_m: how much higher one of its posts is than another.
+double flat_triangle_sag_m(const PostGrid& grid, int level, double highest_h_m, double dh_m);
+
 // The bounds of the pages of a grid, each drawn alone with all its quads by flat triangles between posts that
 // are rounded to steps around a centre. Read once, of what the certificates say; 64 bytes a page.
 class TileBounds {

@@ -133,6 +133,27 @@ TEST(ExportCommand, TerrainOfAGlobeTellsWhatIsThere) {
                    {"which is no tile"});
 }
 
+TEST(ExportCommand, AModelKeepsToItsError) {
+    const fs::path folder = oro::test::scratch_folder(), out = folder / "hills.glb";
+    const auto every = object_said_by(export_words("gltf", out, {"--json"}));
+    EXPECT_EQ(every["triangles"], 2 * 402 * 343);
+    EXPECT_EQ(every["vertices"], 403 * 344);
+    EXPECT_EQ(every["bytes"], fs::file_size(out));
+    EXPECT_EQ(bytes_of(out).substr(0, 4), "glTF");
+    expect_refusal(run_orograph(export_words("gltf", out)), oro::test::failed, {"--overwrite"});
+    const auto fewer =
+        object_said_by(export_words("gltf", out, {"--json", "--overwrite", "--max-error", "20"}));
+    EXPECT_LT(fewer["triangles"].get<int>(), 2 * 402 * 343 * 9 / 10);
+    EXPECT_LT(fewer["error_m"].get<double>(), 20.1);
+    EXPECT_EQ(names_in(folder), Words{"hills.glb"});
+    expect_refusal(run_orograph(export_words("gltf", folder / "t.tif")), oro::test::usage,
+                   {"must end in .glb"});
+    expect_refusal(run_orograph(export_words("gltf", folder / "t.glb", {"--max-error", "-1"})),
+                   oro::test::usage, {"--max-error -1"});
+    expect_refusal(run_orograph(export_words("cog", folder / "t.tif", {"--max-error", "1"})),
+                   oro::test::usage, {"--max-error 1: needs --to gltf"});
+}
+
 TEST(ExportCommand, A3dTilesetReplacesOnlyATileset) {
     const fs::path folder = oro::test::scratch_folder(), out = folder / "tiles";
     const Words words = export_words("3dtiles", out);
@@ -188,8 +209,8 @@ TEST(ExportCommand, RefusesWhatHasNoMeaning) {
                    oro::test::usage, {"--hole-height", "needs --to terrain-rgb or quantized-mesh"});
     expect_refusal(run_orograph(export_words("3dtiles", folder / "t", {"--zoom", "3:4"})), oro::test::usage,
                    {"--zoom 3:4: needs --to terrain-rgb or quantized-mesh"});
-    expect_refusal(run_orograph(export_words("gltf", folder / "t")), oro::test::usage,
-                   {"choose cog, terrain-rgb, 3dtiles or quantized-mesh"});
+    expect_refusal(run_orograph(export_words("obj", folder / "t")), oro::test::usage,
+                   {"choose cog, terrain-rgb, 3dtiles, quantized-mesh or gltf"});
     EXPECT_TRUE(names_in(folder).empty());
 }
 

@@ -123,7 +123,7 @@ TEST(RefusedOptions, MissingValues) {
          {{"compare"}, "PICTURE: is missing (orograph compare --help tells what it is)"},
          {{"shot", file}, "--out: is missing: name the picture to write (.png, .jpg or .tif)"},
          {{"bake", file}, "--out: is missing: name the file to write (.oro)"},
-         {{"export", file}, "--to: is missing: choose cog, terrain-rgb, 3dtiles or quantized-mesh"},
+         {{"export", file}, "--to: is missing: choose cog, terrain-rgb, 3dtiles, quantized-mesh or gltf"},
          {{"export", file, "--to", "cog"}, "--out: is missing: name the file to write (.tif)"},
          {{"export", file, "--to", "terrain-rgb"}, "--out: is missing: name the folder to write"},
          {{"export", file, "--to", "3dtiles"}, "--out: is missing: name the folder to write"},

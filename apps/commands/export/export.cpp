@@ -6,6 +6,7 @@
 #include "apps/commands/export/exported_region.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/different_words.h"
+#include "apps/report/figures.h"
 #include "apps/report/region_json.h"
 #include "apps/view/view.h"
 #include "geo/files/letter_case.h"
@@ -20,23 +21,32 @@ namespace {
 
 Result<void> check_file(const ExportOptions& options) {
     const std::string name = lower_case(options.out);
-    if (!name.ends_with(".tif") && !name.ends_with(".tiff"))
+    if (options.to == "gltf" && !name.ends_with(".glb"))
+        return refused("--out", options.out, "the file's name must end in .glb");
+    if (options.to == "cog" && !name.ends_with(".tif") && !name.ends_with(".tiff"))
         return refused("--out", options.out, "the file's name must end in .tif");
     return check_may_write(options.out, options.overwrite);
 }
 
 Result<void> check_words(const ExportOptions& options) {
     if (!options.to)
-        return refused("--to", "", "is missing: choose cog, terrain-rgb, 3dtiles or quantized-mesh");
+        return refused("--to", "", "is missing: choose cog, terrain-rgb, 3dtiles, quantized-mesh or gltf");
     if (options.out.empty())
         return refused("--out", "",
-                       *options.to == "cog" ? "is missing: name the file to write (.tif)"
-                                            : "is missing: name the folder to write");
+                       *options.to == "cog"    ? "is missing: name the file to write (.tif)"
+                       : *options.to == "gltf" ? "is missing: name the file to write (.glb)"
+                                               : "is missing: name the folder to write");
     const bool has_zooms = *options.to == "terrain-rgb" || *options.to == "quantized-mesh";
     const char* const needed = "needs --to terrain-rgb or quantized-mesh";
     if (options.zoom && !has_zooms) return refused("--zoom", *options.zoom, needed);
     if (options.hole_height_m && !has_zooms) return refused("--hole-height", "", needed);
-    if (*options.to == "cog") return check_file(options);
+    if (options.max_error_m && *options.to != "gltf")
+        return refused("--max-error", all_digits(*options.max_error_m), "needs --to gltf");
+    constexpr double most_error_m = 100000.0;
+    if (const double error_m = options.max_error_m.value_or(0.0);
+        !(error_m >= 0.0 && error_m <= most_error_m))
+        return refused("--max-error", all_digits(error_m), between_words(0.0, most_error_m));
+    if (*options.to == "cog" || *options.to == "gltf") return check_file(options);
     if (*options.to == "3dtiles") return check_folder(options.out, options.overwrite, ".glb", "tileset.json");
     ORO_CHECK(check_zoom(options));
     return *options.to == "terrain-rgb"
@@ -77,6 +87,7 @@ Result<void> run_export(const ExportOptions& options) {
     leave_covered_grids_out(region);
     ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, region)}));
     if (*options.to == "cog") return export_cog(options, region, bar);
+    if (*options.to == "gltf") return export_gltf(options, region, bar);
     if (*options.to == "3dtiles") return export_3d_tiles(options, region, bar);
     if (*options.to == "quantized-mesh") return export_quantized_mesh(options, region, bar);
     return export_terrain_rgb(options, region, bar);

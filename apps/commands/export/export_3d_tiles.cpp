@@ -12,30 +12,15 @@
 #include "apps/report/json_text.h"
 #include "apps/report/region_json.h"
 #include "core/base/parallel.h"
-#include "core/base/srgb.h"
 #include "geo/files/whole_folder.h"
 #include "geo/tilesets/ground_tileset.h"
 
 namespace oro {
 namespace {
 
-// Of sRGB: what the style `natural` has for bare ground below the snow line.
-constexpr std::array ground_colour{0x91 / 255.0, 0x8B / 255.0, 0x81 / 255.0};
-
-Result<void> check_one_grid(const Region& region) {
-    if (region.grids.size() > 1)
-        return refused("--to", "3dtiles",
-                       "these data are " + std::to_string(region.grids.size()) +
-                           " grids of posts, and a tileset is made of one: name files of one of them");
-    return {};
-}
-
 TilesetRequest request_of(const Region& region) {
     TilesetRequest request;
-    for (std::size_t i = 0; i < ground_colour.size(); ++i)
-        request.look.colour[i] = light_of_srgb(ground_colour[i]);
-    request.look.attribution = attribution_of(region);
-    request.look.generator = "orograph " OROGRAPH_VERSION;
+    request.look = look_of(region);
     request.metadata = {
         {"heights", heights_words(region)},
         {"sourceHeights", source_heights_words(region)},
@@ -86,7 +71,7 @@ void tell_tileset(const ExportOptions& options, const Region& region, const Tile
 }  // namespace
 
 Result<void> export_3d_tiles(const ExportOptions& options, const Region& region, ProgressBar& bar) {
-    ORO_CHECK(check_one_grid(region));
+    ORO_CHECK(check_one_grid(options, region));
     ORO_TRY(const std::unique_ptr<RegionPages> pages,
             grid_pages(region.grids.front(), {}, 1.0,
                        [&](double share) { bar.show(share, "measuring levels"); }));

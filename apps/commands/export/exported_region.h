@@ -10,6 +10,7 @@
 #include "apps/report/progress_bar.h"
 #include "core/base/result.h"
 #include "geo/region/region.h"
+#include "geo/tilesets/glb.h"
 #include "geo/web_maps/terrain_tiles.h"
 
 namespace oro {
@@ -29,6 +30,13 @@ Result<void> export_terrain_rgb(const ExportOptions& options, const Region& regi
 // Writes the ground of a region's one grid as 3D Tiles whose errors are proven, and tells them on standard
 // output. Errors (usage): several grids, or too many tiles; those of WholeFolder and write_tileset().
 Result<void> export_3d_tiles(const ExportOptions& options, const Region& region, ProgressBar& bar);
+// Writes the ground of a region's one grid as one model, and tells how far it is from it at most. Errors
+// (usage): several grids, too many triangles; what WholeFile says.
+Result<void> export_gltf(const ExportOptions& options, const Region& region, ProgressBar& bar);
+// What meshes of the ground look like, and whose they are.
+GlbLook look_of(const Region& region);
+// Refuses several grids where what is written is made of one.
+Result<void> check_one_grid(const ExportOptions& options, const Region& region);
 // Refuses a folder that cannot be written, before anything is read; with `overwrite` also one that holds more
 // than tiles with that extension and the file `index`.
 Result<void> check_folder(const std::string& out, bool overwrite, const std::string& extension,
