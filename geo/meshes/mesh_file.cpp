@@ -39,6 +39,8 @@ Result<std::string> mesh_bytes(const std::string& path) {
     return bytes;
 }
 
+constexpr double geopackage_limit_s = 60.0;
+
 // The local name of a text's first element: behind a byte order mark, declarations and comments.
 std::string_view first_element(std::string_view text) {
     for (std::size_t at = text.find('<'); at != std::string_view::npos; at = text.find('<')) {
@@ -102,10 +104,15 @@ bool is_mesh_name(const std::string& path) {
 
 Result<SourceMesh> read_mesh(const std::string& path) {
     const MeshReader reader = mesh_reader_for(path);
-    if (reader == nullptr)
-        return Error{ErrorKind::failed, path, "is no mesh by its name: .obj, .ply, .stl, .xml are"};
-    ORO_TRY(const std::string bytes, mesh_bytes(path));
-    Result<SourceMesh> read = reader(bytes);
+    const bool is_geopackage = mesh_ending(path) == "gpkg";
+    if (reader == nullptr && !is_geopackage)
+        return Error{ErrorKind::failed, path,
+                     "is no mesh by its name: .obj, .ply, .stl, .xml, .landxml and .gpkg are"};
+    const auto read_bytes = [&]() -> Result<SourceMesh> {
+        ORO_TRY(const std::string bytes, mesh_bytes(path));
+        return reader(bytes);
+    };
+    Result<SourceMesh> read = is_geopackage ? read_geopackage_mesh(path, geopackage_limit_s) : read_bytes();
     if (!read.ok()) return Error{read.error().kind, path, read.error().what};
     SourceMesh mesh = std::move(*read);
     mesh.path = path;

@@ -1,4 +1,4 @@
-// Files of triangle meshes: OBJ, PLY, STL and LandXML.
+// Files of triangle meshes: OBJ, PLY, STL, LandXML and GeoPackage.
 #pragma once
 
 #include <string>
@@ -18,10 +18,11 @@ bool is_mesh_name(const std::string& path);
 // first element: LandXML, within the first 64 KiB. False of a file that cannot be read.
 bool is_mesh_file(const std::string& path);
 
-// Reads a mesh; its name says the format. Numbers are kept in double (those of STL, and float ones of PLY,
-// are float in the file). Memory is taken after what a header promises was held against the file's length.
-// Errors: the file cannot be read, is larger than 1 GiB, is cut off or damaged (with the line or the byte),
-// has an index beyond its vertices, has no triangle, or none whose vertices are finite. From any thread.
+// Reads a mesh; its name says the format: those of is_mesh_name(), and .gpkg of a GeoPackage, which is no
+// mesh by its name alone. Numbers are kept in double (those of STL, and float ones of PLY, are float in the
+// file). Memory is taken after what a header promises was held against the file's length. Errors: the file
+// cannot be read, is larger than 1 GiB, is cut off or damaged (with the line or the byte), has an index
+// beyond its vertices, has no triangle, or none whose vertices are finite. From any thread.
 Result<SourceMesh> read_mesh(const std::string& path);
 
 }  // namespace oro

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,5 +21,8 @@ Result<SourceMesh> read_obj(std::string_view bytes);
 Result<SourceMesh> read_ply(std::string_view bytes);
 Result<SourceMesh> read_stl(std::string_view bytes);
 Result<SourceMesh> read_landxml(std::string_view bytes);
+// By OGR, which wants the file itself: TIN, PolyhedralSurface, MultiPolygon and Polygon with heights, of all
+// layers, which lie in one CRS. limit_s: seconds that it may take.
+Result<SourceMesh> read_geopackage_mesh(const std::string& path, double limit_s);
 
 }  // namespace oro

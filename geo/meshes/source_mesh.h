@@ -21,13 +21,13 @@ using SourceTriangle = std::array<std::uint32_t, 3>;  // numbers of vertices, fr
 // What a file of triangles holds. Each triangle's vertices are there, and are finite.
 struct SourceMesh {
     std::string path;
-    std::string format;                // "OBJ", "PLY", "STL", "LandXML"
+    std::string format;                // "OBJ", "PLY", "STL", "LandXML", "GeoPackage"
     std::vector<glm::dvec3> vertices;  // east (x), north (y), height, in the file's units
     std::vector<SourceTriangle> triangles;
     std::vector<MeshPart> parts;
     std::string unit;                 // as the file names it: "foot"; "" where it names none
     double metres_per_unit{1.0};      // of `unit`; 1 where there is none
-    std::string crs;                  // that the file states, as "EPSG:2056"; "" where it states none
+    std::string crs;                  // that the file states, as "EPSG:2056" or WKT; "" where it states none
     std::size_t not_finite{};         // triangles left out: a vertex is NaN or infinite
     std::size_t invisible{};          // triangles left out: the file says that they are not to be seen
     std::size_t polygons_cut{};       // polygons of more than three corners, cut into triangles

@@ -1,10 +1,9 @@
 #include <array>
-#include <bit>
 #include <cstring>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 
+#include "geo/meshes/equal_corners.h"
 #include "geo/meshes/mesh_readers.h"
 #include "geo/meshes/mesh_words.h"
 
@@ -12,35 +11,6 @@ namespace oro {
 namespace {
 
 constexpr std::size_t stl_header_bytes = 80, stl_triangle_bytes = 50;
-
-// Vertices of an STL file, which writes each corner again: equal corners become one vertex.
-class StlCorners {
-  public:
-    explicit StlCorners(SourceMesh& mesh) : mesh_(mesh) {}
-
-    std::uint32_t vertex(const glm::dvec3& place) {
-        // Adding 0 makes one of both zeros.
-        const Key key{std::bit_cast<std::uint64_t>(place.x + 0.0),
-                      std::bit_cast<std::uint64_t>(place.y + 0.0),
-                      std::bit_cast<std::uint64_t>(place.z + 0.0)};
-        const auto [found, is_new] =
-            numbers_.try_emplace(key, static_cast<std::uint32_t>(mesh_.vertices.size()));
-        if (is_new) mesh_.vertices.push_back(place);
-        return found->second;
-    }
-
-  private:
-    using Key = std::array<std::uint64_t, 3>;
-    struct Hash {
-        std::size_t operator()(const Key& key) const {
-            std::uint64_t mixed = 0;
-            for (const std::uint64_t part : key) mixed = std::rotl((mixed ^ part) * 0x9E3779B97F4A7C15U, 31);
-            return mixed;
-        }
-    };
-    SourceMesh& mesh_;
-    std::unordered_map<Key, std::uint32_t, Hash> numbers_;
-};
 
 std::uint64_t stl_count(std::string_view bytes) {
     std::uint32_t count = 0;
@@ -50,7 +20,7 @@ std::uint64_t stl_count(std::string_view bytes) {
 
 SourceMesh stl_binary(std::string_view bytes) {
     SourceMesh mesh;
-    StlCorners corners(mesh);
+    EqualCorners corners(mesh);
     const std::uint64_t count = stl_count(bytes);
     const char* from = bytes.data() + stl_header_bytes + sizeof(std::uint32_t);
     for (std::uint64_t i = 0; i < count; ++i, from += stl_triangle_bytes) {
@@ -68,7 +38,7 @@ SourceMesh stl_binary(std::string_view bytes) {
 
 Result<SourceMesh> stl_text(std::string_view rest) {
     SourceMesh mesh;
-    StlCorners corners(mesh);
+    EqualCorners corners(mesh);
     SourceTriangle triangle{};
     std::size_t corner = 0;
     bool is_open = false;

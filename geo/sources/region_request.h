@@ -9,6 +9,14 @@
 
 namespace oro {
 
+// Files of triangle meshes that lie on a region's ground (geo/meshes).
+struct MeshRequest {
+    std::vector<std::string> files;
+    std::string crs;  // where they lie, and with a vertical part what their heights refer to; "": as they say
+    std::string unit;  // "", or one that metres_in() knows: overrides what the files say
+    bool operator==(const MeshRequest&) const = default;
+};
+
 // The files that a region is made of, the part of them that is wanted, and how they become one surface.
 struct RegionRequest {
     std::vector<std::string>
@@ -33,6 +41,7 @@ struct RegionRequest {
     // Files that lie far apart (disjoint_sources.h), or whose posts are not each other's, become a grid
     // each. Otherwise one grid holds them all, with what lies between, as views of one grid had it.
     bool allow_multiple_grids{false};
+    MeshRequest meshes{};
 };
 
 // What becomes of void posts: they are left out of the terrain, or filled from their neighbours.

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "geo/meshes/mesh_census.h"
+#include "tests/geo/vectors/written_vectors.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -210,6 +211,32 @@ TEST(MeshFile, CutAndDamagedFilesEndInAnAnswer) {
     const std::string whole = binary_ply(false);
     EXPECT_NE(refusal("cut.ply", whole.substr(0, whole.size() - 1)).find("a list is longer than the file"),
               std::string::npos);
+}
+
+// GDAL writes them, this reads them again: doubles, holes, and what has no heights.
+TEST(MeshFile, GeoPackagesHoldSurfacesWithHeights) {
+    const std::string tin =
+        "TIN Z (((2600000.001 1200000.002 431.003,2600001 1200000 431,2600001 1200001 432,2600000.001 "
+        "1200000.002 431.003)),((2600000.001 1200000.002 431.003,2600001 1200001 432,2600000 1200001 "
+        "432,2600000.001 1200000.002 431.003)))";
+    const std::string walls =
+        "POLYHEDRALSURFACE Z (((0 0 0,0 0 5,4 0 5,4 0 0,0 0 0)),((4 0 0,4 0 5,4 4 5,4 4 0,4 0 0)))";
+    const std::string roof =
+        "MULTIPOLYGON Z (((0 0 9,6 0 9,6 6 9,0 6 9,0 0 9),(2 2 9,2 4 9,4 4 9,4 2 9,2 2 9)))";
+    const auto mesh = read_mesh(
+        test::geopackage("surfaces.gpkg", 2056,
+                         {{tin, "a"}, {walls, "b"}, {roof, "c"}, {"POLYGON ((0 0,1 0,1 1,0 0))", "d"}}));
+    ASSERT_TRUE(mesh.ok()) << mesh.error().line();
+    EXPECT_EQ(mesh->vertices[0], glm::dvec3(2600000.001, 1200000.002, 431.003));
+    // 2 of the TIN, 2 of each wall, 4 + 4 corners and one hole: 8 of the roof.
+    EXPECT_EQ(mesh->triangles.size(), 2U + 4U + 8U);
+    EXPECT_EQ(mesh->vertices.size(), 4U + 6U + 8U);
+    EXPECT_EQ(mesh->crs, "EPSG:2056");
+    EXPECT_EQ(mesh->format, "GeoPackage");
+    const auto flat = read_mesh(test::geopackage("flat.gpkg", 0, {{"POLYGON ((0 0,1 0,1 1,0 0))", "d"}}));
+    ASSERT_FALSE(flat.ok());
+    EXPECT_NE(flat.error().what.find("have no heights"), std::string::npos) << flat.error().what;
+    EXPECT_NE(refusal("no.gpkg", "nothing").find("is no GeoPackage of vectors"), std::string::npos);
 }
 
 MeshCensus census_of_obj(const std::string& text) {

@@ -1,0 +1,275 @@
+#include "geo/meshes/placed_mesh.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "core/base/checksum.h"
+#include "core/earth/ellipsoid.h"
+#include "core/terrain/page_on_net.h"
+#include "geo/coordinates/crs_places.h"
+#include "geo/datum/proj_operations.h"
+#include "geo/datum/vertical_datum.h"
+#include "geo/meshes/mesh_file.h"
+#include "geo/sources/length_unit.h"
+
+namespace oro {
+namespace {
+
+// Metres of a projected CRS's unit; nothing of one in degrees.
+std::optional<double> crs_unit_m(const std::string& crs) {
+    const ProjContext context = new_proj_context();
+    ProjObject object = unbound(context.get(), ProjObject(proj_create(context.get(), crs.c_str())));
+    if (object && proj_get_type(object.get()) == PJ_TYPE_COMPOUND_CRS)
+        object = unbound(context.get(), ProjObject(proj_crs_get_sub_crs(context.get(), object.get(), 0)));
+    if (!object || proj_get_type(object.get()) != PJ_TYPE_PROJECTED_CRS) return std::nullopt;
+    const ProjObject axes(proj_crs_get_coordinate_system(context.get(), object.get()));
+    double metres = 0.0;
+    if (!axes ||
+        proj_cs_get_axis_info(context.get(), axes.get(), 0, nullptr, nullptr, nullptr, &metres, nullptr,
+                              nullptr, nullptr) == 0 ||
+        !(metres > 0.0))
+        return std::nullopt;
+    return metres;
+}
+
+// What turns a file's numbers into those of its CRS, and heights into metres.
+struct MeshScale {
+    double plane{1.0};
+    double height_m{1.0};  // of heights that state no datum
+    std::string note;
+};
+
+Result<MeshScale> scale_of(const SourceMesh& mesh, const std::string& crs, const std::string& asked_unit) {
+    MeshScale scale;
+    std::optional<double> unit_m;
+    if (!asked_unit.empty()) {
+        unit_m = metres_in(asked_unit);
+        if (!unit_m)
+            return Error{ErrorKind::usage, "--mesh-unit " + asked_unit,
+                         "is none of m, ft, us-ft, cm, dm, mm"};
+    } else if (!mesh.unit.empty()) {
+        unit_m = mesh.metres_per_unit;
+    }
+    if (!unit_m) return scale;
+    scale.height_m = *unit_m;
+    const std::optional<double> axis_m = crs_unit_m(crs);
+    if (!axis_m || std::abs(*unit_m / *axis_m - 1.0) < 1.0e-12) return scale;
+    scale.plane = *unit_m / *axis_m;
+    char text[120];
+    std::snprintf(text, sizeof text, "its coordinates are taken times %.9g, from its unit to that of the CRS",
+                  scale.plane);
+    scale.note = text;
+    return scale;
+}
+
+// A mesh while it is placed: vertices of the file, and those in the middle of long sides.
+class MeshPlacing {
+  public:
+    MeshPlacing(const SourceMesh& source, const CrsPlaces& places, const MeshScale& scale)
+        : source_(source), places_(places), scale_(scale) {
+        at_.reserve(source.vertices.size());
+        for (const glm::dvec3& vertex : source.vertices) add(vertex);
+    }
+
+    // Cuts what is longer, and leaves out what has no place.
+    Result<void> cut(PlacedMesh& mesh) {
+        for (const SourceTriangle& triangle : source_.triangles) {
+            if (std::ranges::any_of(triangle, [&](std::uint32_t i) { return !placed_[i]; })) {
+                ++mesh.not_placed;
+                continue;
+            }
+            std::vector<SourceTriangle> open{triangle};
+            while (!open.empty()) {
+                const SourceTriangle one = open.back();
+                open.pop_back();
+                const std::optional<std::size_t> side = long_side(one);
+                if (!side) {
+                    mesh.triangles.push_back(one);
+                    if (mesh.triangles.size() + open.size() > most_placed_triangles)
+                        return Error{ErrorKind::failed, source_.path,
+                                     "has more than 2,000,000 triangles with sides of 200 m and less"};
+                    continue;
+                }
+                const std::uint32_t a = one[*side], b = one[(*side + 1) % 3], c = one[(*side + 2) % 3];
+                const std::uint32_t middle = middle_of(a, b);
+                if (!placed_[middle]) {
+                    ++mesh.not_placed;
+                    break;
+                }
+                open.push_back({a, middle, c});
+                open.push_back({middle, b, c});
+            }
+        }
+        mesh.vertices = std::move(vertices_);
+        return {};
+    }
+
+  private:
+    void add(const glm::dvec3& at) {
+        at_.push_back(at);
+        const bool finite = std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z);
+        const Result<Place> place =
+            finite ? places_.place(at.x * scale_.plane, at.y * scale_.plane) : Result<Place>(Error{});
+        constexpr double most_height_m = 1.0e5;
+        const double height_m = at.z * scale_.height_m;
+        const bool is_placed = place.ok() && std::abs(height_m) <= most_height_m;
+        placed_.push_back(is_placed);
+        vertices_.push_back(is_placed ? PlacedVertex{place->lat_deg, place->lon_deg, height_m}
+                                      : PlacedVertex{});
+        ecef_.push_back(ecef_from_geodetic({vertices_.back().lat_deg, vertices_.back().lon_deg, 0.0}).m);
+    }
+    // By the sides' length over the ellipsoid, so that neighbours agree; of equal ones the first.
+    [[nodiscard]] std::optional<std::size_t> long_side(const SourceTriangle& triangle) const {
+        std::optional<std::size_t> longest;
+        double most = longest_side_m;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double length = glm::distance(ecef_[triangle[i]], ecef_[triangle[(i + 1) % 3]]);
+            if (length > most) longest = i, most = length;
+        }
+        return longest;
+    }
+    std::uint32_t middle_of(std::uint32_t a, std::uint32_t b) {
+        const auto [found, is_new] =
+            middles_.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(at_.size()));
+        if (is_new) add(0.5 * (at_[std::min(a, b)] + at_[std::max(a, b)]));
+        return found->second;
+    }
+
+    const SourceMesh& source_;
+    const CrsPlaces& places_;
+    const MeshScale& scale_;
+    std::vector<glm::dvec3> at_;  // in the file's numbers
+    std::vector<char> placed_;
+    std::vector<PlacedVertex> vertices_;
+    std::vector<glm::dvec3> ecef_;  // on the ellipsoid
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles_;
+};
+
+BoundingBox box_around(const std::vector<PlacedVertex>& vertices,
+                       const std::vector<SourceTriangle>& triangles) {
+    BoundingBox box{180.0, 90.0, -180.0, -90.0};
+    for (const SourceTriangle& triangle : triangles) {
+        for (const std::uint32_t i : triangle) {
+            box.west_deg = std::min(box.west_deg, vertices[i].lon_deg);
+            box.east_deg = std::max(box.east_deg, vertices[i].lon_deg);
+            box.south_deg = std::min(box.south_deg, vertices[i].lat_deg);
+            box.north_deg = std::max(box.north_deg, vertices[i].lat_deg);
+        }
+    }
+    return box;
+}
+
+// Turns heights of the CRS's own vertical datum into H.
+Result<void> lift_heights(const std::string& crs, const StatedDatum& datum, double height_m,
+                          bool strict_datum, const UndulationField& undulation, PlacedMesh& mesh) {
+    mesh.heights = datum.name;
+    ORO_TRY(const GeoidOfRegion geoid, GeoidOfRegion::open(false));
+    ORO_TRY(GeoidOfRegion::Shift shift,
+            geoid.shift_from(crs, box_around(mesh.vertices, mesh.triangles), strict_datum));
+    if (!shift.note().empty()) mesh.note += (mesh.note.empty() ? "" : "; ") + shift.note();
+    for (PlacedVertex& vertex : mesh.vertices) {
+        auto H_m = static_cast<float>(vertex.H_m / height_m * datum.metres_per_unit);
+        vertex.H_m = vertex.H_m / height_m * datum.metres_per_unit;
+        if (shift.does_nothing()) continue;
+        ORO_CHECK(shift.apply(undulation, vertex.lat_deg, {&vertex.lon_deg, 1}, {&H_m, 1}));
+        vertex.H_m = static_cast<double>(H_m);
+    }
+    if (shift.beyond_grid() > 0)
+        mesh.note += (mesh.note.empty() ? "" : "; ") + std::string("heights beyond the grid of ") +
+                     datum.name + " count as above sea level";
+    return {};
+}
+
+// Leaves out triangles without an area on the lattice.
+void drop_degenerate(const UndulationField& undulation, PlacedMesh& mesh) {
+    std::vector<glm::dvec3> lattice;
+    for (const PlacedVertex& vertex : mesh.vertices) {
+        const double N_m = undulation.N_m.empty() ? 0.0 : undulation.at_m(vertex.lat_deg, vertex.lon_deg);
+        const LatticePoint point =
+            lattice_point(ecef_from_geodetic({vertex.lat_deg, vertex.lon_deg, vertex.H_m + N_m}).m);
+        lattice.emplace_back(point.steps[0], point.steps[1], point.steps[2]);
+    }
+    mesh.degenerate = std::erase_if(mesh.triangles, [&](const SourceTriangle& triangle) {
+        const glm::dvec3 &a = lattice[triangle[0]], &b = lattice[triangle[1]], &c = lattice[triangle[2]];
+        return glm::cross(b - a, c - a) == glm::dvec3(0.0);
+    });
+}
+
+std::uint64_t fingerprint_of(const SourceMesh& source, const std::string& crs, const std::string& unit) {
+    const std::string how = crs + "\n" + unit + "\n" + source.unit;
+    const std::array parts{xxh64(std::as_bytes(std::span(source.vertices))),
+                           xxh64(std::as_bytes(std::span(source.triangles))),
+                           xxh64(std::as_bytes(std::span(how)))};
+    return xxh64(std::as_bytes(std::span(parts)));
+}
+
+Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, bool strict_datum,
+                          const UndulationField& undulation) {
+    const std::string crs = request.crs.empty() ? source.crs : request.crs;
+    if (crs.empty())
+        return Error{ErrorKind::failed, source.path,
+                     "states no coordinate reference system: --mesh-crs EPSG:2056, say, tells where it lies"};
+    Result<CrsPlaces> places = CrsPlaces::of(crs);
+    if (!places.ok())
+        return Error{places.error().kind,
+                     request.crs.empty() ? source.path + ": " + crs : "--mesh-crs " + crs,
+                     places.error().what};
+    ORO_TRY(const MeshScale scale, scale_of(source, crs, request.unit));
+    PlacedMesh mesh;
+    mesh.path = source.path, mesh.format = source.format;
+    mesh.crs = places->name(), mesh.heights = "sea level (EGM96)", mesh.note = scale.note;
+    mesh.in_file = source.triangles.size() + source.not_finite;
+    mesh.not_finite = source.not_finite;
+    mesh.fingerprint = fingerprint_of(source, crs, request.unit);
+    MeshPlacing placing(source, *places, scale);
+    ORO_CHECK(placing.cut(mesh));
+    if (mesh.triangles.empty()) {
+        const glm::dvec3& first = source.vertices[source.triangles.front()[0]];
+        const Result<Place> why = places->place(first.x * scale.plane, first.y * scale.plane);
+        return Error{ErrorKind::failed, source.path,
+                     "none of its triangles has a place: " +
+                         (why.ok() ? std::string("its heights are beyond 100 km") : why.error().what) +
+                         "; is --mesh-crs right?"};
+    }
+    if (const std::optional<StatedDatum> datum = stated_datum(crs))
+        ORO_CHECK(lift_heights(crs, *datum, scale.height_m, strict_datum, undulation, mesh));
+    drop_degenerate(undulation, mesh);
+    if (mesh.triangles.empty())
+        return Error{ErrorKind::failed, source.path, "no triangle has an area: is --mesh-unit right?"};
+    return mesh;
+}
+
+}  // namespace
+
+std::string note_of_mesh(const PlacedMesh& mesh) {
+    std::string note = mesh.path + ": a mesh of " + std::to_string(mesh.in_file) +
+                       " triangles, heights above " + mesh.heights;
+    const auto left_out = [&](std::size_t count, const char* why) {
+        if (count > 0) note += "; " + std::to_string(count) + " left out, " + why;
+    };
+    left_out(mesh.not_finite, "with a vertex that is no finite place");
+    left_out(mesh.not_placed, "with a vertex that has no place in its CRS");
+    left_out(mesh.degenerate, "without an area");
+    return mesh.note.empty() ? note : note + "; " + mesh.note;
+}
+
+Result<std::shared_ptr<const std::vector<PlacedMesh>>> open_meshes(const MeshRequest& request,
+                                                                   bool strict_datum,
+                                                                   const UndulationField& undulation) {
+    auto meshes = std::make_shared<std::vector<PlacedMesh>>();
+    for (const std::string& file : request.files) {
+        ORO_TRY(const SourceMesh source, read_mesh(file));
+        ORO_TRY(PlacedMesh mesh, placed(source, request, strict_datum, undulation));
+        meshes->push_back(std::move(mesh));
+    }
+    return std::shared_ptr<const std::vector<PlacedMesh>>(std::move(meshes));
+}
+
+}  // namespace oro

@@ -1,0 +1,59 @@
+// Meshes of files, put on the Earth.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/terrain/post_grid.h"
+#include "geo/meshes/source_mesh.h"
+#include "geo/sources/region_request.h"
+
+namespace oro {
+
+// A vertex on WGS84. H is above the geoid of the region that the mesh belongs to: that vertex is drawn at
+// h = H times the exaggeration + N, as posts are.
+struct PlacedVertex {
+    double lat_deg{}, lon_deg{}, H_m{};
+};
+
+// A mesh as it is drawn and asked: its triangles' sides are straight in space, and no longer than
+// longest_side_m. Vertices at one place of the file are one vertex.
+struct PlacedMesh {
+    std::string path;
+    std::string format;
+    std::string crs;      // "EPSG:2056 CH1903+ / LV95"
+    std::string heights;  // what its heights are above: "sea level (EGM96)", "EPSG:5728 LN02 height"
+    std::vector<PlacedVertex> vertices;
+    std::vector<SourceTriangle> triangles;
+    std::size_t in_file{};  // triangles of the file
+    std::size_t
+        not_placed{};  // ... left out: the CRS has no place for a vertex, or none near where it is made for
+    std::size_t not_finite{};     // ... left out: a vertex of the file is no finite number
+    std::size_t degenerate{};     // ... left out: without an area on the lattice of 2^-11 m
+    std::uint64_t fingerprint{};  // XXH64 of the vertices and triangles, before cutting, and of unit and CRS
+    std::string note;             // what a user must know; "" for nothing
+};
+
+// One line of what was placed: triangles, what was left out, what its heights are above, and its note.
+std::string note_of_mesh(const PlacedMesh& mesh);
+
+// Longer sides are cut, those of neighbours alike: a side that is straight in the CRS is then within 1 mm of
+// one that is straight in space.
+inline constexpr double longest_side_m = 200.0;
+// Triangles that may be drawn together, after cutting.
+inline constexpr std::size_t most_placed_triangles = 2000000;
+
+// Reads and places the meshes that a request names. undulation: N of the region; empty: N is 0. A vertex's
+// place is that of PROJ to within 1 um, its height to within 0.3 mm up to 4 km (heights of another datum are
+// float32 on their way). Heights without a stated datum are above sea level. Errors: those of read_mesh(); a
+// file that states no CRS where the request names none; a CRS or a unit that is unknown (usage); with
+// strict_datum a vertical datum that there is no way from; no triangle that has a place; too many triangles.
+Result<std::shared_ptr<const std::vector<PlacedMesh>>> open_meshes(const MeshRequest& request,
+                                                                   bool strict_datum,
+                                                                   const UndulationField& undulation);
+
+}  // namespace oro

@@ -1,0 +1,129 @@
+// Meshes put on the Earth: places and heights against literal ones, long sides, and what is refused.
+#include "geo/meshes/placed_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <map>
+
+#include "core/earth/ellipsoid.h"
+
+namespace oro {
+namespace {
+
+Result<std::shared_ptr<const std::vector<PlacedMesh>>> placed_from(const std::string& name,
+                                                                   const std::string& text,
+                                                                   const std::string& crs,
+                                                                   const std::string& unit = "") {
+    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "placed_meshes";
+    std::filesystem::create_directories(folder);
+    const std::string path = (folder / name).string();
+    std::ofstream(path, std::ios::binary) << text;
+    return open_meshes({{path}, crs, unit}, false, {});
+}
+
+const std::string near_bern =
+    "v 2600000 1200000 500\nv 2600100 1200000 500.25\nv 2600000 1200100 501\nf 1 2 3\n";
+
+// Latitude and longitude by gdaltransform 3.6.2 (PROJ 9.1.1) from EPSG:2056 to EPSG:4326, of places without a
+// height, as posts of rasters in that CRS are placed.
+TEST(PlacedMesh, VerticesLieWhereProjHasThem) {
+    const auto meshes = placed_from("bern.obj", near_bern, "EPSG:2056");
+    ASSERT_TRUE(meshes.ok()) << meshes.error().line();
+    const PlacedMesh& mesh = (*meshes)->front();
+    constexpr double micrometre_deg = 1.0e-11;
+    EXPECT_NEAR(mesh.vertices[0].lat_deg, 46.9510827718711, 10.0 * micrometre_deg);
+    EXPECT_NEAR(mesh.vertices[0].lon_deg, 7.43863242087181, 10.0 * micrometre_deg);
+    EXPECT_EQ(mesh.vertices[0].H_m, 500.0);
+    EXPECT_EQ(mesh.vertices[1].H_m, 500.25);
+    EXPECT_EQ(mesh.heights, "sea level (EGM96)");
+    EXPECT_EQ(mesh.crs, "EPSG:2056 CH1903+ / LV95");
+}
+
+// 0.3048 m a foot: the corner 2600000 m is 8530183.727034 ft.
+TEST(PlacedMesh, AUnitScalesPlacesAndHeights) {
+    const auto meshes = placed_from("feet.obj",
+                                    "v 8530183.7270341207 3937007.8740157480 1000\nv 8530500 3937007.8 1000\n"
+                                    "v 8530183 3937300 1000\nf 1 2 3\n",
+                                    "EPSG:2056", "ft");
+    ASSERT_TRUE(meshes.ok()) << meshes.error().line();
+    const PlacedMesh& mesh = (*meshes)->front();
+    EXPECT_NEAR(mesh.vertices[0].lat_deg, 46.9510827718711, 1.0e-10);
+    EXPECT_NEAR(mesh.vertices[0].H_m, 304.8, 1.0e-9) << "m";
+    EXPECT_NE(mesh.note.find("times 0.3048"), std::string::npos) << mesh.note;
+}
+
+TEST(PlacedMesh, HeightsAboveTheEllipsoidAreLessByN) {
+    UndulationField fifty_m;
+    fifty_m.lat = {1.0, 0.0, 48, -1, 3};
+    fifty_m.lon = {1.0, 0.0, 6, +1, 3};
+    fifty_m.N_m.assign(9, 50.0F);
+    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "above.obj";
+    std::ofstream(path) << "v 7.4 46.9 500\nv 7.401 46.9 500\nv 7.4 46.901 500\nf 1 2 3\n";
+    const auto meshes = open_meshes({{path.string()}, "EPSG:4979", ""}, true, fifty_m);
+    ASSERT_TRUE(meshes.ok()) << meshes.error().line();
+    const PlacedMesh& mesh = (*meshes)->front();
+    EXPECT_NEAR(mesh.vertices[0].lat_deg, 46.9, 1.0e-10);
+    EXPECT_NEAR(mesh.vertices[0].H_m, 450.0, 1.0e-3) << "m";
+}
+
+// Sides of neighbours are cut alike: each edge inside has two triangles.
+TEST(PlacedMesh, LongSidesAreCutAlike) {
+    const auto meshes = placed_from(
+        "long.obj",
+        "v 2600000 1200000 500\nv 2603000 1200000 900\nv 2603000 1202100 700\nv 2600000 1202100 500\n"
+        "f 1 2 3\nf 1 3 4\n",
+        "EPSG:2056");
+    ASSERT_TRUE(meshes.ok()) << meshes.error().line();
+    const PlacedMesh& mesh = (*meshes)->front();
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    for (const SourceTriangle& triangle : mesh.triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t a = triangle[i], b = triangle[(i + 1) % 3];
+            ++edges[std::minmax(a, b)];
+            const auto at = [&](std::uint32_t v) {
+                return ecef_from_geodetic({mesh.vertices[v].lat_deg, mesh.vertices[v].lon_deg, 0.0}).m;
+            };
+            EXPECT_LE(glm::distance(at(a), at(b)), longest_side_m);
+        }
+    }
+    int rim = 0;
+    for (const auto& [edge, triangles] : edges) {
+        EXPECT_LE(triangles, 2);
+        rim += triangles == 1 ? 1 : 0;
+    }
+    // 3,000 m are halved 4 times, 2,100 m likewise: 2 x 16 each.
+    EXPECT_EQ(rim, 64);
+    EXPECT_EQ(mesh.in_file, 2U);
+}
+
+TEST(PlacedMesh, RefusesWhatHasNoPlace) {
+    const auto why = [](const auto& result) { return result.ok() ? "" : result.error().line(); };
+    EXPECT_NE(why(placed_from("a.obj", near_bern, "")).find("states no coordinate reference system"),
+              std::string::npos);
+    EXPECT_NE(why(placed_from("b.obj", near_bern, "EPSG:999999")).find("--mesh-crs EPSG:999999"),
+              std::string::npos);
+    EXPECT_NE(why(placed_from("c.obj", "v 5000 5000 1\nv 5010 5000 1\nv 5000 5010 1\nf 1 2 3\n", "EPSG:2056"))
+                  .find("outside the area of use"),
+              std::string::npos);
+    EXPECT_NE(why(placed_from("d.obj", near_bern, "EPSG:2056", "cubit")).find("--mesh-unit cubit"),
+              std::string::npos);
+    EXPECT_NE(why(placed_from("e.obj",
+                              "v 2600000 1200000 1\nv 2600000 1200000.0001 1\nv 2600000 1200000 1\nf 1 2 3\n",
+                              "EPSG:2056"))
+                  .find("no triangle has an area"),
+              std::string::npos);
+    // One triangle outside: left out, counted.
+    const auto some = placed_from("f.obj", near_bern + "v 1 1 1\nf 1 2 4\nf 1 2 2\n", "EPSG:2056");
+    ASSERT_TRUE(some.ok()) << some.error().line();
+    EXPECT_EQ((*some)->front().not_placed, 1U);
+    EXPECT_EQ((*some)->front().degenerate, 1U);
+    EXPECT_NE(note_of_mesh((*some)->front()).find("1 left out, with a vertex that has no place"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace oro
