@@ -143,6 +143,7 @@ Result<void> choose_exaggeration(Viewer& viewer, double factor) {
     viewer.way_home = {};
     viewer.under_pointer.reset();
     viewer.picked.reset();
+    viewer.jumped_to.reset();
     viewer.wants_picture = true;
     const Result<void> renewed = renew_scene(viewer);
     if (!renewed.ok() && renewed.error().kind == ErrorKind::usage) {

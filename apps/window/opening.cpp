@@ -133,6 +133,7 @@ void forget_region(Viewer& viewer) {
     viewer.under_pointer.reset();
     viewer.in_middle.reset();
     viewer.picked.reset();
+    viewer.jumped_to.reset();
     viewer.measuring = {};
     viewer.looking = {};
     viewer.panorama = {};

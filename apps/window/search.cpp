@@ -7,6 +7,8 @@
 #include "apps/report/region_json.h"
 #include "apps/search/gazetteer.h"
 #include "apps/window/motion.h"
+#include "core/earth/ellipsoid.h"
+#include "core/terrain/ground.h"
 
 namespace oro {
 namespace {
@@ -37,6 +39,15 @@ Camera camera_of_eye(const Camera& shown, const Place& place, const BookmarkedEy
     return there;
 }
 
+// A point is marked until another jump; a cell fills the picture, and needs no mark.
+void mark_place(Viewer& viewer, const Place& place) {
+    viewer.jumped_to.reset();
+    if (place.cell) return;
+    const auto ground_m =
+        ground_h_m(field_below(viewer), place.lat_deg, place.lon_deg, viewer.view.exaggeration);
+    if (ground_m) viewer.jumped_to = ecef_from_geodetic({place.lat_deg, place.lon_deg, *ground_m});
+}
+
 // Where a target is looked at from. Errors: no data there.
 Result<Camera> camera_to(Viewer& viewer, const SearchTarget& target) {
     const Camera& shown = viewer.view.camera;
@@ -47,6 +58,7 @@ Result<Camera> camera_to(Viewer& viewer, const SearchTarget& target) {
     const std::string name = target.name.empty() ? viewer.search.text : target.name;
     ORO_TRY(const Camera there,
             viewer.jumps.to(shown, target.place, viewer.region, viewer.view.exaggeration, name));
+    mark_place(viewer, target.place);
     if (target.action != SearchAction::stand) return there;
     ORO_TRY(const auto standing, viewer.jumps.stand(there, viewer.region, viewer.view.exaggeration));
     return standing.value_or(there);

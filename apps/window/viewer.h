@@ -159,6 +159,7 @@ struct Viewer {
     bool keeps_size{};          // no option says how large the window is
     std::optional<PickedPlace> under_pointer{};
     std::optional<PickedPlace> picked{};
+    std::optional<Ecef> jumped_to{};  // on the ground, as drawn: the point that the last jump went to
     std::optional<PickedPlace> in_middle{};
     WayHome way_home{};
     PlaceCertificates certificates{};

@@ -148,8 +148,9 @@ Result<SourceMesh> read_geopackage_mesh(const std::string& path, double limit_s)
     FileWatch watch(limit_s);
     const GdalMessages messages;
     static constexpr const char* whole[] = {"IMMUTABLE=YES", "LIST_ALL_TABLES=NO", nullptr};
+    const char* const driver[] = {dataset_driver(DatasetFormat::geopackage), nullptr};
     const Dataset dataset(GDALOpenEx(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
-                                     database_vector_drivers(), whole, nullptr));
+                                     driver, whole, nullptr));
     if (!dataset) return no_mesh("is no GeoPackage of vectors: " + messages.last("unknown format"));
     if (!messages.last("").empty()) return no_mesh("cannot be read: " + messages.last(""));
     return GeoPackageReader(dataset.get(), watch, messages).all();

@@ -24,6 +24,7 @@ void build_panels(Viewer& viewer) {
     if (viewer.panels.hidden && !viewer.search.is_open) return build_toasts(viewer);
     build_search_field(viewer);
     if (viewer.panels.hidden) return;
+    build_place_marks(viewer);
     build_two_views(viewer);
     build_panorama_panel(viewer);
     build_status_bar(viewer);

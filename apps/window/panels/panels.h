@@ -10,14 +10,15 @@ namespace oro {
 void build_panels(Viewer& viewer);
 
 // One file for each.
-void build_status_bar(Viewer& viewer);    // place, height, scale, certificate, along the lower border
-void build_search_field(Viewer& viewer);  // in the upper left corner
-void build_buttons(Viewer& viewer);       // of panels, beside it
-void build_compass(Viewer& viewer);       // in the upper right corner: a click turns north up
-void build_home_arrow(Viewer& viewer);    // to a region that is out of the picture
-void build_moving_lines(Viewer& viewer);  // over the ground, while the eye moves
-void build_legend(Viewer& viewer);        // what the colours of --show stand for
-void build_toasts(Viewer& viewer);        // what was said just now
+void build_status_bar(Viewer& viewer);         // place, height, scale, certificate, along the lower border
+void build_search_field(Viewer& viewer);       // in the upper left corner
+void build_buttons(Viewer& viewer);            // of panels, beside it
+void build_compass(Viewer& viewer);            // in the upper right corner: a click turns north up
+void build_home_arrow(Viewer& viewer);         // to a region that is out of the picture
+void build_moving_lines(Viewer& viewer);       // over the ground, while the eye moves
+void build_place_marks(const Viewer& viewer);  // where the last jump went, and what was clicked at
+void build_legend(Viewer& viewer);             // what the colours of --show stand for
+void build_toasts(Viewer& viewer);             // what was said just now
 bool has_toasts(const Viewer& viewer);
 void build_opening_bar(const RegionOpening& opening);  // how far a region is read
 void build_messages_panel(Viewer& viewer);

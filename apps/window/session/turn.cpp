@@ -29,6 +29,7 @@ void dismiss(Viewer& viewer) {
         return;
     }
     if (std::exchange(panels.place, false)) return;
+    viewer.jumped_to.reset();
     const bool hidden = panels.hidden;
     panels = {};
     panels.hidden = hidden;
