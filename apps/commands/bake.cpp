@@ -10,6 +10,7 @@
 #include "apps/baking/cluster_bake.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
+#include "apps/options/region_option_table.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
@@ -217,6 +218,8 @@ Result<void> end_reading(const BakingOptions& options, const Region& region) {
 }  // namespace
 
 Result<void> run_bake(const BakingOptions& options) {
+    ORO_CHECK(
+        check_without_meshes(options.region, "lies on terrain that is read: a .oro file holds no meshes"));
     ORO_TRY(const RegionRequest request, region_request(options.region));
     ORO_CHECK(check_out(options));
     ProgressBar bar(options.quiet);
