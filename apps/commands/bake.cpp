@@ -12,6 +12,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/options/bake_part_options.h"
+#include "apps/options/region_option_table.h"
 #include "apps/options/shard.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/figures.h"
@@ -289,6 +290,8 @@ Result<void> end_reading(const BakingOptions& options, const Region& region, con
 }  // namespace
 
 Result<void> run_bake(const BakePartOptions& options) {
+    ORO_CHECK(
+        check_without_meshes(options.region, "lies on terrain that is read: a .oro file holds no meshes"));
     ORO_TRY(const Shard shard, parse_shard(options.shard));
     ORO_TRY(const RegionRequest request, region_request(options.region));
     ORO_CHECK(check_out(options));

@@ -12,7 +12,7 @@
 #include "apps/view/view.h"
 #include "core/base/file_there.h"
 #include "geo/coordinates/crs_places.h"
-#include "geo/coordinates/source_crs.h"
+#include "geo/opening/source_crs.h"
 
 namespace oro {
 namespace {

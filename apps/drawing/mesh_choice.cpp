@@ -8,6 +8,7 @@ namespace {
 // Why there are none; "" where there are some.
 std::string without_clusters(const Region& region, const View& view) {
     if (region.grids.size() > 1) return "the region has several grids, and clusters are of one";
+    if (region.meshes) return "a mesh lies on the region (--mesh-file), and clusters are drawn alone";
     const RegionGrid& grid = region.grids.front();
     if (!grid.file || !grid.clusters)
         return "the region has no clusters: bake it with --mesh clusters, and draw the whole .oro file";

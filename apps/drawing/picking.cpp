@@ -35,7 +35,10 @@ Result<std::optional<SeenPlace>> place_seen(const View& view, const RegionGround
     place.seen_distance_m = hit->distance_m;
     place.row = hit->row;
     place.column = hit->column;
-    if (const SourceReport* const source = source_at(grid, place.lat_deg, place.lon_deg))
+    place.on_mesh = hit->mesh > 0;
+    if (place.on_mesh)
+        place.source = ground.mesh(hit->mesh).path;
+    else if (const SourceReport* const source = source_at(grid, place.lat_deg, place.lon_deg))
         place.source = source->path;
     if (view.cover) {
         ORO_TRY(const int code, view.cover->code_at(place.lat_deg, place.lon_deg));

@@ -33,6 +33,7 @@ struct SeenPlace {
     std::optional<double> canopy_m;
     bool canopy_invented{};      // by classes of land cover
     std::optional<Cover> cover;  // its land cover, where the view has some and the files know any
+    bool on_mesh{};              // the place is on a mesh, and `source` is its file
     std::string source;  // path of the source that it comes from; empty where no source's box holds it
 };
 

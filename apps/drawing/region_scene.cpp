@@ -136,7 +136,7 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
     }
     if (request.clusters)
         ORO_CHECK(add_clusters(gpu, region.grids.front(), bytes, memory.main, request.mesh_level, *scene));
-    if (pages.size() > 1) {
+    if (pages.size() > 1 || region.meshes) {
         ORO_TRY(const std::uint64_t between, draw_between(gpu, region, cuts, request.exaggeration, *scene));
         triangles += between;
     }

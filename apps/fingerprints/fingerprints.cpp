@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "core/base/checksum.h"
+#include "geo/meshes/placed_mesh.h"
 #include "geo/region/region_fingerprints.h"
 
 namespace oro {
@@ -43,11 +44,17 @@ Fingerprints fingerprints_of(const Region& region) {
         fingerprints.undulation = both(fingerprints.undulation, other.geoid_fingerprint);
         sources += other.sources.size();
     }
-    if (sources > most_sources_with_fingerprints) return fingerprints;
+    const std::size_t meshes = region.meshes ? region.meshes->size() : 0;
+    for (std::size_t i = 0; i < meshes; ++i)
+        fingerprints.posts = both(*fingerprints.posts, (*region.meshes)[i].fingerprint);
+    if (sources + meshes > most_sources_with_fingerprints) return fingerprints;
     for (const RegionGrid& grid : region.grids)
         for (const SourceReport& source : grid.sources)
             fingerprints.sources.push_back(
                 {std::filesystem::path(source.path).filename().string(), source.posts_hash});
+    for (std::size_t i = 0; i < meshes; ++i)
+        fingerprints.sources.push_back({std::filesystem::path((*region.meshes)[i].path).filename().string(),
+                                        (*region.meshes)[i].fingerprint});
     return fingerprints;
 }
 

@@ -23,6 +23,9 @@ struct RegionOptions {
     bool resample{false};
     std::string order;  // finest, listed; "": not said
     std::optional<double> feather_m;
+    std::vector<std::string> mesh_files;  // triangle meshes on the ground
+    std::string mesh_crs;                 // where they lie, of files that state nothing or something else
+    std::string mesh_unit;
 };
 
 // From where, and how it looks.

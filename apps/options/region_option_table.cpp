@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "apps/command_line/refusals.h"
+
 namespace oro {
 namespace {
 
@@ -69,10 +71,27 @@ void add_reading(RegionRows& rows) {
         "are holes. Not for what lies outside a raster, nor for missing tiles.");
 }
 
+// Meshes on the ground.
+void add_meshes(RegionRows& rows) {
+    add(rows, {"--mesh-file FILE", no_trait}, &RegionOptions::mesh_files,
+        "Draw a triangle mesh on the ground, and let it hide what is behind it: a surveyor's LandXML (.xml), "
+        "or OBJ, PLY, STL, and surfaces with heights of a GeoPackage. May be given several times. Heights "
+        "without a vertical CRS are above sea "
+        "level.");
+    add(rows, {"--mesh-crs CRS", no_trait, "the one that its file states"}, &RegionOptions::mesh_crs,
+        "Where meshes lie: EPSG:2056, or another that PROJ knows; with heights of a vertical CRS "
+        "EPSG:2056+5728. x is the easting or longitude. Needs --mesh-file.");
+    add(rows, {"--mesh-unit UNIT", no_trait, "the file's, or that of the CRS where it says nothing"},
+        &RegionOptions::mesh_unit,
+        "Take coordinates and heights of meshes in this unit: m, ft, us-ft, cm, dm or mm. Needs --mesh-file.",
+        {"m", "ft", "us-ft", "cm", "dm", "mm"});
+}
+
 RegionRows made_region_table() {
     RegionRows rows;
     add_sources(rows);
     add_reading(rows);
+    add_meshes(rows);
     return rows;
 }
 
@@ -106,6 +125,11 @@ const std::vector<OptionRow<MemoryOptions>>& memory_option_table() {
 const char* first_given_of_region(const RegionOptions& options) {
     return first_given(region_option_table(), options,
                        [](const OptionRow<RegionOptions>& row) { return row.name != "PATH"; });
+}
+
+Result<void> check_without_meshes(const RegionOptions& options, const char* what) {
+    if (options.mesh_files.empty()) return {};
+    return refused("--mesh-file", "", what);
 }
 
 }  // namespace oro

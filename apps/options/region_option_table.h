@@ -5,6 +5,7 @@
 
 #include "apps/options/option_table.h"
 #include "apps/options/options.h"
+#include "core/base/result.h"
 
 namespace oro {
 
@@ -16,5 +17,9 @@ const std::vector<OptionRow<MemoryOptions>>& memory_option_table();
 // The name of the first option that was given which says how data are read or which part of them is taken;
 // nothing where there is none. The paths of the data are not among these.
 const char* first_given_of_region(const RegionOptions& options);
+
+// A usage error where meshes are given to what asks the terrain alone. what: that it does, "viewsheds are of
+// terrain alone".
+Result<void> check_without_meshes(const RegionOptions& options, const char* what);
 
 }  // namespace oro

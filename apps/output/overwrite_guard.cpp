@@ -23,6 +23,8 @@ FilesToSpare files_of_ground(const std::vector<std::string>& paths, const Region
 
 FilesToSpare files_of_picture(const View& view, const Region& region) {
     FilesToSpare picture{files_of_ground(view.region.paths, region).files, "which the picture is made from"};
+    const std::vector<std::string>& meshes = view.region.meshes.files;
+    picture.files.insert(picture.files.end(), meshes.begin(), meshes.end());
     picture.files.push_back(view.style);
     picture.files.insert(picture.files.end(), view.drape.begin(), view.drape.end());
     for (const ImageSource& image : view.images)

@@ -9,7 +9,7 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/search/folded_text.h"
-#include "geo/coordinates/source_crs.h"
+#include "geo/opening/source_crs.h"
 #include "geo/places/bounding_box.h"
 
 namespace oro {

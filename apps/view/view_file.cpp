@@ -100,6 +100,16 @@ std::vector<std::string> rasters_from(const nlohmann::json& object, const char* 
     for (const nlohmann::json& file : files) paths.push_back(path_from(as_field("files", file), "files"));
     return paths;
 }
+void read_meshes(const nlohmann::json& json, MeshRequest& request) {
+    if (!json.contains("meshes")) return;
+    const nlohmann::json& meshes = json_field(json, "meshes");
+    request.files = rasters_from(meshes, "meshes");
+    if (meshes.contains("crs")) request.crs = json_string(meshes, "crs");
+    if (!meshes.contains("unit")) return;
+    request.unit = json_string(meshes, "unit");
+    if (!metres_in(request.unit))
+        throw JsonFault{"'unit' of 'meshes' is '" + request.unit + "', none of m, ft, us-ft, cm, dm, mm"};
+}
 void read_drape(const nlohmann::json& json, View& view) {
     if (!json.contains("drape")) return;
     const nlohmann::json& drape = json_field(json, "drape");
@@ -148,6 +158,15 @@ ordered_json cover_json(const CoverChoice& choice) {
     ordered_json files = ordered_json::array();
     for (const std::string& file : choice.files) files.push_back(path_json(file));
     return json_object("files", std::move(files), "table", path_json(choice.table));
+}
+
+ordered_json meshes_json(const MeshRequest& meshes) {
+    ordered_json files = ordered_json::array();
+    for (const std::string& file : meshes.files) files.push_back(path_json(file));
+    ordered_json json = json_object("files", std::move(files));
+    if (!meshes.crs.empty()) json["crs"] = meshes.crs;
+    if (!meshes.unit.empty()) json["unit"] = meshes.unit;
+    return json;
 }
 
 ordered_json drape_json(const View& view) {
@@ -284,6 +303,7 @@ View read_fields(const nlohmann::json& json) {
         view.region.listed_first = true;
     }
     if (json.contains("feather_m")) view.region.feather_m = number(json, "feather_m", limits::feather_m);
+    read_meshes(json, view.region.meshes);
     view.several_grids = json.contains("several_grids") && json_flag(json, "several_grids");
     read_camera(json, view.camera);
     read_map(json, view);
@@ -365,6 +385,7 @@ ordered_json begun_with_region(const View& view) {
     if (view.several_grids) json["several_grids"] = true;
     if (view.region.listed_first) json["order"] = "listed";
     if (view.region.feather_m > 0.0) json["feather_m"] = view.region.feather_m;
+    if (!view.region.meshes.files.empty()) json["meshes"] = meshes_json(view.region.meshes);
     json["strict_datum"] = view.region.strict_datum;
     return json;
 }

@@ -17,8 +17,8 @@
 #include "core/terrain/ground.h"
 #include "geo/canopy/raised_region.h"
 #include "geo/coordinates/crs_places.h"
-#include "geo/coordinates/source_crs.h"
 #include "geo/opening/open_region.h"
+#include "geo/opening/source_crs.h"
 #include "geo/together/covered_grids.h"
 
 namespace oro {

@@ -155,6 +155,10 @@ Result<RegionRequest> region_request(const RegionOptions& options) {
         return refused("--source-crs", options.source_crs, *fault);
     if (const auto fault = fault_of_source_vertical(options.source_vertical))
         return refused("--source-vertical", options.source_vertical, *fault);
+    request.meshes = {options.mesh_files, options.mesh_crs, options.mesh_unit};
+    if (options.mesh_files.empty() && !(options.mesh_crs + options.mesh_unit).empty())
+        return refused(options.mesh_crs.empty() ? "--mesh-unit" : "--mesh-crs", "",
+                       "says nothing without --mesh-file FILE");
     if (!options.bbox.empty()) {
         const Result<BoundingBox> box = parse_bounding_box(options.bbox);
         if (!box.ok()) return refused("--bbox", options.bbox, box.error().what);

@@ -113,6 +113,7 @@ Result<View> view_as_written_in(const View& view, const std::string& picture) {
         for (std::string& image : written.drape) image = fs::path(image).filename().string();
         for (std::string* const file : cover_paths(written)) *file = fs::path(*file).filename().string();
         for (std::string* const file : written.vectors.paths()) *file = fs::path(*file).filename().string();
+        for (std::string& mesh : written.region.meshes.files) mesh = fs::path(mesh).filename().string();
         if (is_style_path(written.style)) written.style = fs::path(written.style).filename().string();
         return written;
     }
@@ -124,6 +125,9 @@ Result<View> view_as_written_in(const View& view, const std::string& picture) {
     }
     for (std::string& path : written.region.paths) {
         ORO_TRY(path, from_folder(folder, path));
+    }
+    for (std::string& mesh : written.region.meshes.files) {
+        ORO_TRY(mesh, from_folder(folder, mesh));
     }
     for (std::string& image : written.drape) {
         ORO_TRY(image, from_folder(folder, image));
@@ -152,6 +156,7 @@ Result<void> lead_from_working_folder(View& view, const std::string& file) {
         return {};
     };
     for (std::string& path : view.region.paths) ORO_CHECK(lead(path));
+    for (std::string& mesh : view.region.meshes.files) ORO_CHECK(lead(mesh));
     for (std::string& image : view.drape) ORO_CHECK(lead(image));
     for (std::string* const path : cover_paths(view)) ORO_CHECK(lead(*path));
     for (std::string* const path : view.vectors.paths()) ORO_CHECK(lead(*path));

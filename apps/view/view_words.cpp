@@ -143,6 +143,9 @@ RegionOptions region_options_of(const View& view) {
     options.resample = request.resample;
     if (request.listed_first) options.order = "listed";
     if (request.feather_m > 0.0) options.feather_m = request.feather_m;
+    options.mesh_files = request.meshes.files;
+    options.mesh_crs = request.meshes.crs;
+    options.mesh_unit = request.meshes.unit;
     return options;
 }
 

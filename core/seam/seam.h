@@ -1,5 +1,5 @@
-// What is drawn between grids that lie over each other: ground that is left of cut triangles, and what closes
-// gaps along rims.
+// What is drawn beside grids: between those that lie over each other the ground that is left of cut
+// triangles, and what closes gaps along rims; and triangles of meshes.
 #pragma once
 
 #include <array>
@@ -16,9 +16,10 @@ struct SeamCorner {
     glm::dvec3 normal{};  // unit, of the smooth ground there, ECEF
 };
 
-// Anticlockwise, seen from above.
+// Anticlockwise, seen from above; of a mesh either way round.
 struct SeamPiece {
     std::array<SeamCorner, 3> corners;
+    bool two_sided{};  // of a mesh, whose sides may both be seen: light is that of the eye's side
 };
 
 // Upright ground along a piece of a rim, from one surface to the other; no higher than a line where the two

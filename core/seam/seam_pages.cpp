@@ -39,6 +39,7 @@ SeamQuad quad_of(const SeamPiece& piece) {
         quad.corners[i] = piece.corners[i];
         quad.vectors[i] = piece.corners[i].normal;
     }
+    if (piece.two_sided) quad.vectors[3] = glm::dvec3(1.0, 0.0, 0.0);
     return quad;
 }
 // A skirt's upright part, whose top reaches upwards, and what reaches down and to both sides from its foot:

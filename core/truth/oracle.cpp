@@ -362,8 +362,8 @@ std::optional<SightHit> Oracle::first_hit_after(const glm::dvec3& start_m, const
         if (hit) nearest = hit;
     }
     if (!pieces_) return nearest;
-    const auto t_m = pieces_->first_hit(start_m, direction, nearest ? nearest->distance_m : reach_m);
-    return t_m ? hit_of_piece(start_m + *t_m * direction, *t_m) : nearest;
+    const auto hit = pieces_->first_hit(start_m, direction, nearest ? nearest->distance_m : reach_m);
+    return hit ? hit_of_piece(start_m + hit->along_m * direction, hit->along_m, hit->owner) : nearest;
 }
 
 }  // namespace oro

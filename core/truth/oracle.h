@@ -38,8 +38,9 @@ struct SightHit {
     bool from_below{};    // it is met from beneath: through a hole, or over the data's rim
     double residual_m{};  // of the root: height of the point above its triangle
     std::size_t grid{};   // of the ground's: whose cell it is
-    // On a step between two grids: the cell is the first grid's that the place is on.
+    // On a step between two grids, or on a mesh: the cell is the first grid's that the place is on.
     bool between_grids{};
+    std::uint32_t mesh{};  // on one of the region's meshes: its number, from 1
 };
 
 // Sight lines from one eye: tells where each truly meets the ground. Safe to ask from several threads.
@@ -78,7 +79,7 @@ class Oracle {
     class Search;
     [[nodiscard]] std::optional<SightHit> first_hit_after(const glm::dvec3& start_m,
                                                           const glm::dvec3& direction, double reach_m) const;
-    [[nodiscard]] SightHit hit_of_piece(const glm::dvec3& apparent_m, double t_m) const;
+    [[nodiscard]] SightHit hit_of_piece(const glm::dvec3& apparent_m, double t_m, std::uint32_t mesh) const;
 
     TrueGround ground_;
     Sight sight_;

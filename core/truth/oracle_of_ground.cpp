@@ -30,7 +30,7 @@ std::array<glm::dvec3, 3> seen_corners(const Sight& sight, const SurfaceTriangle
         length_m = std::max(length_m, glm::length(ecef_from_geodetic({one.lat_deg, one.lon_deg, 0.0}).m -
                                                   ecef_from_geodetic({next.lat_deg, next.lon_deg, 0.0}).m));
     }
-    const double reach_m = 1.0e-5 + 1.1 * length_m * length_m / (8.0 * wgs84_a_m);
+    const double reach_m = piece.mesh > 0 ? 0.0 : 1.0e-5 + 1.1 * length_m * length_m / (8.0 * wgs84_a_m);
     std::array<glm::dvec3, 3> corners{};
     for (std::size_t i = 0; i < 3; ++i) {
         Geodetic corner = piece.corners[i];
@@ -55,11 +55,15 @@ std::unique_ptr<const TriangleBvh> tree_of(const TrueGround& ground, const Sight
     if (ground.pieces().empty()) return nullptr;
     std::vector<std::array<glm::dvec3, 3>> triangles;
     triangles.reserve(ground.pieces().size());
-    for (const SurfaceTriangle& piece : ground.pieces())
-        if (!crosses_cut(sight, piece)) triangles.push_back(seen_corners(sight, piece));
+    std::vector<std::uint32_t> meshes;
+    for (const SurfaceTriangle& piece : ground.pieces()) {
+        if (crosses_cut(sight, piece)) continue;
+        triangles.push_back(seen_corners(sight, piece));
+        meshes.push_back(piece.mesh);
+    }
     const Geodetic& first = ground.pieces().front().corners[0];
-    return std::make_unique<const TriangleBvh>(std::move(triangles),
-                                               ecef_from_enu(first.lat_deg, first.lon_deg));
+    return std::make_unique<const TriangleBvh>(
+        std::move(triangles), ecef_from_enu(first.lat_deg, first.lon_deg), std::move(meshes));
 }
 
 }  // namespace
@@ -72,7 +76,7 @@ Oracle::Oracle(const TrueGround& ground, const Sight& sight) : ground_(ground), 
 
 Oracle::~Oracle() = default;
 
-SightHit Oracle::hit_of_piece(const glm::dvec3& apparent_m, double t_m) const {
+SightHit Oracle::hit_of_piece(const glm::dvec3& apparent_m, double t_m, std::uint32_t mesh) const {
     const glm::dvec3 true_m = sight_.refraction.true_m(apparent_m);
     SightHit hit;
     hit.point = sight_.earth == Earth::ellipsoid
@@ -80,6 +84,7 @@ SightHit Oracle::hit_of_piece(const glm::dvec3& apparent_m, double t_m) const {
                     : model_point(sight_.earth, sight_.place, true_m).value_or(Geodetic{});
     hit.distance_m = t_m;
     hit.between_grids = true;
+    hit.mesh = mesh;
     hit.grid = ground_.grid_at(hit.point.lat_deg, hit.point.lon_deg).value_or(0);
     const PostGrid& posts = ground_.surface(hit.grid).field().grid;
     const PostNumber post = posts.post_at(hit.point.lat_deg, hit.point.lon_deg);

@@ -1,6 +1,7 @@
 #include "core/truth/triangle_bvh.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -46,8 +47,10 @@ std::optional<double> along_m(const std::array<glm::dvec3, 3>& triangle, const g
 
 }  // namespace
 
-TriangleBvh::TriangleBvh(std::vector<std::array<glm::dvec3, 3>> triangles, const glm::dmat3& frame)
-    : frame_from_ecef_(glm::transpose(frame)), triangles_(std::move(triangles)) {
+TriangleBvh::TriangleBvh(std::vector<std::array<glm::dvec3, 3>> triangles, const glm::dmat3& frame,
+                         std::vector<std::uint32_t> owners)
+    : frame_from_ecef_(glm::transpose(frame)), triangles_(std::move(triangles)), owners_(std::move(owners)) {
+    assert(owners_.size() == triangles_.size());
     if (triangles_.empty()) return;
     std::vector<Bounds> bounds(triangles_.size());
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
@@ -60,8 +63,13 @@ TriangleBvh::TriangleBvh(std::vector<std::array<glm::dvec3, 3>> triangles, const
     nodes_.emplace_back();
     split(0, bounds, 0, static_cast<std::uint32_t>(bounds.size()));
     std::vector<std::array<glm::dvec3, 3>> sorted(triangles_.size());
-    for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = triangles_[bounds[i].triangle];
+    std::vector<std::uint32_t> sorted_owners(owners_.size());
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        sorted[i] = triangles_[bounds[i].triangle];
+        sorted_owners[i] = owners_[bounds[i].triangle];
+    }
     triangles_ = std::move(sorted);
+    owners_ = std::move(sorted_owners);
 }
 
 // Halves them along the longest side of the box around their middles.
@@ -94,8 +102,8 @@ void TriangleBvh::split(std::uint32_t node, std::vector<Bounds>& bounds, std::ui
     split(below + 1, bounds, half, last);
 }
 
-std::optional<double> TriangleBvh::first_hit(const glm::dvec3& start_m, const glm::dvec3& direction,
-                                             double reach_m) const {
+std::optional<TriangleBvh::Hit> TriangleBvh::first_hit(const glm::dvec3& start_m, const glm::dvec3& direction,
+                                                       double reach_m) const {
     if (nodes_.empty()) return std::nullopt;
     const glm::dvec3 start = frame_from_ecef_ * start_m;
     glm::dvec3 inverse = frame_from_ecef_ * direction;
@@ -104,7 +112,7 @@ std::optional<double> TriangleBvh::first_hit(const glm::dvec3& start_m, const gl
         constexpr double least = 1.0e-200;
         inverse[axis] = 1.0 / (std::abs(inverse[axis]) < least ? least : inverse[axis]);
     }
-    std::optional<double> nearest_m;
+    std::optional<Hit> nearest;
     double most_m = reach_m;
     struct Waiting {
         std::uint32_t node;
@@ -127,10 +135,12 @@ std::optional<double> TriangleBvh::first_hit(const glm::dvec3& start_m, const gl
         } else if (next.begin_m <= most_m) {
             for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
                 const auto at_m = along_m(triangles_[i], start_m, direction);
-                if (at_m && *at_m >= 0.0 && *at_m < most_m) nearest_m = most_m = *at_m;
+                if (!at_m || *at_m < 0.0 || *at_m >= most_m) continue;
+                most_m = *at_m;
+                nearest = Hit{most_m, owners_[i]};
             }
         }
-        if (count == 0) return nearest_m;
+        if (count == 0) return nearest;
         next = waiting[--count];
     }
 }

@@ -13,13 +13,20 @@ namespace oro {
 class TriangleBvh {
   public:
     // Boxes lie along the columns of `frame`: around upright steps they are smallest where one of them is up.
-    TriangleBvh(std::vector<std::array<glm::dvec3, 3>> triangles, const glm::dmat3& frame);
+    // owners: a number for each triangle, which its hits tell.
+    TriangleBvh(std::vector<std::array<glm::dvec3, 3>> triangles, const glm::dmat3& frame,
+                std::vector<std::uint32_t> owners);
+
+    struct Hit {
+        double along_m{};  // the line, from its start
+        std::uint32_t owner{};
+    };
 
     // How far along a line (`direction` of length 1) its first triangle is, less than reach_m and not before
     // its start, from either side. Error: rounding of doubles, so that a line through a common side of two
     // triangles meets one of them at least.
-    [[nodiscard]] std::optional<double> first_hit(const glm::dvec3& start_m, const glm::dvec3& direction,
-                                                  double reach_m) const;
+    [[nodiscard]] std::optional<Hit> first_hit(const glm::dvec3& start_m, const glm::dvec3& direction,
+                                               double reach_m) const;
 
   private:
     struct Node {
@@ -36,6 +43,7 @@ class TriangleBvh {
 
     glm::dmat3 frame_from_ecef_;
     std::vector<std::array<glm::dvec3, 3>> triangles_;  // ECEF axes
+    std::vector<std::uint32_t> owners_;
     std::vector<Node> nodes_;
 };
 

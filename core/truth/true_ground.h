@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -13,10 +14,13 @@
 
 namespace oro {
 
-// A triangle of ground that belongs to no grid: an upright step along the rim of one that lies over another.
+// A triangle of ground that belongs to no grid: an upright step along the rim of one that lies over another,
+// or one of a mesh.
 // Straight between its corners.
 struct SurfaceTriangle {
     std::array<Geodetic, 3> corners;  // h above the ellipsoid, exaggerated as the surfaces are
+    // Of a mesh: its number, from 1. 0: a step, which is made longer by what it may lack beside its grids.
+    std::uint32_t mesh{};
 };
 
 // The surfaces of grids, and the pieces between them. Where several have ground for a place, that with the

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <new>
@@ -13,6 +14,8 @@
 #include "core/base/files_read.h"
 #include "geo/files/library_faults.h"
 #include "geo/files/raster_library.h"
+#include "geo/meshes/mesh_over_ground.h"
+#include "geo/meshes/placed_mesh.h"
 #include "geo/opening/grid_choice.h"
 #include "geo/opening/grid_describing.h"
 #include "geo/opening/grid_mosaic.h"
@@ -23,6 +26,22 @@
 
 namespace oro {
 namespace {
+
+// The meshes on a region, and what is to be told of them.
+Result<void> open_meshes_of(const RegionRequest& request, Region& region) {
+    ORO_TRY(region.meshes,
+            open_meshes(request.meshes, request.strict_datum, region.grids.front().field.undulation));
+    std::vector<const RegionGrid*> grids;
+    for (const RegionGrid& grid : region.grids) grids.push_back(&grid);
+    std::ranges::stable_sort(grids, {}, [](const RegionGrid* grid) { return grid->rank; });
+    std::vector<const HeightField*> fields;
+    for (const RegionGrid* const grid : grids) fields.push_back(&grid->field);
+    RegionGrid& first = region.grids.front();
+    for (const PlacedMesh& mesh : *region.meshes)
+        first.notes.push_back(note_of_mesh(mesh) + "; " +
+                              words_of(mesh_over_ground(mesh, fields), first.geoid));
+    return region.health();
+}
 
 // The five steps. Of grids over each other one may lack all height: the others have ground.
 Result<Region> read_region(const RegionRequest& request, const Progress& progress) {
@@ -58,6 +77,7 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
     if (progress) progress(1.0, "region read");
     Region region = describe_region(std::move(grids), empty, is_baked);
     if (request.feather_m > 0.0 && region.grids.size() > 1) ORO_CHECK(feather(region, request.feather_m));
+    if (!request.meshes.files.empty()) ORO_CHECK(open_meshes_of(request, region));
     return region;
 }
 

@@ -82,11 +82,15 @@ struct RegionGrid {
     std::optional<GridCanopy> canopy;  // nothing: the field is the ground as its sources have it
 };
 
+struct PlacedMesh;
+
 // What a request opens: grids that lie over each other, next to each other or far apart; one where their
 // posts are those of one lattice. The first is the one of most posts, until a view puts that under its eye
 // first; it has the notes on all.
 struct Region {
     std::vector<RegionGrid> grids;
+    // Meshes on its ground (geo/meshes/placed_mesh.h); null: none.
+    std::shared_ptr<const std::vector<PlacedMesh>> meshes{};
     // Of all grids. Errors: posts that could not be read, and so counted as void.
     [[nodiscard]] Result<void> health() const;
 };

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/terrain/drawn_heights.h"
+#include "geo/together/mesh_surface.h"
 
 namespace oro {
 namespace {
@@ -216,6 +217,9 @@ Seam seam_between(const Region& region, const RegionCuts& cuts, double exaggerat
     for (std::size_t i = 0; i < region.grids.size(); ++i)
         SeamBuilder(region.grids, cuts, i, exaggeration).add(seam);
     add_bridges(region.grids, cuts, exaggeration, seam);
+    if (region.meshes)
+        for (const PlacedMesh& mesh : *region.meshes)
+            add_mesh(mesh, region.grids.front().field.undulation, exaggeration, seam);
     return seam;
 }
 

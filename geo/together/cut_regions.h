@@ -46,7 +46,7 @@ struct RegionCuts {
 // Errors: as clip_by_finer() and gap_bridges().
 Result<RegionCuts> cut_regions(const Region& region);
 
-// What is drawn between them.
+// What is drawn between them, and the region's meshes.
 Seam seam_between(const Region& region, const RegionCuts& cuts, double exaggeration);
 
 }  // namespace oro

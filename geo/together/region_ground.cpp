@@ -7,6 +7,7 @@
 #include "core/baked/file_pages.h"
 #include "core/base/parallel.h"
 #include "geo/together/cut_regions.h"
+#include "geo/together/mesh_surface.h"
 
 namespace oro {
 namespace {
@@ -109,6 +110,10 @@ Result<std::unique_ptr<const RegionGround>> RegionGround::of(const Region& regio
         }
         pieces->push_back(piece);
     }
+    if (region.meshes)
+        for (std::uint32_t i = 0; i < region.meshes->size(); ++i)
+            add_mesh((*region.meshes)[i], grids.front().surface->field().undulation, exaggeration, i + 1,
+                     *pieces);
     made->ground_.emplace(std::move(grids), std::move(pieces));
     return std::unique_ptr<const RegionGround>(std::move(made));
 }

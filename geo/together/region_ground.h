@@ -1,4 +1,4 @@
-// The true ground of a region: all its grids, and the steps between them.
+// The true ground of a region: all its grids, the steps between them, and its meshes.
 #pragma once
 
 #include <deque>
@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/truth/true_ground.h"
+#include "geo/meshes/placed_mesh.h"
 #include "geo/region/region.h"
 #include "geo/together/cut_regions.h"
 
@@ -14,7 +15,8 @@ namespace oro {
 // Above which surface a view has its heights: its own, or WGS84 though it goes without a geoid.
 enum class GroundHeights { as_pictured, true_ones };
 
-// Holds on to the region, which outlives it. Its ground numbers the grids as the region does.
+// The true ground holds the region's meshes, too. Holds on to the region, which outlives it. Its ground
+// numbers the grids as the region does.
 class RegionGround {
   public:
     // cuts: cut_regions(). Reads every post once where they are in memory; of a baked region with
@@ -29,6 +31,10 @@ class RegionGround {
     RegionGround& operator=(const RegionGround&) = delete;
 
     [[nodiscard]] const TrueGround& ground() const { return *ground_; }
+    // A mesh by SightHit::mesh, from 1.
+    [[nodiscard]] const PlacedMesh& mesh(std::uint32_t number) const {
+        return (*region_->meshes)[number - 1];
+    }
     [[nodiscard]] const RegionGrid& grid(std::size_t number) const { return region_->grids[number]; }
 
   private:

@@ -58,7 +58,7 @@ void keep_colour(ivec2 pixel, vec3 colour) {
 }
 
 // A crown in the sun is lighter than a forest's mean, which holds the shade between crowns.
-const float needle_lighter = 3.3, broad_lighter = 2.2;
+const float needle_lighter = 3.3, broad_lighter = 1.25;
 
 // What leaves send back of the sun's light and the sky's.
 GroundLight light_of_crown(Crown crown, CrownHit hit, uint stands, vec3 sun, vec3 to_eye, float pixel_m) {

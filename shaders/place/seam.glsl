@@ -27,3 +27,8 @@ vec3 seam_normal(FramePage page, uvec2 post) {
     if ((page.cull & is_skirt) == 0u && in_quad == uvec2(1u, 1u)) return vector_of_quad(page, quad + uvec2(2u, 0u));
     return vector_of_quad(page, quad + uvec2(second ? 1u : 0u, 2u));
 }
+
+// Whether a piece is of a mesh: its light is then that of the eye's side.
+bool is_two_sided(FramePage page, uvec2 post) {
+    return (page.cull & is_skirt) == 0u && vector_of_quad(page, quad_of_post(post) + uvec2(2u, 1u)).x > 0.5;
+}

@@ -252,6 +252,11 @@ vec3 normal_of_seam(FramePage page, uvec2 posts[3], vec3 shares, float heights_m
         vec3 upright = cross(at[1] - at[0], at[2] - at[0]);
         normal = dot(upright, view) > 0.0 ? -upright : upright;
     }
+    if (is_two_sided(page, posts[0])) {
+        vec3 facing = cross(at[1] - at[0], at[2] - at[0]);
+        facing = dot(facing, view) > 0.0 ? -facing : facing;
+        normal = dot(normal, facing) < 0.0 ? -normal : normal;
+    }
     vec3 on_ground = normalize(normal) * axes_at(view);
     return normalize(vec3(on_ground.xy, max(on_ground.z, 1.0e-3)));
 }

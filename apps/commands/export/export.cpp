@@ -4,6 +4,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/export/exported_region.h"
+#include "apps/options/region_option_table.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/different_words.h"
 #include "apps/report/figures.h"
@@ -81,6 +82,7 @@ std::string source_heights_words(const Region& region) {
 
 Result<void> run_export(const ExportOptions& options) {
     ORO_CHECK(check_words(options));
+    ORO_CHECK(check_without_meshes(options.region, "does not go into exports, which are of terrain alone"));
     ORO_TRY(const RegionRequest request, region_request(options.region));
     ProgressBar bar(options.quiet);
     ORO_TRY(Region region, open_region(request, bar.progress()));

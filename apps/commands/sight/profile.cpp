@@ -8,6 +8,7 @@
 #include "apps/commands/sight/profile_along.h"
 #include "apps/commands/sight/profile_text.h"
 #include "apps/commands/sight/sight_ground.h"
+#include "apps/options/region_option_table.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
@@ -41,6 +42,8 @@ Result<void> write(const ProfileOptions& options, const Profile& profile) {
 
 Result<void> run_profile(const ProfileOptions& options) {
     ORO_CHECK(check_words(options));
+    ORO_CHECK(check_without_meshes(options.region,
+                                   "is not cut by profiles, which are of terrain alone: ask sight"));
     Profile profile;
     ORO_TRY(profile.line, line_along(options.along, options.line));
     ORO_CHECK(check_length(options, profile.line));

@@ -11,6 +11,7 @@
 #include "apps/commands/sight/viewshed_question.h"
 #include "apps/commands/sight/viewshed_report.h"
 #include "apps/cover/canopy_words.h"
+#include "apps/options/region_option_table.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
@@ -137,6 +138,8 @@ void say_walls(const Standpoints& standpoints, std::size_t eyes, bool quiet) {
 
 Result<void> run_viewshed(const ViewshedOptions& options) {
     ORO_CHECK(check_words(options));
+    ORO_CHECK(check_without_meshes(options.region,
+                                   "does not hide in viewsheds, which are of terrain alone: ask sight"));
     ORO_CHECK(check_target_on(options));
     ViewshedQuestion question;
     ORO_CHECK(begin_question(options, question));

@@ -1,4 +1,4 @@
-#include "geo/coordinates/source_crs.h"
+#include "geo/opening/source_crs.h"
 
 #include <algorithm>
 #include <regex>

@@ -1,0 +1,25 @@
+// Meshes of a region as what is drawn between its grids, and as pieces of its true ground.
+#pragma once
+
+#include <vector>
+
+#include "core/seam/seam.h"
+#include "core/truth/true_ground.h"
+#include "geo/meshes/placed_mesh.h"
+
+namespace oro {
+
+// Triangles that meet at a smaller angle share their light: the normal at their common vertex.
+inline constexpr double crease_deg = 30.0;
+
+// Adds a mesh's triangles to what is drawn beside the grids. undulation: N of the region; empty: 0. Normals
+// face upwards; at a vertex of more than 64 triangles each has its own.
+void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration, Seam& seam);
+
+// The same triangles as sight lines meet them. Corners are those of the lattice of 2^-11 m that is drawn,
+// within 0.43 mm of the mesh.
+// number: of the mesh in its region, from 1.
+void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration,
+              std::uint32_t number, std::vector<SurfaceTriangle>& pieces);
+
+}  // namespace oro
