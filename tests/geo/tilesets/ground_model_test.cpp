@@ -73,7 +73,8 @@ HeldModel held(const HeightField& field, const ReadModel& model, int places) {
     const TrueSurface surface(field, 1.0, 2);
     const PostGrid& grid = field.grid;
     const PostPlace middle = grid.place_at(0.5 * grid.rows(), 0.5 * grid.columns());
-    const TriangleBvh bvh(model.triangles, ecef_from_enu(middle.lat_deg, middle.lon_deg));
+    const TriangleBvh bvh(model.triangles, ecef_from_enu(middle.lat_deg, middle.lon_deg),
+                          std::vector<std::uint32_t>(model.triangles.size()));
     HeldModel sum;
     for (int i = 0; i < places; ++i) {
         // Off the rim, where a line upwards may pass the flat model by.
@@ -85,13 +86,13 @@ HeldModel held(const HeightField& field, const ReadModel& model, int places) {
         const glm::dvec3 up = ecef_from_enu(at.lat_deg, at.lon_deg)[2];
         constexpr double high_m = 20000.0;
         const glm::dvec3 from = ecef_from_geodetic({at.lat_deg, at.lon_deg, *h_m}).m + high_m * up;
-        const auto down_m = bvh.first_hit(from, -up, 2.0 * high_m);
-        EXPECT_TRUE(down_m) << row << " " << column;
-        if (!down_m) continue;
+        const auto down = bvh.first_hit(from, -up, 2.0 * high_m);
+        EXPECT_TRUE(down) << row << " " << column;
+        if (!down) continue;
         ++sum.places;
         // Straight down, not at one row and column: a hundredth covers how much farther that is.
-        sum.above += std::abs(*down_m - high_m) > 1.01 * model.error_m ? 1 : 0;
-        sum.above_half += std::abs(*down_m - high_m) > 0.4 * model.error_m ? 1 : 0;
+        sum.above += std::abs(down->along_m - high_m) > 1.01 * model.error_m ? 1 : 0;
+        sum.above_half += std::abs(down->along_m - high_m) > 0.4 * model.error_m ? 1 : 0;
     }
     std::printf("%zu triangles, %d places, %d above %.2f m, %d above 0.4 of it\n", model.triangles.size(),
                 sum.places, sum.above, model.error_m, sum.above_half);

@@ -276,7 +276,10 @@ Gaps gaps_between_tiles(const Exported& exported, int cuts, int lines) {
         }
         const PostPlace middle = grid.place_at(0.5 * grid.rows(), 0.5 * grid.columns());
         const glm::dmat3 enu = ecef_from_enu(middle.lat_deg, middle.lon_deg);
-        const TriangleBvh bare(triangles[0], enu), walled(triangles[1], enu);
+        const auto tree = [&](const auto& of) {
+            return TriangleBvh(of, enu, std::vector<std::uint32_t>(of.size()));
+        };
+        const TriangleBvh bare = tree(triangles[0]), walled = tree(triangles[1]);
         for (int j = 0; j < lines; ++j) {
             // At a line of posts where pages of level 0 meet, or a hair beside it.
             const bool along_row = random() % 2 == 0;
