@@ -65,6 +65,30 @@ Crossing crossing(const std::array<Long3, 3>& at, const Long3& direction) {
     return found;
 }
 
+// The first of all triangles along a line before most_m. margin: the least of any side.
+struct Nearest {
+    bool is_there{};
+    long double along_m{}, margin{1.0L};
+};
+Nearest nearest_of(const std::vector<std::array<glm::dvec3, 3>>& triangles, const glm::dvec3& eye_m,
+                   const glm::dvec3& direction, double most_m) {
+    Nearest nearest;
+    nearest.along_m = most_m;
+    for (const auto& triangle : triangles) {
+        std::array<Long3, 3> at{};
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const glm::dvec3 m = triangle[corner] - eye_m;
+            at[corner] = {m.x, m.y, m.z};
+        }
+        const Crossing here = crossing(at, {direction.x, direction.y, direction.z});
+        nearest.margin = std::min(nearest.margin, std::abs(here.margin));
+        if (!here.inside || here.along_m < 0.0L || here.along_m >= nearest.along_m) continue;
+        nearest.along_m = here.along_m;
+        nearest.is_there = true;
+    }
+    return nearest;
+}
+
 TEST(MeshGround, SightLinesMeetWhatBruteForceFinds) {
     constexpr unsigned seed = 5203;
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -100,28 +124,16 @@ TEST(MeshGround, SightLinesMeetWhatBruteForceFinds) {
             constexpr double reach_m = 8000.0;
             const auto terrain = of_terrain.first_hit(direction, reach_m),
                        found = of_all.first_hit(direction, reach_m);
-            long double nearest_m = terrain ? terrain->distance_m : reach_m, margin = 1.0L;
-            bool expects_mesh = false;
-            for (const auto& triangle : triangles) {
-                std::array<Long3, 3> at{};
-                for (std::size_t corner = 0; corner < 3; ++corner) {
-                    const glm::dvec3 m = triangle[corner] - sight.eye.m;
-                    at[corner] = {m.x, m.y, m.z};
-                }
-                const Crossing here = crossing(at, {direction.x, direction.y, direction.z});
-                margin = std::min(margin, std::abs(here.margin));
-                if (!here.inside || here.along_m < 0.0L || here.along_m >= nearest_m) continue;
-                nearest_m = here.along_m;
-                expects_mesh = true;
-            }
-            if (margin < 1.0e-9L) {
+            const Nearest mesh =
+                nearest_of(triangles, sight.eye.m, direction, terrain ? terrain->distance_m : reach_m);
+            if (mesh.margin < 1.0e-9L) {
                 ++skipped;
                 continue;
             }
-            ASSERT_EQ(found && found->mesh == 1, expects_mesh) << "eye " << i << ", line " << k;
-            if (expects_mesh) {
+            ASSERT_EQ(found && found->mesh == 1, mesh.is_there) << "eye " << i << ", line " << k;
+            if (mesh.is_there) {
                 ++on_mesh;
-                EXPECT_NEAR(found->distance_m, static_cast<double>(nearest_m), 1.0e-6) << "m";
+                EXPECT_NEAR(found->distance_m, static_cast<double>(mesh.along_m), 1.0e-6) << "m";
             } else if (terrain) {
                 ++on_terrain;
                 ASSERT_TRUE(found);
