@@ -176,6 +176,9 @@ GroundErrors ground_errors(const TrueGround& ground, const Sight& sight, const C
     errors.displacement_at_least.assign(width * height, 0);
     errors.surface_at_least.assign(width * height, 0);
     const GroundMeter meter(ground, sight, camera);
+    // A mesh has no rows and columns to say which place of it was drawn: what is seen measures it.
+    const bool has_meshes =
+        std::ranges::any_of(ground.pieces(), [](const SurfaceTriangle& piece) { return piece.mesh > 0; });
     std::vector<std::uint64_t> drawn_in_row(height), beyond_in_row(height), between_in_row(height);
     in_parallel(camera.height_px, threads, [&](int row) {
         const std::size_t r = static_cast<std::size_t>(row);
@@ -183,7 +186,10 @@ GroundErrors ground_errors(const TrueGround& ground, const Sight& sight, const C
             const std::size_t pixel = r * width + column;
             if (points[pixel].background()) continue;
             ++drawn_in_row[r];
-            if (meter.is_between(points[pixel])) ++between_in_row[r];
+            if (meter.is_between(points[pixel])) {
+                ++between_in_row[r];
+                if (has_meshes) continue;
+            }
             const glm::dvec2 centre_px(static_cast<double>(column) + 0.5, row + 0.5);
             const auto moved = meter.displacement(centre_px, points[pixel]);
             if (!moved) {

@@ -1,12 +1,14 @@
 #include "apps/commands/sight/sight_text.h"
 
 #include <cstdio>
+#include <filesystem>
 
 #include "apps/cover/canopy_words.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 #include "apps/report/summit_words.h"
 #include "apps/view/model_names.h"
+#include "core/base/one_line.h"
 
 namespace oro {
 namespace {
@@ -50,6 +52,10 @@ double distance_m(const SightReport& report, const Geodetic& point) {
         .distance_m;
 }
 
+std::string file_name_of(const PlacedMesh& mesh) {
+    return one_line(std::filesystem::path(mesh.path).filename().string());
+}
+
 std::string hidden_text(const SightReport& report, const SightGround& ground) {
     std::string text = "Hidden";
     if (report.target_clearance_deficit_m)
@@ -61,6 +67,8 @@ std::string hidden_text(const SightReport& report, const SightGround& ground) {
     text += "\nFirst obstacle: ";
     if (report.obstacle_canopy_m)
         text += printed("canopy, %.1f m over the ground, at ", *report.obstacle_canopy_m);
+    else if (report.obstacle->mesh > 0)
+        text += "a mesh, " + file_name_of(ground.grids->mesh(report.obstacle->mesh)) + ", at ";
     else if (ground.canopy)
         text += "the ground at ";
     return text + ground_text(report.obstacle->point, report.obstacle_distance_m, ground) +
@@ -88,7 +96,9 @@ std::string sight_text(const SightReport& report, const SightGround& ground) {
     text += end_text("To:  ", report.to, report.to_cover, report.to_canopy_m, ground);
     text += report.obstacle ? hidden_text(report, ground) : "Visible\n";
     if (report.line.without_data_m < report.slant_m)
-        text += printed("Least clearance: %.2f m, over ", report.line.clearance_m) +
+        text += printed(ground.region.meshes ? "Least clearance of the terrain: %.2f m, over "
+                                             : "Least clearance: %.2f m, over ",
+                        report.line.clearance_m) +
                 ground_text(report.line.ground, distance_m(report, report.line.ground), ground) + "\n";
     text += printed("Distance: %.3f m over the ellipsoid, %.3f m straight\n", report.path.distance_m,
                     report.slant_m);
@@ -111,6 +121,7 @@ ordered_json sight_json(const SightReport& report, const SightGround& ground) {
         ordered_json& obstacle = json["obstacle"] = point_json(ground, report.obstacle->point);
         obstacle["distance_m"] = report.obstacle_distance_m;
         obstacle["slant_m"] = report.obstacle->distance_m;
+        if (report.obstacle->mesh > 0) obstacle["mesh"] = ground.grids->mesh(report.obstacle->mesh).path;
         if (!report.obstacle_cover.empty()) obstacle["cover"] = report.obstacle_cover;
         if (ground.canopy) {
             obstacle["is"] = report.obstacle_canopy_m ? "canopy" : "ground";

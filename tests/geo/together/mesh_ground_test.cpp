@@ -65,16 +65,15 @@ Crossing crossing(const std::array<Long3, 3>& at, const Long3& direction) {
     return found;
 }
 
-// The nearest triangle that a line meets nearer than some distance; and how far it stays from all their
-// sides.
+// The first of all triangles along a line before most_m. margin: the least of any side.
 struct Nearest {
-    long double along_m{};
     bool is_there{};
-    long double margin{1.0L};
+    long double along_m{}, margin{1.0L};
 };
 Nearest nearest_of(const std::vector<std::array<glm::dvec3, 3>>& triangles, const glm::dvec3& eye_m,
-                   const glm::dvec3& direction, double within_m) {
-    Nearest nearest{within_m};
+                   const glm::dvec3& direction, double most_m) {
+    Nearest nearest;
+    nearest.along_m = most_m;
     for (const auto& triangle : triangles) {
         std::array<Long3, 3> at{};
         for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -125,16 +124,16 @@ TEST(MeshGround, SightLinesMeetWhatBruteForceFinds) {
             constexpr double reach_m = 8000.0;
             const auto terrain = of_terrain.first_hit(direction, reach_m),
                        found = of_all.first_hit(direction, reach_m);
-            const Nearest nearest =
+            const Nearest mesh =
                 nearest_of(triangles, sight.eye.m, direction, terrain ? terrain->distance_m : reach_m);
-            if (nearest.margin < 1.0e-9L) {
+            if (mesh.margin < 1.0e-9L) {
                 ++skipped;
                 continue;
             }
-            ASSERT_EQ(found && found->mesh == 1, nearest.is_there) << "eye " << i << ", line " << k;
-            if (nearest.is_there) {
+            ASSERT_EQ(found && found->mesh == 1, mesh.is_there) << "eye " << i << ", line " << k;
+            if (mesh.is_there) {
                 ++on_mesh;
-                EXPECT_NEAR(found->distance_m, static_cast<double>(nearest.along_m), 1.0e-6) << "m";
+                EXPECT_NEAR(found->distance_m, static_cast<double>(mesh.along_m), 1.0e-6) << "m";
             } else if (terrain) {
                 ++on_terrain;
                 ASSERT_TRUE(found);
