@@ -175,6 +175,7 @@ set_tests_properties(
   LabelsOfShots.AreLeftOutWhereTheViewSaysSo
   LabelsOfShots.AreTheSameFromABakedRegion
   LabelsOfShots.AreToldAndDrawnAgain
+  MadeHeights.NoiseHasNoGrainAndTheSpectrumOfItsGain
   Manual.HasEachOptionOfHelp
   ModelOptions.AreSaidAndKeptAndDrawnAgain
   ModelOptions.BadValuesAreRefused

@@ -17,7 +17,7 @@ inline std::uint32_t made_high(std::uint32_t a, std::uint32_t b) {
 }
 
 #define ORO_FUNCTION [[maybe_unused]] inline __attribute__((always_inline))
-#define ORO_CONST inline constexpr
+#define ORO_MADE_CONST inline constexpr
 #define ORO_INOUT(type) type&
 #define ORO_RULE const MadeRule &rule,
 #define ORO_PASS rule,
@@ -25,7 +25,7 @@ inline std::uint32_t made_high(std::uint32_t a, std::uint32_t b) {
 #undef ORO_PASS
 #undef ORO_RULE
 #undef ORO_INOUT
-#undef ORO_CONST
+#undef ORO_MADE_CONST
 #undef ORO_FUNCTION
 
 }  // namespace
@@ -47,6 +47,12 @@ ORO_WIDE void add_fbm(const gpu::MadeOctave& octave, MadeRun& run) {
 ORO_WIDE void add_ridged(const gpu::MadeOctave& octave, MadeRun& run) {
     for (std::size_t i = 0; i < run_posts; ++i)
         run.sum[i] += gpu::made_ridged_octave(octave, run.x[i], run.y[i], run.z[i], run.weight[i]);
+}
+
+ORO_WIDE void add_noise_run(const gpu::MadeOctave& octave, float factor, const std::int32_t* x,
+                            const std::int32_t* y, const std::int32_t* z, float* values, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+        values[i] += factor * static_cast<float>(gpu::made_octave_noise(octave, x[i], y[i], z[i]));
 }
 
 bool has_octaves(const gpu::MadeRule& rule) {
@@ -96,6 +102,12 @@ void made_row_heights(const MadeTerrain& terrain, const gpu::MadeRule& rule, int
             rule.kind == gpu::made_fbm ? add_fbm(rule.octave[k], run) : add_ridged(rule.octave[k], run);
         for (std::size_t i = 0; i < count; ++i) steps[first + i] = gpu::made_octaves_height(rule, run.sum[i]);
     }
+}
+
+void add_made_noise(const gpu::MadeOctave& octave, float factor, std::span<const std::int32_t> x,
+                    std::span<const std::int32_t> y, std::span<const std::int32_t> z,
+                    std::span<float> values) {
+    add_noise_run(octave, factor, x.data(), y.data(), z.data(), values.data(), values.size());
 }
 
 double made_height_m(const MadeTerrain& terrain, const gpu::MadeRule& rule, double lat_deg, double lon_deg) {

@@ -18,6 +18,12 @@ std::vector<MadeColumn> made_columns(const MadeTerrain& terrain, int first, int 
 void made_row_heights(const MadeTerrain& terrain, const gpu::MadeRule& rule, int row, int first_column,
                       std::span<const MadeColumn> columns, std::span<std::int32_t> steps);
 
+// Adds one octave's noise (2^-28, r.m.s. 0.27) times a factor at each of many places in 2^-6 m of ECEF; all
+// have the same length.
+void add_made_noise(const gpu::MadeOctave& octave, float factor, std::span<const std::int32_t> x,
+                    std::span<const std::int32_t> y, std::span<const std::int32_t> z,
+                    std::span<float> values);
+
 // H in metres at any place, by the same rule as at posts: the truth between them. The place is rounded to
 // 2^-6 m. Latitude -90 to 90. Of `checker`, which is a rule of posts alone, that of the nearest post.
 double made_height_m(const MadeTerrain& terrain, const gpu::MadeRule& rule, double lat_deg, double lon_deg);

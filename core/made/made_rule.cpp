@@ -84,17 +84,9 @@ void set_octaves(const MadeTerrain& terrain, gpu::MadeRule& rule) {
     std::uint64_t share = ((1000 - terrain.gain) << 24U) / 1000;          // 2^-24
     for (std::uint32_t i = 0; i < rule.octaves; ++i) {
         gpu::MadeOctave& octave = rule.octave[i];
-        octave.shift = terrain.cell_shift - i;
+        octave = made_octave(terrain.seed, i, terrain.cell_shift - i);
         octave.amplitude = static_cast<std::int32_t>((bound * share) >> 24U);
         share = share * terrain.gain / 1000;
-        const std::uint32_t own = mixed(terrain.seed * 0x9e3779b1U + mixed(i + 1));
-        octave.seed = own;
-        octave.off_x = mixed(own + 1) >> 3U;
-        octave.off_y = mixed(own + 2) >> 3U;
-        octave.off_z = mixed(own + 3) >> 3U;
-        octave.flip_x = i % 4 == 1 ? -1 : 1;
-        octave.flip_y = i % 4 == 2 ? -1 : 1;
-        octave.flip_z = i % 4 == 3 ? -1 : 1;
     }
 }
 
@@ -142,6 +134,20 @@ MadeRow made_row(std::int64_t post, std::int64_t posts_per_deg) {
 MadeColumn made_column(std::int64_t post, std::int64_t posts_per_deg) {
     const Turned60 lon = turned(post, posts_per_deg);
     return {rounded(lon.cosine, 30), rounded(lon.sine, 30)};
+}
+
+gpu::MadeOctave made_octave(std::uint32_t seed, std::uint32_t number, std::uint32_t shift) {
+    gpu::MadeOctave octave{};
+    octave.shift = shift;
+    const std::uint32_t own = mixed(seed * 0x9e3779b1U + mixed(number + 1));
+    octave.seed = own;
+    octave.off_x = mixed(own + 1) >> 3U;
+    octave.off_y = mixed(own + 2) >> 3U;
+    octave.off_z = mixed(own + 3) >> 3U;
+    octave.flip_x = number % 4 == 1 ? -1 : 1;
+    octave.flip_y = number % 4 == 2 ? -1 : 1;
+    octave.flip_z = number % 4 == 3 ? -1 : 1;
+    return octave;
 }
 
 gpu::MadeRule made_rule(const MadeTerrain& terrain) {

@@ -10,9 +10,9 @@
 namespace oro::gpu {
 
 using uint = std::uint32_t;
-#define ORO_CONST inline constexpr
+#define ORO_MADE_CONST inline constexpr
 #include "shaders/made/made_rule.glsl"
-#undef ORO_CONST
+#undef ORO_MADE_CONST
 
 }  // namespace oro::gpu
 
@@ -36,6 +36,9 @@ struct MadeColumn {
 MadeRow made_row(std::int64_t post, std::int64_t posts_per_deg);
 // Longitudes of any whole turn.
 MadeColumn made_column(std::int64_t post, std::int64_t posts_per_deg);
+
+// The lattice of octave number `number` of a seed: cells of 2^shift / 192 m, shift 1 to 28. Its amplitude is 0.
+gpu::MadeOctave made_octave(std::uint32_t seed, std::uint32_t number, std::uint32_t shift);
 
 // The rule of a terrain. The terrain is one that made_terrain_of() accepts.
 gpu::MadeRule made_rule(const MadeTerrain& terrain);

@@ -12,9 +12,9 @@ ORO_FUNCTION uint made_mixed(uint h) {
     h *= 0x846ca68bu;
     return h ^ (h >> 16u);
 }
-ORO_CONST uint made_hash_x = 0x9e3779b1u;
-ORO_CONST uint made_hash_y = 0x85ebca77u;
-ORO_CONST uint made_hash_z = 0xc2b2ae3du;
+ORO_MADE_CONST uint made_hash_x = 0x9e3779b1u;
+ORO_MADE_CONST uint made_hash_y = 0x85ebca77u;
+ORO_MADE_CONST uint made_hash_z = 0xc2b2ae3du;
 
 // 6 t^5 - 15 t^4 + 10 t^3 of t in 2^-32, as 2^-31. Source: K. Perlin, Improving Noise, SIGGRAPH 2002.
 ORO_FUNCTION int made_faded(uint t) {

@@ -1,16 +1,16 @@
 // The rule of a made terrain, as the CPU and the GPU know it: in scalar block layout the structs are those of C++. Compiled as GLSL,
-// and as C++ by core/made/made_rule.h. Needs uint, ORO_CONST.
+// and as C++ by core/made/made_rule.h. Needs uint, ORO_MADE_CONST.
 
 // Kinds of terrain.
-ORO_CONST uint made_fbm = 0u;
-ORO_CONST uint made_ridged = 1u;
-ORO_CONST uint made_plane = 2u;
-ORO_CONST uint made_cone = 3u;
-ORO_CONST uint made_sine = 4u;
-ORO_CONST uint made_step = 5u;
-ORO_CONST uint made_sphere = 6u;
-ORO_CONST uint made_checker = 7u;
-ORO_CONST uint made_octaves_most = 24u;
+ORO_MADE_CONST uint made_fbm = 0u;
+ORO_MADE_CONST uint made_ridged = 1u;
+ORO_MADE_CONST uint made_plane = 2u;
+ORO_MADE_CONST uint made_cone = 3u;
+ORO_MADE_CONST uint made_sine = 4u;
+ORO_MADE_CONST uint made_step = 5u;
+ORO_MADE_CONST uint made_sphere = 6u;
+ORO_MADE_CONST uint made_checker = 7u;
+ORO_MADE_CONST uint made_octaves_most = 24u;
 
 struct MadeOctave {
     uint shift;                // a cell is 2^shift units wide; a unit is 2^-6 m / 3

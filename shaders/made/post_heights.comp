@@ -4,7 +4,7 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_GOOGLE_include_directive : require
 
-#define ORO_CONST const
+#define ORO_MADE_CONST const
 #include "shaders/made/made_rule.glsl"
 
 layout(local_size_x = 64) in;
