@@ -183,6 +183,7 @@ set_tests_properties(
   LabelsOfShots.AreTheSameFromABakedRegion
   LabelsOfShots.AreToldAndDrawnAgain
   LibraryCalls.AThousandBadOnesEndWithErrors
+  MadeHeights.NoiseHasNoGrainAndTheSpectrumOfItsGain
   Manual.HasEachOptionOfHelp
   ModelOptions.AreSaidAndKeptAndDrawnAgain
   ModelOptions.BadValuesAreRefused

@@ -21,7 +21,8 @@ void add(RegionRows& rows, const OptionText& text, Value RegionOptions::*field, 
 void add_sources(RegionRows& rows) {
     add(rows, {"PATH ...", shown_first}, &RegionOptions::paths,
         "Files or folders: SRTM tiles (.hgt), GeoTIFF and other rasters, also in .zip, .tar.gz or .gz; or "
-        "one file that orograph bake wrote (.oro).");
+        "one file that orograph bake wrote (.oro). Or terrain that is made by a rule, as in "
+        "made:fbm?seed=7.");
     add(rows, {"--bbox WEST,SOUTH,EAST,NORTH", shown_first, "all the data"}, &RegionOptions::bbox,
         "Take only the part between these edges, in degrees. West may be more than east: the part then "
         "crosses the 180th meridian. Not with --tile.");

@@ -20,6 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::string_view made_prefix = "made:";
+
 std::string_view last_part(std::string_view path) {
     const std::size_t slash = path.rfind('/');
     return slash == std::string_view::npos ? path : path.substr(slash + 1);
@@ -62,6 +64,12 @@ class Search {
     explicit Search(std::vector<Error>* unreadable) : unreadable_(unreadable) {}
 
     Result<void> add(const std::string& path) {
+        if (path.starts_with(made_prefix)) {
+            // No file: geo/sources/made_words.h reads the text.
+            found_.push_back(described(path, path, path, true));
+            found_.back().hgt = false;
+            return {};
+        }
         std::error_code fault;
         const fs::file_status status = fs::status(path, fault);
         if (status.type() == fs::file_type::not_found) {

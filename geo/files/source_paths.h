@@ -9,7 +9,7 @@
 namespace oro {
 
 struct SourcePath {
-    std::string file;     // as GDAL's virtual file system opens it
+    std::string file;     // as GDAL's virtual file system opens it; or all of a made: text
     std::string shown;    // as a person finds it, e.g. tiles.zip/N46E008.hgt
     std::string name;     // the innermost file's name without .gz, e.g. N46E008.hgt
     std::string archive;  // name of the archive that holds it, or ""

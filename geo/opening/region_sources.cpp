@@ -11,6 +11,8 @@
 #include "geo/region/region_grid.h"
 #include "geo/sources/hgt_source.h"
 #include "geo/sources/known_products.h"
+#include "geo/sources/made_source.h"
+#include "geo/sources/made_words.h"
 #include "geo/sources/raster_source.h"
 
 namespace oro {
@@ -69,6 +71,11 @@ void leave_out_companions(RegionSources& found, std::vector<LeftOutFile>& left_o
 }  // namespace
 
 Result<Finding> probe_file(const SourcePath& path, const SourceOverrides& overrides) {
+    if (is_made(path.file)) {
+        ORO_TRY(Source made, inspect_made(path));
+        overrides.heights_of(made);
+        return Finding{std::move(made), {}, {}, false};
+    }
     // By its name alone: it may be large, or damaged.
     if (const auto known = known_file(path.name); known && !known->holds.empty()) {
         const std::string what =

@@ -197,7 +197,7 @@ Result<void> find_horizontal_datums(std::span<Source> sources, bool strict, std:
     std::map<Asked, HorizontalDatum> known;
     std::map<std::string, bool> is_plain;  // CRS on WGS84: the same everywhere
     for (Source& source : sources) {
-        if (source.kind == SourceKind::hgt) continue;
+        if (source.kind != SourceKind::raster) continue;
         HorizontalDatum& datum = source.report.horizontal_datum;
         const std::optional<double> epoch = datum.coordinate_epoch;
         if (!is_plain[source.crs_wkt]) {

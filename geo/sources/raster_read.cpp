@@ -8,6 +8,7 @@
 #include "geo/files/guarded_files.h"
 #include "geo/files/raster_library.h"
 #include "geo/sources/hgt_source.h"
+#include "geo/sources/made_source.h"
 #include "geo/sources/raster_source.h"
 #include "geo/sources/undeclared_voids.h"
 #include "geo/sources/unwritten_parts.h"
@@ -99,7 +100,15 @@ void add_post(const Source& source, const NoData& no_data, const StoredStrip& st
 }
 
 Result<PostBlock> read_stored(const Source& source, const PostWindow& window) {
-    return source.kind == SourceKind::hgt ? read_hgt(source, window) : read_raster(source, window);
+    switch (source.kind) {
+        case SourceKind::hgt:
+            return read_hgt(source, window);
+        case SourceKind::made:
+            return read_made(source, window);
+        case SourceKind::raster:
+            break;
+    }
+    return read_raster(source, window);
 }
 
 }  // namespace
@@ -153,7 +162,8 @@ Result<PostBlock> read_raster(const Source& source, const PostWindow& window) {
 
 Result<PostBlock> read_posts(const Source& source, const PostWindow& window) {
     ORO_TRY(PostBlock block, read_stored(source, window));
-    ORO_CHECK(take_out_undeclared(source, block, read_stored));
+    // What is made has no voids that could be undeclared.
+    if (source.kind != SourceKind::made) ORO_CHECK(take_out_undeclared(source, block, read_stored));
     measure_steepness(source, block);
     block.values.read = block.height_m.size();
     block.values.lowest_stored_m = block.lowest_stored_m;

@@ -35,7 +35,7 @@ struct SourceAxis {
     }
 };
 
-enum class SourceKind { hgt, raster };
+enum class SourceKind { hgt, raster, made };
 
 // How far a source's surface goes on beyond its own last posts, to the first ones of a neighbour: 0 where it
 // ends there.

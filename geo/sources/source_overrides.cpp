@@ -24,7 +24,7 @@ std::string with_heights(const std::string& text) {
 // Of a product that is known by the file's name: puts what its heights refer to into the source. They are in
 // metres upwards.
 StatedDatum heights_of_product(Source& source) {
-    if (source.kind == SourceKind::hgt) return {};
+    if (source.kind != SourceKind::raster) return {};
     const auto known = known_file(source.report.path.substr(source.report.path.rfind('/') + 1));
     if (!known || known->heights_name.empty()) return {};
     source.vertical_crs = known->heights_crs;

@@ -1,0 +1,75 @@
+// Made terrain from end to end: what users do with files they do with a made: text.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "tests/apps/program.h"
+#include "tests/apps/said_json.h"
+#include "tests/support/test_data.h"
+
+namespace {
+namespace fs = std::filesystem;
+using oro::test::expect_refusal;
+using oro::test::object_said_by;
+using oro::test::run_orograph;
+
+const std::string waves = "made:fbm?seed=7&H=-200:4000&spacing=3s&box=8.4,46.4,8.6,46.6";
+
+TEST(MadeTerrain, InfoTellsThatItIsMade) {
+    const auto outcome = run_orograph({"info", waves});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("made, not measured"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("241 x 241"), std::string::npos) << outcome.out;
+}
+
+TEST(MadeTerrain, ABadWordIsOneLineAndExitCode2) {
+    for (const char* text : {"made:fbm?octaves=1000000000", "made:fbm?H=nan:1", "made:foo",
+                             "made:fbm?box=8,46,8,47", "made:cone?radius=-5", "made:fbm?seed=1&seed=1"})
+        for (const char* command : {"info", "plan"})
+            expect_refusal(run_orograph({command, text}), oro::test::usage, {text});
+    // More posts than there is memory for, as of files.
+    expect_refusal(run_orograph({"info", "made:fbm?box=-180,-90,180,90&spacing=0.1s"}), oro::test::failed,
+                   {"region too large"});
+}
+
+// 1,000 m over 10,000 m to the east, from the middle: 767.6 m over the 7,676 m of the line, by hand.
+TEST(MadeTerrain, APlaneRisesAsItsWordsSay) {
+    const auto profile =
+        object_said_by({"profile", "made:plane?H=0:1000&azimuth=90&length=10000&box=8.4,46.4,8.6,46.6",
+                        "--along", "46.5,8.45;46.5,8.55", "--json"});
+    EXPECT_NEAR(profile["ascent_m"].get<double>(), 767.6, 0.1) << profile.dump();
+    EXPECT_NEAR(profile["descent_m"].get<double>(), 0.0, 1e-9);
+}
+
+TEST(MadeTerrain, IsDrawnAgainFromItsPictureAndBakedWhole) {
+    const fs::path folder = oro::test::scratch_folder();
+    const std::string picture = folder / "p.png", baked = folder / "b.oro";
+    const auto drawn = run_orograph({"shot", waves, "--size", "160x120", "--out", picture});
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    const auto again = run_orograph({"shot", "--view", picture});
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_NE(again.err.find("draws the same bytes"), std::string::npos) << again.err;
+    const auto bake = run_orograph({"bake", waves, "--out", baked});
+    ASSERT_EQ(bake.exit_code, 0) << bake.err;
+    const auto from_file = object_said_by({"info", baked, "--json"}),
+               made = object_said_by({"info", waves, "--json"});
+    ASSERT_EQ(made["sources"].size(), 1U) << made.dump();
+    EXPECT_EQ(from_file["sources"][0]["H_m"], made["sources"][0]["H_m"]);
+    EXPECT_EQ(made["sources"][0]["path"], waves);
+}
+
+// The cap of a sphere of 20 km hides what is beyond its horizon: from 10 m over its top the straight way to
+// the horizon is sqrt(2 * 20000 * 10 + 100) = 632.5 m, and 0.063 % of the Earth's curvature is beside that.
+TEST(MadeTerrain, FromTheTopOfASphereTheHorizonIsThatOfGeometry) {
+    const fs::path folder = oro::test::scratch_folder();
+    const std::string sphere = "made:sphere?radius=20000&H=-100:1500&spacing=0.5s&box=8.48,46.48,8.52,46.52";
+    const auto seen = object_said_by({"viewshed", sphere, "--at", "46.5,8.5", "--above", "10", "--radius",
+                                      "1", "--refraction", "0", "--out", folder / "s.tif", "--json"});
+    // Seen: a disc. The Earth's own curvature adds to the sphere's: 1 / (1 / 20000 + 1 / 6.378e6).
+    const double bent_m = 1.0 / (1.0 / 20000.0 + 1.0 / 6.378e6), reach_m = std::sqrt(2.0 * bent_m * 10.0);
+    EXPECT_NEAR(seen["seen_share"].get<double>(), reach_m * reach_m / 1e6, 0.02) << seen.dump();
+}
+
+}  // namespace

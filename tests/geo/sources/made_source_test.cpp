@@ -1,0 +1,175 @@
+// made: texts: what they say, what is refused, and the posts of such a source.
+#include "geo/sources/made_source.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <vector>
+
+#include "core/made/made_heights.h"
+#include "geo/sources/made_words.h"
+#include "geo/sources/source_words.h"
+#include "tests/geo/written_terrain.h"
+#include "tests/support/made_posts.h"
+
+namespace oro {
+namespace {
+
+using namespace test;
+
+TEST(MadeWords, SayWhatTheTerrainIs) {
+    const auto made = made_terrain_of(
+        "made:ridged?seed=7&octaves=5&H=-200.5:4000&spacing=3s&box=179,-17,-179,-16&gain=0.5&feature=1000");
+    ASSERT_TRUE(made.ok()) << made.error().line();
+    EXPECT_EQ(made->kind, MadeKind::ridged);
+    EXPECT_EQ(made->seed, 7U);
+    EXPECT_EQ(made->octaves, 5U);
+    EXPECT_EQ(made->gain, 500U);
+    EXPECT_EQ(made->low, -410624);  // -200.5 * 2048
+    EXPECT_EQ(made->high, 8192000);
+    EXPECT_EQ(made->posts_per_deg, 1200);
+    EXPECT_EQ(made->west, 179 * 1200);
+    EXPECT_EQ(made->east, 181 * 1200);
+    EXPECT_EQ(made->south, -17 * 1200);
+    EXPECT_EQ(made->rows(), 1201);
+    EXPECT_EQ(made->columns(), 2401);
+    EXPECT_EQ(made->cell_shift, 18U);  // 2^18 / 192 = 1365 m; 2^17 would be 683 m, farther by ratio
+
+    // Boxes that are off the posts go outwards to the next ones.
+    const auto off = made_terrain_of("made:fbm?spacing=1min&box=8.01,46.01,8.02,46.02");
+    ASSERT_TRUE(off.ok()) << off.error().line();
+    EXPECT_EQ(off->west, 480);
+    EXPECT_EQ(off->east, 482);
+    // Without a word: the Alps' cell, a second apart.
+    const auto plain = made_terrain_of("made:fbm");
+    ASSERT_TRUE(plain.ok());
+    EXPECT_EQ(plain->columns(), 3601);
+    EXPECT_EQ(plain->octaves, 9U);
+}
+
+const std::vector<const char*> no_terrains{"made:",
+                                           "made:foo",
+                                           "made:FBM",
+                                           "made:fbm?",
+                                           "made:fbm?seed=7&",
+                                           "made:fbm?&",
+                                           "made:fbm?seed",
+                                           "made:fbm?=3",
+                                           "made:fbm?seed=",
+                                           "made:fbm?seed=-1",
+                                           "made:fbm?seed=4294967296",
+                                           "made:fbm?seed=1.5",
+                                           "made:fbm?seed=1e99999",
+                                           "made:fbm?seed=7 ",
+                                           "made:fbm?seed=0x7",
+                                           "made:fbm?octaves=1000000000",
+                                           "made:fbm?octaves=0",
+                                           "made:fbm?octaves=nan",
+                                           "made:fbm?octaves=inf",
+                                           "made:fbm?octaves=24",
+                                           "made:fbm?feature=1&octaves=9",
+                                           "made:fbm?feature=0",
+                                           "made:fbm?gain=0.95",
+                                           "made:fbm?gain=nan",
+                                           "made:fbm?H=3",
+                                           "made:fbm?H=nan:3",
+                                           "made:fbm?H=4000:-200",
+                                           "made:fbm?H=0:0",
+                                           "made:fbm?H=0:9000",
+                                           "made:fbm?H=-inf:0",
+                                           "made:fbm?H=1:2:3",
+                                           "made:fbm?seed=1&seed=2",
+                                           "made:fbm?colour=red",
+                                           "made:fbm?azimuth=3",
+                                           "made:plane?seed=3",
+                                           "made:plane?azimuth=360",
+                                           "made:sine?length=0",
+                                           "made:cone?radius=1e99",
+                                           "made:cone?radius=0",
+                                           "made:sphere?radius=1000001",
+                                           "made:fbm?box=8,46,8,47",
+                                           "made:fbm?box=8,47,9,46",
+                                           "made:fbm?box=1,2,3",
+                                           "made:fbm?box=8,46,nan,47",
+                                           "made:fbm?box=0,0,9,91",
+                                           "made:fbm?box=0,0,181,1",
+                                           "made:fbm?box=",
+                                           "made:fbm?spacing=0.7s",
+                                           "made:fbm?spacing=0s",
+                                           "made:fbm?spacing=-1s",
+                                           "made:fbm?spacing=1",
+                                           "made:fbm?spacing=1m",
+                                           "made:fbm?spacing=1e308s",
+                                           "made:fbm?spacing=1e-300s",
+                                           "made:fbm?spacing=nans",
+                                           "made:fbm?spacing=s",
+                                           "made:fbm?spacing=2deg"};
+
+TEST(MadeWords, WhatIsNoTerrainIsRefusedInOneLine) {
+    for (const char* text : no_terrains) {
+        const auto made = made_terrain_of(text);
+        ASSERT_FALSE(made.ok()) << text;
+        EXPECT_EQ(made.error().kind, ErrorKind::usage) << text;
+        EXPECT_EQ(made.error().where, text);
+        EXPECT_EQ(made.error().line().find('\n'), std::string::npos) << text;
+        EXPECT_GT(made.error().what.size(), 10U) << text;
+    }
+}
+
+TEST(MadeSource, ItsPostsAreTheRegionsPosts) {
+    const std::string text = "made:fbm?seed=7&H=-200:4000&spacing=1s&box=8,46,8.2775,46.2775";
+    const auto region = opened(request_for({text}));
+    ASSERT_TRUE(region);
+    const std::vector<std::int32_t> steps = heights_of(made_example(MadeKind::fbm));
+    ASSERT_EQ(region->field.grid.rows(), 1000);
+    ASSERT_EQ(region->field.grid.columns(), 1000);
+    for (int row = 0; row < 1000; ++row)
+        for (int column = 0; column < 1000; ++column)
+            ASSERT_EQ(region->field.H_at_post_m(row, column),
+                      steps[static_cast<std::size_t>(row * 1000 + column)] / 2048.0);
+    ASSERT_EQ(region->sources.size(), 1U);
+    EXPECT_EQ(format_words(region->sources[0]), "made, not measured");
+    EXPECT_EQ(region->sources[0].path, text);
+    EXPECT_EQ(datum_words(region->sources[0].vertical_datum), "EGM96 height (made so)");
+    EXPECT_EQ(placement_words(region->sources[0]), "posts copied");
+    EXPECT_EQ(region->sources[0].voids, 0U);
+}
+
+// A part by --bbox has the posts that the whole has.
+TEST(MadeSource, APartHasThePostsOfTheWhole) {
+    const std::string text = "made:ridged?seed=3&spacing=3s&box=178,-1,-178,1";
+    RegionRequest request = request_for({text});
+    const auto whole = opened(request);
+    request.box = BoundingBox{179.5, -0.5, -179.5, 0.5};
+    const auto part = opened(request);
+    ASSERT_TRUE(whole && part);
+    EXPECT_EQ(part->field.grid.columns(), 1201);
+    for (int row = 0; row < part->field.grid.rows(); row += 7)
+        for (int column = 0; column < part->field.grid.columns(); column += 5)
+            ASSERT_EQ(part->field.H_at_post_m(row, column),
+                      whole->field.H_at_post_m(row + 600, column + 1800));
+}
+
+TEST(MadeSource, AWholeWorldGoesRoundTheEarth) {
+    const auto region = opened(request_for({"made:fbm?spacing=30min&box=-180,-90,180,90&feature=2000000"}));
+    ASSERT_TRUE(region);
+    EXPECT_EQ(region->field.grid.rows(), 361);
+    EXPECT_EQ(region->field.grid.columns(), 721);
+    EXPECT_TRUE(region->field.grid.wraps_longitude());
+    for (int row = 0; row < 361; ++row)
+        EXPECT_EQ(region->field.H_at_post_m(row, 0), region->field.H_at_post_m(row, 720));
+    for (int column = 1; column < 721; ++column)
+        EXPECT_EQ(region->field.H_at_post_m(0, column), region->field.H_at_post_m(0, 0));
+}
+
+// A file of that name is reached by ./made:..., and made terrain lies beside files.
+TEST(MadeSource, IsNoFile) {
+    const auto found = find_sources({"made:fbm"});
+    ASSERT_TRUE(found.ok());
+    ASSERT_EQ(found->size(), 1U);
+    EXPECT_TRUE(found->front().named);
+    EXPECT_FALSE(find_sources({"./made:fbm"}).ok());
+}
+
+}  // namespace
+}  // namespace oro
