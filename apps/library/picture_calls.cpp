@@ -331,13 +331,12 @@ Result<void> answer_panorama(const OpenRegion& open, const std::vector<std::stri
     oro::View view;
     oro::Region region = region_for_view(open);
     ORO_CHECK(oro::open_view_in_region(oro::view_options_of(options), open.request, view, region));
-    ORO_TRY(const auto on_summit, oro::asked_summit(options.view, region, view.exaggeration));
+    ORO_CHECK(oro::asked_summit(options.view, region, view.exaggeration));
     // view.mesh tells what is drawn from then on.
     if (const auto drawn = oro::draws_clusters(region, view); !drawn.ok()) return drawn.error();
     ORO_TRY(const oro::RegionCuts cuts, oro::cut_regions(region));
     ORO_TRY(const auto ground, oro::RegionGround::of(region, cuts, view.exaggeration));
-    std::string note;
-    ORO_CHECK(oro::set_frame(asked, ground->ground(), on_summit.has_value(), view, note));
+    ORO_CHECK(oro::set_frame(asked, ground->ground(), view));
     ORO_TRY(const oro::Style style, oro::style_of_panorama(view, region));
     ORO_TRY(const oro::PanoramaSheet laid, oro::lay_out(view, region, ground->ground()));
     ORO_CHECK(buffer.begin(laid.sheet.width_px, laid.sheet.height_px));

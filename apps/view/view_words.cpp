@@ -149,15 +149,23 @@ RegionOptions region_options_of(const View& view) {
     return options;
 }
 
+std::vector<std::string> words_of(const ViewOptions& options) {
+    return given_words(view_option_table(), options);
+}
+
+std::vector<std::string> words_of(const RegionOptions& options) {
+    RegionOptions named = options;
+    std::vector<std::string> words = std::exchange(named.paths, {});
+    for (std::string& word : given_words(region_option_table(), named)) words.push_back(std::move(word));
+    return words;
+}
+
 std::vector<std::string> look_words(const View& view) {
-    return given_words(view_option_table(), look_options_of(view));
+    return words_of(look_options_of(view));
 }
 
 std::vector<std::string> region_words(const View& view) {
-    RegionOptions options = region_options_of(view);
-    std::vector<std::string> words = std::exchange(options.paths, {});
-    for (std::string& word : given_words(region_option_table(), options)) words.push_back(std::move(word));
-    return words;
+    return words_of(region_options_of(view));
 }
 
 std::string shell_line(const std::vector<std::string>& words) {

@@ -15,6 +15,9 @@ ViewOptions look_options_of(const View& view);
 RegionOptions region_options_of(const View& view);
 
 // The words that give these options: {"--style", "plain", "--tau", "0.5"}; paths come first.
+std::vector<std::string> words_of(const ViewOptions& options);
+std::vector<std::string> words_of(const RegionOptions& options);
+// The same of a view.
 std::vector<std::string> look_words(const View& view);
 std::vector<std::string> region_words(const View& view);
 // Words as a line for a shell: what it would change stands in single quotes.

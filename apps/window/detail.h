@@ -7,8 +7,8 @@
 namespace oro {
 
 // How a frame is drawn: `scale` times as many pixels a side as the window has, and tau_factor times the
-// view's tau, of these pixels; with shadows and trees, and with each pixel the mean of what it covers, where the
-// view has it so.
+// view's tau, of these pixels; with shadows and trees, and with each pixel the mean of what it covers, where
+// the view has it so.
 struct DetailStep {
     double scale{1.0};
     double tau_factor{1.0};
@@ -18,8 +18,8 @@ struct DetailStep {
 };
 
 // From all of it to the least. Every step takes about two thirds of the pixels of the one before it, and the
-// last two leave shadows and trees out, and then means of pixels: where a processor draws, far ground takes most of a
-// frame by them.
+// last two leave shadows and trees out, and then means of pixels: where a processor draws, far ground takes
+// most of a frame by them.
 inline constexpr std::array<DetailStep, 9> detail_steps{{{1.0, 1.0},
                                                          {1.0, 2.0},
                                                          {0.8, 2.0},

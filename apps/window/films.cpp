@@ -1,9 +1,12 @@
 #include "apps/window/films.h"
 
+#include <cmath>
 #include <filesystem>
+#include <string_view>
 #include <utility>
 
 #include "apps/commands/film/film_path.h"
+#include "apps/commands/film/movie.h"
 #include "apps/commands/film/track_keys.h"
 #include "apps/eye/standpoint.h"
 #include "apps/film/film_keys.h"
@@ -14,6 +17,7 @@
 #include "apps/report/figures.h"
 #include "apps/view/view_words.h"
 #include "apps/window/viewer.h"
+#include "apps/window/window_start.h"
 #include "core/base/files_read.h"
 #include "geo/files/letter_case.h"
 #include "geo/files/whole_file.h"
@@ -21,7 +25,7 @@
 namespace oro {
 namespace {
 
-constexpr Limits walk_speed_m_s{0.1, 1e5}, walk_ahead_m{1.0, 1e5};
+constexpr Limits walk_speed_m_s{0.1, 1e5}, walk_ahead_m{1.0, 1e5}, walk_above_m{eye_clearance_m, 1e5};
 constexpr double walk_smoothing_m = 10.0;
 
 void follow(Viewer& viewer, const LineAlong& line, const std::string& name) {
@@ -37,9 +41,10 @@ void follow(Viewer& viewer, const LineAlong& line, const std::string& name) {
 Result<std::vector<CameraKey>> keys_of_walk(const LineAlong& line, const LineWalk& walk, const Region& region,
                                             double exaggeration, double vertical_fov_deg) {
     ORO_CHECK(within("speed", walk.speed_m_s, walk_speed_m_s));
+    ORO_CHECK(within("height over the ground", walk.above_m, walk_above_m));
     ORO_CHECK(within("way ahead", walk.ahead_m, walk_ahead_m));
     TrackFlight flight;
-    flight.above_m = eye_clearance_m;
+    flight.above_m = walk.above_m;
     flight.smoothing_m = walk_smoothing_m;
     flight.look_ahead_m = walk.ahead_m;
     flight.duration_s = line.distances_m.back() / walk.speed_m_s;
@@ -100,6 +105,28 @@ void save_film(Viewer& viewer) {
     const Result<void> written = write_whole_file(film.file, text, film.file == film.own_file);
     if (written.ok()) film.own_file = film.file;
     tell_written(viewer, film.file, written);
+}
+
+void draw_film(Viewer& viewer) {
+    const Film& film = viewer.film;
+    if (film.keys.size() < 2) return tell(viewer, "a film needs two views at least: add another one", true);
+    const std::string keys = free_picture_name(time_now_s(), "-film.json");
+    const std::string stem = keys.substr(0, keys.size() - std::string_view(".json").size());
+    const Result<void> written = write_whole_file(keys, keys_to_json(film.keys), false);
+    if (!written.ok()) return tell_written(viewer, keys, written);
+    CommandToBegin command;
+    command.what = "the film";
+    const bool is_movie = ffmpeg_in_path(stem + ".mp4").ok();
+    command.out = stem + (is_movie ? ".mp4" : "-frames");
+    command.folder_of_frames = is_movie ? command.out + ".frames" : command.out;
+    const double length_s = film.keys.back().time_s - film.keys.front().time_s;
+    command.frames = static_cast<std::size_t>(std::floor(length_s * film.fps + 1e-6)) + 1;
+    command.words = {"film", keys};
+    for (const auto& part : {region_words(viewer.view), look_words(viewer.view)})
+        command.words.insert(command.words.end(), part.begin(), part.end());
+    command.words.insert(command.words.end(),
+                         {"--fps", all_digits(film.fps), "--out", command.out, "--quiet"});
+    begin_command(viewer, std::move(command));
 }
 
 void follow_file(Viewer& viewer, const std::string& file, int line) {

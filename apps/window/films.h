@@ -18,6 +18,7 @@ struct Viewer;
 struct LineWalk {
     double speed_m_s{10.0};
     double ahead_m{60.0};  // where they look: so far along the line
+    double above_m{1.7};   // the eye over the ground
 };
 
 // What its user makes.
@@ -27,7 +28,8 @@ struct Film {
     std::string file{"film.json"};  // that is opened, and saved to
     std::string own_file{};         // that was opened or saved last: it may be written anew
     LineWalk walk{};
-    int line{1};  // of a file with several
+    int line{1};       // of a file with several
+    double fps{25.0};  // of the film that is drawn
 };
 
 // The path of somebody who follows a line, a person's eye over the ground, as keys_along_track() makes it.
@@ -43,6 +45,9 @@ void add_shown_view(Viewer& viewer);
 void play_film(Viewer& viewer, std::size_t from);
 // Opens the file that the film names; what is wrong with it is told, and the keys stay.
 void open_film(Viewer& viewer);
+// Saves the keys under a name of its own, and begins `orograph film` with them, beside the window: a movie
+// where ffmpeg is there, else a folder of frames. What goes wrong is told.
+void draw_film(Viewer& viewer);
 // Saves the keys there: as KML where its name says so, else as JSON. What goes wrong is told.
 void save_film(Viewer& viewer);
 // Follows a line of a vector file, by its number from 1; or the line that was measured.

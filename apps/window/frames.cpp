@@ -186,13 +186,17 @@ gpu::FrameStyle style_at(gpu::FrameStyle style, const DetailStep& step) {
         style.shadows = 0;
         style.materials.on &= ~gpu::materials_with_trees;
     }
-    if (!step.means) style.footprint = gpu::footprint_point;
+    if (!step.means) {
+        style.footprint = gpu::footprint_point;
+        style.sky_openness = 0;
+    }
     return style;
 }
 
 void require_fields(Scene& scene, const gpu::FrameStyle& style, const DetailStep& step) {
-    scene.require_fields(style);
-    scene.set_trees((style_at(style, step).materials.on & gpu::materials_with_trees) != 0);
+    const gpu::FrameStyle at_step = style_at(style, step);
+    scene.require_fields(at_step);
+    scene.set_trees((at_step.materials.on & gpu::materials_with_trees) != 0);
 }
 
 Camera scaled_camera(const Camera& camera, double scale) {
@@ -243,6 +247,7 @@ Result<bool> draw_frame(Viewer& viewer, bool& changed) {
     viewer.is_settled = false;
     ORO_CHECK(draw_planned(viewer, std::move(plan), frame));
     viewer.has_picture = true;
+    viewer.is_outdated = false;
     if (viewer.kept.handle) ORO_CHECK(finish_frames(viewer));
     viewer.kept = {};
     viewer.part = {static_cast<std::uint32_t>(camera.width_px), static_cast<std::uint32_t>(camera.height_px)};

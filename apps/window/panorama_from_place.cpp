@@ -39,7 +39,7 @@ Result<DrawnPanorama> drawn_panorama(View view, const AskedFrame& asked, const R
     if (const auto clusters = draws_clusters(region, view); !clusters.ok()) return clusters.error();
     progress(0.0, "looking around");
     ORO_TRY(const auto ground, RegionGround::of(region, cuts, view.exaggeration));
-    ORO_CHECK(set_frame(asked, ground->ground(), false, view, drawn.note));
+    ORO_TRY(drawn.leaves_out_near, set_frame(asked, ground->ground(), view));
     ORO_TRY(drawn.style, style_of_panorama(view, region));
     ORO_TRY(drawn.laid, lay_out(view, region, ground->ground()));
     if (drawing.stop.stop_requested()) return Error{ErrorKind::failed, "", "stopped"};

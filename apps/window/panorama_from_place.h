@@ -28,7 +28,7 @@ struct DrawnPanorama {
     Style style;
     PanoramaSheet laid;
     CylinderPicture scene;
-    std::string note;               // what its user must know of its elevations; "": nothing
+    bool leaves_out_near{};         // ground close to the eye stands higher than is shown
     std::vector<std::uint8_t> rgb;  // the sheet's rows
 };
 

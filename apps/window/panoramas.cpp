@@ -42,7 +42,9 @@ void take_panorama(Viewer& viewer) {
     around.picture = nullptr;
     around.zoom = 1.0;
     around.middle_x = around.middle_y = 0.5;
-    tell(viewer, around.drawn->note.empty() ? "the panorama is drawn" : "note: " + around.drawn->note);
+    tell(viewer, around.drawn->leaves_out_near
+                     ? "ground beside the eye stands higher than is shown: raise the eye to look over it"
+                     : "the panorama is drawn");
 }
 
 void save_panorama(Viewer& viewer, const std::string& ending) {

@@ -40,8 +40,8 @@ Result<OpenedRegion> RegionOpening::wait() {
 Result<OpenedRegion> RegionOpening::read(OpenedRegion opened) {
     if (opened.project) opened.view = opened.project->view;
     ORO_CHECK(open_flight(
-        opened.options, [this](double share, const std::string& what) { tell(share, what); },
-        opened.view, opened.region));
+        opened.options, [this](double share, const std::string& what) { tell(share, what); }, opened.view,
+        opened.region));
     ORO_TRY(opened.cuts, cut_regions(opened.region));
     ORO_TRY(opened.pages, first_pages(opened.region, opened.cuts, opened.view,
                                       [this](double share) { tell(share, "measuring levels"); }));

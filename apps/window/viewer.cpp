@@ -127,7 +127,8 @@ std::string progress_words(const Viewer& viewer) {
     if (is_coarse(viewer)) return "loading full detail";
     if (viewer.two.work) return "preparing the second view";
     const bool lacks_second = viewer.two.second && viewer.two.second->is_missing;
-    return viewer.is_missing || lacks_second ? "loading" : "";
+    if (viewer.is_missing || lacks_second) return "loading";
+    return viewer.is_outdated ? "drawing" : "";
 }
 
 void tell(Viewer& viewer, const std::string& text, bool is_error) {

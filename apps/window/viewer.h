@@ -22,11 +22,13 @@
 #include "apps/search/search_index.h"
 #include "apps/settings/window_settings.h"
 #include "apps/view/style.h"
+#include "apps/window/begun_command.h"
 #include "apps/window/comparing.h"
 #include "apps/window/detail.h"
 #include "apps/window/films.h"
 #include "apps/window/jump.h"
 #include "apps/window/looking_around.h"
+#include "apps/window/maps.h"
 #include "apps/window/measure.h"
 #include "apps/window/panoramas.h"
 #include "apps/window/place_certificates.h"
@@ -168,9 +170,11 @@ struct Viewer {
     PanoramaAround panorama{};  // likewise
     TwoViews two{};             // likewise
     Comparing comparing{};      // likewise
+    BegunCommand begun{};       // a film or a map that is drawn beside the window
     bool leaves_tints_out{};    // of the ground, for a picture
     std::optional<SunClock> sun_clock{};
     std::optional<PictureChoice> picture_choice{};   // of the dialog
+    std::optional<MapChoice> map_choice{};           // likewise
     std::vector<std::vector<std::string>> recent{};  // what was opened last, each together
     std::string folder{};                            // that the panel of files lists
     std::optional<VectorChoices> vectors_known{};    // all files of names and lines, shown or not
@@ -188,6 +192,7 @@ struct Viewer {
     bool is_whole{};          // once all detail is
     bool is_exposed{};        // what the window shows was lost
     bool is_settled{};        // the picture that is shown is as fine as the view asks
+    bool is_outdated{};       // ... and is not what the user asks for now: another is about to be drawn
     bool waits_for_ground{};  // what is in view is not on the GPU yet
     Clock::time_point waiting_since{};
     bool has_picture{};  // the renderer's picture is drawn

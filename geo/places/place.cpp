@@ -192,13 +192,21 @@ Result<double> read_angle(const std::string& text, const std::string& token, Geo
     }
 }
 
+// The same two numbers with points in the place of decimal commas: "46,5 8" and "46,5, 8,0" have them.
+std::string with_points(const std::string& plain) {
+    static const std::regex numbers("([+-]?[0-9]+),([0-9]+)[ ,;/]+([+-]?[0-9]+),([0-9]+)");
+    std::smatch found;
+    if (!std::regex_match(plain, found, numbers)) return "46.5763,7.9904";
+    return found[1].str() + "." + found[2].str() + "," + found[3].str() + "." + found[4].str();
+}
+
 Result<std::pair<std::string, std::string>> two_parts(const std::string& text, const std::string& plain) {
     const auto commas = std::count(plain.begin(), plain.end(), ',');
     const std::string decimal_hint = "; if the commas are decimal marks, write points: 46.5763,7.9904";
     static const std::regex decimal_commas("[+-]?[0-9]+,[0-9]+[ ;/]+[+-]?[0-9]+,[0-9]+");
     if (commas >= 2) {
         if (commas == 3 || std::regex_match(plain, decimal_commas))
-            return refused(text, "has decimal commas; write points: 46.5763,7.9904");
+            return refused(text, "has decimal commas; write points: " + with_points(plain));
         return refused(
             text, "has more than two numbers (with a height, write geo:46.5763,7.9904,1034)" + decimal_hint);
     }

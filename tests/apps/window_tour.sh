@@ -61,7 +61,7 @@ points 480 300; xdotool click 3; sleep 1; rests place; press Escape
 panel() { clicks "$2" 27; points 900 480; rests "$1"; press Escape; }
 panel layers 344; panel sun 395; panel statistics 687; panel picture 618
 clicks 452 27; clicks 560 330; clicks 640 300; clicks 720 350; points 900 480; rests measured; press Escape Escape
-clicks 511 27; clicks 70 130; clicks 70 130; points 900 480; rests film; press Escape
+clicks 511 27; clicks 70 95; clicks 70 95; points 900 480; rests film; press Escape
 points 480 300; xdotool click 3; sleep 1; clicks 694 140; points 900 480; rests viewshed; press Escape Escape
 points 480 300; xdotool click 3; sleep 1; clicks 804 140; points 900 480; rests panorama; press Escape Escape
 # A cursor blinks.

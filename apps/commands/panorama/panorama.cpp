@@ -46,6 +46,14 @@ Result<void> check_words(const PanoramaOptions& options) {
     return check_panorama_view(options);
 }
 
+// Data are lower than a summit is, and its place in them is another: an eye may come to stand beside it.
+std::string note_of_skyline(bool is_on_summit) {
+    const std::string note =
+        "ground within 250 m of the eye stands higher than is shown: --elevation shows it, ";
+    if (is_on_summit) return note + "and a larger --above looks over it";
+    return note + "a larger --above looks over it, and --on-summit stands on the highest post nearby";
+}
+
 void say_notes_of(const PanoramaOptions& options, const PanoramaReport& report) {
     say_notes(report.region, options.quiet);
     say_summit(report.on_summit, options.quiet);
@@ -97,12 +105,11 @@ Result<void> run_panorama(const PanoramaOptions& options) {
     const auto looking = Clock::now();
     ORO_TRY(const RegionCuts cuts, cut_regions(report.region));
     ORO_TRY(const auto ground, RegionGround::of(report.region, cuts, view.exaggeration));
-    std::string note;
-    ORO_CHECK(set_frame(asked, ground->ground(), report.on_summit.has_value(), view, note));
+    ORO_TRY(const bool leaves_out_near, set_frame(asked, ground->ground(), view));
     ORO_TRY(const Style style, style_of_panorama(view, report.region));
     bar.clear();
     say_notes_of(options, report);
-    if (!note.empty()) say(options.quiet, "note: " + note);
+    if (leaves_out_near) say(options.quiet, "note: " + note_of_skyline(report.on_summit.has_value()));
     ORO_TRY(report.laid, lay_out(view, report.region, ground->ground()));
     report.layout_s = seconds_since(looking);
     const auto drawing = Clock::now();

@@ -21,19 +21,10 @@ constexpr double usual_px_per_deg = 20.0;
 // Of a scene: it is held as a whole, 3 bytes each.
 constexpr double most_scene_pixels = 2.0e8;
 
-// Data are lower than a summit is, and its place in them is another: an eye may come to stand beside it.
-std::string note_of_skyline(const Elevations& found, bool is_on_summit) {
-    if (!found.leaves_out_near) return "";
-    const std::string note =
-        "ground within 250 m of the eye stands higher than is shown: --elevation shows it, ";
-    if (is_on_summit) return note + "and a larger --above looks over it";
-    return note + "a larger --above looks over it, and --on-summit stands on the highest post nearby";
-}
-
 }  // namespace
 
-Result<void> set_frame(const AskedFrame& asked, const TrueGround& ground, bool is_on_summit, View& view,
-                       std::string& note) {
+Result<bool> set_frame(const AskedFrame& asked, const TrueGround& ground, View& view) {
+    bool leaves_out_near = false;
     PanoramaFrame frame = view.panorama.value_or(PanoramaFrame{});
     if (asked.sector) {
         frame.from_deg = asked.sector->first;
@@ -47,7 +38,7 @@ Result<void> set_frame(const AskedFrame& asked, const TrueGround& ground, bool i
                                                 frame.sweep_deg, thread_count());
         frame.low_deg = found.low_deg;
         frame.high_deg = found.high_deg;
-        note = note_of_skyline(found, is_on_summit);
+        leaves_out_near = found.leaves_out_near;
     }
     frame.ridges = asked.ridges.value_or(frame.ridges);
     Camera& camera = view.camera;
@@ -69,7 +60,7 @@ Result<void> set_frame(const AskedFrame& asked, const TrueGround& ground, bool i
             "makes a scene of " + std::to_string(around.width_px) + " x " +
                 std::to_string(around.height_px()) +
                 " pixels, more than 200,000,000 or 65,500 rows: give a smaller one, or fewer --elevation");
-    return {};
+    return leaves_out_near;
 }
 
 Result<Style> style_of_panorama(const View& view, const Region& region) {

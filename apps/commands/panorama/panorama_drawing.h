@@ -24,11 +24,10 @@ struct AskedFrame {
     std::optional<bool> ridges;
 };
 
-// Completes the view's frame and its camera, which stands for the scene until the sheet is laid out. note:
-// what the user must know of elevations that were found, "" for nothing. Errors (usage): a scene of too many
-// pixels.
-Result<void> set_frame(const AskedFrame& asked, const TrueGround& ground, bool is_on_summit, View& view,
-                       std::string& note);
+// Completes the view's frame and its camera, which stands for the scene until the sheet is laid out. Gives
+// whether ground close to the eye stands higher than the elevations that were found. Errors (usage): a scene
+// of too many pixels.
+Result<bool> set_frame(const AskedFrame& asked, const TrueGround& ground, View& view);
 // A style is chosen for what a part of the cylinder shows on a plane. Errors: those of load_style().
 Result<Style> style_of_panorama(const View& view, const Region& region);
 

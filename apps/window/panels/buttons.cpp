@@ -28,7 +28,7 @@ void panel_button(Viewer& viewer, const PanelButton& button) {
     if (was_open) ImGui::PushStyleColor(ImGuiCol_Text, interface_colour::accent);
     if (ImGui::Button(button.words)) viewer.panels.toggle(button.is_open);
     if (was_open) ImGui::PopStyleColor();
-    tip(button.tip);
+    tip_below(button.tip);
 }
 
 }  // namespace

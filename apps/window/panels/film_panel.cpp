@@ -100,6 +100,25 @@ void keep_film(Viewer& viewer) {
     tip("The line for a shell that draws the film of that file as this window looks now");
 }
 
+// Draws what the keys say, here.
+void draw_button(Viewer& viewer) {
+    if (viewer.film.keys.size() < 2) return;
+    ImGui::BeginDisabled(viewer.begun.work != nullptr);
+    if (ImGui::Button("Draw the film"))
+        viewer.wishes.push_back([](Viewer& v) {
+            draw_film(v);
+            return Result<void>();
+        });
+    ImGui::EndDisabled();
+    tip("Into the working folder: a movie where ffmpeg is there, else a folder of pictures. The window goes "
+        "on "
+        "meanwhile");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(scaled_px(70.0F));
+    if (ImGui::InputDouble("frames a second", &viewer.film.fps, 0.0, 0.0, "%.4g"))
+        viewer.film.fps = std::clamp(viewer.film.fps, 0.01, 1000.0);
+}
+
 void choose_walk(Viewer& viewer) {
     LineWalk& walk = viewer.film.walk;
     ImGui::SetNextItemWidth(scaled_px(70.0F));
@@ -109,13 +128,17 @@ void choose_walk(Viewer& viewer) {
     ImGui::SetNextItemWidth(scaled_px(70.0F));
     ImGui::InputDouble("m ahead", &walk.ahead_m, 0.0, 0.0, "%.4g");
     tip("What is looked at: the ground of the line, so far ahead");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(scaled_px(70.0F));
+    ImGui::InputDouble("m up", &walk.above_m, 0.0, 0.0, "%.4g");
+    tip("How high the eye is over the ground: 1.7 is a person's; coarse data look better from 50");
     const auto follow_button = [&](const std::string& words, auto wish) {
         if (ImGui::Button(words.c_str()))
             viewer.wishes.push_back([wish](Viewer& v) {
                 wish(v);
                 return Result<void>();
             });
-        tip("The eye goes along it, 1.7 m over the ground. Any key stops");
+        tip("The eye goes along it, so high over the ground. Any key stops");
     };
     bool any = false;
     if (viewer.measuring.found.profile) {
@@ -143,7 +166,7 @@ void build_film_panel(Viewer& viewer) {
     bool& is_open = viewer.panels.film;
     if (!is_open) return;
     if (begin_panel("Film", is_open, PanelCorner::upper_left, 470.0F)) {
-        list_keys(viewer);
+        // Above the list, which grows with each: the button stays where it is.
         if (ImGui::Button("Add this view")) add_shown_view(viewer);
         ImGui::SameLine();
         ImGui::SetNextItemWidth(scaled_px(70.0F));
@@ -160,6 +183,8 @@ void build_film_panel(Viewer& viewer) {
             ImGui::SameLine();
             if (ImGui::Button("Clear")) viewer.film.keys.clear();
         }
+        list_keys(viewer);
+        draw_button(viewer);
         keep_film(viewer);
         heading("Follow a line");
         choose_walk(viewer);

@@ -52,8 +52,14 @@ void value_line(const char* name, const std::string& value, const char* tip_text
     ImGui::PopID();
 }
 
-void tip(const char* text) {
+void tip_below(const char* text) {
     if (!ImGui::IsItemHovered()) return;
+    ImGui::SetNextWindowPos({ImGui::GetItemRectMin().x, ImGui::GetItemRectMax().y + scaled_px(10.0F)});
+    tip(text);
+}
+
+void tip(const char* text) {
+    if (!ImGui::IsItemHovered() || ImGui::IsAnyItemActive()) return;
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(scaled_px(340.0F));
     ImGui::TextUnformatted(text);

@@ -22,8 +22,10 @@ bool begin_area(const char* name, ImVec2 at_px, ImVec2 pivot, bool with_paper = 
 // A line of two columns, whose value is copied by a click; tip: what the value means, "" for none. Both
 // columns say it.
 void value_line(const char* name, const std::string& value, const char* tip = "");
-// Lets what was built last have a tooltip.
+// Lets what was built last have a tooltip, but not while something is typed or held.
 void tip(const char* text);
+// The same below it, where its neighbours are beside it.
+void tip_below(const char* text);
 // A button that copies a text, and says so.
 void copy_button(Viewer& viewer, const char* words, const std::string& text);
 // The area that is being built is above all panels.

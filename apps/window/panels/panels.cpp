@@ -33,7 +33,10 @@ void build_panels(Viewer& viewer) {
     build_home_arrow(viewer);
     build_legend(viewer);
     build_toasts(viewer);
-    if (viewer.opening) build_opening_bar(*viewer.opening);
+    if (viewer.opening)
+        build_opening_bar(*viewer.opening);
+    else
+        build_command_bar(viewer);
     build_messages_panel(viewer);
     build_layers_panel(viewer);
     build_sun_panel(viewer);

@@ -21,6 +21,7 @@ void build_legend(Viewer& viewer);             // what the colours of --show sta
 void build_toasts(Viewer& viewer);             // what was said just now
 bool has_toasts(const Viewer& viewer);
 void build_opening_bar(const RegionOpening& opening);  // how far a region is read
+void build_command_bar(Viewer& viewer);                // ... and how far a film or a map is drawn
 void build_messages_panel(Viewer& viewer);
 void build_keys_panel(Viewer& viewer);
 void build_layers_panel(Viewer& viewer);      // style, heights, names, lines, images, how frames are made

@@ -1,6 +1,9 @@
+#include <imgui_stdlib.h>
+
 #include <algorithm>
 #include <array>
 
+#include "apps/window/maps.h"
 #include "apps/window/panels/panel_parts.h"
 #include "apps/window/panels/panels.h"
 #include "apps/window/pictures.h"
@@ -29,6 +32,44 @@ void samples_choice(PictureChoice& choice) {
     tip("Of a pixel: more are smoother, and take as many times as long");
 }
 
+// A map of what is seen, drawn beside the window.
+void map_choice(Viewer& viewer) {
+    heading("A map of it");
+    if (!viewer.map_choice) {
+        // What is seen is looked for once, and again at a press of the button.
+        viewer.map_choice = MapChoice{};
+        viewer.wishes.push_back(propose_map);
+    }
+    MapChoice& choice = *viewer.map_choice;
+    ImGui::SetNextItemWidth(scaled_px(230.0F));
+    ImGui::InputText("##box", &choice.box);
+    tip("West, south, east, north, in degrees: the ground that is seen, without what is very far");
+    ImGui::SameLine();
+    if (ImGui::Button("What is seen")) viewer.wishes.push_back(propose_map);
+    tip("Finds the box of the ground that is in the picture now");
+    ImGui::SetNextItemWidth(scaled_px(70.0F));
+    if (ImGui::InputDouble("m a pixel", &choice.resolution_m, 0.0, 0.0, "%.4g"))
+        choice.resolution_m = std::clamp(choice.resolution_m, 0.0, 1.0e5);
+    tip("0 takes about the distance of the data's posts");
+    ImGui::SameLine();
+    ImGui::Checkbox("contour lines", &choice.contours);
+    tip("In place of the colours of this picture");
+    for (const char* const ending : {".tif", ".png"}) {
+        if (ImGui::RadioButton(ending == std::string(".tif") ? "GeoTIFF" : "png", choice.ending == ending))
+            choice.ending = ending;
+        ImGui::SameLine();
+    }
+    ImGui::BeginDisabled(viewer.begun.work != nullptr || choice.box.empty());
+    if (ImGui::Button("Draw the map"))
+        viewer.wishes.push_back([choice](Viewer& v) {
+            draw_map(v, choice);
+            return Result<void>();
+        });
+    ImGui::EndDisabled();
+    tip("From straight above, into the working folder, with its place for every GIS. The window goes on "
+        "meanwhile");
+}
+
 }  // namespace
 
 void build_picture_panel(Viewer& viewer) {
@@ -36,12 +77,13 @@ void build_picture_panel(Viewer& viewer) {
     const Camera& camera = viewer.view.camera;
     if (!is_open) {
         viewer.picture_choice.reset();
+        viewer.map_choice.reset();
         return;
     }
     if (!viewer.picture_choice)
         viewer.picture_choice = PictureChoice{camera.width_px, camera.height_px, viewer.view.samples, ".png"};
     PictureChoice& choice = *viewer.picture_choice;
-    if (begin_panel("Picture", is_open, PanelCorner::middle, 340.0F)) {
+    if (begin_panel("Picture", is_open, PanelCorner::middle, 380.0F)) {
         std::array<int, 2> size{choice.width_px, choice.height_px};
         ImGui::SetNextItemWidth(scaled_px(160.0F));
         if (ImGui::InputInt2("pixels", size.data())) {
@@ -63,6 +105,7 @@ void build_picture_panel(Viewer& viewer) {
         ImGui::SameLine();
         copy_button(viewer, "Copy the command", command_line_of(viewer.view, choice));
         tip("The lines for a shell that draw this very picture, to the byte");
+        map_choice(viewer);
     }
     ImGui::End();
 }

@@ -5,6 +5,7 @@
 
 #include "apps/report/json_text.h"
 #include "apps/window/changes.h"
+#include "apps/window/motion.h"
 #include "apps/window/panels/panel_parts.h"
 #include "apps/window/panels/panels.h"
 #include "core/light/sun_position.h"
@@ -103,6 +104,17 @@ bool rises(SunClock& clock, std::int64_t midnight_utc_s, const Geodetic& place) 
     return chosen;
 }
 
+// Turns the eye to where the sun is, or to where it went down.
+void look_at_sun_button(Viewer& viewer, const SunPosition& sun) {
+    if (ImGui::Button("Look at the sun")) {
+        Camera there = viewer.view.camera;
+        there.attitude.heading_deg = sun.azimuth_deg;
+        there.attitude.pitch_deg = std::clamp(sun.elevation_deg, 0.0, 85.0);
+        fly_to(viewer, there, "Backspace goes back");
+    }
+    tip("Turns to it; at night to where it is below the horizon");
+}
+
 }  // namespace
 
 void build_sun_panel(Viewer& viewer) {
@@ -139,17 +151,22 @@ void build_sun_panel(Viewer& viewer) {
             changed = true;
         }
         tip("How many hours clocks there are ahead of UTC");
-        ImGui::SetNextItemWidth(-1.0F);
         char hour[20];
         std::snprintf(hour, sizeof hour, "%02d:%02d", clock.minute / 60, clock.minute % 60);
-        changed =
-            ImGui::SliderInt("##time", &clock.minute, 0, day_min - 1, hour, ImGuiSliderFlags_AlwaysClamp) ||
-            changed;
+        // Beside the slider, whose handle would lie over it.
+        ImGui::SetNextItemWidth(-scaled_px(52.0F));
+        changed = ImGui::SliderInt("##time", &clock.minute, 0, day_min - 1, "",
+                                   ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoInput) ||
+                  changed;
+        ImGui::SameLine();
+        ImGui::TextUnformatted(hour);
         const auto midnight = utc_time_from(clock.date + "T00:00Z");
         if (midnight.ok()) {
             const std::int64_t midnight_utc_s = *midnight - clock.zone_h * 3600;
             day_arc(clock, midnight_utc_s, viewer.view.camera.eye);
             changed = rises(clock, midnight_utc_s, viewer.view.camera.eye) || changed;
+            look_at_sun_button(viewer, sun_position(static_cast<double>(midnight_utc_s) + 60.0 * clock.minute,
+                                                    viewer.view.camera.eye));
         }
         if (changed && midnight.ok())
             viewer.wishes.push_back([time = time_of(clock)](Viewer& v) { return choose_sun(v, time); });

@@ -229,6 +229,14 @@ Result<void> show(Session& session, bool is_new) {
     return {};
 }
 
+// A picture of an eye that rests may take long: what is asked for is seen to be taken up before.
+Result<void> say_that_it_is_outdated(Session& session) {
+    Viewer& viewer = session.viewer;
+    if (is_moving(viewer) || !viewer.is_shown || viewer.is_outdated) return {};
+    viewer.is_outdated = true;
+    return show(session, true);
+}
+
 // Where another frame may follow at once, the last one is drawn beside it. Else nothing is left under way.
 Result<void> finish_turn(const Session& session) {
     Viewer& viewer = session.viewer;
@@ -263,7 +271,9 @@ Result<bool> turn(Session& session) {
     ORO_CHECK(session.interface.feed(input, build, take));
     ORO_CHECK(grant_wishes(viewer));
     if (viewer.leaves) return false;
+    const bool wants_another = viewer.wants_picture;
     advance_eye(viewer);
+    if (wants_another) ORO_CHECK(say_that_it_is_outdated(session));
     // Panels know that the pointer has come to them or left them once they have been shown again.
     const bool is_asked = session.looks_under_pointer || !input.events.empty();
     if (!is_moving(viewer) && (is_asked || session.frames_due > 0)) {

@@ -36,6 +36,10 @@ TEST(Films, SomebodyFollowsALineAtEyeHeight) {
     }
     EXPECT_FALSE(keys_of_walk(*line, {0.0, 60.0}, level_region(), 1.0, 40.0).ok());
     EXPECT_FALSE(keys_of_walk(*line, {10.0, 0.0}, level_region(), 1.0, 40.0).ok());
+    EXPECT_FALSE(keys_of_walk(*line, {10.0, 60.0, 1.0}, level_region(), 1.0, 40.0).ok());
+    const auto higher = keys_of_walk(*line, {10.0, 60.0, 50.0}, level_region(), 1.0, 40.0);
+    ASSERT_TRUE(higher.ok()) << higher.error().line();
+    EXPECT_NEAR(CameraPath(*higher).at(11.0).eye.h_m, 550.0, 0.01);
 }
 
 TEST(Films, TheCommandHasTheDataAndTheLooks) {

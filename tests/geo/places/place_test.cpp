@@ -187,6 +187,8 @@ INSTANTIATE_TEST_SUITE_P(
         // decimal commas
         Refusal{"46,5763 7,9904", "decimal commas"}, Refusal{"46,5763,7,9904", "decimal commas"},
         Refusal{"46,5763;7,9904", "decimal commas"}, Refusal{"46,5763, 7,9904", "decimal commas"},
+        Refusal{"46,5763 7,9904", "write points: 46.5763,7.9904"},
+        Refusal{"-33,9, 18,4", "write points: -33.9,18.4"},
         Refusal{"46,5763", "decimal mark"}, Refusal{"46°34,5'N 7°59,4'E", "decimal marks"},
         // tiles
         Refusal{"N90E000", "no such tile"}, Refusal{"S91E000", "no such tile"},
