@@ -34,7 +34,9 @@ Camera moved_level(const Camera& camera, const FlightStep& step, double reach_m)
 }  // namespace
 
 double flight_speed_m_s(double above_ground_m) {
-    return std::clamp(above_ground_m, 5.0, 5e6);
+    constexpr double low_m = 2000.0, share_above = 0.4;
+    const double over_low_m = std::max(0.0, above_ground_m - low_m);
+    return std::clamp(std::min(above_ground_m, low_m) + share_above * over_low_m, 5.0, 5e6);
 }
 
 Camera above_ground(const Camera& camera, const GroundHeightAt& ground_h_m) {

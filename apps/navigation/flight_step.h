@@ -20,7 +20,9 @@ struct FlightStep {
     double elapsed_s{};
 };
 
-// Metres per second over a ground that is this far below: the height itself, within 5 m/s and 5,000 km/s.
+// Metres per second over a ground that is this far below: the height itself up to 2 km, and 0.4 of what is
+// above that, so that what is in the middle of a view from high up stays in the picture for some seconds.
+// Within 5 m/s and 5,000 km/s.
 double flight_speed_m_s(double above_ground_m);
 
 // The camera after a step: moved along its heading over the ellipsoid (level flight, whatever the pitch),

@@ -45,7 +45,7 @@ void begin_command(Viewer& viewer, CommandToBegin command) {
                 };
             }
             ORO_CHECK(run_program("", command.words, wait));
-            return "wrote " + command.out;
+            return written_words(command.out);
         });
 }
 

@@ -127,7 +127,7 @@ Result<void> save_profile(Viewer& viewer, const std::string& ending) {
         tell(viewer, written.error());
         return {};
     }
-    tell(viewer, "wrote " + name);
+    tell(viewer, written_words(name));
     say(viewer.options.quiet, viewer.message);
     return {};
 }

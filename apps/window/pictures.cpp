@@ -48,7 +48,7 @@ Result<void> write_picture_of(Viewer& viewer, const PictureChoice& choice) {
     ORO_TRY(const auto strip, strip_of(view, viewer.region, viewer.style, middle));
     const auto written = write_picture(files, false, view, viewer.region, *ground, middle, viewer.gpu,
                                        *viewer.scene, viewer.style, strip, {});
-    tell(viewer, written.ok() ? "wrote " + files.picture : written.error().line(), !written.ok());
+    tell(viewer, written.ok() ? written_words(files.picture) : written.error().line(), !written.ok());
     say(viewer.options.quiet && written.ok(), viewer.message);
     if (!written.ok() || viewer.options.quiet) return {};
     ORO_TRY(const UnseenGround unseen, unseen_in(view, viewer.region, usual_unseen_ceiling_m));

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <system_error>
 
 #include "apps/eye/standpoint.h"
 #include "apps/report/progress_bar.h"
@@ -144,8 +146,15 @@ void tell(Viewer& viewer, const Error& why) {
     say(false, viewer.message);
 }
 
+std::string written_words(const std::string& file) {
+    std::error_code fault;
+    const std::filesystem::path folder = std::filesystem::current_path(fault);
+    if (fault || std::filesystem::path(file).is_absolute()) return "wrote " + file;
+    return "wrote " + file + " into " + folder.string();
+}
+
 void tell_written(Viewer& viewer, const std::string& file, const Result<void>& written) {
-    tell(viewer, written.ok() ? "wrote " + file : written.error().line(), !written.ok());
+    tell(viewer, written.ok() ? written_words(file) : written.error().line(), !written.ok());
 }
 
 void trace_state(Viewer& viewer) {

@@ -251,6 +251,8 @@ std::string progress_words(const Viewer& viewer);
 void tell(Viewer& viewer, const std::string& text, bool is_error = false);
 // The same of an error, which is printed, too.
 void tell(Viewer& viewer, const Error& why);
+// "wrote track.csv into /home/me": files of the working folder, which nobody sees who began with an icon.
+std::string written_words(const std::string& file);
 // Says that a file was written, or why not.
 void tell_written(Viewer& viewer, const std::string& file, const Result<void>& written);
 

@@ -22,6 +22,8 @@ Camera eye_at(double lat_deg, double lon_deg, double h_m, double heading_deg) {
 TEST(FlightStepping, SpeedFollowsTheHeightOverTheGround) {
     EXPECT_DOUBLE_EQ(flight_speed_m_s(2.0), 5.0);
     EXPECT_DOUBLE_EQ(flight_speed_m_s(300.0), 300.0);
+    EXPECT_DOUBLE_EQ(flight_speed_m_s(2000.0), 2000.0);
+    EXPECT_DOUBLE_EQ(flight_speed_m_s(12000.0), 6000.0);
     EXPECT_DOUBLE_EQ(flight_speed_m_s(1e9), 5e6);
 }
 
