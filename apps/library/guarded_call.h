@@ -36,6 +36,13 @@ Error bad_argument(const char* name, const std::string& what);
 Result<void> check_given(const char* name, const void* pointer);
 // That a structure of the caller's is as long as the first version of this interface has it, or longer.
 Result<void> check_size(const char* name, std::size_t size, std::size_t least);
+// Options of a caller, or the usual ones where it gives none. Errors: a structure that is too short.
+template <class Options>
+Result<Options> options_of(const Options* given, const Options& usual) {
+    if (given == nullptr) return usual;
+    ORO_CHECK(check_size("options", given->size, sizeof(Options)));
+    return *given;
+}
 // Errors: a latitude or longitude that is none; `name` with `number` where that is 0 or more.
 Result<void> check_place(const char* name, double lat_deg, double lon_deg, std::ptrdiff_t number = -1);
 

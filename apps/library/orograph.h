@@ -38,7 +38,7 @@ extern "C" {
 #endif
 
 /* The number of this interface. It grows when something is added; what is there stays as it is. */
-#define ORO_API_VERSION 1
+#define ORO_API_VERSION 2
 
 /*
  * Errors.
@@ -331,6 +331,49 @@ ORO_API oro_status oro_viewshed(oro_region region, size_t count, const oro_point
                                 const oro_viewshed_options* options, float* clearance_deficit_m,
                                 float* observers, size_t capacity, oro_window* window, oro_progress progress,
                                 void* user);
+
+/*
+ * Horizons. Since ORO_API_VERSION 2.
+ */
+
+/* How horizons are asked for. To be initialized with ORO_HORIZON_OPTIONS. */
+typedef struct oro_horizon_options {
+    size_t size;         /* The size of this structure. */
+    const char* bbox;    /* "west,south,east,north" in degrees: the posts that are asked; NULL: all of the grid
+                            that has the most. */
+    int directions;      /* Azimuths, evenly spaced clockwise from true north, 3 to 720. */
+    double radius_km;    /* Ground farther away does not count, 0.01 to 500. */
+    double above_m;      /* Of the eyes over the ground, 0 or more. */
+    int air;             /* ORO_AIR_... */
+    double refraction_k; /* The coefficient of refraction of ORO_AIR_CONSTANT, -1 to 0.9. */
+} oro_horizon_options;
+#define ORO_HORIZON_OPTIONS \
+    { sizeof(oro_horizon_options), NULL, 36, 50.0, 0.0, ORO_AIR_STANDARD, 0.13 }
+
+/*
+ * Writes which posts oro_horizon() with the same options answers for to *window, whose size the caller has
+ * set, and looks at nothing yet. `options` may be NULL. Errors: those of oro_horizon(), but for the buffers.
+ */
+ORO_API oro_status oro_horizon_window(oro_region region, const oro_horizon_options* options,
+                                      oro_window* window);
+
+/*
+ * Finds how high the horizon stands around the posts of the window of oro_horizon_window(), and how much of the
+ * sky they see, as `orograph horizon` does. The region must hold the ground within the radius around these
+ * posts: ground that it does not hold does not count.
+ *
+ * elevation_deg becomes the horizon's elevation over the level plane of each eye: all posts in the first
+ * azimuth, row by row, then all in the next one; it has room for directions times `capacity` values. sky_view
+ * becomes the sky-view factor of a level plane, 0 to 1, weighted by cosine, and has room for `capacity`
+ * values. Either may be NULL. A value is ORO_UNKNOWN for a void post and in an azimuth without ground.
+ * *window becomes what oro_horizon_window() writes, also where the room is too small (ORO_TOO_SMALL);
+ * afterwards window->known is the number of posts with a horizon, and window->seen of those with a sky-view
+ * factor. What a call that fails has written to the buffers is worth nothing. Errors: ORO_NO_DATA for a box
+ * without posts; ORO_USAGE for an option, and for more than 500,000,000 values.
+ */
+ORO_API oro_status oro_horizon(oro_region region, const oro_horizon_options* options, float* elevation_deg,
+                               float* sky_view, size_t capacity, oro_window* window, oro_progress progress,
+                               void* user);
 
 /*
  * Writes the CRS of a grid of the region, which a window names, as text for GDAL or PROJ: "EPSG:4326" with

@@ -25,14 +25,6 @@ using oro::Result;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr oro_position nowhere{none, none, none, none};
 
-// Options of a caller, or the usual ones where it gives none.
-template <class Options>
-Result<Options> options_of(const Options* given, const Options& usual) {
-    if (given == nullptr) return usual;
-    ORO_CHECK(oro::check_size("options", given->size, sizeof(Options)));
-    return *given;
-}
-
 oro_position position_of(const oro::SightGround& ground, const oro::Geodetic& point) {
     return {point.lat_deg, point.lon_deg, ground.H_m(point), point.h_m};
 }
@@ -61,7 +53,7 @@ Result<void> answer_sight(oro_region region, const oro_point* from, const oro_po
     ORO_CHECK(oro::check_given("to", to));
     ORO_CHECK(oro::check_given("answer", answer));
     ORO_CHECK(oro::check_size("answer", answer->size, sizeof(oro_sight_answer)));
-    ORO_TRY(const oro_sight_options options, options_of<oro_sight_options>(given, ORO_SIGHT_OPTIONS));
+    ORO_TRY(const oro_sight_options options, oro::options_of<oro_sight_options>(given, ORO_SIGHT_OPTIONS));
     ORO_TRY(const auto open, oro::region_of(region));
     const oro::SightGround& ground = *open->ground;
     ORO_TRY(const oro::Air air, oro::air_of(options.air, options.refraction_k));
@@ -84,7 +76,8 @@ struct AskedProfile {
 
 Result<AskedProfile> asked_profile(std::size_t places, const double* lat_deg, const double* lon_deg,
                                    const oro_profile_options* given) {
-    ORO_TRY(const oro_profile_options options, options_of<oro_profile_options>(given, ORO_PROFILE_OPTIONS));
+    ORO_TRY(const oro_profile_options options,
+            oro::options_of<oro_profile_options>(given, ORO_PROFILE_OPTIONS));
     ORO_CHECK(oro::check_given("lat_deg", lat_deg));
     ORO_CHECK(oro::check_given("lon_deg", lon_deg));
     constexpr std::size_t most_places = 10'000'000;
@@ -149,7 +142,7 @@ struct AskedViewshed {
 Result<AskedViewshed> asked_viewshed(oro_region region, std::size_t count, const oro_point* eyes,
                                      const oro_viewshed_options* given) {
     ORO_TRY(const oro_viewshed_options options,
-            options_of<oro_viewshed_options>(given, ORO_VIEWSHED_OPTIONS));
+            oro::options_of<oro_viewshed_options>(given, ORO_VIEWSHED_OPTIONS));
     ORO_CHECK(oro::check_given("eyes", eyes));
     constexpr std::size_t most_eyes = 1'000'000;
     if (count < 1 || count > most_eyes)

@@ -76,6 +76,7 @@ struct Arguments {
     oro_profile_sums sums{};
     std::array<oro_profile_point, 4> points{};
     oro_viewshed_options viewshed = ORO_VIEWSHED_OPTIONS;
+    oro_horizon_options horizon = ORO_HORIZON_OPTIONS;
     oro_window window{};
     oro_open_options open = ORO_OPEN_OPTIONS;
     std::array<float, 4> deficit_m{7.0F, 7.0F, 7.0F, 7.0F}, observers{8.0F, 8.0F, 8.0F, 8.0F};
@@ -88,6 +89,8 @@ struct Arguments {
         sums.size = sizeof sums;
         window.size = sizeof window;
         viewshed.radius_km = 0.5;
+        horizon.radius_km = 0.5;
+        horizon.bbox = "-84.26,36.54,-84.24,36.56";
         rgba.fill(9);
     }
     // That nothing was written.
@@ -315,6 +318,47 @@ std::vector<Call> calls_about_viewsheds() {
     };
 }
 
+oro_status look_at_horizons(Arguments& a) {
+    return oro_horizon(a.region, &a.horizon, a.deficit_m.data(), a.observers.data(), a.observers.size(),
+                       &a.window, nullptr, nullptr);
+}
+
+std::vector<Call> calls_about_horizons() {
+    return {
+        [](Arguments& a, Chance& c) { return a.region = c.bad_region(a.closed), look_at_horizons(a); },
+        // More posts than there is room for.
+        [](Arguments& a, Chance&) { return look_at_horizons(a); },
+        [](Arguments& a, Chance& c) {
+            return a.horizon.size = c.bad_size(sizeof a.horizon), look_at_horizons(a);
+        },
+        [](Arguments& a, Chance& c) {
+            return a.window.size = c.bad_size(sizeof a.window), look_at_horizons(a);
+        },
+        [](Arguments& a, Chance& c) {
+            const std::array<int, 5> bad{0, 2, -1, 721, std::numeric_limits<int>::max()};
+            return a.horizon.directions = bad[static_cast<std::size_t>(c.below(5))], look_at_horizons(a);
+        },
+        [](Arguments& a, Chance& c) {
+            const std::array<double, 5> bad{no_number, 0.0, -1.0, infinity, 500.1};
+            return a.horizon.radius_km = bad[static_cast<std::size_t>(c.below(5))], look_at_horizons(a);
+        },
+        [](Arguments& a, Chance& c) {
+            const std::array<double, 4> bad{no_number, -0.5, infinity, -infinity};
+            return a.horizon.above_m = bad[static_cast<std::size_t>(c.below(4))], look_at_horizons(a);
+        },
+        [](Arguments& a, Chance& c) { return a.horizon.air = -1 - c.below(9), look_at_horizons(a); },
+        [](Arguments& a, Chance& c) {
+            const std::array<const char*, 4> bad{"8,46,9,47", "1,2,3", "here", "0,91,1,92"};
+            return a.horizon.bbox = bad[static_cast<std::size_t>(c.below(4))], look_at_horizons(a);
+        },
+        [](Arguments& a, Chance&) { return oro_horizon_window(a.region, &a.horizon, nullptr); },
+        [](Arguments& a, Chance&) {
+            return oro_horizon(a.region, &a.horizon, nullptr, nullptr, 1U << 30U, &a.window, nullptr,
+                               nullptr);
+        },
+    };
+}
+
 template <class Draw>
 std::vector<Call> calls_about_pictures(Draw draw) {
     const auto with = [draw](std::vector<const char*> words) {
@@ -382,8 +426,8 @@ std::vector<Call> calls_about_layers() {
 std::vector<Call> all_calls() {
     std::vector<Call> calls = calls_about_regions();
     for (const auto& more :
-         {calls_about_sights(), calls_about_profiles(), calls_about_viewsheds(), calls_about_layers(),
-          calls_about_pictures(oro_shot), calls_about_pictures(oro_panorama)})
+         {calls_about_sights(), calls_about_profiles(), calls_about_viewsheds(), calls_about_horizons(),
+          calls_about_layers(), calls_about_pictures(oro_shot), calls_about_pictures(oro_panorama)})
         calls.insert(calls.end(), more.begin(), more.end());
     return calls;
 }
@@ -521,6 +565,7 @@ TEST(LibraryCalls, StructuresOfTheFirstVersionAreTaken) {
     EXPECT_EQ(offsetof(oro_profile_options, climb_threshold_m), 16U);
     EXPECT_EQ(offsetof(oro_profile_sums, lowest), 64U);
     EXPECT_EQ(offsetof(oro_viewshed_options, targets_on_canopy), 44U);
+    EXPECT_EQ(offsetof(oro_horizon_options, refraction_k), 48U);
     EXPECT_EQ(offsetof(oro_window, seen), 104U);
     EXPECT_EQ(offsetof(oro_layers, cover), 80U);
     const std::string path = (oro::test::bundled_data() / "jacksboro.tif").string();

@@ -97,6 +97,47 @@ class Heights(unittest.TestCase):
                 self.region.heights([36.55, lat], [-84.25, lon])
 
 
+class HorizonsOfRegions(unittest.TestCase):
+    BOX = "-84.26,36.54,-84.24,36.56"
+    ASK = {"directions": 8, "radius_km": 3.0, "above_m": 2.0}
+
+    def test_are_those_of_the_program(self):
+        try:
+            from osgeo import gdal
+        except ImportError:
+            self.skipTest("needs python3-gdal")
+        gdal.UseExceptions()
+        with tempfile.TemporaryDirectory() as folder, orograph.open(DATA) as region:
+            found = region.horizon(bbox=self.BOX, **self.ASK)
+            said = told("horizon", DATA, "--bbox=" + self.BOX, "--directions", 8, "--radius", 3, "--above", 2, "--out",
+                        Path(folder) / "h.tif")
+            rasters = [gdal.Open(str(Path(folder) / f"h.{kind}.tif")) for kind in ("horizon", "sky-view")]
+            # The program reads the part of the file that counts, and places it by another post: some 1e-8 degrees.
+            np.testing.assert_allclose(found.elevation_deg, rasters[0].ReadAsArray(), rtol=0.0, atol=1e-7)
+            np.testing.assert_allclose(found.sky_view, rasters[1].ReadAsArray(), rtol=0.0, atol=1e-8)
+            np.testing.assert_allclose(found.transform, rasters[0].GetGeoTransform(), rtol=1e-14)
+            self.assertEqual((found.known, found.with_sky_view), (said["posts"], said["posts_with_sky_view"]))
+
+    def test_go_into_arrays_of_the_caller_and_are_stopped(self):
+        with orograph.open(DATA) as region:
+            own = region.horizon(bbox=(-84.26, 36.54, -84.24, 36.56), **self.ASK)
+            mine = np.empty(own.elevation_deg.shape, np.float32), np.empty(own.sky_view.shape, np.float32)
+            again = region.horizon(bbox=self.BOX, out=mine, **self.ASK)
+            self.assertIs(again.elevation_deg, mine[0])
+            np.testing.assert_array_equal(mine[0], own.elevation_deg)
+            with self.assertRaises(orograph.CancelledError):
+                region.horizon(bbox=self.BOX, progress=lambda share, step: True, **self.ASK)
+
+    def test_refuse_what_means_nothing(self):
+        with orograph.open(DATA) as region:
+            for wrong in ({"directions": 2}, {"directions": 721}, {"radius_km": 0.0}, {"radius_km": math.nan},
+                          {"above_m": -1.0}, {"above_m": math.inf}, {"bbox": "1,2"}, {"air": 2.0}):
+                with self.assertRaises(orograph.UsageError, msg=wrong):
+                    region.horizon(**{**self.ASK, "bbox": self.BOX, **wrong})
+            with self.assertRaises(orograph.NoDataError):
+                region.horizon(bbox="8,46,9,47", **self.ASK)
+
+
 class Regions(unittest.TestCase):
     def test_tell_what_the_program_tells(self):
         with orograph.open(DATA) as region:

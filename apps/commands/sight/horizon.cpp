@@ -8,9 +8,9 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/sight/horizon_part.h"
+#include "apps/commands/sight/horizon_question.h"
 #include "apps/commands/sight/sight_ground.h"
 #include "apps/options/horizon_options.h"
-#include "apps/options/view_limits.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
@@ -29,11 +29,6 @@
 
 namespace oro {
 namespace {
-
-constexpr double usual_horizon_km = 50.0, least_horizon_km = 0.01, most_horizon_km = 500.0;
-constexpr int usual_directions = 36;
-// At 4 bytes each they take 2 GB.
-constexpr double most_values = 5.0e8;
 
 const std::string beyond_note =
     "the radius reaches beyond the data: ground there does not count, and horizons may be higher";
@@ -85,29 +80,6 @@ Result<RegionOptions> widened_region(const HorizonOptions& options, const std::o
     wide.bbox = all_digits(around.west_deg) + "," + all_digits(around.south_deg) + "," +
                 all_digits(around.east_deg) + "," + all_digits(around.north_deg);
     return wide;
-}
-
-// The grid with most posts in the box, and these.
-Result<std::pair<std::size_t, GridPart>> posts_of(const HorizonOptions& options,
-                                                  const std::optional<BoundingBox>& box,
-                                                  const SightGround& ground, int directions) {
-    std::pair<std::size_t, GridPart> most{};
-    for (std::size_t i = 0; i < ground.ground().grids(); ++i) {
-        const GridPart part = part_in_box(ground.ground().surface(i).field().grid, box);
-        if (part.count() > most.second.count()) most = {i, part};
-    }
-    const bool by_tile = options.region.bbox.empty();
-    if (most.second.count() == 0)
-        return Error{ErrorKind::no_data,
-                     by_tile ? "--tile " + options.region.tile : "--bbox " + options.region.bbox,
-                     "no elevation data there"};
-    const double values = static_cast<double>(most.second.count()) * directions;
-    if (values > most_values)
-        return refused("--directions", std::to_string(directions),
-                       "takes " + grouped(static_cast<std::uint64_t>(values)) + " values of " +
-                           counted(most.second.count(), "post", "posts") +
-                           ", more than 500,000,000: give fewer, or a smaller --bbox");
-    return most;
 }
 
 HorizonSums sums_of_horizons(const PostHorizons& found) {
@@ -212,26 +184,10 @@ void say_horizon_notes(const HorizonOptions& options, const SightGround& ground,
         say(options.quiet, "note: " + beyond_note);
 }
 
-Result<PostHorizonsRequest> request_from(const HorizonOptions& options) {
-    PostHorizonsRequest request;
-    const double radius_km = options.radius_km.value_or(usual_horizon_km);
-    if (!(radius_km >= least_horizon_km && radius_km <= most_horizon_km))
-        return refused("--radius", all_digits(radius_km), between_words(least_horizon_km, most_horizon_km));
-    ORO_CHECK(check_above("--above", options.above_m));
-    request.above_m = options.above_m.value_or(0.0);
-    if (request.above_m > view_limits::above_m.high)
-        return refused("--above", all_digits(request.above_m), between_words(0.0, view_limits::above_m.high));
-    request.radius_m = 1000.0 * radius_km;
-    request.directions = options.directions.value_or(usual_directions);
-    request.threads = thread_count();
-    ORO_TRY(request.air, air_asked_for(options.view.refraction_k, options.view.air, standard_air));
-    return request;
-}
-
 }  // namespace
 
 Result<void> run_horizon(const HorizonOptions& options) {
-    ORO_TRY(PostHorizonsRequest request, request_from(options));
+    ORO_TRY(PostHorizonsRequest request, horizon_request(options));
     ORO_TRY(const HorizonFiles files, files_to_write(options));
     ORO_TRY(const RegionRequest asked, region_request(options.region));
     ORO_TRY(const RegionOptions wide, widened_region(options, asked.box, request.radius_m));
@@ -241,16 +197,18 @@ Result<void> run_horizon(const HorizonOptions& options) {
             }));
     ORO_CHECK(spare_inputs({files.horizon, files.sky_view},
                            {files_of_ground(options.region.paths, ground->region)}));
-    ORO_TRY(const auto posts, posts_of(options, asked.box, *ground, request.directions));
-    request.part = posts.second;
+    const std::string where =
+        options.region.bbox.empty() ? "--tile " + options.region.tile : "--bbox " + options.region.bbox;
+    ORO_TRY(const HorizonPosts posts, horizon_posts(asked.box, where, ground->ground(), request.directions));
+    request.part = posts.part;
     const auto looking = Clock::now();
-    PostHorizons found = post_horizons(ground->ground(), posts.first, request,
+    PostHorizons found = post_horizons(ground->ground(), posts.grid, request,
                                        [&](double share) { bar.show(share, "looking around"); });
     const double looking_s = seconds_since(looking);
     ORO_CHECK(ground->ground().health());
     bar.show(1.0, "writing");
     const HorizonSums sums = sums_of_horizons(found);
-    const RegionGrid& grid = ground->grids->grid(posts.first);
+    const RegionGrid& grid = ground->grids->grid(posts.grid);
     ORO_CHECK(write_rasters(options, files, grid, request, found));
     bar.clear();
     say_horizon_notes(options, *ground, grid, request);

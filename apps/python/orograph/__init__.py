@@ -20,7 +20,7 @@ from pathlib import Path
 
 import numpy as np
 
-__all__ = ["AIR_STANDARD", "CancelledError", "Error", "NoDataError", "NoDeviceError", "Point", "Position", "Profile",
+__all__ = ["AIR_STANDARD", "CancelledError", "Error", "Horizons", "NoDataError", "NoDeviceError", "Point", "Position", "Profile",
            "Region", "Sight", "UNKNOWN", "UsageError", "Viewshed", "open", "version"]
 
 AIR_STANDARD = "standard"
@@ -85,6 +85,11 @@ Viewshed = namedtuple("Viewshed", ["clearance_deficit_m", "observers", "transfor
 Viewshed.__doc__ = """What is seen: two arrays of float32, rows from the north. A post is UNKNOWN in both where it is void
 or beyond the radius. `transform` is GDAL's, of the corner of the first cell; `crs` is its CRS."""
 
+Horizons = namedtuple("Horizons", ["elevation_deg", "sky_view", "transform", "crs", "known", "with_sky_view"])
+Horizons.__doc__ = """Horizons around posts: elevation_deg of the shape (azimuths, rows, columns) and sky_view (rows,
+columns), float32. Azimuths are evenly spaced clockwise from north. A value is UNKNOWN at a void post and in an azimuth
+without ground. `known` posts have a horizon, `with_sky_view` a sky-view factor."""
+
 POINT_TYPE = np.dtype([(name, np.float64) for name in ("distance_m", "lat_deg", "lon_deg", "H_m", "h_m")])
 
 
@@ -128,6 +133,11 @@ class _ProfileSums(ctypes.Structure):
 class _ViewshedOptions(ctypes.Structure):
     _fields_ = [("size", c_size_t), ("radius_km", c_double), ("target_m", c_double), ("air", c_int),
                 ("refraction_k", c_double), ("on_summit", c_int), ("targets_on_canopy", c_int)]
+
+
+class _HorizonOptions(ctypes.Structure):
+    _fields_ = [("size", c_size_t), ("bbox", c_char_p), ("directions", c_int), ("radius_km", c_double),
+                ("above_m", c_double), ("air", c_int), ("refraction_k", c_double)]
 
 
 class _Window(ctypes.Structure):
@@ -179,6 +189,9 @@ def _load():
                              sizes, POINTER(_ProfileSums)], c_int),
             ("oro_viewshed_window", [*eyes, POINTER(_Window)], c_int),
             ("oro_viewshed", [*eyes, c_void_p, c_void_p, c_size_t, POINTER(_Window), *progress], c_int),
+            ("oro_horizon_window", [c_uint64, POINTER(_HorizonOptions), POINTER(_Window)], c_int),
+            ("oro_horizon", [c_uint64, POINTER(_HorizonOptions), c_void_p, c_void_p, c_size_t, POINTER(_Window),
+                             *progress], c_int),
             ("oro_grid_crs", [c_uint64, c_size_t, c_char_p, c_size_t, sizes], c_int),
             ("oro_shot_layers", [c_uint64, c_size_t, texts, POINTER(_Layers), sizes, sizes, *progress], c_int),
             ("oro_shot", picture, c_int), ("oro_panorama", picture, c_int)]:
@@ -422,6 +435,25 @@ class Region:
             *self._viewshed_asked(eyes, radius_km, target_m, air, on_summit, targets_on_canopy), byref(window)))
         return window.rows, window.columns
 
+    def horizon(self, *, bbox=None, directions=36, radius_km=50.0, above_m=0.0, air=AIR_STANDARD, out=None,
+                progress=None):
+        """How high the horizon stands around the posts of a box (all of the region's without one), and how much of the
+        sky they see. Ground that the region does not hold does not count: open it wider than the box by the radius.
+        `out` may be two arrays of float32, of the shapes (directions, rows, columns) and (rows, columns)."""
+        law, k = _air(air)
+        options = _HorizonOptions(ctypes.sizeof(_HorizonOptions), _text(_box_text(bbox)), directions, radius_km,
+                                  above_m, law, k)
+        window = _Window(size=ctypes.sizeof(_Window))
+        _check(_library.oro_horizon_window(self._number, byref(options), byref(window)))
+        shape = (window.rows, window.columns)
+        elevation, sky = out or (None, None)
+        elevation = _buffer(elevation, (directions, *shape), np.float32)
+        sky = _buffer(sky, shape, np.float32)
+        _LongCall(progress).check(_library.oro_horizon, self._number, byref(options), _address(elevation),
+                                  _address(sky), sky.size, byref(window))
+        crs = _asked_text(lambda *room: _library.oro_grid_crs(self._number, window.grid, *room))
+        return Horizons(elevation, sky, tuple(window.transform), crs, window.known, window.seen)
+
     def _draw(self, call, words, progress, out):
         texts, count = _texts(words)
         width, height = c_size_t(), c_size_t()
@@ -469,17 +501,22 @@ class Region:
         return self._draw(_library.oro_panorama, _words(words, options), progress, out)
 
 
+def _box_text(bbox):
+    """A box as the program takes it: "west,south,east,north", from that or from four numbers."""
+    if bbox is None or isinstance(bbox, str):
+        return bbox
+    return ",".join(repr(float(side)) for side in bbox)
+
+
 def open(paths, *, bbox=None, tile=None, height_unit=None, source_crs=None, source_vertical=None, order=None,
          feather_m=0.0, strict_datum=False, fill_voids=False, resample=False, landcover=(), canopy=(),
          canopy_held=None, progress=None):
     """Opens elevation data in a file, a folder or an archive, or in several, as one region. Options are those of the
     program. `progress(share, step)` is told how far the reading is, and stops it by a true answer."""
     texts, count = _texts(paths)
-    if bbox is not None and not isinstance(bbox, str):
-        bbox = ",".join(repr(float(side)) for side in bbox)
     cover, cover_count = _texts(landcover)
     trees, trees_count = _texts(canopy)
-    options = _Options(ctypes.sizeof(_Options), _text(bbox), _text(tile), _text(height_unit), _text(source_crs),
+    options = _Options(ctypes.sizeof(_Options), _text(_box_text(bbox)), _text(tile), _text(height_unit), _text(source_crs),
                        _text(source_vertical), _text(order), feather_m, bool(strict_datum), bool(fill_voids),
                        bool(resample), cover, cover_count, trees, trees_count, -1.0 if canopy_held is None else canopy_held)
     number = c_uint64()

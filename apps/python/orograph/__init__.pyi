@@ -68,6 +68,14 @@ class Viewshed(NamedTuple):
     known: int
     seen: int
 
+class Horizons(NamedTuple):
+    elevation_deg: NDArray[np.float32]
+    sky_view: NDArray[np.float32]
+    transform: Tuple[float, float, float, float, float, float]
+    crs: str
+    known: int
+    with_sky_view: int
+
 class Region:
     def __enter__(self) -> "Region": ...
     def __exit__(self, kind: Optional[Type[BaseException]], value: Optional[BaseException],
@@ -86,6 +94,10 @@ class Region:
     def viewshed_shape(self, eyes: Union[PointLike, Sequence[PointLike]], *, radius_km: float = ...,
                        target_m: float = ..., air: Air = ..., on_summit: bool = ...,
                        targets_on_canopy: bool = ...) -> Tuple[int, int]: ...
+    def horizon(self, *, bbox: Optional[Union[str, Sequence[float]]] = ..., directions: int = ...,
+                radius_km: float = ..., above_m: float = ..., air: Air = ...,
+                out: Optional[Tuple[NDArray[np.float32], NDArray[np.float32]]] = ...,
+                progress: Optional[Progress] = ...) -> Horizons: ...
     def shot(self, *words: object, progress: Optional[Progress] = ..., out: Optional[NDArray[np.uint8]] = ...,
              **options: object) -> NDArray[np.uint8]: ...
     def layers(self, *words: object, names: Sequence[str] = ..., progress: Optional[Progress] = ...,

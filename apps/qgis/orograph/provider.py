@@ -7,6 +7,7 @@ from qgis.core import QgsProcessingProvider
 from qgis.PyQt.QtGui import QIcon
 
 from .algorithms.export import Export
+from .algorithms.horizon import Horizon
 from .algorithms.orthomap import OrthoMap
 from .algorithms.panorama import Panorama
 from .algorithms.picture import ExtentPicture, Picture
@@ -48,5 +49,5 @@ class OrographProvider(QgsProcessingProvider):
         ProcessingConfig.removeSetting(PROGRAM_SETTING)
 
     def loadAlgorithms(self):  # noqa: N802
-        for algorithm in (Panorama, Viewshed, Sight, Profile, OrthoMap, Picture, ExtentPicture, Export):
+        for algorithm in (Panorama, Viewshed, Horizon, Sight, Profile, OrthoMap, Picture, ExtentPicture, Export):
             self.addAlgorithm(algorithm())

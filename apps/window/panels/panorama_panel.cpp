@@ -84,7 +84,7 @@ void build_panorama_panel(Viewer& viewer) {
     if (begin_panel("Panorama", is_open, PanelCorner::upper_right, 380.0F)) {
         choose_panorama(*around.choice, viewer.view.model.air.k == 0.0);
         if (around.work) {
-            ImGui::ProgressBar(static_cast<float>(around.work->share()), {scaled_px(220.0F), 0.0F});
+            ImGui::ProgressBar(static_cast<float>(around.work->share()), {scaled_px(220.0F), scaled_px(10.0F)}, "");
             ImGui::SameLine();
             if (ImGui::Button("Stop")) stop_panorama(viewer);
         } else if (ImGui::Button("Draw")) {

@@ -222,7 +222,7 @@ void difference_choice(Viewer& viewer) {
     if (!second || second->choice.paths.empty()) return;
     heading("Difference of the sources");
     if (viewer.comparing.work) {
-        ImGui::ProgressBar(static_cast<float>(viewer.comparing.work->share()), {scaled_px(200.0F), 0.0F});
+        ImGui::ProgressBar(static_cast<float>(viewer.comparing.work->share()), {scaled_px(200.0F), scaled_px(10.0F)}, "");
         ImGui::SameLine();
         if (ImGui::Button("Stop##comparing")) stop_comparing(viewer);
     } else if (!viewer.comparing.found) {
@@ -301,7 +301,7 @@ void build_two_views_panel(Viewer& viewer) {
         if (changed && (two.second || two.work))
             viewer.wishes.push_back([choice = two.choice](Viewer& v) { return show_second(v, choice); });
         if (two.work) {
-            ImGui::ProgressBar(static_cast<float>(two.work->share()), {scaled_px(200.0F), 0.0F});
+            ImGui::ProgressBar(static_cast<float>(two.work->share()), {scaled_px(200.0F), scaled_px(10.0F)}, "");
             ImGui::SameLine();
             if (ImGui::Button("Stop##preparing")) stop_second(viewer);
         } else if (!two.second && ImGui::Button("Show two views")) {

@@ -59,7 +59,7 @@ void build_viewshed_panel(Viewer& viewer) {
         choose_looking(viewer);
         const auto& work = viewer.looking.work;
         if (work) {
-            ImGui::ProgressBar(static_cast<float>(work->share()), {scaled_px(220.0F), 0.0F});
+            ImGui::ProgressBar(static_cast<float>(work->share()), {scaled_px(220.0F), scaled_px(10.0F)}, "");
             ImGui::SameLine();
             if (ImGui::Button("Stop")) stop_looking_around(viewer);
         } else if (ImGui::Button("Look around")) {
