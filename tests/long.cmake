@@ -315,6 +315,7 @@ set_tests_properties(
   SunOfAShot.OtherStylesKeepTheirOwn
   TextInput.NestedCacheIsWrittenAnew
   TextInput.PipesDevicesAndEndlessFilesAreRefused
+  TradeCommand.HoldsMadeGroundAgainstItsRule
   TradeCommand.AViewOfTheSkyHasNoErrorsToTell
   TradeCommand.CallsPartsOfTheModelAsPlanDoes
   TradeCommand.MakesItsFolder
@@ -469,6 +470,7 @@ set_tests_properties(
   Drape.ThatChangedIsTold
   ErrorsOfPictures.OfRealTerrainIsWithinTau
   ErrorsOfPictures.OnNetsIsWithinTau
+  ExtremeBetweenPosts.OneSecond
   ExtremeData.HardlyAny
   ExtremeData.SixteenBitsOfHeight
   ExtremeHeights.FromSpace

@@ -26,12 +26,14 @@ constexpr double usual_correlation_posts = 2.0;
 constexpr double srtm_le90_m = 16.0;
 
 Result<HeightErrors> errors_of(const RealisationOptions& options, const RegionGrid& grid) {
-    std::optional<double> le90_m = options.le90_m;
     double spacing_m = 0.0;
-    for (const SourceReport& source : grid.sources) {
-        if (!le90_m && source.format != SourceFormat::raster) le90_m = srtm_le90_m;
-        spacing_m = std::max(spacing_m, source.spacing_m);
-    }
+    for (const SourceReport& source : grid.sources) spacing_m = std::max(spacing_m, source.spacing_m);
+    const bool srtm = !grid.sources.empty() && std::ranges::none_of(grid.sources, [](const auto& source) {
+        return source.format == SourceFormat::raster;
+    });
+    const std::optional<double> le90_m = options.le90_m ? options.le90_m
+                                         : srtm         ? std::optional(srtm_le90_m)
+                                                        : std::nullopt;
     if (!le90_m)
         return refused(
             "--realisations", std::to_string(*options.count),
