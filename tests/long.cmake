@@ -232,11 +232,13 @@ set_tests_properties(
   Plan.TakesAViewAndItsOwnOptionsOverIt
   Plan.TheLastLineIsOnTheTablesSideOfTheTolerance
   Plan.ToleranceJudges
+  ProbableSight.IsWhatAViewshedSaysOfThePost
   ProfileCommand.AMillionPlacesAreALine
   ProfileCommand.FilesHaveLinesOrAreRefused
   ProfileCommand.WhatIsWrongIsSaidInOneLine
   QuantizedTiles.CornersHaveTheGroundsHeights
   QuantizedTiles.HorizonHidesNothingThatIsSeen
+  RealisedHeights.ScatterAsMuchAsTheTruthDoes
   RecordedView.DataThatAreGoneCanBeNamed
   RecordedView.LimitsAreTheSameOnBothSides
   RecordedView.NamesThatAreNoUtf8LeadToTheirFiles
@@ -263,6 +265,7 @@ set_tests_properties(
   SameEverywhere.AViewWithEveryEffect
   SameEverywhere.EachEffectIsInTheView
   SameEverywhere.EdgesByChoice
+  SeenProbability.OfTwoHundredWorldsIsWhatIsSeen
   Serve.OutlivesHostileAndSlowClients
   SeveralViews.AreDrawnOneAfterTheOther
   SeveralViews.MayBeAListInAFile
@@ -312,6 +315,7 @@ set_tests_properties(
   SunOfAShot.OtherStylesKeepTheirOwn
   TextInput.NestedCacheIsWrittenAnew
   TextInput.PipesDevicesAndEndlessFilesAreRefused
+  TradeCommand.HoldsMadeGroundAgainstItsRule
   TradeCommand.AViewOfTheSkyHasNoErrorsToTell
   TradeCommand.CallsPartsOfTheModelAsPlanDoes
   TradeCommand.MakesItsFolder
@@ -466,6 +470,7 @@ set_tests_properties(
   Drape.ThatChangedIsTold
   ErrorsOfPictures.OfRealTerrainIsWithinTau
   ErrorsOfPictures.OnNetsIsWithinTau
+  ExtremeBetweenPosts.OneSecond
   ExtremeData.HardlyAny
   ExtremeData.SixteenBitsOfHeight
   ExtremeHeights.FromSpace

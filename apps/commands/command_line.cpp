@@ -370,7 +370,22 @@ void add_canopy(OptionGroup& group, ViewOptions& options) {
         "else 0): so much is not added. Needs --canopy.");
 }
 
-void add_sight(CLI::App& app, SightOptions& options) {
+void add_realisations(OptionGroup& group, const char* what_n_does, const char* what_a_seed_gives,
+                      RealisationOptions& options) {
+    group.whole_number("--realisations", options.count, 2, 10000, "N", what_n_does);
+    group.number(
+        "--accuracy", options.le90_m, "METRES",
+        "For --realisations: 90 % of the heights are off by at most this. Default: 16 of SRTM tiles; "
+        "else it must be given.");
+    group.number("--correlation", options.correlation_m, "METRES",
+                 "For --realisations: over this distance the correlation of errors falls to 0.37. Default: "
+                 "two posts.");
+    group.whole_number(
+        "--seed", options.seed, 0, 1000000, "N",
+        std::string("For --realisations: which simulations. ") + what_a_seed_gives + " Default: 1.");
+}
+
+void add_sight(CLI::App& app, SightOptions& options, RealisationOptions& realisations) {
     CLI::App& command =
         *app.add_subcommand("sight", "Tell whether one place is seen from another, and by how many metres");
     OptionGroup line(command, "The line");
@@ -390,6 +405,10 @@ void add_sight(CLI::App& app, SightOptions& options) {
                 "Name the land cover at both ends and at the obstacle: as shot --landcover.")
         .allow_extra_args(false);
     add_canopy(line, options.view);
+    add_realisations(line,
+                     "Tell how probable it is that the target is seen, by N simulations of the ground as it "
+                     "may truly be where heights have errors, 2 to 10000.",
+                     "The same seed gives the same answer.", realisations);
     add_region_options(command, options.region);
     add_air_options(command, options.view);
     add_json(command, options.json);
@@ -425,7 +444,7 @@ void add_profile(CLI::App& app, ProfileOptions& options) {
              {{"profile PATH... --along LINE [--out FILE] [OPTIONS]"}, "", "docs/commands/profile.md"});
 }
 
-void add_viewshed(CLI::App& app, ViewshedOptions& options) {
+void add_viewshed(CLI::App& app, ViewshedOptions& options, RealisationOptions& realisations) {
     CLI::App& command =
         *app.add_subcommand("viewshed", "Write which places are seen from one or several others (GeoTIFF)");
     OptionGroup shed(command, "The viewshed");
@@ -450,6 +469,10 @@ void add_viewshed(CLI::App& app, ViewshedOptions& options) {
         "What targets stand on: the ground, under trees too, or the top of the canopy (default ground). "
         "Needs --canopy.");
     shed.number("--radius", options.radius_km, "KM", "How far to look, 0.01 to 1000 (default 20).");
+    add_realisations(shed,
+                     "Write a further band: how probable it is that a post is seen, by N simulations of the "
+                     "ground as it may truly be where heights have errors, 2 to 10000.",
+                     "The same seed gives the same file.", realisations);
     shed.option("--out", options.out, "FILE", "The GeoTIFF to write (.tif).");
     shed.flag("--overwrite", options.overwrite, "Replace a file that is there.");
     add_region_options(command, options.region);
@@ -680,9 +703,9 @@ void add_commands(CLI::App& app, CommandLine& line) {
     add_plan(app, line.plan);
     add_trade(app, line.trade);
     add_sun(app, line.sun);
-    add_sight(app, line.sight);
+    add_sight(app, line.sight, line.realisations);
     add_profile(app, line.profile);
-    add_viewshed(app, line.viewshed);
+    add_viewshed(app, line.viewshed, line.realisations);
     add_horizon(app, line.horizon);
     add_bake(app, line.bake);
     add_export(app, line.exporting);

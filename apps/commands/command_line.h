@@ -7,6 +7,7 @@
 #include "apps/options/export_options.h"
 #include "apps/options/fetch_options.h"
 #include "apps/options/horizon_options.h"
+#include "apps/options/realisation_options.h"
 #include "apps/options/serve_options.h"
 
 namespace oro {
@@ -24,6 +25,7 @@ struct CommandLine {
     SightOptions sight;
     ProfileOptions profile;
     ViewshedOptions viewshed;
+    RealisationOptions realisations;  // of sight and viewshed
     HorizonOptions horizon;
     BakePartOptions bake;
     ExportOptions exporting;

@@ -11,11 +11,12 @@ class App;
 
 namespace oro {
 
-struct BakePartOptions;  // apps/options/bake_part_options.h
-struct BatchOptions;     // apps/options/batch_options.h
-struct ExportOptions;    // apps/options/export_options.h
-struct ServeOptions;     // apps/options/serve_options.h
-struct HorizonOptions;   // apps/options/horizon_options.h
+struct BakePartOptions;     // apps/options/bake_part_options.h
+struct BatchOptions;        // apps/options/batch_options.h
+struct ExportOptions;       // apps/options/export_options.h
+struct HorizonOptions;      // apps/options/horizon_options.h
+struct RealisationOptions;  // apps/options/realisation_options.h
+struct ServeOptions;        // apps/options/serve_options.h
 
 // Writes a geotagged picture and, beside it, its view; with --verify also a picture of its errors.
 Result<void> run_shot(const ShotOptions& options);
@@ -31,12 +32,12 @@ Result<void> run_plan(const PlanOptions& options);
 Result<void> run_trade(const TradeOptions& options);
 // Tells when the sun first and last shows at a place.
 Result<void> run_sun(const SunOptions& options);
-// Tells whether one place is seen from another, and by how much.
-Result<void> run_sight(const SightOptions& options);
+// Tells whether one place is seen from another, by how much, and how probable that is where it is asked for.
+Result<void> run_sight(const SightOptions& options, const RealisationOptions& realisations);
 // Tells how high the ground is along a line, and draws it.
 Result<void> run_profile(const ProfileOptions& options);
-// Writes which places are seen from others, as a GeoTIFF.
-Result<void> run_viewshed(const ViewshedOptions& options);
+// Writes which places are seen from others, as a GeoTIFF, and how probable that is where it is asked for.
+Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptions& realisations);
 // Writes how high the horizon stands around posts, and how much of the sky they see, as GeoTIFFs.
 Result<void> run_horizon(const HorizonOptions& options);
 // Opens a window to fly over a region.

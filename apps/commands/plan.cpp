@@ -47,6 +47,8 @@ const char* key_of(EffectMeasure measure) {
             return "full_detail";
         case EffectMeasure::thinned:
             return "thinned";
+        case EffectMeasure::made:
+            return "made";
         case EffectMeasure::stated:
             return "stated";
     }

@@ -8,6 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/lod/ground_means.h"
 #include "geo/pictures/png_bytes.h"
+#include "geo/sources/made_truth.h"
 
 namespace oro {
 namespace {
@@ -15,18 +16,32 @@ namespace {
 // Pictures after the first from the same eye until it is settled: frames of it are the same from then on.
 constexpr int settling_pictures = 2;
 
-// Effects that no drawing shows.
-Result<void> add_data_effects(const EffectPrediction& prediction, const std::string& view,
-                              TradeReport& report) {
-    // What every second post would hide: predicted from every second post, and as it is.
-    const EffectSize guess = prediction.interpolation_estimate(2), known = prediction.interpolation(1);
+// What the surface between posts misses of made terrain, where it is seen.
+EffectSize off_the_rule(const EffectPrediction& prediction, const TrueGround& ground, double exaggeration,
+                        const MadeTruth& truth) {
+    return prediction.found_off_by([&](const ViewSample& sample) {
+        const Geodetic& at = sample.point;
+        return std::abs(at.h_m - ground.N_m(at.lat_deg, at.lon_deg) -
+                        exaggeration * truth.H_m(at.lat_deg, at.lon_deg));
+    });
+}
+
+// Effects that no drawing shows. truth: of the one grid's data, where they are of made terrain.
+Result<void> add_data_effects(const EffectPrediction& prediction, const TrueGround& ground,
+                              double exaggeration, const std::optional<MadeTruth>& truth,
+                              const std::string& view, TradeReport& report) {
+    // What every second post would hide: predicted from every second post, and as it is. Of made terrain what
+    // all posts hide.
+    const EffectSize guess = prediction.interpolation_estimate(truth ? 1 : 2),
+                     known = truth ? off_the_rule(prediction, ground, exaggeration, *truth)
+                                   : prediction.interpolation(1);
     report.effects.push_back({view,
                               {EffectKind::interpolation, {}, {}},
                               guess.worst_m,
                               guess.worst_px,
                               known.worst_m,
                               known.worst_px,
-                              EffectMeasure::thinned});
+                              truth ? EffectMeasure::made : EffectMeasure::thinned});
     ORO_TRY(const std::optional<EffectSize> source, prediction.size(EffectKind::source, 0.0));
     if (source)
         report.effects.push_back({view,
@@ -188,7 +203,9 @@ Result<void> Trade::measure(const Camera& camera, const std::string& name, bool 
         effect.measured_px = std::min(shot.largest_px(), std::hypot(camera.width_px, camera.height_px));
         report.effects.push_back(effect);
     }
-    return add_data_effects(prediction, name, report);
+    const std::optional<MadeTruth> made =
+        region_.grids.size() == 1 ? MadeTruth::of(region_.grids.front().sources) : std::nullopt;
+    return add_data_effects(prediction, ground(), view_.exaggeration, made, name, report);
 }
 
 }  // namespace oro

@@ -87,6 +87,8 @@ const char* remark_on(EffectMeasure measured_by) {
             return "";
         case EffectMeasure::thinned:
             return "tried on every second post";
+        case EffectMeasure::made:
+            return "held against the rule of made terrain";
         case EffectMeasure::stated:
             return "stated by the source, not measured here";
     }

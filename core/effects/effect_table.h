@@ -43,6 +43,7 @@ enum class EffectMeasure {
     picture,      // one that has it, held against the full resolution
     full_detail,  // not by itself: it is in the picture at full detail, with the others that remain there
     thinned,      // every second post is left out, and is known
+    made,         // the terrain is made, and its rule is known between posts
     stated,       // nobody: the source says it of itself
 };
 

@@ -65,6 +65,10 @@ class EffectPrediction {
     // a time.
     [[nodiscard]] Result<std::optional<EffectSize>> size(EffectKind kind, double tau_px) const;
 
+    // Heights that are off by so much at what is seen, metres, 0 or more: what was found there, without a
+    // margin.
+    [[nodiscard]] EffectSize found_off_by(const std::function<double(const ViewSample&)>& height_m) const;
+
     // What lies between posts that are `apart` of the region's apart: 1 for the data as they are. 2 predicts
     // what every second post would hide, which is known.
     [[nodiscard]] EffectSize interpolation(int apart) const;

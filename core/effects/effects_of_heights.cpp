@@ -14,12 +14,20 @@
 
 namespace oro {
 
-// From the posts around what is seen: how far each second one lies from the middle of its neighbours is how
-// far the ground may lie from the middle of posts twice as dense; half of that typically.
-EffectSize EffectPrediction::interpolation(int apart) const {
+EffectSize EffectPrediction::found_off_by(const std::function<double(const ViewSample&)>& height_m) const {
     Sizes sizes;
     for (const Sample& sample : samples_) {
         if (sample.from_seen_px > 0.0) continue;  // what is seen
+        const double off_m = height_m(sample);
+        sizes.add(off_m, vertical_px(sample, off_m), sample.even);
+    }
+    return sizes.size(1.0);
+}
+
+// From the posts around what is seen: how far each second one lies from the middle of its neighbours is how
+// far the ground may lie from the middle of posts twice as dense; half of that typically.
+EffectSize EffectPrediction::interpolation(int apart) const {
+    EffectSize size = found_off_by([&](const Sample& sample) {
         double bend_m = 0.0;
         for (const auto& [down, right] : {std::pair(apart, 0), std::pair(0, apart)}) {
             const PostGrid& posts = grid(sample);
@@ -32,9 +40,8 @@ EffectSize EffectPrediction::interpolation(int apart) const {
             if (!before || !here || !after) continue;
             bend_m = std::max(bend_m, std::abs(*here - 0.5 * (*before + *after)));
         }
-        sizes.add(bend_m, vertical_px(sample, bend_m), sample.even);
-    }
-    EffectSize size = sizes.size(1.0);
+        return bend_m;
+    });
     size.typical_m *= 0.5;
     size.typical_px *= 0.5;
     return size;

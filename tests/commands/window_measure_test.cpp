@@ -96,7 +96,7 @@ TEST(WindowMeasures, TheLineOfSight) {
         options.to = ends.substr(comma + 2);
         options.json = options.quiet = true;
         testing::internal::CaptureStdout();
-        const Result<void> ran = run_sight(options);
+        const Result<void> ran = run_sight(options, {});
         auto printed = nlohmann::json::parse(testing::internal::GetCapturedStdout());
         ASSERT_TRUE(ran.ok()) << ran.error().line();
         printed.erase("notes");

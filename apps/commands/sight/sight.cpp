@@ -4,6 +4,7 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
+#include "apps/commands/sight/seen_probability.h"
 #include "apps/commands/sight/sight_between.h"
 #include "apps/cover/canopy_words.h"
 #include "apps/report/json_text.h"
@@ -46,7 +47,7 @@ void say_canopy(const SightGround& ground, const SightReport& report, bool quiet
 
 }  // namespace
 
-Result<void> run_sight(const SightOptions& options) {
+Result<void> run_sight(const SightOptions& options, const RealisationOptions& realisations) {
     if (options.from.empty())
         return refused("--from", "", "is missing: name the place, e.g. --from 46.67,8.06");
     if (options.to.empty()) return refused("--to", "", "is missing: name the place, e.g. --to 46.54,7.96");
@@ -54,6 +55,7 @@ Result<void> run_sight(const SightOptions& options) {
     for (const auto& [option, text] : {std::pair{"--from", options.from}, std::pair{"--to", options.to}}) {
         if (const auto place = place_at(option, text); !place.ok()) return place.error();
     }
+    ORO_CHECK(check_realisations(realisations));
     ORO_TRY(const Air air, air_asked_for(options.view.refraction_k, options.view.air, standard_air));
     ORO_TRY(const SightCover asked, open_sight_cover(options.view));
     const std::shared_ptr<const CoverMap>& cover = asked.cover;
@@ -62,13 +64,20 @@ Result<void> run_sight(const SightOptions& options) {
     Standing standing{"--from", options.from, "--above", options.above_m, 2.0, options.altitude_m};
     standing.on_summit = options.on_summit;
     ORO_TRY(const Standpoint from, stand_over_ground(standing, *ground));
-    ORO_TRY(const Standpoint target, stand_over_ground({"--to", options.to, "--target", options.target_m, 0.0,
-                                                        std::nullopt, "geo:LAT,LON,HEIGHT"},
-                                                       *ground));
+    const Standing looked_at{"--to", options.to,   "--target",          options.target_m,
+                             0.0,    std::nullopt, "geo:LAT,LON,HEIGHT"};
+    ORO_TRY(const Standpoint target, stand_over_ground(looked_at, *ground));
     const Geodetic& to = target.eye;
     bar.show(1.0, "looking");
     SightReport report = sight_between(from.eye, to, air, *ground);
     report.moved = from.moved;
+    std::optional<SightProbability> probability;
+    if (realisations.count && report.slant_m > least_above_m) {
+        ORO_TRY(probability,
+                sight_probability(
+                    realisations, {from.eye, to, keeps_height(standing), keeps_height(looked_at)}, air,
+                    *ground, [&](double share) { bar.show(share, "looking in realisations"); }));
+    }
     ORO_CHECK(ground->region.health());
     if (cover) ORO_CHECK(name_cover(*cover, report));
     bar.clear();
@@ -89,9 +98,11 @@ Result<void> run_sight(const SightOptions& options) {
     }
     if (!options.json) {
         std::fputs(sight_text(report, *ground).c_str(), stdout);
+        if (probability) std::printf("%s\n", probable_words(*probability).c_str());
         return {};
     }
     nlohmann::ordered_json json = sight_json(report, *ground);
+    if (probability) json["realisations"] = probability_json(*probability);
     json["notes"] = all_notes(ground->region);
     std::printf("%s\n", json_text(json, true).c_str());
     return {};

@@ -7,6 +7,7 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
+#include "apps/commands/sight/seen_probability.h"
 #include "apps/commands/sight/sight_ground.h"
 #include "apps/commands/sight/viewshed_question.h"
 #include "apps/commands/sight/viewshed_report.h"
@@ -52,7 +53,7 @@ void say_canopy_notes(const SightGround& ground, bool quiet) {
 }
 
 void tell(const ViewshedOptions& options, const ViewshedReport& report, const Standpoints& stood,
-          const SightGround& ground) {
+          const SightGround& ground, const std::optional<SeenProbability>& probability) {
     const ViewshedQuestion& question = report.question;
     const std::string light = light_words(question.air, question.eyes.front().h_m);
     if (options.json) {
@@ -72,6 +73,7 @@ void tell(const ViewshedOptions& options, const ViewshedReport& report, const St
         json["asked_of_the_oracle"] = report.asked;
         json["looking_s"] = report.looking_s;
         json["light"] = light_json(question.air, question.eyes.front().h_m);
+        if (probability) json["realisations"] = probability_json(*probability);
         if (ground.canopy) {
             json["canopy"] = canopy_json(*ground.canopy->map, ground.canopy->region);
             json["target_on"] = options.target_on.value_or("ground");
@@ -81,6 +83,7 @@ void tell(const ViewshedOptions& options, const ViewshedReport& report, const St
         return;
     }
     std::printf("%s\n", seen_words(report).c_str());
+    if (probability) std::printf("%s\n", probable_words(*probability, report.cells).c_str());
     for (std::size_t i = 0; i < question.eyes.size(); ++i) {
         std::printf("From: %s\n", eye_text(question.eyes[i], ground.ground()).c_str());
         if (!stood.moved.empty())
@@ -136,10 +139,11 @@ void say_walls(const Standpoints& standpoints, std::size_t eyes, bool quiet) {
 
 }  // namespace
 
-Result<void> run_viewshed(const ViewshedOptions& options) {
+Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptions& realisations) {
     ORO_CHECK(check_words(options));
     ORO_CHECK(check_without_meshes(options.region,
                                    "does not hide in viewsheds, which are of terrain alone: ask sight"));
+    ORO_CHECK(check_realisations(realisations));
     ORO_CHECK(check_target_on(options));
     ViewshedQuestion question;
     ORO_CHECK(begin_question(options, question));
@@ -154,9 +158,16 @@ Result<void> run_viewshed(const ViewshedOptions& options) {
     const RegionGround& hiding = ground->canopy ? *ground->canopy->grids : *ground->grids;
     ORO_TRY(ViewshedReport report,
             viewshed_report(question, hiding, [&](double share) { bar.show(share, "looking around"); }));
+    std::optional<SeenProbability> probability;
+    if (realisations.count) {
+        ORO_TRY(probability,
+                seen_probability(realisations, report, *ground, asked_eyes(options),
+                                 [&](double share) { bar.show(share, "looking around in realisations"); }));
+    }
     bar.show(1.0, "writing");
     PostRaster raster = raster_of(report, *ground->grids);
     add_canopy_tags(options, *ground, raster);
+    if (probability) add_probability(*probability, raster);
     ORO_CHECK(write_post_raster(options.out, options.overwrite, raster));
     bar.clear();
     say_notes(ground->region, options.quiet);
@@ -169,7 +180,7 @@ Result<void> run_viewshed(const ViewshedOptions& options) {
     if (const std::string sides = sides_beyond(report, grid); !sides.empty())
         say(options.quiet, "note: the circle reaches beyond the data (" + sides +
                                "): what is seen there is not in the file");
-    tell(options, report, standpoints, *ground);
+    tell(options, report, standpoints, *ground, probability);
     return {};
 }
 

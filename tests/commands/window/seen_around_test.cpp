@@ -51,7 +51,7 @@ TEST(SeenAround, IsWhatTheCommandPrintsAndWrites) {
         options.out = (folder / (bends ? "bent.tif" : "straight.tif")).string();
         options.quiet = true;
         testing::internal::CaptureStdout();
-        const Result<void> ran = run_viewshed(options);
+        const Result<void> ran = run_viewshed(options, {});
         const std::string printed = testing::internal::GetCapturedStdout();
         ASSERT_TRUE(ran.ok()) << ran.error().line();
         EXPECT_EQ(printed, around->seen + "\nFrom: " + around->from + "\nLight: " + around->light + "\n");

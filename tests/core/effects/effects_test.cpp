@@ -227,6 +227,23 @@ TEST(Effects, PostsInFloat32) {
     EXPECT_LE(view.worst_m, nearer * (0.355 + 8.0 * 0.38 * std::numbers::sqrt3));
 }
 
+// Ground that is off by its longitude's share of a degree, times 10 m: the worst and the median of what is
+// seen, without a margin. From 45 degrees down one pixel of half a width sees 0.1 to 0.13 degrees.
+TEST(Effects, WhatWasFoundHasNoMargin) {
+    const Scene scene(sea_level(), half_way_down());
+    const auto off_m = [](const ViewSample& sample) { return 10.0 * sample.point.lon_deg; };
+    double worst_m = 0.0;
+    const EffectSize found = scene.prediction.found_off_by([&](const ViewSample& sample) {
+        EXPECT_EQ(sample.from_seen_px, 0.0);
+        worst_m = std::max(worst_m, off_m(sample));
+        return off_m(sample);
+    });
+    EXPECT_GT(worst_m, 1.0);
+    EXPECT_EQ(found.worst_m, worst_m);
+    EXPECT_GT(found.typical_m, 1.0);
+    EXPECT_LE(found.typical_m, worst_m);
+}
+
 // H = 0.25 m (row - 60)^2: a post lies 0.25 m n^2 off the middle of those n rows to either side. Columns bend
 // by nothing.
 TEST(Effects, InterpolationBetweenPosts) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/made/made_heights.h"
+#include "geo/sources/made_truth.h"
 #include "geo/sources/made_words.h"
 #include "geo/sources/source_words.h"
 #include "tests/geo/written_terrain.h"
@@ -169,6 +170,34 @@ TEST(MadeSource, IsNoFile) {
     ASSERT_EQ(found->size(), 1U);
     EXPECT_TRUE(found->front().named);
     EXPECT_FALSE(find_sources({"./made:fbm"}).ok());
+}
+
+// At posts the rule is the data, to 2^-11 m and the rounding of places. Of several sources there is none.
+TEST(MadeTruth, IsTheDataAtPosts) {
+    SourcePath path;
+    path.file = path.shown = "made:fbm?seed=7&H=-200:4000&spacing=3s&box=8,46,8.1,46.1";
+    const auto source = inspect_made(path);
+    ASSERT_TRUE(source.ok()) << source.error().line();
+    const SourceReport report = source->report;
+    const auto truth = MadeTruth::of(std::span(&report, 1));
+    ASSERT_TRUE(truth.has_value());
+    const auto block = read_made(source.value(), {0, 0, 40, 50});
+    ASSERT_TRUE(block.ok());
+    const PostWindow& window = block->window;
+    double worst_m = 0.0;
+    for (int row = 0; row < window.rows; ++row)
+        for (int column = 0; column < window.columns; ++column)
+            worst_m = std::max(
+                worst_m,
+                std::abs(truth->H_m(46.1 - row / 1200.0, 8.0 + column / 1200.0) -
+                         static_cast<double>(
+                             block->height_m[static_cast<std::size_t>(row * window.columns + column)])));
+    EXPECT_LT(worst_m, 0.05);  // places to 2^-6 m on slopes up to 3
+    const SourceReport two[] = {report, report};
+    EXPECT_FALSE(MadeTruth::of(two).has_value());
+    SourceReport other = report;
+    other.path = "N46E008.hgt";
+    EXPECT_FALSE(MadeTruth::of(std::span(&other, 1)).has_value());
 }
 
 }  // namespace

@@ -1,0 +1,75 @@
+#include "core/realised/post_predictor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace oro {
+namespace {
+
+// Solves a x = b by elimination, rows exchanged for the largest pivot; b becomes x. False: there is none.
+bool solve(std::vector<double>& a, std::vector<double>& b) {
+    const std::size_t count = b.size();
+    for (std::size_t step = 0; step < count; ++step) {
+        std::size_t largest = step;
+        for (std::size_t row = step + 1; row < count; ++row)
+            if (std::abs(a[row * count + step]) > std::abs(a[largest * count + step])) largest = row;
+        if (!(std::abs(a[largest * count + step]) > 1e-12)) return false;
+        if (largest != step) {
+            std::swap_ranges(a.begin() + static_cast<std::ptrdiff_t>(step * count),
+                             a.begin() + static_cast<std::ptrdiff_t>((step + 1) * count),
+                             a.begin() + static_cast<std::ptrdiff_t>(largest * count));
+            std::swap(b[step], b[largest]);
+        }
+        for (std::size_t row = step + 1; row < count; ++row) {
+            const double share = a[row * count + step] / a[step * count + step];
+            if (share == 0.0) continue;
+            for (std::size_t i = step; i < count; ++i) a[row * count + i] -= share * a[step * count + i];
+            b[row] -= share * b[step];
+        }
+    }
+    for (std::size_t step = count; step-- > 0;) {
+        for (std::size_t i = step + 1; i < count; ++i) b[step] -= a[step * count + i] * b[i];
+        b[step] /= a[step * count + step];
+    }
+    return true;
+}
+
+}  // namespace
+
+std::vector<float> predictor_weights(std::span<const NoiseBand> terrain, std::span<const NoiseBand> errors,
+                                     double row_spacing_m, double column_spacing_m) {
+    constexpr int side = predictor_side, taps = side * side;
+    constexpr std::size_t count = taps + 1;
+    // By differences of rows and columns: what any two of the posts have in common.
+    std::vector<double> ground(static_cast<std::size_t>(taps)), noise(static_cast<std::size_t>(taps));
+    for (int row = 0; row < side; ++row) {
+        for (int column = 0; column < side; ++column) {
+            const double away_m = std::hypot(row * row_spacing_m, column * column_spacing_m);
+            const auto at = static_cast<std::size_t>(row * side + column);
+            ground[at] = semivariance_of(terrain, away_m);
+            noise[at] = covariance_of(errors, away_m);
+        }
+    }
+    // Scaled to errors of 1, so that the numbers are of one size.
+    const double unit = std::max(noise[0], 1e-12);
+    const auto apart = [](int one, int other) {
+        return static_cast<std::size_t>(std::abs(one / side - other / side) * side +
+                                        std::abs(one % side - other % side));
+    };
+    std::vector<double> a(count * count), b(count, 1.0);
+    for (int i = 0; i < taps; ++i) {
+        const auto row = static_cast<std::size_t>(i);
+        for (int j = 0; j < taps; ++j)
+            a[row * count + static_cast<std::size_t>(j)] = (noise[apart(i, j)] - ground[apart(i, j)]) / unit;
+        a[row * count + row] += 1e-6;
+        a[row * count + taps] = a[taps * count + row] = 1.0;
+        b[row] = -ground[apart(i, taps / 2)] / unit;
+    }
+    if (!solve(a, b)) return {};
+    std::vector<float> weights;
+    for (int i = 0; i < taps; ++i) weights.push_back(static_cast<float>(b[static_cast<std::size_t>(i)]));
+    return weights;
+}
+
+}  // namespace oro
