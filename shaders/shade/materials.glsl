@@ -88,11 +88,15 @@ vec3 colour_of_shares(MaterialShares shares) {
     return colour;
 }
 
-// Deserts beyond mountains that take the rain; nothing else is known of rain here.
+// Deserts beyond mountains that take the rain; nothing else is known of rain here. They have no border along a parallel: that winds by half a
+// degree and more, and reaches farther over high ground.
 float dry_share(SurfacePoint point) {
     vec2 lat = FRAME.style.materials.dry_lat_deg, H = FRAME.style.materials.dry_H_m;
-    float north = min(abs(point.lat_deg) - lat.x, lat.y - abs(point.lat_deg)) / 0.4;
-    return broken(min(north, 4.0 * (point.mean_H_m - H.x) / max(H.y - H.x, 1.0) - 2.0), 1.0);
+    float within_deg = min(abs(point.lat_deg) - lat.x, lat.y - abs(point.lat_deg));
+    float up = 4.0 * (point.mean_H_m - H.x) / max(H.y - H.x, 1.0) - 2.0;
+    if (within_deg < -2.5 || up < -4.0) return 0.0;
+    if (within_deg < 2.5) within_deg += 0.55 * wide_noise(point.view) + 0.3 * clamp((point.mean_H_m - H.y) / 1500.0, -1.0, 1.0);
+    return broken(min(within_deg / 0.2, up), 1.0);
 }
 
 MaterialShares shares_by_rule(SurfacePoint point) {

@@ -149,6 +149,41 @@ TEST_F(MaterialPictures, AreSampledFinelyEnough) {
     EXPECT_LE(sum / count, 2.0) << "codes";
 }
 
+// A high plain across 28.7 degrees north, of which the style has deserts: 390 km of it, from far above.
+// Found: they ended along the parallel, but for speckles.
+TEST_F(MaterialPictures, DesertsHaveNoBorderAlongAParallel) {
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::square_field(
+        28.7, 84.0, 3000.0, 129, [](int row, int column) { return 3700.0 + (row + column) % 2; });
+    gpu::FrameStyle style = natural(region);
+    style.air.on = 1;
+    Camera camera = down(region, 3000.0);
+    const auto seen = picture(region, camera, style);
+    // Stripes of eight columns: how many of a stripe's rows are more red than green, in pixels.
+    std::vector<double> borders;
+    for (int first = 4; first + 8 <= picture_px - 4; first += 8) {
+        double dry = 0.0;
+        for (int row = 4; row < picture_px - 4; ++row) {
+            for (int column = first; column < first + 8; ++column) {
+                const auto at = static_cast<std::size_t>(4 * (picture_px * row + column));
+                dry += seen[at] > seen[at + 1] ? 0.125 : 0.0;
+            }
+        }
+        borders.push_back(dry);
+    }
+    double sum = 0.0, squares = 0.0;
+    for (const double border : borders) {
+        sum += border;
+        squares += border * border;
+    }
+    const double count = static_cast<double>(borders.size()), mean = sum / count;
+    const double km = 3.0 * std::sqrt(squares / count - mean * mean);
+    std::printf("dry rows %.1f of %d; the border winds by %.1f km r.m.s.\n", mean, picture_px - 8, km);
+    EXPECT_GT(mean, 20.0);
+    EXPECT_LT(mean, 100.0);
+    EXPECT_GT(km, 15.0);
+}
+
 // Where a style has none, nothing is asked for.
 TEST_F(MaterialPictures, AreOfNaturalAlone) {
     const Region region = slope(30.0, 0.0);
