@@ -149,6 +149,52 @@ TEST_F(MaterialPictures, AreSampledFinelyEnough) {
     EXPECT_LE(sum / count, 2.0) << "codes";
 }
 
+// Tilled ground of 2 degrees is in parcels: pixels beside each other are of one parcel and alike, and the
+// picture has their contrasts. They belong to the ground and end where it is steep.
+TEST_F(MaterialPictures, HaveParcelsOnTilledGround) {
+    constexpr double px_m = 12.0;
+    constexpr int moved_px = 16;
+    const auto of_crops = [&](const Region& region) {
+        gpu::FrameStyle style = natural(region);
+        gpu::Material crops = style.materials.of[gpu::material_crops];
+        crops.grain = 0.0F;
+        crops.patches = gpu::vec3(0.0F);
+        for (gpu::Material& material : style.materials.of) material = crops;
+        return style;
+    };
+    std::array<double, 2> contrasts{};
+    for (const bool is_steep : {false, true}) {
+        const Region region = slope(30.0, is_steep ? 0.30 : 0.03);
+        const gpu::FrameStyle style = of_crops(region);
+        Camera camera = down(region, px_m);
+        const auto one = picture(region, camera, style);
+        // Of each row: all of it is equally high.
+        for (std::size_t row = 0; row < picture_px; ++row) {
+            double sum = 0.0, squares = 0.0;
+            for (std::size_t column = 0; column < picture_px; ++column) {
+                const double value = one[4 * (picture_px * row + column) + 1];
+                sum += value / picture_px;
+                squares += value * value / picture_px;
+            }
+            contrasts[is_steep ? 1 : 0] += std::sqrt(std::max(squares - sum * sum, 0.0)) / picture_px;
+        }
+        camera.eye.lon_deg += moved_px * px_m / test::metres_per_degree(46.5, 1200.0).lon;
+        const auto other = picture(region, camera, style);
+        double moved = 0.0, count = 0.0;
+        for (std::size_t i = 0; i < one.size(); ++i) {
+            const std::size_t column = i / 4 % picture_px, row = i / 4 / picture_px;
+            if (row < 8 || row >= picture_px - 8 || column < 8 || column >= picture_px - moved_px - 8)
+                continue;
+            moved += std::abs(other[i] - one[i + 4 * moved_px]);
+            count += 1.0;
+        }
+        EXPECT_LT(moved / count, 1.0) << "codes from where it was";
+    }
+    std::printf("contrast of parcels %.2f codes, %.2f where it is steep\n", contrasts[0], contrasts[1]);
+    EXPECT_GT(contrasts[0], 3.0) << "codes";
+    EXPECT_LT(contrasts[1], 1.0) << "codes";
+}
+
 // A high plain across 28.7 degrees north, of which the style has deserts: 390 km of it, from far above.
 // Found: they ended along the parallel, but for speckles.
 TEST_F(MaterialPictures, DesertsHaveNoBorderAlongAParallel) {
