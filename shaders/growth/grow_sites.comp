@@ -114,6 +114,8 @@ Stands stands_at(SitePlace place, SurfacePoint point) {
     Stands by_map = Stands(0.0, 0.0, 0.0);
     if (draped && has_cover()) by_map = stands_of(shares_by_map(place, point, known));
     if (known >= 1.0) return by_map;
+    // Nothing by the rule stands in water that the heights tell.
+    if (FRAME.style.water.on == 1u && water_share(frame_pages().at[place.page], place.post) > 0.1) return by_map;
     Stands by_rule = stands_of(shares_by_rule(point));
     float left = 1.0 - known;
     return Stands(by_map.needle + left * by_rule.needle, by_map.broad + left * by_rule.broad, by_map.open + left * by_rule.open);

@@ -55,3 +55,18 @@ GroundNoise ground_noise(vec3 view, float foot_m, float least) {
     noise.patches_sharp = sharp.y;
     return noise;
 }
+
+// The same kind of noise for whole regions: of variance 1, cells of 304 km to 38 km.
+float wide_noise(vec3 view) {
+    if (FRAME.refraction_per_m != 0.0) view -= (0.5 * FRAME.refraction_per_m * squared_across(view)) * FRAME.up_view;
+    vec3 at = (view * FRAME.view_from_ecef) / FRAME.noise[0].cell_m + FRAME.noise[0].part;
+    ivec3 eye_cell = ivec3(FRAME.noise[0].cell);
+    float sum = 0.0, amplitude = 1.837;
+    for (int larger = 5; larger > 1; --larger) {
+        ivec3 cell = eye_cell >> larger;
+        vec3 from_cell = (vec3(eye_cell - (cell << larger)) + at) / float(1 << larger), whole = floor(from_cell);
+        sum += amplitude * lattice_noise(uvec3(cell + ivec3(whole)), from_cell - whole, noise_octaves + uint(larger)).x;
+        amplitude *= 0.7;
+    }
+    return sum;
+}

@@ -2,6 +2,7 @@
 // shares: here by a rule of height, slope, hollows and latitude. What says it otherwise (a map of land cover) gives such shares, too.
 #ifdef IN_AIR
 #include "shaders/shade/ground_noise.glsl"
+#include "shaders/shade/parcels.glsl"
 #include "shaders/growth/reach.glsl"
 
 // By number (material_rock and so on); together 1.
@@ -46,6 +47,7 @@ void find_pixel_materials(SurfacePoint point) {
     float foot_m = length(point.view) * inversesqrt(max(dot(point.normal, to_eye), 0.15)) / FRAME.pixels_per_tangent;
     // A part of a footprint has a few places for all the slopes and heights that are in it: sharp borders between these would be chance.
     pixel_noise = ground_noise(point.view, foot_m, point.parts > 0 ? 0.04 : 0.0005);
+    pixel_slope_deg = slope_deg(point);
     float patches = clamp(pixel_noise.patches, -2.0, 2.0);
     for (uint i = 0u; i < material_count; ++i) {
         vec3 colour = FRAME.style.materials.of[i].colour + patches * FRAME.style.materials.of[i].patches;
@@ -57,9 +59,14 @@ void find_pixel_materials(SurfacePoint point) {
         pixel_materials[material_needle_forest] *= floor_light;
         pixel_materials[material_broad_forest] *= floor_light;
     }
+    if (pixel_slope_deg < parcels_to_deg && foot_m < parcels_to_foot_m) {
+        vec2 parcel = parcels_at(point.view, foot_m, pixel_noise.border);
+        vec3 hue = FRAME.style.materials.of[material_crops].patches;
+        pixel_materials[material_crops] = max(pixel_materials[material_crops] * (1.0 + 0.4 * parcel.x) + 1.6 * parcel.y * hue, vec3(0.0));
+        pixel_materials[material_meadow] *= 1.0 + 0.16 * parcel.x;
+    }
     pixel_materials[material_rock] *= 1.0 + 0.3 * strata(point.mean_H_m, foot_m);
     pixel_second = patched(0.0, 1.0);
-    pixel_slope_deg = slope_deg(point);
     pixel_H_m = point.mean_H_m;
     pixel_rock = broken(pixel_slope_deg - half_rock_deg(), 7.0);
 }
@@ -88,11 +95,15 @@ vec3 colour_of_shares(MaterialShares shares) {
     return colour;
 }
 
-// Deserts beyond mountains that take the rain; nothing else is known of rain here.
+// Deserts beyond mountains that take the rain; nothing else is known of rain here. They have no border along a parallel: that winds by half a
+// degree, and reaches farther over high ground.
 float dry_share(SurfacePoint point) {
     vec2 lat = FRAME.style.materials.dry_lat_deg, H = FRAME.style.materials.dry_H_m;
-    float north = min(abs(point.lat_deg) - lat.x, lat.y - abs(point.lat_deg)) / 0.4;
-    return broken(min(north, 4.0 * (point.mean_H_m - H.x) / max(H.y - H.x, 1.0) - 2.0), 1.0);
+    float within_deg = min(abs(point.lat_deg) - lat.x, lat.y - abs(point.lat_deg));
+    float up = 4.0 * (point.mean_H_m - H.x) / max(H.y - H.x, 1.0) - 2.0;
+    if (within_deg < -2.5 || up < -4.0) return 0.0;
+    if (within_deg < 2.5) within_deg += 0.42 * wide_noise(point.view) + 0.15 * clamp((point.mean_H_m - H.y) / 1500.0, -1.0, 1.0);
+    return broken(min(within_deg / 0.3, up), 1.0);
 }
 
 MaterialShares shares_by_rule(SurfacePoint point) {

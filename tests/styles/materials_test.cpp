@@ -149,6 +149,87 @@ TEST_F(MaterialPictures, AreSampledFinelyEnough) {
     EXPECT_LE(sum / count, 2.0) << "codes";
 }
 
+// Tilled ground of 2 degrees is in parcels: pixels beside each other are of one parcel and alike, and the
+// picture has their contrasts. They belong to the ground and end where it is steep.
+TEST_F(MaterialPictures, HaveParcelsOnTilledGround) {
+    constexpr double px_m = 12.0;
+    constexpr int moved_px = 16;
+    const auto of_crops = [&](const Region& region) {
+        gpu::FrameStyle style = natural(region);
+        gpu::Material crops = style.materials.of[gpu::material_crops];
+        crops.grain = 0.0F;
+        crops.patches = gpu::vec3(0.0F);
+        for (gpu::Material& material : style.materials.of) material = crops;
+        return style;
+    };
+    std::array<double, 2> contrasts{};
+    for (const bool is_steep : {false, true}) {
+        const Region region = slope(30.0, is_steep ? 0.30 : 0.03);
+        const gpu::FrameStyle style = of_crops(region);
+        Camera camera = down(region, px_m);
+        const auto one = picture(region, camera, style);
+        // Of each row: all of it is equally high.
+        for (std::size_t row = 0; row < picture_px; ++row) {
+            double sum = 0.0, squares = 0.0;
+            for (std::size_t column = 0; column < picture_px; ++column) {
+                const double value = one[4 * (picture_px * row + column) + 1];
+                sum += value / picture_px;
+                squares += value * value / picture_px;
+            }
+            contrasts[is_steep ? 1 : 0] += std::sqrt(std::max(squares - sum * sum, 0.0)) / picture_px;
+        }
+        camera.eye.lon_deg += moved_px * px_m / test::metres_per_degree(46.5, 1200.0).lon;
+        const auto other = picture(region, camera, style);
+        double moved = 0.0, count = 0.0;
+        for (std::size_t i = 0; i < one.size(); ++i) {
+            const std::size_t column = i / 4 % picture_px, row = i / 4 / picture_px;
+            if (row < 8 || row >= picture_px - 8 || column < 8 || column >= picture_px - moved_px - 8)
+                continue;
+            moved += std::abs(other[i] - one[i + 4 * moved_px]);
+            count += 1.0;
+        }
+        EXPECT_LT(moved / count, 1.0) << "codes from where it was";
+    }
+    std::printf("contrast of parcels %.2f codes, %.2f where it is steep\n", contrasts[0], contrasts[1]);
+    EXPECT_GT(contrasts[0], 3.0) << "codes";
+    EXPECT_LT(contrasts[1], 1.0) << "codes";
+}
+
+// A high plain across 28.7 degrees north, of which the style has deserts: 390 km of it, from far above.
+// Found: they ended along the parallel, but for speckles.
+TEST_F(MaterialPictures, DesertsHaveNoBorderAlongAParallel) {
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::square_field(
+        28.7, 84.0, 3000.0, 129, [](int row, int column) { return 3700.0 + (row + column) % 2; });
+    gpu::FrameStyle style = natural(region);
+    style.air.on = 1;
+    Camera camera = down(region, 3000.0);
+    const auto seen = picture(region, camera, style);
+    // Stripes of eight columns: how many of a stripe's rows are more red than green, in pixels.
+    std::vector<double> borders;
+    for (int first = 4; first + 8 <= picture_px - 4; first += 8) {
+        double dry = 0.0;
+        for (int row = 4; row < picture_px - 4; ++row) {
+            for (int column = first; column < first + 8; ++column) {
+                const auto at = static_cast<std::size_t>(4 * (picture_px * row + column));
+                dry += seen[at] > seen[at + 1] ? 0.125 : 0.0;
+            }
+        }
+        borders.push_back(dry);
+    }
+    double sum = 0.0, squares = 0.0;
+    for (const double border : borders) {
+        sum += border;
+        squares += border * border;
+    }
+    const double count = static_cast<double>(borders.size()), mean = sum / count;
+    const double km = 3.0 * std::sqrt(squares / count - mean * mean);
+    std::printf("dry rows %.1f of %d; the border winds by %.1f km r.m.s.\n", mean, picture_px - 8, km);
+    EXPECT_GT(mean, 20.0);
+    EXPECT_LT(mean, 100.0);
+    EXPECT_GT(km, 15.0);
+}
+
 // Where a style has none, nothing is asked for.
 TEST_F(MaterialPictures, AreOfNaturalAlone) {
     const Region region = slope(30.0, 0.0);

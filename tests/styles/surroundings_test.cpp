@@ -316,6 +316,47 @@ TEST_F(SurroundingsTest, LakesAreWaterAndSmallFlatFieldsAreNot) {
     }
 }
 
+// A shore that goes two rows down for each column, and one that goes four columns on for each row: posts are
+// whole, so theirs is a staircase. The drawn shore's r.m.s. from its straight line: posts of the staircases
+// that lie farthest out have 0.25 and 0.28.
+TEST_F(SurroundingsTest, ShoresAreSmoothBetweenPosts) {
+    for (const double columns_a_row : {0.5, 4.0}) {
+        SCOPED_TRACE(testing::Message() << columns_a_row << " columns a row");
+        const HeightField field = test::square_field(46.5, 8.0, 90.0, 141, [&](int row, int column) {
+            const double beyond = (column - 70) + columns_a_row * (row - 70);
+            return beyond < 0.0 ? 400.0 : 406.0 + std::floor(beyond);
+        });
+        const Camera camera = test::straight_down(field, 90.0, 60.0, 480);
+        const auto style = natural(field, camera);
+        ASSERT_TRUE(style.ok()) << style.error().line();
+        gpu::FrameStyle dry = style->frame;
+        dry.water.on = 0;
+        const DepthPicture with = picture(field, camera, style->frame), without = picture(field, camera, dry);
+        const auto width = static_cast<std::size_t>(camera.width_px);
+        // At a right angle to the line: posts.
+        const double per_post = 1.0 / std::hypot(1.0, columns_a_row);
+        double sum = 0.0, squares = 0.0, count = 0.0, farthest = -1e9;
+        for (std::size_t i = 0; i + 1 < with.points.size(); ++i) {
+            if (i % width + 1 == width || with.points[i].background()) continue;
+            if (apart(codes_at(with, i), codes_at(without, i)) == 0 ||
+                apart(codes_at(with, i + 1), codes_at(without, i + 1)) > 0)
+                continue;
+            const double beyond =
+                ((with.points[i].column - 70.0) + columns_a_row * (with.points[i].row - 70.0)) * per_post;
+            farthest = std::max(farthest, beyond);
+            sum += beyond;
+            squares += beyond * beyond;
+            count += 1.0;
+        }
+        ASSERT_GT(count, 60.0);
+        const double mean = sum / count, rms = std::sqrt(std::max(squares / count - mean * mean, 0.0));
+        std::printf("shore %.2f posts from its line, r.m.s. %.3f, farthest %.2f\n", mean, rms, farthest);
+        EXPECT_LT(rms, 0.2) << "posts";
+        EXPECT_NEAR(mean, -0.5, 0.5) << "posts";
+        EXPECT_LT(farthest, 0.1) << "posts: the ground rises there";
+    }
+}
+
 // Noise of +-4 m around sea level is the sea where one asks for it, and so is noise far below.
 TEST_F(SurroundingsTest, LowGroundIsTheSeaOnDemand) {
     constexpr unsigned seed = 20261126;

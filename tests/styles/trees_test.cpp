@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <optional>
 #include <random>
 #include <string>
@@ -105,6 +106,34 @@ TEST_F(TreePictures, ShowNoneAboveTheForest) {
     const Region region = slope(3300.0, 0.3);
     EXPECT_EQ(picture(region, camera(3300.0), natural(region, false), RasterPath::compute),
               picture(region, camera(3300.0), natural(region, true), RasterPath::compute));
+}
+
+// A lake in a forest, seen from above: found with trees standing in its water.
+TEST_F(TreePictures, StandInNoWater) {
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::square_field(46.5, 8.0, 30.0, 129, [](int row, int column) {
+        return std::max(1100.0, 1100.0 + 12.0 * (std::hypot(row - 64.0, column - 64.0) - 6.0));
+    });
+    Camera above = camera(1100.0);
+    above.eye = {46.5, 8.0, 1600.0};
+    above.attitude = {0.0, -90.0, 0.0};
+    above.vertical_fov_deg = 60.0;
+    gpu::FrameStyle with = natural(region, true), without = natural(region, false);
+    with.shadows = without.shadows = 0;
+    const std::vector<std::uint8_t> one = picture(region, above, with, RasterPath::compute),
+                                    other = picture(region, above, without, RasterPath::compute);
+    const double m_a_px = 500.0 * 2.0 * std::tan(30.0 * std::numbers::pi / 180.0) / height_px;
+    std::size_t in_lake = 0, on_land = 0;
+    for (std::size_t i = 0; i < one.size() / 3; ++i) {
+        const double x = static_cast<double>(i % width_px) - 0.5 * width_px,
+                     y = static_cast<double>(i / width_px) - 0.5 * height_px;
+        const double from_middle_m = std::hypot(x, y) * m_a_px;
+        const bool unlike = !std::equal(&one[3 * i], &one[3 * i] + 3, &other[3 * i]);
+        if (from_middle_m < 3.0 * 30.0) in_lake += unlike ? 1U : 0U;
+        if (from_middle_m > 8.0 * 30.0) on_land += unlike ? 1U : 0U;
+    }
+    EXPECT_EQ(in_lake, 0U) << "pixels with trees, in water";
+    EXPECT_GT(on_land, 100U);
 }
 
 // But for a pixel whose middle lies on an edge of two triangles.
