@@ -627,20 +627,24 @@ void add_info(CLI::App& app, InfoOptions& options) {
 }
 
 void add_fetch(CLI::App& app, FetchOptions& options) {
-    CLI::App& command = *app.add_subcommand(
-        "fetch", "Get elevation and land-cover tiles of public sources. Only this command uses a network");
-    OptionGroup data(command, "The tiles");
+    CLI::App& command =
+        *app.add_subcommand("fetch", "Get elevation, land cover and names of peaks from public servers");
+    OptionGroup data(command, "The data");
     data.option("--source", options.source, "NAME",
-                "Where to get them: skadi, glo30, glo90, worldcover, or one of your own table.");
+                "Where to get them: skadi, glo30, glo90 (heights), worldcover (land cover), peaks, passes, "
+                "settlements (names), or one of your own table.");
     data.option("--tile", options.tiles, "CELL",
                 "A whole-degree cell by its south-west corner, e.g. N46E008, or all from one to another: "
                 "N46E006:N47E010. Give it again for each further one.")
         .allow_extra_args(false);
     data.option("--bbox", options.bbox, "WEST,SOUTH,EAST,NORTH",
                 "All tiles that a box in degrees touches, e.g. 7.5,46.2,8.5,46.9.");
-    data.option("--out", options.out, "FOLDER", "The folder to write them into. It is made if need be.");
+    data.option(
+        "--out", options.out, "FOLDER",
+        "The folder to write tiles into; it is made if need be. Of names, the GeoJSON file to write.");
     data.option("--sources", options.sources_file, "FILE",
                 "A table of further sources. Those of the same name replace the program's.");
+    data.flag("--overwrite", options.overwrite, "Replace a file of names that exists.");
     data.flag("--dry-run", options.dry_run, "Ask no server: tell what is wanted, and what is there.");
     data.whole_number("--retries", options.retries, 0, 20, "N",
                       "Further requests of a tile whose server is busy or silent (default 4). Between them "

@@ -1,4 +1,4 @@
-// orograph fetch: gets tiles of public sources. The only command that uses a network.
+// orograph fetch: gets tiles and named places of public sources.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -6,32 +6,34 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
-#include "apps/fetch/tile_layouts.h"
+#include "apps/fetch/places_fetching.h"
+#include "apps/fetch/public_sources.h"
 #include "apps/options/fetch_options.h"
+#include "apps/output/overwrite_guard.h"
 #include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "core/base/open_file.h"
 #include "geo/fetch/fetch_tiles.h"
+#include "geo/files/whole_file.h"
 
 namespace oro {
 namespace {
 
 constexpr std::size_t most_tiles_fetched = 1000;
+// Of a region whose places are asked for: more than Switzerland or Nepal.
+constexpr double most_places_deg2 = 100.0;
 
-Result<TileLayout> layout_named(const FetchOptions& options) {
-    ORO_TRY(const std::vector<TileLayout> layouts, read_tile_layouts(options.sources_file));
+Error no_such_source(const PublicSources& sources, const std::string& name) {
     std::vector<std::string> names;
-    for (const TileLayout& layout : layouts) {
-        if (layout.name == options.source) return layout;
-        names.push_back(layout.name);
-    }
-    return refused("--source", options.source,
-                   options.source.empty() ? "is missing: " + choose_words(names) : choose_words(names));
+    for (const TileLayout& layout : sources.tiles) names.push_back(layout.name);
+    for (const PlacesSource& source : sources.places) names.push_back(source.name);
+    std::ranges::sort(names);
+    return refused("--source", name, (name.empty() ? "is missing: " : "") + choose_words(names));
 }
 
-Result<std::vector<TileName>> tiles_named(const FetchOptions& options, const TileLayout& layout) {
+Result<std::vector<BoundingBox>> boxes_named(const FetchOptions& options) {
     std::vector<BoundingBox> boxes;
     for (const std::string& tile : options.tiles) {
         const Result<BoundingBox> box = parse_tile_range(tile);
@@ -45,6 +47,11 @@ Result<std::vector<TileName>> tiles_named(const FetchOptions& options, const Til
     }
     if (boxes.empty())
         return refused("--bbox", "", "is missing: name the region, e.g. --bbox 7,46,9,47 or --tile N46E008");
+    return boxes;
+}
+
+Result<std::vector<TileName>> tiles_named(const FetchOptions& options, const TileLayout& layout) {
+    ORO_TRY(const std::vector<BoundingBox> boxes, boxes_named(options));
     std::vector<TileName> all;
     for (const BoundingBox& box : boxes) {
         ORO_TRY(const std::vector<TileName> tiles, tiles_in(box, layout, most_tiles_fetched));
@@ -131,19 +138,60 @@ nlohmann::ordered_json fetch_json(const std::vector<FetchedTile>& tiles, const T
                        layout.attribution, "page", layout.page, "counts", counts, "tiles", list);
 }
 
-}  // namespace
+FetchLimits limits_of(const FetchOptions& options) {
+    FetchLimits limits;
+    limits.retries = options.retries;
+    limits.transfer.program = "Orograph/" OROGRAPH_VERSION;
+    return limits;
+}
 
-Result<void> run_fetch(const FetchOptions& options) {
+std::string places_text(const PlacesSource& source, const std::string& file, std::size_t count) {
+    return one_line("Places: " + std::to_string(count) + " with names, in " + file) + "\n" +
+           one_line("Source: " + source.title) + "\n" + one_line("Licence: " + source.licence) + "\n" +
+           one_line("To be named: " + source.attribution) + "\n";
+}
+
+// Named places, as one file of GeoJSON.
+Result<void> fetch_places_of(const PlacesSource& source, const FetchOptions& options) {
+    ORO_TRY(const std::vector<BoundingBox> named, boxes_named(options));
+    ORO_TRY(const std::vector<BoundingBox> boxes, boxes_to_ask(named, most_places_deg2));
+    if (options.out.empty()) return refused("--out", "", "is missing: name the file for the places");
+    nlohmann::ordered_json result =
+        json_object("source", source.name, "title", source.title, "licence", source.licence, "attribution",
+                    source.attribution, "page", source.page, "file", path_json(options.out));
+    if (options.dry_run) {
+        nlohmann::ordered_json urls = json_list();
+        std::string lines;
+        for (const BoundingBox& box : boxes) {
+            urls.push_back(url_of(source, box));
+            lines += one_line("wanted   " + url_of(source, box)) + "\n";
+        }
+        result["urls"] = urls;
+        std::fputs((options.json ? json_text(result, true) + "\n" : lines).c_str(), stdout);
+        return {};
+    }
+    ORO_CHECK(check_may_write(options.out, options.overwrite));
+    ORO_TRY(const PlacesFound found, fetch_places(source, boxes, options.out, limits_of(options)));
+    ORO_CHECK(write_whole_file(options.out, found.geojson(source, named), options.overwrite));
+    result["places"] = found.count();
+    result["left_out"] = found.left_out();
+    std::fputs(
+        (options.json ? json_text(result, true) + "\n" : places_text(source, options.out, found.count()))
+            .c_str(),
+        stdout);
+    return {};
+}
+
+Result<void> fetch_tiles_of(const TileLayout& layout, const FetchOptions& options) {
     FetchTilesRequest request;
-    ORO_TRY(request.layout, layout_named(options));
-    ORO_TRY(request.tiles, tiles_named(options, request.layout));
+    request.layout = layout;
+    ORO_TRY(request.tiles, tiles_named(options, layout));
     if (options.out.empty()) return refused("--out", "", "is missing: name the folder for the tiles");
     if (!options.dry_run) ORO_CHECK(make_folder(options.out));
     request.folder = options.out;
     request.dry_run = options.dry_run;
     request.jobs = options.jobs;
-    request.limits.retries = options.retries;
-    request.limits.transfer.program = "Orograph/" OROGRAPH_VERSION;
+    request.limits = limits_of(options);
     ProgressBar bar(options.quiet);
     std::size_t done = 0;
     std::uint64_t bytes = 0;
@@ -166,6 +214,17 @@ Result<void> run_fetch(const FetchOptions& options) {
     return Error{ErrorKind::failed, options.source,
                  std::to_string(failed) + " of " + std::to_string(tiles.size()) +
                      " tiles could not be fetched; the same command again goes on with them"};
+}
+
+}  // namespace
+
+Result<void> run_fetch(const FetchOptions& options) {
+    ORO_TRY(const PublicSources sources, read_public_sources(options.sources_file));
+    for (const TileLayout& layout : sources.tiles)
+        if (layout.name == options.source) return fetch_tiles_of(layout, options);
+    for (const PlacesSource& source : sources.places)
+        if (source.name == options.source) return fetch_places_of(source, options);
+    return no_such_source(sources, options.source);
 }
 
 }  // namespace oro

@@ -97,7 +97,8 @@ Error no_such_place(const std::string& text, const Error& of_place, bool has_crs
         what += "; of coordinates of a map write the CRS before them: EPSG:2056 2642950,1166825";
     return unresolved(has_figure(text) ? what
                                        : "no place of this name is known here; a file of places (GPX, KML, "
-                                         "GeoJSON) that is opened adds its names");
+                                         "GeoJSON) that is opened adds its names, and `orograph fetch "
+                                         "--source peaks` gets such a file from OpenStreetMap");
 }
 
 }  // namespace

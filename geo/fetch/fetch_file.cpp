@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <thread>
 #include <utility>
 
@@ -40,14 +41,13 @@ Error given_up(const std::string& url, const TransferOutcome& outcome, int reque
             outcome.reason + (requests > 1 ? " (after " + std::to_string(requests) + " requests)" : "")};
 }
 
-}  // namespace
-
-Result<FetchedFile> fetch_file(const std::string& url, const std::string& path, const FetchLimits& limits,
-                               const CheckContent& check) {
-    ORO_TRY(PartFile part, PartFile::open(path));
+// Asks until the part is whole and passes the check, or the server has no such file.
+Result<FetchedFile> fill(PartFile& part, const FetchAddress& address, const FetchLimits& limits,
+                         const CheckContent& check) {
     FetchedFile fetched;
+    const std::string url = address.shown();
     for (int retry = 0;; ++retry) {
-        ORO_TRY(const TransferOutcome outcome, transfer_file(url, part, limits.transfer));
+        ORO_TRY(const TransferOutcome outcome, transfer_file(address, part, limits.transfer));
         ++fetched.requests;
         const bool may_retry = retry < limits.retries;
         if (outcome.kind == Kind::whole) {
@@ -67,8 +67,31 @@ Result<FetchedFile> fetch_file(const std::string& url, const std::string& path, 
     }
     fetched.is_there = true;
     fetched.bytes = part.bytes();
-    ORO_CHECK(part.commit());
     return fetched;
+}
+
+}  // namespace
+
+Result<FetchedFile> fetch_file(const FetchAddress& address, const std::string& path,
+                               const FetchLimits& limits, const CheckContent& check) {
+    ORO_TRY(PartFile part, PartFile::open(path));
+    ORO_TRY(const FetchedFile fetched, fill(part, address, limits, check));
+    if (fetched.is_there) ORO_CHECK(part.commit());
+    return fetched;
+}
+
+Result<std::string> fetch_text(const FetchAddress& address, const std::string& path,
+                               const FetchLimits& limits, const CheckContent& check) {
+    ORO_TRY(PartFile part, PartFile::open(path));
+    ORO_TRY(const FetchedFile fetched, fill(part, address, limits, check));
+    if (!fetched.is_there) return Error{ErrorKind::failed, address.shown(), "the server has no such file"};
+    std::ifstream stream(part.path(), std::ios::binary);
+    std::string text(fetched.bytes, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (static_cast<std::uint64_t>(stream.gcount()) != fetched.bytes)
+        return Error{ErrorKind::failed, part.path(), "cannot be read"};
+    part.discard();
+    return text;
 }
 
 }  // namespace oro

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "geo/fetch/fetch_address.h"
 #include "geo/fetch/http_transfer.h"
 
 namespace oro {
@@ -26,11 +27,16 @@ struct FetchedFile {
 // Whether a file is what it should be: it is called with the path of the part, before it gets its name.
 using CheckContent = std::function<Result<void>(const std::string& part)>;
 
-// Writes what is at `url` as the file `path`, which must not be there; a part of it that an earlier run left
-// is gone on with. What does not pass the check is removed; where it had been put together from parts, it is
-// asked for once more as a whole. From any thread. Errors: those of the server, with the address and its
-// words, after all retries; those of the check; those of writing.
-Result<FetchedFile> fetch_file(const std::string& url, const std::string& path, const FetchLimits& limits,
-                               const CheckContent& check);
+// Writes what is at the address as the file `path`, which must not be there; a part of it that an earlier run
+// left is gone on with. What does not pass the check is removed; where it had been put together from parts,
+// it is asked for once more as a whole. From any thread. Errors: those of the server, with the address and
+// its words, after all retries; those of the check; those of writing.
+Result<FetchedFile> fetch_file(const FetchAddress& address, const std::string& path,
+                               const FetchLimits& limits, const CheckContent& check);
+
+// Takes what is at the address into memory. While it comes it lies beside `path`, as the part of that file
+// would; nothing of it stays there. The rest as with fetch_file(). Errors: the server has no such file, too.
+Result<std::string> fetch_text(const FetchAddress& address, const std::string& path,
+                               const FetchLimits& limits, const CheckContent& check);
 
 }  // namespace oro

@@ -99,8 +99,8 @@ struct AnswerHead {
 // A transfer that goes on: libcurl hands it lines and bytes.
 class Transfer {
   public:
-    Transfer(const std::string& url, PartFile& part, const TransferLimits& limits)
-        : url_(url), part_(part), limits_(limits), curl_(curl_easy_init()) {}
+    Transfer(const FetchAddress& address, PartFile& part, const TransferLimits& limits)
+        : address_(address), shown_(address.shown()), part_(part), limits_(limits), curl_(curl_easy_init()) {}
 
     Result<TransferOutcome> run() {
         if (!curl_) return TransferOutcome{Kind::refused, "libcurl does not start", {}, false};
@@ -122,12 +122,12 @@ class Transfer {
     }
 
     void set_up() {
-        set(CURLOPT_URL, url_.c_str());
+        set(CURLOPT_URL, address_.url.c_str());
         set(CURLOPT_NOSIGNAL, 1L);
         set(CURLOPT_PROTOCOLS_STR, "http,https");
         set(CURLOPT_FOLLOWLOCATION, 1L);
         set(CURLOPT_MAXREDIRS, limits_.most_redirects);
-        set(CURLOPT_REDIR_PROTOCOLS_STR, url_.starts_with("https:") ? "https" : "http,https");
+        set(CURLOPT_REDIR_PROTOCOLS_STR, address_.url.starts_with("https:") ? "https" : "http,https");
         set(CURLOPT_CONNECTTIMEOUT_MS, std::lround(limits_.connect_s * 1000.0));
         set(CURLOPT_LOW_SPEED_LIMIT, limits_.slowest_bytes_per_s);
         set(CURLOPT_LOW_SPEED_TIME, std::max(1L, std::lround(limits_.stall_s)));
@@ -138,7 +138,7 @@ class Transfer {
         set(CURLOPT_HEADERDATA, this);
         set(CURLOPT_WRITEFUNCTION, &Transfer::take_bytes);
         set(CURLOPT_WRITEDATA, this);
-        const std::string version = part_.version_of(url_);
+        const std::string version = part_.version_of(shown_);
         if (version.empty()) return;
         from_ = part_.bytes();
         version_ = version;
@@ -189,7 +189,7 @@ class Transfer {
         if (head_.is_http_1 && !head_.is_chunked && !head_.length)
             return stop(Kind::refused, "the server does not say where the file ends");
         if (head_.length && *head_.length > limits_.most_bytes) return stop(Kind::refused, too_large());
-        fault_ = part_.begin(url_, head_.strong_etag());
+        fault_ = part_.begin(shown_, head_.strong_etag());
     }
 
     void begin_part() {
@@ -218,7 +218,7 @@ class Transfer {
     [[nodiscard]] TransferOutcome outcome_of(CURLcode code) const {
         if (code == CURLE_OK && (!total_ || part_.bytes() == *total_)) return {Kind::whole, "", {}, false};
         if (code == CURLE_OK) return {Kind::restart, "the server sent another size than it said", {}, false};
-        const std::string words = words_[0] != '\0' ? words_ : curl_easy_strerror(code);
+        const std::string words = address_.without_key(words_[0] != '\0' ? words_ : curl_easy_strerror(code));
         return {is_fault_to_retry(code) ? Kind::retry : Kind::refused, words, {}, false};
     }
 
@@ -228,7 +228,8 @@ class Transfer {
         return "the file is larger than " + std::to_string(limits_.most_bytes) + " bytes";
     }
 
-    const std::string& url_;
+    const FetchAddress& address_;
+    std::string shown_;
     PartFile& part_;
     const TransferLimits& limits_;
     std::unique_ptr<CURL, CloseTransfer> curl_;
@@ -246,9 +247,10 @@ class Transfer {
 
 }  // namespace
 
-Result<TransferOutcome> transfer_file(const std::string& url, PartFile& part, const TransferLimits& limits) {
+Result<TransferOutcome> transfer_file(const FetchAddress& address, PartFile& part,
+                                      const TransferLimits& limits) {
     if (!start_curl()) return TransferOutcome{Kind::refused, "libcurl does not start", {}, false};
-    return Transfer(url, part, limits).run();
+    return Transfer(address, part, limits).run();
 }
 
 }  // namespace oro

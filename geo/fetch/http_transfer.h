@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "geo/fetch/fetch_address.h"
 #include "geo/fetch/part_file.h"
 
 namespace oro {
@@ -35,10 +36,11 @@ struct TransferOutcome {
     bool resumed{};                       // the part went on from what it held before
 };
 
-// Asks for the file at `url` (http or https), and adds what comes to the part: from where that ends if it is
+// Asks for the file at the address, and adds what comes to the part: from where that ends if it is
 // of the version that the server still has (Range and If-Range with its ETag), else from the beginning. It
-// takes no password from an address and no cookies, and sends none. From any thread. Errors: the part cannot
-// be written.
-Result<TransferOutcome> transfer_file(const std::string& url, PartFile& part, const TransferLimits& limits);
+// takes no password from an address and no cookies, and sends none. What the part remembers of the address,
+// and the reason, are without its key. From any thread. Errors: the part cannot be written.
+Result<TransferOutcome> transfer_file(const FetchAddress& address, PartFile& part,
+                                      const TransferLimits& limits);
 
 }  // namespace oro

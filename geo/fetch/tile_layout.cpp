@@ -3,6 +3,8 @@
 #include <cmath>
 #include <string_view>
 
+#include "geo/fetch/places_source.h"
+
 namespace oro {
 namespace {
 
@@ -35,12 +37,7 @@ int last_before(double value_deg, int side_deg) {
 }  // namespace
 
 std::string fault_of(const TileLayout& layout) {
-    const std::size_t scheme = layout.url.find("://");
-    if (!layout.url.starts_with("http://") && !layout.url.starts_with("https://"))
-        return "'url' must begin with https:// or http://";
-    const std::string host = layout.url.substr(scheme + 3, layout.url.find('/', scheme + 3) - scheme - 3);
-    if (host.empty() || host.find('@') != std::string::npos)
-        return "'url' must name a server, and no user or password";
+    if (const std::string fault = fault_of_address(layout.url); !fault.empty()) return fault;
     if (!has_fields(layout.url) || !has_fields(layout.file))
         return "'url' and 'file' must have {latitude} and {longitude}";
     if (layout.file.find('/') != std::string::npos || layout.file.starts_with('.'))

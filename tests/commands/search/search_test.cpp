@@ -203,7 +203,7 @@ TEST(SearchIndex, SaysWhatIsWrongInOneLine) {
     EXPECT_EQ(wrong(index, "  "), "type a place: 46.57,7.99, a cell such as N46E008, or a name");
     const std::string unknown =
         "no place of this name is known here; a file of places (GPX, KML, GeoJSON) that is opened adds its "
-        "names";
+        "names, and `orograph fetch --source peaks` gets such a file from OpenStreetMap";
     EXPECT_EQ(wrong(index, "Nanga Parbat"), unknown);
     EXPECT_EQ(wrong(bare, "Eiger"), unknown);
     EXPECT_EQ(wrong(index, "8,47,9,46"), "south must lie below north; the order is west,south,east,north");

@@ -1,7 +1,8 @@
-#include "apps/fetch/tile_layouts.h"
+#include "apps/fetch/public_sources.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "apps/report/json_fields.h"
 #include "apps/settings/user_folders.h"
@@ -12,7 +13,9 @@
 namespace oro {
 namespace {
 
-constexpr double most_tile_bytes = 8.0 * 1024 * 1024 * 1024;
+constexpr std::int64_t most_tile_bytes = std::int64_t{8} << 30;
+// As much as is read of any JSON.
+constexpr std::int64_t most_answer_bytes = std::int64_t{16} << 20;
 
 std::string text_or_none(const nlohmann::json& json, const char* name) {
     return json.contains(name) ? json_string(json, name) : "";
@@ -42,8 +45,7 @@ TileLayout layout_from(const std::string& name, const nlohmann::json& json) {
         is_first_word(json, "holds", "heights", "land cover") ? TileHolds::heights : TileHolds::land_cover;
     layout.missing = is_first_word(json, "missing", "sea", "error") ? MissingTile::sea : MissingTile::error;
     layout.missing_words = text_or_none(json, "missing_words");
-    layout.most_bytes = static_cast<std::uint64_t>(
-        json_whole(json, "most_bytes", 1, static_cast<std::int64_t>(most_tile_bytes)));
+    layout.most_bytes = static_cast<std::uint64_t>(json_whole(json, "most_bytes", 1, most_tile_bytes));
     layout.licence = json_string(json, "licence");
     layout.attribution = json_string(json, "attribution");
     layout.page = text_or_none(json, "page");
@@ -52,19 +54,49 @@ TileLayout layout_from(const std::string& name, const nlohmann::json& json) {
     return layout;
 }
 
-Result<void> add_layouts(const std::string& file, std::vector<TileLayout>& all) {
-    ORO_TRY(const std::string text, read_text_file(file));
-    ORO_TRY(const std::vector<TileLayout> layouts, tile_layouts_from(text, file));
-    for (const TileLayout& layout : layouts) {
-        std::erase_if(all, [&](const TileLayout& one) { return one.name == layout.name; });
-        all.push_back(layout);
+PlacesSource places_from(const std::string& name, const nlohmann::json& json) {
+    refuse_unknown(json, ("source '" + name + "'").c_str(),
+                   {"title", "url", "format", "query", "most_bytes", "licence", "attribution", "page"});
+    PlacesSource source;
+    source.name = name;
+    source.title = json_string(json, "title");
+    source.url = json_string(json, "url");
+    source.query = json_string(json, "query");
+    source.most_bytes = static_cast<std::uint64_t>(json_whole(json, "most_bytes", 1, most_answer_bytes));
+    source.licence = json_string(json, "licence");
+    source.attribution = json_string(json, "attribution");
+    source.page = text_or_none(json, "page");
+    if (const std::string fault = fault_of(source); !fault.empty())
+        throw JsonFault{"of source '" + name + "', " + fault};
+    return source;
+}
+
+// Adds the sources of a table, which count before those of the same names.
+void add_sources(PublicSources more, PublicSources& all) {
+    const auto remove = [&](const std::string& name) {
+        std::erase_if(all.tiles, [&](const TileLayout& one) { return one.name == name; });
+        std::erase_if(all.places, [&](const PlacesSource& one) { return one.name == name; });
+    };
+    for (TileLayout& layout : more.tiles) {
+        remove(layout.name);
+        all.tiles.push_back(std::move(layout));
     }
+    for (PlacesSource& source : more.places) {
+        remove(source.name);
+        all.places.push_back(std::move(source));
+    }
+}
+
+Result<void> add_table(const std::string& file, PublicSources& all) {
+    ORO_TRY(const std::string text, read_text_file(file));
+    ORO_TRY(PublicSources sources, public_sources_from(text, file));
+    add_sources(std::move(sources), all);
     return {};
 }
 
 }  // namespace
 
-Result<std::vector<TileLayout>> tile_layouts_from(const std::string& text, const std::string& where) {
+Result<PublicSources> public_sources_from(const std::string& text, const std::string& where) {
     const auto wrong = [&](const std::string& what) {
         return Error{ErrorKind::failed, where, "is no table of sources: " + what};
     };
@@ -73,9 +105,14 @@ Result<std::vector<TileLayout>> tile_layouts_from(const std::string& text, const
         refuse_unknown(json, "a table of sources", {"licence", "sources"});
         const nlohmann::json& sources = json_field(json, "sources");
         if (!sources.is_object()) return wrong("'sources' must be an object of sources by their names");
-        std::vector<TileLayout> layouts;
-        for (const auto& [name, source] : sources.items()) layouts.push_back(layout_from(name, source));
-        return layouts;
+        PublicSources all;
+        for (const auto& [name, source] : sources.items()) {
+            if (source.is_object() && text_or_none(source, "format") == "overpass")
+                all.places.push_back(places_from(name, source));
+            else
+                all.tiles.push_back(layout_from(name, source));
+        }
+        return all;
     } catch (const JsonFault& fault) {
         return wrong(fault.what);
     } catch (const nlohmann::json::exception& fault) {
@@ -83,17 +120,18 @@ Result<std::vector<TileLayout>> tile_layouts_from(const std::string& text, const
     }
 }
 
-Result<std::vector<TileLayout>> read_tile_layouts(const std::string& file) {
-    std::vector<TileLayout> all;
-    ORO_CHECK(add_layouts((data_folder() / "sources" / "sources.json").string(), all));
+Result<PublicSources> read_public_sources(const std::string& file) {
+    PublicSources all;
+    ORO_CHECK(add_table((data_folder() / "sources" / "sources.json").string(), all));
     // Without a folder for settings there is no table of the user's.
     if (const auto folder = user_config_folder(); folder.ok()) {
         const std::string own = (*folder / "sources.json").string();
         ORO_TRY(const bool is_own_there, is_there(own));
-        if (is_own_there) ORO_CHECK(add_layouts(own, all));
+        if (is_own_there) ORO_CHECK(add_table(own, all));
     }
-    if (!file.empty()) ORO_CHECK(add_layouts(file, all));
-    std::ranges::sort(all, {}, &TileLayout::name);
+    if (!file.empty()) ORO_CHECK(add_table(file, all));
+    std::ranges::sort(all.tiles, {}, &TileLayout::name);
+    std::ranges::sort(all.places, {}, &PlacesSource::name);
     return all;
 }
 
