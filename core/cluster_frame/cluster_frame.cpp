@@ -74,7 +74,7 @@ class PagesOfPlan {
 }  // namespace
 
 void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> clusters, const ClusterOffer& offer,
-                   const Camera& camera, GridPlan& plan, RowAngles* kept) {
+                   const Camera& camera, GridPlan& plan, KeptAngles* kept) {
     plan.clusters.on = true;
     const PagesOfPlan pages(plan);
     std::vector<FrameTables::Span> rows, columns;

@@ -8,7 +8,7 @@
 #include "core/cluster_frame/region_clusters.h"
 #include "core/earth/camera.h"
 #include "core/frame/frame_plan.h"
-#include "core/frame/row_angles.h"
+#include "core/frame/frame_tables.h"
 
 namespace oro {
 
@@ -25,6 +25,6 @@ struct ResidentCluster {
 // Adds the terms of all rows and columns of the region that a cluster reaches over.
 // clusters: those of the offer, in its order. kept: of the same grid, from frame to frame.
 void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> clusters, const ClusterOffer& offer,
-                   const Camera& camera, GridPlan& plan, RowAngles* kept = nullptr);
+                   const Camera& camera, GridPlan& plan, KeptAngles* kept = nullptr);
 
 }  // namespace oro

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ranges>
 
+#include "core/base/radix_order.h"
 #include "core/cluster_frame/cluster_choice.h"
 
 namespace oro {
@@ -45,11 +46,13 @@ std::uint32_t OfferedCut::ask(std::uint32_t group) {
     return number;
 }
 
-void OfferedCut::offer(std::vector<Found>& found) {
+void OfferedCut::offer(std::vector<OfferFound>& found) {
     // Distances are at least 0, and no number stands twice.
-    std::ranges::sort(found, [](const Found& a, const Found& b) {
-        return a.distance_m != b.distance_m ? a.distance_m < b.distance_m : a.cluster < b.cluster;
-    });
+    sort_by_distance(
+        found, memory_.sorting, [](const OfferFound& one) { return one.distance_m; },
+        [](const OfferFound& a, const OfferFound& b) {
+            return a.distance_m != b.distance_m ? a.distance_m < b.distance_m : a.cluster < b.cluster;
+        });
     for (const auto& [distance_m, cluster, user] : found) {
         const std::uint32_t maker = clusters_.maker(cluster);
         offer_.clusters.push_back(
@@ -64,7 +67,7 @@ ClusterOffer OfferedCut::take(std::span<const std::uint32_t> opened) {
         for (const Cluster& made : clusters_.read_part(group)->made)
             if (made.used_by != no_group) deselect(made.used_by);
     }
-    std::erase_if(coarser_, [&](const Found& found) {
+    std::erase_if(coarser_, [&](const OfferFound& found) {
         return memory_.must_be_deselected[clusters_.maker(found.cluster)] != 0;
     });
     offer_.clusters.reserve(of_cut_.size() + coarser_.size());

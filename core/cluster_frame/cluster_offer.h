@@ -28,11 +28,18 @@ struct ClusterOffer {
     gpu::CutRule rule{};
 };
 
+// A cluster that may be offered.
+struct OfferFound {
+    double distance_m;
+    std::uint32_t cluster, user;
+};
+
 // What offers of a region's clusters keep from one to the next: room alone.
 struct OfferMemory {
     std::vector<char> must_be_deselected;  // of each group
     std::vector<std::uint32_t> numbers;    // of each group among those that are asked, or no_asked_group
     std::vector<std::uint32_t> touched;    // groups that have another entry than at the beginning
+    std::vector<OfferFound> sorting;       // as sort_by_distance() has it
 };
 
 // Gathers one. Groups that do not give way are not asked: what they use is not offered.
@@ -54,19 +61,15 @@ class OfferedCut {
     [[nodiscard]] ClusterOffer take(std::span<const std::uint32_t> opened);
 
   private:
-    struct Found {
-        double distance_m;
-        std::uint32_t cluster, user;
-    };
     // Its number among those that are asked.
     std::uint32_t ask(std::uint32_t group);
-    void offer(std::vector<Found>& found);
+    void offer(std::vector<OfferFound>& found);
     void deselect(std::uint32_t group);
 
     const RegionClusters& clusters_;
     const ClusterView& view_;
     OfferMemory& memory_;
-    std::vector<Found> of_cut_, coarser_;
+    std::vector<OfferFound> of_cut_, coarser_;
     ClusterOffer offer_;
 };
 

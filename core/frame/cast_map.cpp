@@ -12,13 +12,6 @@ namespace oro {
 namespace {
 
 constexpr double sun_radius_rad = 0.00465;
-constexpr int cells_max = 128;  // along a side
-
-// The ellipsoid's point at a place of a grid.
-glm::dvec3 sea_level_ecef(const PostGrid& grid, double row, double column) {
-    const PostPlace at = grid.place_at(row, column);
-    return ecef_from_geodetic({at.lat_deg, at.lon_deg, 0.0}).m;
-}
 
 // How a line towards the sun rises from anywhere within half_m of a place.
 struct SunRise {
@@ -34,24 +27,6 @@ SunRise sun_rise(const glm::dvec3& sun_enu, double half_rad) {
 }
 
 }  // namespace
-
-void CastMap::divide(const RegionPages& pages) {
-    constexpr double infinite = std::numeric_limits<double>::infinity();
-    while (level_ + 1 < pages.levels() &&
-           std::max(pages.layout(level_).rows, pages.layout(level_).columns) > cells_max)
-        ++level_;
-    layout_ = pages.layout(level_);
-    needs_.resize(static_cast<std::size_t>(layout_.rows) * static_cast<std::size_t>(layout_.columns));
-    posts_ = std::int64_t{gpu::page_quads} << level_;
-    receivers_.resize(needs_.size(), {infinite, infinite});
-    const double last_row = grid_.rows() - 1, last_column = grid_.columns() - 1;
-    middle_ = {sea_level_ecef(grid_, 0.5 * last_row, 0.5 * last_column)};
-    for (int i = 0; i < 9; ++i)
-        reach_m_ = std::max(reach_m_, glm::length(sea_level_ecef(grid_, 0.5 * (i / 3) * last_row,
-                                                                 0.5 * (i % 3) * last_column) -
-                                                  middle_.m));
-    reach_m_ *= 1.1;  // rims are curved
-}
 
 CastMap::Patch CastMap::patch(std::int64_t row, std::int64_t column, std::int64_t posts) const {
     const auto clamped = [](std::int64_t cell, int count) {
@@ -103,34 +78,15 @@ void CastMap::mark(double north, double south, double west, double east, const N
         }
 }
 
-CastMap::CellFrame CastMap::frame_of_cell(std::int64_t row, std::int64_t column) const {
-    if (grid_.net) {
-        const auto y = static_cast<double>(row), x = static_cast<double>(column);
-        const LatticeGeoreference::LatticeFrame local_frame = grid_.net->local_frame_at(y, x);
-        return {grid_.net->place_at(y, x), local_frame.row_m, local_frame.column_m,
-                sine_cosine_deg(deg_from_radians(Radians(local_frame.turn_rad))), 1.0 + grid_.net->bend()};
-    }
-    const double lat_deg = row_lat_deg(grid_, row);
-    return {{lat_deg, grid_.lon.at_deg(column)},
-            meridian_radius_m(lat_deg) * grid_.row_step_rad(),
-            prime_vertical_radius_m(lat_deg) * sine_cosine_deg(lat_deg).cosine * grid_.column_step_rad(),
-            {0.0, 1.0},
-            1.0 + std::abs(std::tan(radians_from_deg(lat_deg).rad))};
-}
-
 // Moves a cell towards the sun, half a cell at a time, until it is above all terrain.
 void CastMap::cast_from(int row, int column) {
     const Need& receiver = receivers_[place(row, column)];
     const auto posts = static_cast<double>(posts_);
-    const std::int64_t at_post_row = std::min<std::int64_t>(row * posts_ + posts_ / 2, grid_.rows() - 1);
-    const std::int64_t at_post_column =
-        std::min<std::int64_t>(column * posts_ + posts_ / 2, grid_.columns() - 1);
-    const CellFrame local_frame = frame_of_cell(at_post_row, at_post_column);
-    const glm::dvec3 sun =
-        glm::transpose(ecef_from_enu(local_frame.place.lat_deg, local_frame.place.lon_deg)) * sun_ecef_;
+    const CastCells::Cell& cell = cells_.cell(row, column);
+    const CastCells::Frame& local_frame = cell.frame;
+    const glm::dvec3 sun = cell.enu_from_ecef * sun_ecef_;
     const double row_m = posts * local_frame.row_m, column_m = std::max(1.0, posts * local_frame.column_m);
-    const double half_rad =
-        0.5 * std::hypot(row_m, column_m) / mean_radius_m;  // the sun's rise differs over the cell
+    const double half_rad = cell.half_rad;  // the sun's rise differs over the cell
     const SunRise rise = sun_rise(sun, half_rad);
     const double level = rise.level, lowest = rise.lowest;
     const Need need{receiver.error_m * rise.slope, receiver.low_m};
@@ -165,7 +121,7 @@ void CastMap::cast_from_other_grid(const ShadowReceiver& receiver) {
     const double half_rad = receiver.radius_m / mean_radius_m;
     const SunRise rise = sun_rise(sun, half_rad);
     const double level = std::max(rise.level, 0.02);  // a sun in the zenith: all is within the radius
-    const CellFrame middle = frame_of_cell(grid_.rows() / 2, grid_.columns() / 2);
+    const CastCells::Frame middle = cells_.frame_of_post(grid_.rows() / 2, grid_.columns() / 2);
     const double cell_m =
         static_cast<double>(posts_) * std::max(1.0, std::min(middle.row_m, middle.column_m));
     const double step_m = std::max(0.5 * cell_m, 0.25 * receiver.radius_m);
@@ -181,10 +137,11 @@ void CastMap::cast_from_other_grid(const ShadowReceiver& receiver) {
         const double around_m = receiver.radius_m + 0.51 * step_m + to_m * half_rad;
         const double highest_m =
             std::max(top_m_, 0.0) + to_m * to_m / mean_radius_m + 2.0e4 + to_m * std::max(sun.z, 0.0) / level;
-        const double off_m = glm::length(there - middle_.m) - (reach_m_ + around_m + highest_m);
+        const double off_m =
+            glm::length(there - cells_.middle().m) - (cells_.reach_m() + around_m + highest_m);
         if (off_m > 0.0) {
             // Past the grid it does not come back; before it half of the way is free.
-            if (glm::dot(there - middle_.m, sun_ecef_) > 0.0) break;
+            if (glm::dot(there - cells_.middle().m, sun_ecef_) > 0.0) break;
             next_m = std::max(to_m, from_m + 0.5 * off_m * level);
             continue;
         }
@@ -194,8 +151,8 @@ void CastMap::cast_from_other_grid(const ShadowReceiver& receiver) {
         const auto within = [](double number, int count) {
             return static_cast<std::int64_t>(std::clamp(number, 0.0, static_cast<double>(count - 1)));
         };
-        const CellFrame local_frame =
-            frame_of_cell(within(post.row, grid_.rows()), within(post.column, grid_.columns()));
+        const CastCells::Frame local_frame =
+            cells_.frame_of_post(within(post.row, grid_.rows()), within(post.column, grid_.columns()));
         const auto posts = static_cast<double>(posts_);
         const double rows = 1.02 * around_m / (posts * local_frame.row_m) + 0.01,
                      columns = 1.02 * around_m / (posts * std::max(local_frame.column_m, 1.0e-2)) + 0.01;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/earth/ellipsoid.h"
+#include "core/frame/cast_cells.h"
 #include "core/frame/region_pages.h"
 #include "core/frame/shadow_receiver.h"
 
@@ -22,11 +23,17 @@ class CastMap {
         double low_m{std::numeric_limits<double>::infinity()};    // nothing below this height matters
     };
 
-    // sun_ecef: unit vector; top_m: height that nothing in the region is above. `pages` outlive it.
-    CastMap(const RegionPages& pages, const glm::dvec3& sun_ecef, double top_m)
-        : grid_(pages.facts().grid), sun_ecef_(sun_ecef), top_m_(top_m) {
-        divide(pages);
-    }
+    // cells: of the region's pages, which outlive it. sun_ecef: unit vector; top_m: height that nothing in
+    // the region is above.
+    CastMap(const RegionPages& pages, CastCells& cells, const glm::dvec3& sun_ecef, double top_m)
+        : grid_(pages.facts().grid),
+          cells_(cells),
+          sun_ecef_(sun_ecef),
+          top_m_(top_m),
+          layout_(cells.layout()),
+          posts_(cells.posts()),
+          needs_(static_cast<std::size_t>(layout_.count())),
+          receivers_(needs_.size()) {}
 
     // Cells from north to south and from west to east, both among them.
     struct Patch {
@@ -49,29 +56,17 @@ class CastMap {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(layout_.columns) +
                static_cast<std::size_t>(column);
     }
-    // How the posts lie around one of them.
-    struct CellFrame {
-        PostPlace place;
-        double row_m, column_m;  // from one to the next
-        SineCosine turn;         // of rows, from east towards north
-        double bend;  // how far a line strays from a straight one among them, of a great circle's stray
-    };
-    void divide(const RegionPages& pages);  // into cells
-    [[nodiscard]] CellFrame frame_of_cell(std::int64_t row, std::int64_t column) const;
     void cast_from(int row, int column);
     void mark(double north, double south, double west, double east, const Need& need);
 
     const PostGrid& grid_;
+    CastCells& cells_;
     glm::dvec3 sun_ecef_;
     double top_m_;
-    int level_{0};
     PageLayout layout_;
-    std::int64_t posts_{};  // along a cell
+    std::int64_t posts_;  // along a cell
     bool any_{false};
     std::vector<Need> needs_, receivers_;
-    // All of its ground lies in this sphere, but for heights.
-    Ecef middle_;
-    double reach_m_{};
 };
 
 }  // namespace oro

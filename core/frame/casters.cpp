@@ -258,7 +258,8 @@ Result<void> plan_casters(PlanMemory& memory, const std::function<std::uint64_t(
     CasterChoice choice(memory, residency);
     bool for_shadows = request.sun_enu.has_value();
     if (for_shadows) {
-        CastMap map(pages, ecef_from_enu(view.camera.eye.lat_deg, view.camera.eye.lon_deg) * *request.sun_enu,
+        CastMap map(pages, memory.cast_cells(),
+                    ecef_from_enu(view.camera.eye.lat_deg, view.camera.eye.lon_deg) * *request.sun_enu,
                     top_m);
         ORO_CHECK(look_for_quarters(memory, view, plan, [&](const SeenQuarter& quarter) {
             map.receive(map.patch(quarter.row, quarter.column, quarter.posts),

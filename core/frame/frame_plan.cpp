@@ -391,7 +391,7 @@ Result<GridPlan> plan_grid(PlanMemory& memory, const Residency& residency, const
         return Error{ErrorKind::failed, "frame",
                      std::to_string(plan.page_indices.size()) + " pages of terrain in one frame, at most " +
                          std::to_string(gpu::pages_max) + " can be drawn (a larger --tau needs fewer)"};
-    FrameTables tables(pages.facts().grid, camera.eye, model.earth, &memory.row_angles());
+    FrameTables tables(pages.facts().grid, camera.eye, model.earth, &memory.angles());
     choice.list_pages(tables, plan);
     plan.row_terms = tables.take_rows();
     plan.column_terms = tables.take_columns();

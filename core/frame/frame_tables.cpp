@@ -1,10 +1,10 @@
 #include "core/frame/frame_tables.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 
+#include "core/base/wide.h"
 #include "core/earth/culling.h"
 #include "core/frame/column_terms.h"
 #include "core/frame/ground_noise.h"
@@ -99,29 +99,65 @@ gpu::NetMap net_map(const LatticeGeoreference& net, const SineCosine& lon) {
     return map;
 }
 
+double within_half_a_turn_deg(double east_deg) {
+    return std::abs(east_deg) < 180.0 ? east_deg : std::remainder(east_deg, 360.0);
+}
+
 // Of a column from the eye's meridian, within half a turn.
 double east_of_eye_deg(const PostGrid& grid, const Geodetic& eye, std::int64_t column) {
     // Round the Earth the last column is the first.
     const bool twin = column == grid.columns() - 1 && grid.wraps_longitude();
-    const double east_deg = grid.lon.at_deg(twin ? 0 : column) - eye.lon_deg;
-    return std::abs(east_deg) < 180.0 ? east_deg : std::remainder(east_deg, 360.0);
+    return within_half_a_turn_deg(grid.lon.at_deg(twin ? 0 : column) - eye.lon_deg);
 }
 
-// Of so many numbers, those in a span.
-std::vector<bool> in_any(std::span<const FrameTables::Span> spans, int count) {
-    std::vector<int> steps(static_cast<std::size_t>(count) + 1, 0);
+// Of so many numbers, runs of those that are in any of the spans and of those that are not, in order.
+template <class Run>
+void for_each_run(std::span<const FrameTables::Span> spans, int count, const Run& run) {
+    std::vector<std::int32_t> steps(static_cast<std::size_t>(count) + 1, 0);
     for (const FrameTables::Span& span : spans) {
         assert(0 <= span.first && span.first <= span.last && span.last < count);
         ++steps[static_cast<std::size_t>(span.first)];
         --steps[static_cast<std::size_t>(span.last) + 1];
     }
-    std::vector<bool> in(static_cast<std::size_t>(count));
-    int open = 0;
-    for (std::size_t i = 0; i < in.size(); ++i) {
-        open += steps[i];
-        in[i] = open > 0;
+    std::int32_t open = 0;
+    for (int first = 0; first < count;) {
+        open += steps[static_cast<std::size_t>(first)];
+        const bool wanted = open > 0;
+        int next = first + 1;
+        while (next < count && (open + steps[static_cast<std::size_t>(next)] > 0) == wanted)
+            open += steps[static_cast<std::size_t>(next++)];
+        run(first, next - first, wanted);
+        first = next;
     }
-    return in;
+}
+
+// Of an eye over the ellipsoid.
+struct EyePlace {
+    double reference_m, rho_m, z_m;
+};
+
+// The terms of FrameTables::round_row() of many rows of the ellipsoid: the same bits.
+ORO_WIDE void ellipsoid_rows(const RowAngles::Rows& rows, std::size_t count, const EyePlace& eye,
+                             gpu::RowTerms* terms) {
+    constexpr std::size_t at_a_time = 64;
+    float R[at_a_time], C[at_a_time], S[at_a_time], P[at_a_time], Z[at_a_time];
+    const double reference_m = eye.reference_m, rho_m = eye.rho_m, z_m = eye.z_m;
+    for (std::size_t first = 0; first < count; first += at_a_time) {
+        const std::size_t some = std::min(at_a_time, count - first);
+        const double* const sine = rows.sine + first;
+        const double* const cosine = rows.cosine + first;
+        const double* const normal_m = rows.normal_m + first;
+        const double* const polar_m = rows.polar_m + first;
+        for (std::size_t i = 0; i < some; ++i) {
+            const double from_axis_m = (normal_m[i] + reference_m) * cosine[i];
+            R[i] = static_cast<float>(from_axis_m - rho_m);
+            C[i] = static_cast<float>(cosine[i]);
+            S[i] = static_cast<float>(sine[i]);
+            P[i] = static_cast<float>(from_axis_m);
+            Z[i] = static_cast<float>((polar_m[i] + reference_m) * sine[i] - z_m);
+        }
+        for (std::size_t i = 0; i < some; ++i) terms[first + i] = {R[i], C[i], S[i], P[i], Z[i], C[i], C[i]};
+    }
 }
 
 }  // namespace
@@ -130,9 +166,12 @@ double reference_height_m(const Geodetic& eye) {
     return std::round(std::clamp(eye.h_m, -524000.0, 524000.0));
 }
 
-FrameTables::FrameTables(const PostGrid& grid, const Geodetic& eye, Earth earth, RowAngles* kept)
-    : grid_(grid), eye_(eye), earth_(earth), reference_m_(reference_height_m(eye)), angles_(kept) {
-    if (kept == nullptr) angles_ = &own_angles_.emplace(grid);
+FrameTables::FrameTables(const PostGrid& grid, const Geodetic& eye, Earth earth, KeptAngles* kept)
+    : grid_(grid), eye_(eye), earth_(earth), reference_m_(reference_height_m(eye)), kept_(kept) {
+    if (kept == nullptr) kept_ = &own_angles_.emplace(grid);
+    // A little more than the last frame's: an eye moves by little.
+    rows_.reserve(kept_->row_count + 4 * gpu::page_posts);
+    columns_.reserve(kept_->column_count + 4 * gpu::page_posts);
     const SineCosine lat = sine_cosine_deg(eye.lat_deg);
     const double normal_m = earth == Earth::sphere ? mean_radius_m : prime_vertical_radius_m(eye.lat_deg);
     const double e2 = earth == Earth::sphere ? 0.0 : wgs84_e2;
@@ -175,7 +214,7 @@ void FrameTables::add_row(std::int64_t row) {
     if (grid_.net) {
         // Where its posts are is PagePlaces' business; what is coloured by latitude takes that of the row's
         // middle.
-        const RowAngles::Row angles = angles_->at(row);
+        const RowAngles::Row angles = kept_->rows.at(row);
         gpu::RowTerms terms{};
         terms.C = static_cast<float>(angles.cosine);
         terms.S = static_cast<float>(angles.sine);
@@ -183,20 +222,35 @@ void FrameTables::add_row(std::int64_t row) {
         rows_.push_back(terms);
         return;
     }
-    rows_.push_back(earth_ == Earth::flat ? flat_row(row_lat_deg(grid_, row)) : round_row(angles_->at(row)));
+    rows_.push_back(earth_ == Earth::flat ? flat_row(row_lat_deg(grid_, row))
+                                          : round_row(kept_->rows.at(row)));
 }
 
-void FrameTables::add_columns(std::span<const std::int64_t> columns) {
+void FrameTables::add_rows(const RowAngles::Rows& rows, std::size_t count) {
+    const std::size_t first = rows_.size();
+    rows_.resize(first + count);
+    ellipsoid_rows(rows, count, {reference_m_, rho_m_, z_m_}, &rows_[first]);
+}
+
+void FrameTables::add_page_rows(const LevelAxis& level, int page_row) {
+    if (is_on_ellipsoid()) {
+        add_rows(kept_->rows.of_pages(level, page_row), gpu::page_posts);
+        return;
+    }
+    for (int i = 0; i < posts; ++i) add_row(post_beyond(level, page_row * quads + i));
+}
+
+void FrameTables::add_columns(std::span<const double> lon_deg) {
     const std::size_t first = columns_.size();
-    columns_.resize(first + columns.size());
-    if (grid_.net) return;
-    east_deg_.clear();
-    for (const std::int64_t column : columns) east_deg_.push_back(east_of_eye_deg(grid_, eye_, column));
+    columns_.resize(first + lon_deg.size());
+    east_deg_.resize(lon_deg.size());
+    for (std::size_t i = 0; i < lon_deg.size(); ++i) east_deg_[i] = lon_deg[i] - eye_.lon_deg;
+    for (double& east_deg : east_deg_) east_deg = within_half_a_turn_deg(east_deg);
     if (earth_ != Earth::flat) {
         column_terms(east_deg_, std::span(columns_).subspan(first));
         return;
     }
-    for (std::size_t i = 0; i < columns.size(); ++i)
+    for (std::size_t i = 0; i < lon_deg.size(); ++i)
         columns_[first + i] = {0.0F, static_cast<float>(radians_from_deg(east_deg_[i]).rad)};
 }
 
@@ -214,40 +268,35 @@ void FrameTables::place(const PageIndex& index, gpu::FramePage& page) {
     std::uint32_t& row = first_of(first_rows_, index.level, index.row, level.row.pages());
     if (row == nowhere) {
         row = static_cast<std::uint32_t>(rows_.size());
-        for (int i = 0; i < posts; ++i) add_row(post_beyond(level.row, index.row * quads + i));
+        add_page_rows(level.row, index.row);
     }
     std::uint32_t& column = first_of(first_columns_, index.level, index.column, level.column.pages());
     if (column == nowhere) {
         column = static_cast<std::uint32_t>(columns_.size());
-        std::array<std::int64_t, posts> all;
-        for (int i = 0; i < posts; ++i)
-            all[static_cast<std::size_t>(i)] = post_beyond(level.column, index.column * quads + i);
-        add_columns(all);
+        if (grid_.net)
+            columns_.resize(columns_.size() + gpu::page_posts);
+        else
+            add_columns(kept_->columns.of_pages(level.column, index.column));
     }
     page.row_terms = row;
     page.column_terms = column;
 }
 
 void FrameTables::place_spans(std::span<const Span> rows, std::span<const Span> columns) {
-    const std::vector<bool> row_wanted = in_any(rows, grid_.rows());
-    const std::vector<bool> column_wanted = in_any(columns, grid_.columns());
-    for (int row = 0; row < grid_.rows(); ++row) {
-        if (row_wanted[static_cast<std::size_t>(row)])
-            add_row(row);
+    for_each_run(rows, grid_.rows(), [&](int first, int count, bool wanted) {
+        if (!wanted)
+            rows_.resize(rows_.size() + static_cast<std::size_t>(count));
+        else if (is_on_ellipsoid())
+            add_rows(kept_->rows.of(first, count), static_cast<std::size_t>(count));
         else
-            rows_.push_back({});
-    }
-    std::vector<std::int64_t> wanted;
-    for (int column = 0; column < grid_.columns(); ++column) {
-        if (column_wanted[static_cast<std::size_t>(column)]) {
-            wanted.push_back(column);
-            continue;
-        }
-        if (!wanted.empty()) add_columns(wanted);
-        wanted.clear();
-        columns_.push_back({});
-    }
-    add_columns(wanted);
+            for (int row = first; row < first + count; ++row) add_row(row);
+    });
+    for_each_run(columns, grid_.columns(), [&](int first, int count, bool wanted) {
+        if (!wanted || grid_.net)
+            columns_.resize(columns_.size() + static_cast<std::size_t>(count));
+        else
+            add_columns(kept_->columns.of(first, count));
+    });
 }
 
 namespace {

@@ -10,12 +10,23 @@
 
 #include "core/earth/camera.h"
 #include "core/earth/world_model.h"
+#include "core/frame/column_angles.h"
 #include "core/frame/height_quantization.h"
 #include "core/frame/region_pages.h"
 #include "core/frame/row_angles.h"
 #include "shaders/shared.h"
 
 namespace oro {
+
+// What tables of a grid keep from frame to frame.
+struct KeptAngles {
+    // The grid outlives it.
+    explicit KeptAngles(const PostGrid& grid) : rows(grid), columns(grid) {}
+    RowAngles rows;
+    ColumnAngles columns;
+    // Of the last frame's tables.
+    std::size_t row_count{}, column_count{};
+};
 
 // The terms of shaders/shared.h's RowTerms and ColumnTerms for the pages of a frame. Each depends on the
 // post's own angle and the eye alone, so that all pages that share a row or a column hold the same bits.
@@ -24,7 +35,7 @@ class FrameTables {
     // The eye's longitude may be in any whole turn; its height anything from the Earth's centre to the Moon.
     // kept: of the same grid, from frame to frame, for the same bits in less time; null: nothing is kept.
     FrameTables(const PostGrid& grid, const Geodetic& eye, Earth earth = Earth::ellipsoid,
-                RowAngles* kept = nullptr);
+                KeptAngles* kept = nullptr);
     FrameTables(const FrameTables&) = delete;
     FrameTables& operator=(const FrameTables&) = delete;
 
@@ -39,12 +50,21 @@ class FrameTables {
     // already. Those in any of the spans are there, the others are nowhere: reckoning takes longest.
     void place_spans(std::span<const Span> rows, std::span<const Span> columns);
 
-    std::vector<gpu::RowTerms> take_rows() { return std::move(rows_); }
-    std::vector<gpu::ColumnTerms> take_columns() { return std::move(columns_); }
+    std::vector<gpu::RowTerms> take_rows() {
+        kept_->row_count = rows_.size();
+        return std::move(rows_);
+    }
+    std::vector<gpu::ColumnTerms> take_columns() {
+        kept_->column_count = columns_.size();
+        return std::move(columns_);
+    }
 
   private:
     void add_row(std::int64_t row);
-    void add_columns(std::span<const std::int64_t> columns);
+    void add_rows(const RowAngles::Rows& rows, std::size_t count);
+    void add_page_rows(const LevelAxis& level, int page_row);
+    void add_columns(std::span<const double> lon_deg);
+    [[nodiscard]] bool is_on_ellipsoid() const { return earth_ == Earth::ellipsoid && !grid_.net; }
     [[nodiscard]] gpu::RowTerms round_row(const RowAngles::Row& row) const;
     [[nodiscard]] gpu::RowTerms flat_row(double lat_deg) const;
 
@@ -62,8 +82,8 @@ class FrameTables {
     // Of one of `count` of a level, where its posts begin in rows_ or columns_.
     static std::uint32_t& first_of(FirstOfPages& all, int level, int number, int count);
     FirstOfPages first_rows_, first_columns_;
-    std::optional<RowAngles> own_angles_;
-    RowAngles* angles_;
+    std::optional<KeptAngles> own_angles_;
+    KeptAngles* kept_;
     std::vector<double> east_deg_;  // of columns that are being added
 };
 

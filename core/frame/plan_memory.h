@@ -5,14 +5,16 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/frame/cast_cells.h"
 #include "core/frame/frame_plan.h"
+#include "core/frame/frame_tables.h"
 #include "core/frame/page_table.h"
 #include "core/frame/region_pages.h"
-#include "core/frame/row_angles.h"
 
 namespace oro {
 
@@ -20,13 +22,16 @@ namespace oro {
 class PlanMemory {
   public:
     // The pages outlive it.
-    explicit PlanMemory(const RegionPages& pages) : pages_(&pages), row_angles_(pages.facts().grid) {}
+    explicit PlanMemory(const RegionPages& pages) : pages_(&pages), angles_(pages.facts().grid) {}
 
     // What records() pointed to may be gone from here on.
     void begin_frame();
     // A page's record, good until the next frame begins. Errors: as RegionPages::record().
     Result<const PageRecord*> record(const PageIndex& page);
-    [[nodiscard]] RowAngles& row_angles() { return row_angles_; }
+    [[nodiscard]] KeptAngles& angles() { return angles_; }
+    [[nodiscard]] CastCells& cast_cells() {
+        return cast_cells_ ? *cast_cells_ : cast_cells_.emplace(*pages_);
+    }
     [[nodiscard]] const RegionPages& pages() const { return *pages_; }
 
   private:
@@ -35,7 +40,8 @@ class PlanMemory {
         std::vector<std::unique_ptr<PageRecord>> records;
     };
     const RegionPages* pages_;
-    RowAngles row_angles_;
+    KeptAngles angles_;
+    std::optional<CastCells> cast_cells_;
     std::vector<Level> levels_;
     std::size_t size_{};
 };

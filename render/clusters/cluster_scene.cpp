@@ -31,7 +31,7 @@ ClusterScene::ClusterScene(std::unique_ptr<RegionClusters> clusters, ClusterStor
     : clusters_(std::move(clusters)),
       store_(std::move(store)),
       most_on_the_way_(most_on_the_way),
-      row_angles_(clusters_->grid()) {}
+      angles_(clusters_->grid()) {}
 ClusterScene::ClusterScene(ClusterScene&&) noexcept = default;
 ClusterScene::~ClusterScene() = default;
 
@@ -203,7 +203,7 @@ Result<void> ClusterScene::draw(const ClusterChoice& choice, const ClusterOffer&
         }
         resident.push_back({held.address, held.counts, offered, reach});
     }
-    draw_clusters(clusters_->grid(), resident, offer, camera, plan, &row_angles_);
+    draw_clusters(clusters_->grid(), resident, offer, camera, plan, &angles_);
     plan.clusters.groups_opened = choice.groups_opened;
     plan.clusters.beyond_frustum = choice.beyond_frustum;
     plan.clusters.beyond_horizon = choice.beyond_horizon;

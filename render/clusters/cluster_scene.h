@@ -8,7 +8,7 @@
 
 #include "core/cluster_frame/streamed_choice.h"
 #include "core/frame/frame_plan.h"
-#include "core/frame/row_angles.h"
+#include "core/frame/frame_tables.h"
 #include "core/frame/visibility_feedback.h"
 #include "render/clusters/cluster_store.h"
 #include "render/clusters/cluster_stream.h"
@@ -81,7 +81,7 @@ class ClusterScene {
     std::optional<std::uint32_t> level_;
     std::unique_ptr<ClusterStream> stream_;  // after clusters_: it ends before; null: nothing was streamed
     StreamedChoiceMemory choice_memory_;
-    RowAngles row_angles_;
+    KeptAngles angles_;
     std::vector<char> is_wanted_;  // of each cluster, while clusters are sent
     ShownClusters shown_;          // by the last frame that told
     // Of the last plan that did not wait: its eye, what it draws, and whether that is all of the cut.

@@ -122,12 +122,13 @@ Result<void> GridScene::add_casters(const FrameView& view, GridPlan& plan) {
 }
 
 // The records are those that the choice of pages has read.
-Result<void> GridScene::add_growth(const FrameView& view, GridPlan& plan) const {
+Result<void> GridScene::add_growth(const FrameView& view, GridPlan& plan) {
     if (!has_trees_ || view.model.earth != Earth::ellipsoid || plan.pages.empty()) return {};
     std::vector<GroundRange> ranges;
+    ranges.reserve(plan.page_indices.size());
     for (const PageIndex& page : plan.page_indices) {
-        ORO_TRY(const PageRecord record, pages_->record(page));
-        ranges.push_back({record.summary.lowest_h_m, record.summary.highest_h_m});
+        ORO_TRY(const PageRecord* const record, memory_.record(page));
+        ranges.push_back({record->summary.lowest_h_m, record->summary.highest_h_m});
     }
     plan.growth =
         plan_growth(pages_->facts().grid, plan.page_indices, [&](std::size_t page) { return ranges[page]; },

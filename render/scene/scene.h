@@ -75,7 +75,7 @@ class GridScene {
     Result<bool> load_pages(std::span<const PageIndex> pages);
     Result<GridPlan> plan_of_pages(const FrameView& view);
     Result<void> add_casters(const FrameView& view, GridPlan& plan);
-    Result<void> add_growth(const FrameView& view, GridPlan& plan) const;
+    Result<void> add_growth(const FrameView& view, GridPlan& plan);
     // Those of missing pages that may show.
     [[nodiscard]] std::vector<PageIndex> shown_of(std::span<const PageIndex> missing) const;
     [[nodiscard]] bool is_hidden(const PageIndex& page) const;

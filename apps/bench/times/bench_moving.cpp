@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <ctime>
 #include <deque>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -58,10 +59,11 @@ class MovingEye {
         return take_reports(0);
     }
 
-  private:
     static Tile whole_picture(const Camera& camera) {
         return {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
     }
+
+  private:
     void add(std::vector<double>& values, double value_s) {
         if (counts_) values.push_back(value_s);
     }
@@ -141,7 +143,7 @@ void add_plan(GridPlan plan, RunningChecksum& sum) {
 // The plan of an eye once all is here that frames of it may want, coarser clusters, too.
 Result<FramePlan> plan_of_all(Scene& scene, const Camera& camera, const BenchOptions& options) {
     constexpr int times_the_same = 4;
-    const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
+    const Tile tile = MovingEye::whole_picture(camera);
     ORO_TRY(FramePlan plan, settled_as_window(scene, camera, tile, options));
     for (int same = 0; same < times_the_same; ++same) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
@@ -250,22 +252,45 @@ Result<MovingRow> fly_all(const Gpu& gpu, RasterPath path, const std::vector<Ran
     return row;
 }
 
-// The checksum of all plans of all flights. Nothing is drawn.
-Result<std::string> fingerprint_of(const Gpu& gpu, const std::vector<RandomFlight>& flights,
+// Seconds of the processor that this thread has taken.
+double thread_s() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+// All plans of all flights.
+struct Fingerprint {
+    std::string sum;              // a checksum
+    std::vector<double> plans_s;  // processor time of plans of the same eyes, once all is here
+};
+constexpr int timed_turns = 5;
+
+// Nothing is drawn.
+Result<Fingerprint> fingerprint_of(const Gpu& gpu, const std::vector<RandomFlight>& flights,
                                    const NamedStyle& style, BenchOptions options) {
     options.style = style.style;
     ORO_TRY(BenchRegion region, open_bench_region(options));
     ORO_TRY(Scene scene, scene_of(gpu, options, region));
     scene.require_fields(options.style);
     RunningChecksum sum;
-    for (const RandomFlight& flight : flights)
+    Fingerprint all;
+    for (const RandomFlight& flight : flights) {
         for (const Camera& camera : flight.cameras) {
             ORO_TRY(FramePlan plan, plan_of_all(scene, camera, options));
             add_plan(std::move(plan.grids.front()), sum);
         }
+        for (int turn = 0; turn < timed_turns; ++turn)
+            for (const Camera& camera : flight.cameras) {
+                const double start_s = thread_s();
+                ORO_CHECK(scene.plan({camera, MovingEye::whole_picture(camera), options.tau_px}));
+                all.plans_s.push_back(thread_s() - start_s);
+            }
+    }
     char text[32];
     std::snprintf(text, sizeof(text), "%016llx", static_cast<unsigned long long>(sum.sum()));
-    return std::string(text);
+    all.sum = text;
+    return all;
 }
 
 std::vector<NamedStyle> styles_of(const BenchOptions& options) {
@@ -293,10 +318,12 @@ Result<void> print_fingerprints(const Gpu& gpu, const std::vector<RandomFlight>&
     for (const std::string& mesh : meshes_of(options))
         for (const NamedStyle& style : styles_of(options)) {
             options.mesh = mesh;
-            ORO_TRY(const std::string sum, fingerprint_of(gpu, flights, style, options));
-            std::printf("%s %s %s: %d flights of %d plans, seed %llu\n", sum.c_str(), mesh.c_str(),
-                        style.name.c_str(), options.moving, options.frames,
-                        static_cast<unsigned long long>(options.seed));
+            ORO_TRY(Fingerprint all, fingerprint_of(gpu, flights, style, options));
+            const Percentiles times = percentiles_of(std::move(all.plans_s));
+            std::printf("%s %s %s: %d flights of %d plans, seed %llu; %.3f / %.3f / %.3f ms a plan\n",
+                        all.sum.c_str(), mesh.c_str(), style.name.c_str(), options.moving, options.frames,
+                        static_cast<unsigned long long>(options.seed), times.median, times.at_95,
+                        times.at_99);
         }
     return {};
 }
