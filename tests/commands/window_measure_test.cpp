@@ -12,6 +12,7 @@
 #include "apps/commands/commands.h"
 #include "apps/commands/sight/profile_text.h"
 #include "apps/commands/sight/sight_text.h"
+#include "apps/options/realisation_options.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
