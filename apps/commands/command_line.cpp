@@ -5,6 +5,7 @@
 #include "apps/command_line/described_command.h"
 #include "apps/command_line/help.h"
 #include "apps/command_line/option_group.h"
+#include "apps/commands/fetching.h"
 #include "apps/commands/options.h"
 #include "apps/completion/completion.h"
 #include "apps/view/view_option_table.h"
@@ -704,6 +705,7 @@ void add_commands(CLI::App& app, CommandLine& line) {
     add_serve(app, line.serve);
     add_info(app, line.info);
     add_fetch(app, line.fetch);
+    add_fetching(app, line.fetching);
     add_doctor(app, line.doctor);
     add_completion(app, line.completion);
     add_manual(app, line.manual);
