@@ -22,6 +22,7 @@ namespace {
 constexpr std::size_t most_missing_tiles = 200;
 // A degree of a meridian, in the middle.
 constexpr double km_per_deg = 111.1;
+constexpr double share_wait_s = 600.0;
 // Posts lie half a step inside of their tiles.
 constexpr double rim_deg = 0.002;
 
@@ -138,6 +139,8 @@ Result<std::vector<FetchedTile>> fetched_into_cache(const TileLayout& layout,
     request.layout = layout;
     request.tiles = tiles;
     request.limits.transfer.program = "Orograph/" OROGRAPH_VERSION;
+    // Many jobs of one cluster may share a cache.
+    request.limits.share_wait_s = share_wait_s;
     ORO_TRY(request.folder, tile_cache_folder(layout.name));
     if (!layout.key_variable.empty()) {
         ORO_TRY(request.key, key_for(layout.name, layout.key_variable, ""));

@@ -114,7 +114,7 @@ struct CloseCrs {
     void operator()(void* crs) const { OSRDestroySpatialReference(static_cast<OGRSpatialReferenceH>(crs)); }
 };
 
-Result<void> write_heights(const std::string& path, const PictureBlock& block,
+Result<void> write_heights(const std::string& path, const PictureBlock& block, const std::string& attribution,
                            std::vector<float>& heights_m) {
     start_gdal();
     ORO_TRY(WholeFile file, WholeFile::create(path, false));
@@ -134,6 +134,7 @@ Result<void> write_heights(const std::string& path, const PictureBlock& block,
         dataset && OSRImportFromEPSG(static_cast<OGRSpatialReferenceH>(crs.get()), 3857) == OGRERR_NONE &&
         GDALSetSpatialRef(dataset.get(), static_cast<OGRSpatialReferenceH>(crs.get())) == CE_None &&
         GDALSetGeoTransform(dataset.get(), transform.data()) == CE_None &&
+        GDALSetMetadataItem(dataset.get(), "TIFFTAG_COPYRIGHT", attribution.c_str(), nullptr) == CE_None &&
         GDALSetRasterNoDataValue(GDALGetRasterBand(dataset.get(), 1),
                                  std::numeric_limits<double>::quiet_NaN()) == CE_None &&
         GDALRasterIO(GDALGetRasterBand(dataset.get(), 1), GF_Write, 0, 0, width_px, height_px,
@@ -172,6 +173,9 @@ PictureBlock pictures_of(const TileLayout& layout, const TileName& tile) {
 
 Result<FetchedFile> fetch_terrarium_tile(const TileLayout& layout, const TileName& tile,
                                          const std::string& path, const FetchLimits& limits, int jobs) {
+    // Whoever has it works on the tile; it stays empty.
+    ORO_TRY(PartFile turn, PartFile::open(path, limits.share_wait_s));
+    if (const auto meanwhile = fetched_meanwhile(path, turn, limits)) return *meanwhile;
     const Pictures pictures{layout, pictures_of(layout, tile), path + ".parts", limits};
     std::error_code fault;
     fs::create_directories(pictures.folder, fault);
@@ -207,10 +211,11 @@ Result<FetchedFile> fetch_terrarium_tile(const TileLayout& layout, const TileNam
             if (is_there[at] != 0)
                 ORO_CHECK(read_picture(pictures.file(static_cast<int>(at)), heights_m, width_px, first));
         }
-        ORO_CHECK(write_heights(path, pictures.block, heights_m));
+        ORO_CHECK(write_heights(path, pictures.block, layout.attribution, heights_m));
         all.bytes = fs::file_size(path, fault);
     }
     fs::remove_all(pictures.folder, fault);
+    turn.discard();
     return all;
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <thread>
+#include <vector>
 
 #include "tests/apps/program.h"
 #include "tests/support/loopback_server.h"
@@ -149,6 +151,24 @@ TEST_F(FetchMissing, FailsInOneLine) {
                    {"--fetch skadi: needs to know where: name a place, --bbox or --tile"});
     expect_refusal(run({"sight", "--from", "Eiger", "--to", "46,8", "--fetch", "skadi"}), oro::test::usage,
                    {"--from Eiger: "});
+}
+
+// Jobs of a cluster that share a cache: one of them fetches, and the others take what it has fetched.
+TEST_F(FetchMissing, JobsShareACache) {
+    const LoopbackServer server([this](const LoopbackRequest& request, const LoopbackSend& send) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(700));
+        one_tile()(request, send);
+    });
+    settle(server);
+    const Words words = joined(seen_across, {"--fetch", "skadi", "--fetch-km", "5"});
+    std::vector<Outcome> outcomes(4);
+    {
+        std::vector<std::jthread> jobs;
+        for (Outcome& outcome : outcomes) jobs.emplace_back([&] { outcome = run(words); });
+    }
+    for (const Outcome& outcome : outcomes) EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(server.requests().size(), 1U);
+    EXPECT_EQ(names_in(cached()), (Words{"N46E008.hgt.gz", "N46E008.hgt.gz.used"}));
 }
 
 // Tiles used longest ago go first; those of the last hour stay.

@@ -141,6 +141,7 @@ TEST_F(FetchSources, PutsPicturesOfHeightsTogether) {
     EXPECT_EQ(server.requests().size(), 7U);
     const Outcome info = run_orograph({"info", tiles_.string()}, plain());
     EXPECT_EQ(info.exit_code, 0) << info.out << info.err;
+    EXPECT_TRUE(says(info.out, "Nobody")) << info.out;
 }
 
 // Pictures that have come stay for the next run; one that is none leaves no tile.

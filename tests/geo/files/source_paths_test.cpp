@@ -28,7 +28,7 @@ void expect_error(const std::string& path, ErrorKind kind, const std::string& sa
 TEST(SourcePaths, NothingThere) {
     const fs::path folder = scratch_folder();
     expect_error((folder / "missing.hgt").string(), ErrorKind::failed, "no such file");
-    expect_error("/vsicurl/http://localhost/N46E008.hgt", ErrorKind::failed, "no such file");
+    expect_error("/vsicurl/http://localhost/N46E008.hgt", ErrorKind::usage, "lies on a network");
     fs::create_symlink(folder / "gone.hgt", folder / "N46E008.hgt");
     expect_error((folder / "N46E008.hgt").string(), ErrorKind::failed, "symbolic link to nothing");
     EXPECT_FALSE(test::open_grid(request_for({folder.string()})).ok());
