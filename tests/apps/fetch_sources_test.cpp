@@ -44,7 +44,7 @@ class FetchSources : public testing::Test {
         const fs::path file = folder_ / "table.json";
         write_bytes(file, nlohmann::json{{"sources", {{"test", source}}}}.dump());
         return joined({"fetch", "--source", "test", "--sources", file.string(), "--out", tiles_.string(),
-                       "--retries", "1"},
+                       "--retries", retries_},
                       more);
     }
     static Circumstances plain(const Words& environment = {}) {
@@ -65,6 +65,7 @@ class FetchSources : public testing::Test {
         return bytes;
     }
 
+    std::string retries_{"1"};
     fs::path folder_{oro::test::scratch_folder()};
     fs::path tiles_{folder_ / "tiles"};
 };
@@ -184,6 +185,7 @@ TEST_F(FetchSources, CanopyIsWholeMetres) {
 // Everything that runs with the key goes through here: the key is in nothing that is said or left.
 class FetchWithKey : public FetchSources {
   protected:
+    FetchWithKey() { retries_ = "0"; }
     [[nodiscard]] static nlohmann::json layout(const std::string& address) {
         return {{"url", address + "/API?south={south}&north={north}&west={west}&east={east}&API_Key={key}"},
                 {"key_variable", "TEST_API_KEY"},
