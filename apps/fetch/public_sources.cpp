@@ -1,6 +1,7 @@
 #include "apps/fetch/public_sources.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <utility>
 
@@ -14,11 +15,18 @@ namespace oro {
 namespace {
 
 constexpr std::int64_t most_tile_bytes = std::int64_t{8} << 30;
-// A tile of one degree has some 10,000 pictures of it near the equator.
+// A tile of one degree has some 8,500 pictures of it at the equator.
 constexpr int most_terrarium_zoom = 15;
 constexpr double most_cache_gb = 1e6;
 // As much as is read of any JSON.
 constexpr std::int64_t most_answer_bytes = std::int64_t{16} << 20;
+
+// Folders of the cache and files of keys are called so.
+bool is_name(const std::string& name) {
+    return !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '-' || c == '_';
+    });
+}
 
 std::string text_or_none(const nlohmann::json& json, const char* name) {
     return json.contains(name) ? json_string(json, name) : "";
@@ -126,6 +134,8 @@ Result<PublicSources> public_sources_from(const std::string& text, const std::st
         if (json.contains("cache_limit_gb"))
             all.cache_limit_gb = json_number(json, "cache_limit_gb", 0.0, most_cache_gb);
         for (const auto& [name, source] : sources.items()) {
+            if (!is_name(name))
+                return wrong("'" + name + "' is no name of a source: letters, figures, '-' and '_' are");
             if (source.is_object() && text_or_none(source, "format") == "overpass")
                 all.places.push_back(places_from(name, source));
             else

@@ -33,6 +33,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t side_px = mercator_tile_px;
 // Half the side of the square map of EPSG:3857: the semi-major axis of WGS84 times pi.
 constexpr double half_map_m = 6378137.0 * std::numbers::pi;
+// A gigabyte of heights.
+constexpr std::int64_t most_pictures = 4096;
 constexpr double most_offset_m = 0.001;
 
 // GDAL's transform of the pictures of a tile, from pixels to EPSG:3857.
@@ -173,6 +175,11 @@ PictureBlock pictures_of(const TileLayout& layout, const TileName& tile) {
 
 Result<FetchedFile> fetch_terrarium_tile(const TileLayout& layout, const TileName& tile,
                                          const std::string& path, const FetchLimits& limits, int jobs) {
+    if (const PictureBlock block = pictures_of(layout, tile); block.columns * block.rows > most_pictures)
+        return Error{ErrorKind::failed, file_of(layout, tile),
+                     "has " + std::to_string(block.columns * block.rows) + " pictures at zoom " +
+                         std::to_string(block.zoom) + ", and at most " + std::to_string(most_pictures) +
+                         " are put together: take a smaller zoom"};
     // Whoever has it works on the tile; it stays empty.
     ORO_TRY(PartFile turn, PartFile::open(path, limits.share_wait_s));
     if (const auto meanwhile = fetched_meanwhile(path, turn, limits)) return *meanwhile;

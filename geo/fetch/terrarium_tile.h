@@ -26,7 +26,8 @@ PictureBlock pictures_of(const TileLayout& layout, const TileName& tile);
 // EPSG:3857, pixel for pixel, without a change, with the layout's attribution; where the server has no
 // picture, there is no height. Pictures that have come are kept in the folder PATH.parts until all are there,
 // so that a later run goes on with them. Says that the file is not there where the server has none of the
-// pictures. Errors: those of fetch_file(); a picture that is none of 256 x 256 pixels; those of writing.
+// pictures. Errors: those of fetch_file(); a picture that is none of 256 x 256 pixels; more than 4096 of
+// them; those of writing.
 Result<FetchedFile> fetch_terrarium_tile(const TileLayout& layout, const TileName& tile,
                                          const std::string& path, const FetchLimits& limits, int jobs);
 

@@ -164,6 +164,18 @@ TEST_F(FetchSources, GoesOnWithPictures) {
     EXPECT_EQ(server.requests().size(), 7U);
 }
 
+// At zoom 15 a degree at 46 N has 92 x 133 of them.
+TEST_F(FetchSources, TooManyPicturesAreRefused) {
+    const LoopbackServer server([](const LoopbackRequest&, const LoopbackSend&) {});
+    nlohmann::json layout = terrarium_layout(server);
+    layout["zoom"] = 15;
+    const Outcome outcome = run_orograph(words(layout, {"--tile", "N46E008"}), plain());
+    EXPECT_EQ(outcome.exit_code, oro::test::failed);
+    EXPECT_TRUE(says(outcome.err, "N46E008_terrarium.tif: has 12236 pictures at zoom 15, and at most 4096"))
+        << outcome.err;
+    EXPECT_TRUE(server.requests().empty());
+}
+
 TEST_F(FetchSources, CanopyIsWholeMetres) {
     std::string body = geotiff("Byte");
     const LoopbackServer server([&](const LoopbackRequest& request, const LoopbackSend& send) {

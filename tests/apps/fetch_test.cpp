@@ -265,6 +265,9 @@ TEST_F(FetchCommand, WhatIsWrongIsSaidInOneLine) {
     write_bytes(table, R"({"sources": {"x": {"titel": "?"}}})");
     refused({"--source", "x", "--sources", table.string()}, {"table.json: is no table of sources: ", "titel"},
             oro::test::failed);
+    write_bytes(table, R"({"sources": {"../x": {}}})");
+    refused({"--source", "x", "--sources", table.string()},
+            {"table.json: is no table of sources: '../x' is no name of a source"}, oro::test::failed);
     write_bytes(table, "[");
     refused({"--source", "x", "--sources", table.string()}, {"table.json: is no table of sources: "},
             oro::test::failed);
