@@ -76,8 +76,7 @@ TEST(SourcePaths, EntriesThatCannotBeUnpackedHaveALine) {
 TEST(SourcePaths, TextFileCalledTif) {
     const fs::path folder = scratch_folder();
     std::ofstream(folder / "dem.tif") << "This is no raster.\n";
-    expect_error((folder / "dem.tif").string(), ErrorKind::failed,
-                 "cannot be opened as a raster");
+    expect_error((folder / "dem.tif").string(), ErrorKind::failed, "cannot be opened as a raster");
     // In a folder, too: it may be what a server sent instead of a tile.
     const auto region = test::open_grid(request_for({folder.string()}));
     ASSERT_FALSE(region.ok());
