@@ -5,6 +5,7 @@
 #include "apps/command_line/described_command.h"
 #include "apps/command_line/help.h"
 #include "apps/command_line/option_group.h"
+#include "apps/commands/fetching.h"
 #include "apps/commands/options.h"
 #include "apps/completion/completion.h"
 #include "apps/view/view_option_table.h"
@@ -630,9 +631,10 @@ void add_fetch(CLI::App& app, FetchOptions& options) {
     CLI::App& command =
         *app.add_subcommand("fetch", "Get elevation, land cover and names of peaks from public servers");
     OptionGroup data(command, "The data");
-    data.option("--source", options.source, "NAME",
-                "Where to get them: skadi, glo30, glo90 (heights), worldcover (land cover), peaks, passes, "
-                "settlements (names), or one of your own table.");
+    data.option(
+        "--source", options.source, "NAME",
+        "Where to get them: skadi, glo30, glo90, terrarium, opentopography (heights), worldcover (land "
+        "cover), canopy, peaks, passes, settlements (names), or one of your own table.");
     data.option("--tile", options.tiles, "CELL",
                 "A whole-degree cell by its south-west corner, e.g. N46E008, or all from one to another: "
                 "N46E006:N47E010. Give it again for each further one.")
@@ -644,7 +646,15 @@ void add_fetch(CLI::App& app, FetchOptions& options) {
         "The folder to write tiles into; it is made if need be. Of names, the GeoJSON file to write.");
     data.option("--sources", options.sources_file, "FILE",
                 "A table of further sources. Those of the same name replace the program's.");
+    data.option("--key-file", options.key_file, "FILE",
+                "The file that holds your key, for a source that needs one, and that you alone may read. "
+                "Without this the key is taken from the environment or from your folder of settings.");
     data.flag("--overwrite", options.overwrite, "Replace a file of names that exists.");
+    data.flag("--cache", options.cache,
+              "Fetch nothing: tell which tiles --fetch of other commands has put into your cache, and remove "
+              "those used longest ago beyond its limit.");
+    data.number("--cache-limit", options.cache_limit_gb, "GB",
+                "The cache's limit in this run (default 20, or what your table of sources says).");
     data.flag("--dry-run", options.dry_run, "Ask no server: tell what is wanted, and what is there.");
     data.whole_number("--retries", options.retries, 0, 20, "N",
                       "Further requests of a tile whose server is busy or silent (default 4). Between them "
@@ -653,7 +663,8 @@ void add_fetch(CLI::App& app, FetchOptions& options) {
     add_json(command, options.json);
     add_quiet(command, options.quiet, "the result and errors");
     set_help(command, {{"fetch --source NAME --tile CELL --out FOLDER [OPTIONS]",
-                        "fetch --source NAME --bbox WEST,SOUTH,EAST,NORTH --out FOLDER [OPTIONS]"},
+                        "fetch --source NAME --bbox WEST,SOUTH,EAST,NORTH --out FOLDER [OPTIONS]",
+                        "fetch --cache [OPTIONS]"},
                        "What is there and whole is kept. A tile that was broken off is gone on with.",
                        "docs/commands/fetch.md"});
 }
@@ -717,6 +728,7 @@ void add_commands(CLI::App& app, CommandLine& line) {
     add_serve(app, line.serve);
     add_info(app, line.info);
     add_fetch(app, line.fetch);
+    add_fetching(app, line.fetching);
     add_doctor(app, line.doctor);
     add_completion(app, line.completion);
     add_manual(app, line.manual);

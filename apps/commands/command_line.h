@@ -6,6 +6,7 @@
 #include "apps/options/batch_options.h"
 #include "apps/options/export_options.h"
 #include "apps/options/fetch_options.h"
+#include "apps/options/fetching_options.h"
 #include "apps/options/horizon_options.h"
 #include "apps/options/realisation_options.h"
 #include "apps/options/serve_options.h"
@@ -33,6 +34,7 @@ struct CommandLine {
     ServeOptions serve;
     InfoOptions info;
     FetchOptions fetch;
+    FetchingOptions fetching;  // of the commands that take it
     DoctorOptions doctor;
     CompletionOptions completion;
     ManualOptions manual;

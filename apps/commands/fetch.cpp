@@ -3,13 +3,18 @@
 #include <array>
 #include <cstdio>
 #include <filesystem>
+#include <map>
+#include <utility>
 
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/fetch/places_fetching.h"
 #include "apps/fetch/public_sources.h"
+#include "apps/fetch/source_key.h"
+#include "apps/fetch/tile_cache.h"
 #include "apps/options/fetch_options.h"
 #include "apps/output/overwrite_guard.h"
+#include "apps/report/figures.h"
 #include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
@@ -186,7 +191,12 @@ Result<void> fetch_tiles_of(const TileLayout& layout, const FetchOptions& option
     FetchTilesRequest request;
     request.layout = layout;
     ORO_TRY(request.tiles, tiles_named(options, layout));
+    if (layout.key_variable.empty() && !options.key_file.empty())
+        return refused("--key-file", options.key_file, "says nothing: " + layout.name + " needs no key");
     if (options.out.empty()) return refused("--out", "", "is missing: name the folder for the tiles");
+    if (!layout.key_variable.empty() && !options.dry_run) {
+        ORO_TRY(request.key, key_for(layout.name, layout.key_variable, options.key_file));
+    }
     if (!options.dry_run) ORO_CHECK(make_folder(options.out));
     request.folder = options.out;
     request.dry_run = options.dry_run;
@@ -216,10 +226,48 @@ Result<void> fetch_tiles_of(const TileLayout& layout, const FetchOptions& option
                      " tiles could not be fetched; the same command again goes on with them"};
 }
 
+// The cache of --fetch: trimmed to its limit, and what is in it by source.
+Result<void> tell_cache(const PublicSources& sources, const FetchOptions& options) {
+    const double limit_gb =
+        options.cache_limit_gb.value_or(sources.cache_limit_gb.value_or(default_cache_limit_gb));
+    if (!(limit_gb >= 0.0 && limit_gb <= 1e6))
+        return refused("--cache-limit", figure(limit_gb), "must be 0 to 1,000,000 GB");
+    ORO_TRY(const CacheTrimmed trimmed, trim_tile_cache(static_cast<std::uint64_t>(limit_gb * 1e9)));
+    ORO_TRY(const std::vector<CachedTile> tiles, cached_tiles());
+    std::map<std::string, std::pair<std::size_t, std::uint64_t>> by_source;
+    nlohmann::ordered_json list = json_list();
+    std::uint64_t bytes = 0;
+    for (const CachedTile& tile : tiles) {
+        auto& [count, source_bytes] = by_source[tile.source];
+        ++count;
+        source_bytes += tile.bytes;
+        bytes += tile.bytes;
+        list.push_back(json_object("source", tile.source, "file", path_json(tile.file), "bytes", tile.bytes,
+                                   "used", time_text(tile.used_utc_s)));
+    }
+    std::string text;
+    for (const auto& [source, sum] : by_source)
+        text +=
+            one_line(source + "  " + std::to_string(sum.first) + " tiles, " + megabytes_text(sum.second)) +
+            "\n";
+    text += "Cache: " + std::to_string(tiles.size()) + " tiles, " + megabytes_text(bytes) + " of at most " +
+            figure(limit_gb) + " GB\n";
+    if (trimmed.files > 0)
+        text +=
+            "Removed: " + std::to_string(trimmed.files) + " tiles, " + megabytes_text(trimmed.bytes) + "\n";
+    const auto json = json_object("limit_gb", limit_gb, "bytes", bytes, "removed_tiles", trimmed.files,
+                                  "removed_bytes", trimmed.bytes, "tiles", list);
+    std::fputs((options.json ? json_text(json, true) + "\n" : text).c_str(), stdout);
+    return {};
+}
+
 }  // namespace
 
 Result<void> run_fetch(const FetchOptions& options) {
     ORO_TRY(const PublicSources sources, read_public_sources(options.sources_file));
+    if (options.cache) return tell_cache(sources, options);
+    if (options.cache_limit_gb)
+        return refused("--cache-limit", figure(*options.cache_limit_gb), "says nothing without --cache");
     for (const TileLayout& layout : sources.tiles)
         if (layout.name == options.source) return fetch_tiles_of(layout, options);
     for (const PlacesSource& source : sources.places)

@@ -1,6 +1,7 @@
 #include "apps/fetch/public_sources.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <utility>
 
@@ -14,36 +15,59 @@ namespace oro {
 namespace {
 
 constexpr std::int64_t most_tile_bytes = std::int64_t{8} << 30;
+// A tile of one degree has some 8,500 pictures of it at the equator.
+constexpr int most_terrarium_zoom = 15;
+constexpr double most_cache_gb = 1e6;
 // As much as is read of any JSON.
 constexpr std::int64_t most_answer_bytes = std::int64_t{16} << 20;
+
+// Folders of the cache and files of keys are called so.
+bool is_name(const std::string& name) {
+    return !name.empty() && std::ranges::all_of(name, [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '-' || c == '_';
+    });
+}
 
 std::string text_or_none(const nlohmann::json& json, const char* name) {
     return json.contains(name) ? json_string(json, name) : "";
 }
 
-// One of two words.
-bool is_first_word(const nlohmann::json& json, const char* name, const char* first, const char* second) {
+// The value of one of some words.
+template <class Value>
+Value choice_in(const nlohmann::json& json, const char* name,
+                const std::vector<std::pair<std::string, Value>>& choices) {
     const std::string word = json_string(json, name);
-    if (word != first && word != second)
-        throw JsonFault{"'" + std::string(name) + "' must be \"" + first + "\" or \"" + second + "\""};
-    return word == first;
+    std::string words;
+    for (const auto& [one, value] : choices) {
+        if (one == word) return value;
+        words += (words.empty() ? "\"" : ", \"") + one + "\"";
+    }
+    throw JsonFault{"'" + std::string(name) + "' must be one of " + words};
 }
 
 TileLayout layout_from(const std::string& name, const nlohmann::json& json) {
     refuse_unknown(json, ("source '" + name + "'").c_str(),
                    {"title", "url", "file", "side_deg", "format", "holds", "missing", "missing_words",
-                    "most_bytes", "licence", "attribution", "page"});
+                    "key_variable", "zoom", "most_bytes", "licence", "attribution", "page"});
     TileLayout layout;
     layout.name = name;
     layout.title = json_string(json, "title");
     layout.url = json_string(json, "url");
     layout.file = json_string(json, "file");
     layout.side_deg = static_cast<int>(json_whole(json, "side_deg", 1, 180));
-    layout.format =
-        is_first_word(json, "format", "hgt.gz", "geotiff") ? TileFormat::hgt_gz : TileFormat::geotiff;
-    layout.holds =
-        is_first_word(json, "holds", "heights", "land cover") ? TileHolds::heights : TileHolds::land_cover;
-    layout.missing = is_first_word(json, "missing", "sea", "error") ? MissingTile::sea : MissingTile::error;
+    layout.format = choice_in<TileFormat>(json, "format",
+                                          {{"hgt.gz", TileFormat::hgt_gz},
+                                           {"geotiff", TileFormat::geotiff},
+                                           {"terrarium", TileFormat::terrarium}});
+    layout.holds = choice_in<TileHolds>(json, "holds",
+                                        {{"heights", TileHolds::heights},
+                                         {"land cover", TileHolds::land_cover},
+                                         {"canopy", TileHolds::canopy}});
+    layout.missing =
+        choice_in<MissingTile>(json, "missing", {{"sea", MissingTile::sea}, {"error", MissingTile::error}});
+    layout.key_variable = text_or_none(json, "key_variable");
+    if (layout.format == TileFormat::terrarium)
+        layout.zoom = static_cast<int>(json_whole(json, "zoom", 0, most_terrarium_zoom));
     layout.missing_words = text_or_none(json, "missing_words");
     layout.most_bytes = static_cast<std::uint64_t>(json_whole(json, "most_bytes", 1, most_tile_bytes));
     layout.licence = json_string(json, "licence");
@@ -77,6 +101,7 @@ void add_sources(PublicSources more, PublicSources& all) {
         std::erase_if(all.tiles, [&](const TileLayout& one) { return one.name == name; });
         std::erase_if(all.places, [&](const PlacesSource& one) { return one.name == name; });
     };
+    if (more.cache_limit_gb) all.cache_limit_gb = more.cache_limit_gb;
     for (TileLayout& layout : more.tiles) {
         remove(layout.name);
         all.tiles.push_back(std::move(layout));
@@ -102,11 +127,15 @@ Result<PublicSources> public_sources_from(const std::string& text, const std::st
     };
     try {
         const nlohmann::json json = parsed_json(text);
-        refuse_unknown(json, "a table of sources", {"licence", "sources"});
+        refuse_unknown(json, "a table of sources", {"licence", "sources", "cache_limit_gb"});
         const nlohmann::json& sources = json_field(json, "sources");
         if (!sources.is_object()) return wrong("'sources' must be an object of sources by their names");
         PublicSources all;
+        if (json.contains("cache_limit_gb"))
+            all.cache_limit_gb = json_number(json, "cache_limit_gb", 0.0, most_cache_gb);
         for (const auto& [name, source] : sources.items()) {
+            if (!is_name(name))
+                return wrong("'" + name + "' is no name of a source: letters, figures, '-' and '_' are");
             if (source.is_object() && text_or_none(source, "format") == "overpass")
                 all.places.push_back(places_from(name, source));
             else

@@ -1,6 +1,7 @@
 // The table of public sources: that of the program, and what users add to it.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,10 +11,11 @@
 
 namespace oro {
 
-// Each kind of source by name.
+// Each kind of source by name, and the user's limit of the cache of tiles.
 struct PublicSources {
     std::vector<TileLayout> tiles;
     std::vector<PlacesSource> places;
+    std::optional<double> cache_limit_gb;  // 10^9 bytes
 };
 
 // The sources of a JSON text; `where` is its file, for messages. Errors: what is wrong in it.

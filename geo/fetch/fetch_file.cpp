@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <thread>
 #include <utility>
@@ -72,9 +73,20 @@ Result<FetchedFile> fill(PartFile& part, const FetchAddress& address, const Fetc
 
 }  // namespace
 
+std::optional<FetchedFile> fetched_meanwhile(const std::string& path, PartFile& part,
+                                             const FetchLimits& limits) {
+    if (limits.share_wait_s <= 0.0) return std::nullopt;
+    std::error_code none;
+    const std::uintmax_t bytes = std::filesystem::file_size(path, none);
+    if (none) return std::nullopt;
+    part.discard();
+    return FetchedFile{true, bytes, 0};
+}
+
 Result<FetchedFile> fetch_file(const FetchAddress& address, const std::string& path,
                                const FetchLimits& limits, const CheckContent& check) {
-    ORO_TRY(PartFile part, PartFile::open(path));
+    ORO_TRY(PartFile part, PartFile::open(path, limits.share_wait_s));
+    if (const auto meanwhile = fetched_meanwhile(path, part, limits)) return *meanwhile;
     ORO_TRY(const FetchedFile fetched, fill(part, address, limits, check));
     if (fetched.is_there) ORO_CHECK(part.commit());
     return fetched;

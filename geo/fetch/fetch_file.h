@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "core/base/result.h"
 #include "geo/fetch/fetch_address.h"
 #include "geo/fetch/http_transfer.h"
+#include "geo/fetch/part_file.h"
 
 namespace oro {
 
@@ -16,6 +18,7 @@ struct FetchLimits {
     int retries{4};            // further requests after one that may go well later
     double first_wait_s{1.0};  // before the first of these; twice as long before each next
     double most_wait_s{60.0};  // the longest wait; a server that asks for a longer one is given up
+    double share_wait_s{};     // so long another program may be fetching the same file; it is then there
 };
 
 struct FetchedFile {
@@ -33,6 +36,11 @@ using CheckContent = std::function<Result<void>(const std::string& part)>;
 // its words, after all retries; those of the check; those of writing.
 Result<FetchedFile> fetch_file(const FetchAddress& address, const std::string& path,
                                const FetchLimits& limits, const CheckContent& check);
+
+// What is to be said where another program has finished the file while this one waited for its part; nothing
+// where the file is not there. Part is the file's.
+std::optional<FetchedFile> fetched_meanwhile(const std::string& path, PartFile& part,
+                                             const FetchLimits& limits);
 
 // Takes what is at the address into memory. While it comes it lies beside `path`, as the part of that file
 // would; nothing of it stays there. The rest as with fetch_file(). Errors: the server has no such file, too.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "geo/fetch/terrarium_tile.h"
 #include "geo/fetch/tile_content.h"
 
 namespace oro {
@@ -28,13 +29,21 @@ void look_at(FetchedTile& tile, const TileLayout& layout) {
     tile.bytes = fs::file_size(tile.file, ignored);
 }
 
+// Such a tile is many requests itself.
+bool is_of_pictures(const FetchTilesRequest& request) {
+    return request.layout.format == TileFormat::terrarium;
+}
+
 void fetch(FetchedTile& tile, const FetchTilesRequest& request) {
     FetchLimits limits = request.limits;
     limits.transfer.most_bytes = request.layout.most_bytes;
     const auto check = [&](const std::string& part) {
         return check_tile(part, tile.url, request.layout, tile.tile);
     };
-    const Result<FetchedFile> fetched = fetch_file(tile.url, tile.file, limits, check);
+    const Result<FetchedFile> fetched =
+        is_of_pictures(request)
+            ? fetch_terrarium_tile(request.layout, tile.tile, tile.file, limits, request.jobs)
+            : fetch_file(address_of(request.layout, tile.tile, request.key), tile.file, limits, check);
     if (!fetched.ok()) return fail(tile, fetched.error());
     tile.requests = fetched->requests;
     tile.bytes = fetched->bytes;
@@ -56,7 +65,8 @@ std::vector<FetchedTile> fetch_tiles(const FetchTilesRequest& request, const Aft
                          (fs::path(request.folder) / file_of(request.layout, tile)).string(),
                          TileState::wanted, 0, 0, std::nullopt});
     std::mutex one_at_a_time;
-    in_parallel(static_cast<int>(tiles.size()), request.jobs, [&](int number) {
+    const int at_a_time = is_of_pictures(request) ? 1 : request.jobs;
+    in_parallel(static_cast<int>(tiles.size()), at_a_time, [&](int number) {
         FetchedTile& tile = tiles[static_cast<std::size_t>(number)];
         std::error_code unread;
         const fs::file_status there = fs::symlink_status(tile.file, unread);

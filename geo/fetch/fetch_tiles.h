@@ -21,7 +21,7 @@ enum class TileState {
 
 struct FetchedTile {
     TileName tile;
-    std::string url;
+    std::string url;   // without a key
     std::string file;  // its path
     TileState state{TileState::wanted};
     std::uint64_t bytes{};
@@ -33,6 +33,7 @@ struct FetchTilesRequest {
     TileLayout layout;
     std::vector<TileName> tiles;
     std::string folder;  // must be there
+    std::string key;     // the user's, of layouts that need one
     FetchLimits limits;
     int jobs{4};     // requests at a time
     bool dry_run{};  // looks at what is there, and asks no server

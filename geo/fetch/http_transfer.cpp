@@ -208,8 +208,12 @@ class Transfer {
 
     void stop_by_status() {
         if (status_ == status_no_such_range) return stop(Kind::restart, "the file on the server has changed");
-        if (status_ == 404 || status_ == 410) return stop(Kind::not_there, status_words(status_));
-        stop(is_status_to_retry(status_) ? Kind::retry : Kind::refused, status_words(status_));
+        if (status_ == 204 || status_ == 404 || status_ == 410)
+            return stop(Kind::not_there, status_words(status_));
+        const bool is_key_wrong = !address_.key.empty() && (status_ == 401 || status_ == 403);
+        stop(is_status_to_retry(status_) ? Kind::retry : Kind::refused,
+             is_key_wrong ? "the server answers " + std::to_string(status_) + ": it does not take the key"
+                          : status_words(status_));
         curl_off_t wait_s = 0;
         if (curl_easy_getinfo(curl_.get(), CURLINFO_RETRY_AFTER, &wait_s) == CURLE_OK && wait_s > 0)
             stopped_->retry_after_s = static_cast<double>(wait_s);

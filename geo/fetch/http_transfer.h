@@ -25,7 +25,7 @@ struct TransferLimits {
 struct TransferOutcome {
     enum class Kind {
         whole,      // the part holds all bytes of the file
-        not_there,  // the server has no such file (404, 410)
+        not_there,  // the server has no such file (404, 410), or nothing there (204)
         restart,    // what the part holds is of no use any more: ask again for all
         retry,      // may go well later
         refused,    // will not go well later

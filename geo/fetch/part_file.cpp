@@ -6,9 +6,11 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
+#include <thread>
 #include <utility>
 
 #include "core/base/file_target.h"
@@ -50,12 +52,17 @@ int open_locked(const std::string& file) {
 
 }  // namespace
 
-Result<PartFile> PartFile::open(const std::string& path) {
+Result<PartFile> PartFile::open(const std::string& path, double wait_s) {
     PartFile part;
     part.path_ = path;
     part.part_ = path + ".part";
     part.etag_file_ = path + ".part-etag";
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(wait_s);
     part.descriptor_ = open_locked(part.part_);
+    while (part.descriptor_ < 0 && errno == EWOULDBLOCK && std::chrono::steady_clock::now() < end) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        part.descriptor_ = open_locked(part.part_);
+    }
     if (part.descriptor_ < 0)
         return Error{ErrorKind::failed, part.part_,
                      errno == EWOULDBLOCK ? "another program is fetching it"

@@ -13,8 +13,9 @@ namespace oro {
 // taken for the file: NAME appears on commit(), whole.
 class PartFile {
   public:
-    // Opens or makes the part of the file `path`. Errors: the system's; another program has it open.
-    static Result<PartFile> open(const std::string& path);
+    // Opens or makes the part of the file `path`. Where another program has it open, that is waited for, up
+    // to `wait_s` seconds. Errors: the system's; another program has it open.
+    static Result<PartFile> open(const std::string& path, double wait_s = 0.0);
     PartFile(PartFile&& other) noexcept;
     PartFile& operator=(PartFile&& other) noexcept;
     PartFile(const PartFile&) = delete;

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geo/fetch/terrarium_tile.h"
 #include "geo/files/raster_library.h"
 #include "geo/sources/hgt_source.h"
 #include "geo/sources/raster_source.h"
@@ -108,8 +109,11 @@ bool lies_at(GDALDatasetH dataset, const TileLayout& layout, const TileName& til
            near(south_deg, tile.lat_deg) && near(place[3], tile.lat_deg + layout.side_deg);
 }
 
-Result<void> check_geotiff(const std::string& file, const std::string& shown, const TileLayout& layout,
-                           const TileName& tile) {
+using IsInPlace = std::function<bool(void* dataset)>;
+
+// One band, all its blocks inside the file; whole numbers where they must be.
+Result<void> check_raster(const std::string& file, const std::string& shown, bool must_be_whole,
+                          const std::string& place, const IsInPlace& is_in_place) {
     const auto wrong = [&](const std::string& what) { return Error{ErrorKind::failed, shown, what}; };
     start_gdal();
     const GdalMessages messages;
@@ -120,28 +124,49 @@ Result<void> check_geotiff(const std::string& file, const std::string& shown, co
         GDALOpenEx(file.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR, driver, nullptr, siblings));
     if (!dataset) return wrong("is no GeoTIFF" + instead_words(first_bytes(file)));
     if (GDALGetRasterCount(dataset.get()) != 1) return wrong("has not one band");
-    if (!lies_at(dataset.get(), layout, tile))
-        return wrong("does not lie at " + tile_name(tile.lat_deg, tile.lon_deg));
+    if (!is_in_place(dataset.get())) return wrong("does not lie at " + place);
     const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
     std::error_code unread;
     const std::uintmax_t file_bytes = std::filesystem::file_size(file, unread);
     if (unread || !has_all_blocks(band, file_bytes)) return wrong("is truncated");
-    if (layout.holds == TileHolds::land_cover)
-        return GDALDataTypeIsInteger(GDALGetRasterDataType(band)) != 0
-                   ? Result<void>{}
-                   : Result<void>{wrong("holds fractions, and no classes")};
-    ORO_TRY(const Finding finding,
-            inspect_raster({file, shown, file_of(layout, tile), "", true, false, 0}, {}));
+    if (must_be_whole && GDALDataTypeIsInteger(GDALGetRasterDataType(band)) == 0)
+        return wrong("holds fractions, and no classes or whole metres");
+    return {};
+}
+
+Result<void> check_elevation(const std::string& file, const std::string& shown, const std::string& name) {
+    ORO_TRY(const Finding finding, inspect_raster({file, shown, name, "", true, false, 0}, {}));
     if (!finding.source) return finding.unfit;
     return {};
 }
 
+Result<void> check_geotiff(const std::string& file, const std::string& shown, const TileLayout& layout,
+                           const TileName& tile) {
+    const bool are_heights = layout.holds == TileHolds::heights;
+    ORO_CHECK(check_raster(file, shown, !are_heights, tile_name(tile.lat_deg, tile.lon_deg),
+                           [&](void* dataset) { return lies_at(dataset, layout, tile); }));
+    return are_heights ? check_elevation(file, shown, file_of(layout, tile)) : Result<void>{};
+}
+
 }  // namespace
+
+Result<void> check_elevation_raster(const std::string& file, const std::string& shown,
+                                    const std::string& name, const IsInPlace& is_in_place) {
+    ORO_CHECK(check_raster(file, shown, false, "the pictures of its tile", is_in_place));
+    return check_elevation(file, shown, name);
+}
 
 Result<void> check_tile(const std::string& file, const std::string& shown, const TileLayout& layout,
                         const TileName& tile) {
-    return layout.format == TileFormat::hgt_gz ? check_hgt_gz(file, shown)
-                                               : check_geotiff(file, shown, layout, tile);
+    switch (layout.format) {
+        case TileFormat::hgt_gz:
+            return check_hgt_gz(file, shown);
+        case TileFormat::terrarium:
+            return check_terrarium_tile(file, shown, layout, tile);
+        case TileFormat::geotiff:
+            break;
+    }
+    return check_geotiff(file, shown, layout, tile);
 }
 
 }  // namespace oro

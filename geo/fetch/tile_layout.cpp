@@ -1,6 +1,8 @@
 #include "geo/fetch/tile_layout.h"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <string_view>
 
 #include "geo/fetch/places_source.h"
@@ -8,21 +10,41 @@
 namespace oro {
 namespace {
 
-constexpr std::string_view latitude_field = "{latitude}", longitude_field = "{longitude}";
+constexpr std::string_view latitude_field = "{latitude}", longitude_field = "{longitude}",
+                           key_field = "{key}";
 
-std::string with_fields(std::string text, const TileName& tile) {
+void put(std::string& text, std::string_view field, const std::string& value) {
+    for (std::size_t at = text.find(field); at != std::string::npos; at = text.find(field, at + value.size()))
+        text.replace(at, field.size(), value);
+}
+
+std::string with_corner(std::string text, const TileName& tile) {
     const std::string name = tile_name(tile.lat_deg, tile.lon_deg);  // N46E008
-    const auto put = [&](std::string_view field, const std::string& value) {
-        for (std::size_t at = text.find(field); at != std::string::npos; at = text.find(field, at))
-            text.replace(at, field.size(), value);
-    };
-    put(latitude_field, name.substr(0, 3));
-    put(longitude_field, name.substr(3));
+    put(text, latitude_field, name.substr(0, 3));
+    put(text, longitude_field, name.substr(3));
     return text;
 }
 
-bool has_fields(const std::string& text) {
-    return text.find(latitude_field) != std::string::npos && text.find(longitude_field) != std::string::npos;
+bool has_all(const std::string& text, std::initializer_list<std::string_view> fields) {
+    return std::ranges::all_of(fields,
+                               [&](std::string_view field) { return text.find(field) != std::string::npos; });
+}
+
+// Where nobody listens on the way.
+bool is_encrypted_or_near(const std::string& url) {
+    return url.starts_with("https://") || url.starts_with("http://127.0.0.1:") ||
+           url.starts_with("http://localhost:");
+}
+
+// What tells the addresses of tiles apart.
+std::string fault_of_fields(const TileLayout& layout) {
+    const bool has_corner = has_all(layout.url, {latitude_field, longitude_field});
+    const bool has_sides = has_all(layout.url, {"{south}", "{west}", "{north}", "{east}"});
+    if (layout.format == TileFormat::terrarium)
+        return has_all(layout.url, {"{z}", "{x}", "{y}"}) ? "" : "'url' must have {z}, {x} and {y}";
+    if (!has_corner && !has_sides)
+        return "'url' must have {latitude} and {longitude}, or {south}, {west}, {north} and {east}";
+    return "";
 }
 
 int floor_to(double value_deg, int side_deg) {
@@ -38,8 +60,14 @@ int last_before(double value_deg, int side_deg) {
 
 std::string fault_of(const TileLayout& layout) {
     if (const std::string fault = fault_of_address(layout.url); !fault.empty()) return fault;
-    if (!has_fields(layout.url) || !has_fields(layout.file))
-        return "'url' and 'file' must have {latitude} and {longitude}";
+    if (const std::string fault = fault_of_fields(layout); !fault.empty()) return fault;
+    if (!has_all(layout.file, {latitude_field, longitude_field}))
+        return "'file' must have {latitude} and {longitude}";
+    const bool has_key = layout.url.find(key_field) != std::string::npos;
+    if (has_key == layout.key_variable.empty())
+        return "an address with {key} and 'key_variable' belong together";
+    if (has_key && !is_encrypted_or_near(layout.url))
+        return "'url' must begin with https://, for it has a key";
     if (layout.file.find('/') != std::string::npos || layout.file.starts_with('.'))
         return "'file' must be the name of a file, without folders";
     if (layout.side_deg < 1 || 180 % layout.side_deg != 0) return "'side_deg' must divide 180";
@@ -64,11 +92,23 @@ Result<std::vector<TileName>> tiles_in(const BoundingBox& box, const TileLayout&
 }
 
 std::string url_of(const TileLayout& layout, const TileName& tile) {
-    return with_fields(layout.url, tile);
+    std::string url = with_corner(layout.url, tile);
+    put(url, "{south}", std::to_string(tile.lat_deg));
+    put(url, "{west}", std::to_string(tile.lon_deg));
+    put(url, "{north}", std::to_string(tile.lat_deg + layout.side_deg));
+    put(url, "{east}", std::to_string(tile.lon_deg + layout.side_deg));
+    return url;
+}
+
+FetchAddress address_of(const TileLayout& layout, const TileName& tile, const std::string& key) {
+    std::string url = url_of(layout, tile);
+    if (layout.key_variable.empty()) return {url};
+    put(url, key_field, key);
+    return {url, key};
 }
 
 std::string file_of(const TileLayout& layout, const TileName& tile) {
-    return with_fields(layout.file, tile);
+    return with_corner(layout.file, tile);
 }
 
 }  // namespace oro

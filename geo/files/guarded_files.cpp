@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "core/base/files_read.h"
+#include "geo/files/network_paths.h"
 
 namespace oro {
 namespace {
@@ -226,6 +227,7 @@ void guard_files() {
     for (int i = 0; i < prefixes.size(); ++i) {
         const std::string prefix = prefixes[i];
         if (std::ranges::find(allowed, prefix) != allowed.end()) continue;
+        if (are_network_paths_allowed() && is_network_path(prefix)) continue;
         VSIFilesystemHandler* const handler = VSIFileManager::GetHandler(prefix.c_str());
         auto& kept = before[handler];
         if (!kept) kept.reset(handler);
@@ -233,7 +235,7 @@ void guard_files() {
     }
     // The handler of names without a prefix.
     VSIFileManager::InstallHandler("", new LocalFiles(VSIFileManager::GetHandler("")));
-    CPLHTTPSetFetchCallback(refuse_http, nullptr);
+    if (!are_network_paths_allowed()) CPLHTTPSetFetchCallback(refuse_http, nullptr);
 }
 
 FileWatch::FileWatch(double limit_s)

@@ -12,7 +12,8 @@ namespace oro {
 
 // Lets GDAL open regular files of this machine, and what is packed in them (zip, tar, gzip, parts of files);
 // every other file system of its (network, standard input, ...) refuses from now on, those that libraries add
-// for themselves, too, and so does its HTTP client. Once, after its drivers are registered.
+// for themselves, too, and so does its HTTP client; but for those of a network, where they are allowed
+// (network_paths.h). Once, after its drivers are registered.
 void guard_files();
 
 // Seconds in which a raster must have been opened, its side-cars and parts looked at.

@@ -14,6 +14,7 @@
 
 #include "geo/files/guarded_files.h"
 #include "geo/files/library_faults.h"
+#include "geo/files/network_paths.h"
 
 namespace oro {
 namespace {
@@ -98,6 +99,13 @@ void set_options() {
     CPLSetConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "TRUE");
     // A VRT may carry programs.
     CPLSetConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
+    // Where a network is let in: what is public, and no waiting for ever.
+    for (const auto& [name, value] :
+         {std::pair{"AWS_NO_SIGN_REQUEST", "YES"}, std::pair{"GS_NO_SIGN_REQUEST", "YES"},
+          std::pair{"AZURE_NO_SIGN_REQUEST", "YES"}, std::pair{"GDAL_HTTP_CONNECTTIMEOUT", "20"},
+          std::pair{"GDAL_HTTP_LOW_SPEED_TIME", "30"}, std::pair{"GDAL_HTTP_LOW_SPEED_LIMIT", "1000"},
+          std::pair{"GDAL_HTTP_MAX_RETRY", "4"}, std::pair{"GDAL_HTTP_RETRY_DELAY", "1"}})
+        if (are_network_paths_allowed()) CPLSetConfigOption(name, value);
     OSRSetPROJEnableNetwork(0);
     // GDAL from 3.10 on lets libtiff write some failures to standard error: what cannot be read is told by
     // us.

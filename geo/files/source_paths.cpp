@@ -13,6 +13,7 @@
 
 #include "geo/files/archive_entries.h"
 #include "geo/files/letter_case.h"
+#include "geo/files/network_paths.h"
 #include "geo/files/raster_library.h"
 
 namespace oro {
@@ -68,6 +69,12 @@ class Search {
             // No file: geo/sources/made_words.h reads the text.
             found_.push_back(described(path, path, path, true));
             found_.back().hgt = false;
+            return {};
+        }
+        if (is_network_path(path)) {
+            if (!are_network_paths_allowed())
+                return Error{ErrorKind::usage, path, "lies on a network; --network lets it be read"};
+            found_.push_back(described(path, path, last_part(path), true));
             return {};
         }
         std::error_code fault;

@@ -251,8 +251,10 @@ TEST_F(FetchCommand, WhatIsWrongIsSaidInOneLine) {
     const auto refused = [&](const Words& more, const Words& words, int code = oro::test::usage) {
         expect_refusal(run_orograph(joined({"fetch"}, more), plain()), code, words);
     };
-    refused({}, {"--source: is missing: choose glo30, glo90, passes, peaks, settlements, skadi or worldcover"});
-    refused({"--source", "srtm"}, {"--source srtm: choose glo30, glo90, passes, peaks, settlements, skadi or worldcover"});
+    refused({}, {"--source: is missing: choose canopy, glo30, glo90, opentopography, passes, peaks, "
+                 "settlements, skadi, terrarium or worldcover"});
+    refused({"--source", "srtm"}, {"--source srtm: choose canopy, glo30, glo90, opentopography, passes, "
+                                   "peaks, settlements, skadi, terrarium or worldcover"});
     refused({"--source", "skadi", "--out", "x"}, {"--bbox: is missing: name the region"});
     refused({"--source", "skadi", "--tile", "N46E008"}, {"--out: is missing: name the folder"});
     refused({"--source", "skadi", "--tile", "N46", "--out", "x"}, {"--tile N46: "});
@@ -263,6 +265,9 @@ TEST_F(FetchCommand, WhatIsWrongIsSaidInOneLine) {
     write_bytes(table, R"({"sources": {"x": {"titel": "?"}}})");
     refused({"--source", "x", "--sources", table.string()}, {"table.json: is no table of sources: ", "titel"},
             oro::test::failed);
+    write_bytes(table, R"({"sources": {"../x": {}}})");
+    refused({"--source", "x", "--sources", table.string()},
+            {"table.json: is no table of sources: '../x' is no name of a source"}, oro::test::failed);
     write_bytes(table, "[");
     refused({"--source", "x", "--sources", table.string()}, {"table.json: is no table of sources: "},
             oro::test::failed);

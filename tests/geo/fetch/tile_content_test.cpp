@@ -63,7 +63,8 @@ TEST(TileContent, GeoTiffOfHeights) {
 TEST(TileContent, GeoTiffOfLandCover) {
     const TileLayout cover = geotiff_layout(TileHolds::land_cover, 3);
     EXPECT_EQ(fault(geotiff_file(GDT_Byte, 3.0), cover), "");
-    EXPECT_EQ(fault(geotiff_file(GDT_Float32, 3.0), cover), "tile: holds fractions, and no classes");
+    EXPECT_EQ(fault(geotiff_file(GDT_Float32, 3.0), cover),
+              "tile: holds fractions, and no classes or whole metres");
 }
 
 // At every 500th byte.

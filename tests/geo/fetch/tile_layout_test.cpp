@@ -42,6 +42,23 @@ TEST(TileLayouts, AddressesOfATile) {
     EXPECT_EQ(file_of(layout_of(1), {-7, -73}), "S07W073.hgt.gz");
 }
 
+// Sides in degrees, and a key that is in nothing but the address that is asked.
+TEST(TileLayouts, AddressesWithAKey) {
+    TileLayout layout = layout_of(1);
+    layout.url = "https://example.org/API?south={south}&north={north}&west={west}&east={east}&k={key}";
+    EXPECT_EQ(fault_of(layout), "an address with {key} and 'key_variable' belong together");
+    layout.key_variable = "KEY";
+    EXPECT_EQ(fault_of(layout), "");
+    EXPECT_EQ(url_of(layout, {-1, 179}),
+              "https://example.org/API?south=-1&north=0&west=179&east=180&k={key}");
+    const oro::FetchAddress address = address_of(layout, {-1, 179}, "secret12");
+    EXPECT_EQ(address.url, "https://example.org/API?south=-1&north=0&west=179&east=180&k=secret12");
+    EXPECT_EQ(address.shown(), url_of(layout, {-1, 179}));
+    EXPECT_EQ(address.without_key("secret12 and secret12"), "{key} and {key}");
+    layout.url.replace(0, 5, "http");
+    EXPECT_EQ(fault_of(layout), "'url' must begin with https://, for it has a key");
+}
+
 TEST(TileLayouts, WhatIsNoLayout) {
     EXPECT_EQ(fault_of(layout_of(1)), "");
     const auto fault = [](auto change) {

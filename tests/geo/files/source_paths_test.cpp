@@ -28,7 +28,7 @@ void expect_error(const std::string& path, ErrorKind kind, const std::string& sa
 TEST(SourcePaths, NothingThere) {
     const fs::path folder = scratch_folder();
     expect_error((folder / "missing.hgt").string(), ErrorKind::failed, "no such file");
-    expect_error("/vsicurl/http://localhost/N46E008.hgt", ErrorKind::failed, "no such file");
+    expect_error("/vsicurl/http://localhost/N46E008.hgt", ErrorKind::usage, "lies on a network");
     fs::create_symlink(folder / "gone.hgt", folder / "N46E008.hgt");
     expect_error((folder / "N46E008.hgt").string(), ErrorKind::failed, "symbolic link to nothing");
     EXPECT_FALSE(test::open_grid(request_for({folder.string()})).ok());
@@ -76,8 +76,7 @@ TEST(SourcePaths, EntriesThatCannotBeUnpackedHaveALine) {
 TEST(SourcePaths, TextFileCalledTif) {
     const fs::path folder = scratch_folder();
     std::ofstream(folder / "dem.tif") << "This is no raster.\n";
-    expect_error((folder / "dem.tif").string(), ErrorKind::failed,
-                 "cannot be opened as a raster");
+    expect_error((folder / "dem.tif").string(), ErrorKind::failed, "cannot be opened as a raster");
     // In a folder, too: it may be what a server sent instead of a tile.
     const auto region = test::open_grid(request_for({folder.string()}));
     ASSERT_FALSE(region.ok());
