@@ -44,9 +44,14 @@ float half_rock_deg() { return 0.5 * (FRAME.style.cover.rock_from_deg + FRAME.st
 void find_pixel_materials(SurfacePoint point) {
     vec3 to_eye = normalize(-point.view) * axes_at(point.view);
     // A square of as much ground as the pixel's: where that is seen at a grazing angle its longer side alone would leave nothing.
-    float foot_m = length(point.view) * inversesqrt(max(dot(point.normal, to_eye), 0.15)) / FRAME.pixels_per_tangent;
+    float facing_eye = max(dot(point.normal, to_eye), 0.15);
+    float foot_m = length(point.view) * inversesqrt(facing_eye) / FRAME.pixels_per_tangent;
+    // The waves of an octave are two of its cells long. Where the longer side of a pixel is little longer cells may be a pixel and a half; else
+    // its waves along that side would be shorter than the pixel. Of a pixel of several posts the noise is one for all their slopes.
+    float sharper = by_means ? mix(0.42, 0.1, smoothstep(0.4, 1.6, foot_m / point.post_m)) : 0.42;
+    float finest_m = foot_m * (1.0 - sharper * smoothstep(0.15, 0.6, facing_eye));
     // A part of a footprint has a few places for all the slopes and heights that are in it: sharp borders between these would be chance.
-    pixel_noise = ground_noise(point.view, foot_m, point.parts > 0 ? 0.04 : 0.0005);
+    pixel_noise = ground_noise(point.view, finest_m, point.parts > 0 ? 0.04 : 0.0005);
     pixel_slope_deg = slope_deg(point);
     float patches = clamp(pixel_noise.patches, -2.0, 2.0);
     for (uint i = 0u; i < material_count; ++i) {
