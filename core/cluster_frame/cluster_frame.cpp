@@ -11,6 +11,19 @@
 namespace oro {
 namespace {
 
+constexpr std::size_t ahead = 12;
+
+// All of it that is drawn by.
+void prefetch_reach(const ClusterReach* reach) {
+#if defined(__GNUC__)
+    constexpr std::size_t cache_line = 64;
+    for (std::size_t at = 0; at < sizeof(ClusterReach); at += cache_line)
+        __builtin_prefetch(reinterpret_cast<const char*>(reach) + at);
+#else
+    static_cast<void>(reach);
+#endif
+}
+
 // The pages of a plan by where they are: a table of each level, from its first row and column in the plan to
 // its last.
 class PagesOfPlan {
@@ -86,6 +99,8 @@ void draw_clusters(const PostGrid& grid, std::span<const ResidentCluster> cluste
     columns.reserve(clusters.size());
     for (std::size_t i = 0; i < clusters.size(); ++i) {
         const ResidentCluster& cluster = clusters[i];
+        // Reaches lie anywhere in memory: those of the next clusters are on their way.
+        if (i + ahead < clusters.size()) prefetch_reach(clusters[i + ahead].reach);
         const ClusterReach& reach = *cluster.reach;
         const std::uint32_t page = pages.over(reach);
         if (page == gpu::no_page) continue;

@@ -6,11 +6,11 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
+#include <utility>
 
 #include "core/frame/cast_map.h"
 #include "core/frame/frame_plan.h"
 #include "core/frame/model_view.h"
-#include "core/frame/page_table.h"
 #include "core/frame/plan_memory.h"
 #include "core/lod/levels.h"
 #include "core/lod/levels_gpu.h"
@@ -24,80 +24,86 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 class CasterChoice {
   public:
     CasterChoice(PlanMemory& memory, const std::function<std::uint64_t(const PageIndex&)>& residency)
-        : pages_(memory.pages()),
-          memory_(memory),
-          residency_(residency),
-          asked_(static_cast<std::size_t>(memory.pages().levels())) {}
+        : pages_(memory.pages()), memory_(memory), residency_(residency), turn_(memory.begin_casters()) {}
 
     // A page and what a map of lines needs below it.
-    Result<void> want(const CastMap& map, const PageIndex& index);
+    Result<void> want(const CastMap& map, KeptPage& page);
     // Pages beside those of a plan; theirs above are among them.
     Result<void> want_around(const GridPlan& plan);
-    void list(GridPlan& plan) const;
+    Result<void> list(GridPlan& plan);
 
   private:
-    using PageTables = std::vector<PageTable>;  // of each level
-    // False where a page is there already.
-    static bool insert(PageTables& tables, const PageIndex& page, std::uint32_t number);
+    struct Held {
+        KeptPage* page;
+        std::uint64_t address;
+    };
+    // False where it was so already.
+    bool stamp(std::uint64_t& by) const { return std::exchange(by, turn_) != turn_; }
+    Result<void> find_missing(GridPlan& plan);
 
     const RegionPages& pages_;
     PlanMemory& memory_;
     const std::function<std::uint64_t(const PageIndex&)>& residency_;
-    PageTables asked_;
-    std::vector<std::pair<PageIndex, std::uint64_t>> wanted_;
+    std::uint64_t turn_;
+    std::vector<Held> wanted_;
 };
-
-bool CasterChoice::insert(PageTables& tables, const PageIndex& page, std::uint32_t number) {
-    PageTable& table = tables[static_cast<std::size_t>(page.level)];
-    if (table.find(page.row, page.column) != PageTable::none) return false;
-    table.insert(page.row, page.column, number);
-    return true;
-}
 
 Result<void> CasterChoice::want_around(const GridPlan& plan) {
     for (const PageIndex& page : plan.page_indices) {
-        const PageLayout layout = pages_.layout(page.level);
+        const PageLayout& layout = memory_.layout(page.level);
         for (int row = std::max(0, page.row - 1); row <= std::min(layout.rows - 1, page.row + 1); ++row)
             for (int column = std::max(0, page.column - 1);
                  column <= std::min(layout.columns - 1, page.column + 1); ++column) {
-                const PageIndex neighbour{row, column, page.level};
-                if (!insert(asked_, neighbour, 0)) continue;
-                ORO_TRY(const PageRecord* const record, memory_.record(neighbour));
-                if (record->reach_m >= 0.0) wanted_.emplace_back(neighbour, residency_(neighbour));
+                ORO_TRY(KeptPage* const neighbour, memory_.page({row, column, page.level}));
+                if (!stamp(neighbour->asked_by) || neighbour->record.reach_m < 0.0) continue;
+                wanted_.push_back({neighbour, residency_(neighbour->index())});
             }
     }
     return {};
 }
 
-Result<void> CasterChoice::want(const CastMap& map, const PageIndex& index) {
-    insert(asked_, index, 0);
-    ORO_TRY(const PageRecord* const record, memory_.record(index));
-    if (record->reach_m < 0.0) return {};
-    wanted_.emplace_back(index, residency_(index));
-    if (index.level == 0) return {};
-    const PageLayout below = pages_.layout(index.level - 1);
-    for (int i = 0; i < 4; ++i) {
-        const PageIndex child{2 * index.row + i / 2, 2 * index.column + i % 2, index.level - 1};
-        if (child.row >= below.rows || child.column >= below.columns) continue;
-        const std::int64_t posts = std::int64_t{gpu::page_quads} << child.level;
-        const CastMap::Need need = map.need(map.patch(child.row * posts, child.column * posts, posts));
-        const auto error_m =
-            static_cast<double>(record->quarters[static_cast<std::size_t>(i)].largest_error_m);
-        const double top_m = record->summary.highest_h_m + error_m + 1.0;
-        if (error_m > need.error_m && top_m >= need.low_m) ORO_CHECK(want(map, child));
+Result<void> CasterChoice::want(const CastMap& map, KeptPage& page) {
+    stamp(page.asked_by);
+    const PageRecord& record = page.record;
+    if (record.reach_m < 0.0) return {};
+    const PageIndex& index = page.index();
+    wanted_.push_back({&page, residency_(index)});
+    const std::int64_t posts = std::int64_t{gpu::page_quads} << std::max(0, index.level - 1);
+    for (std::size_t i = 0; i < 4; ++i) {
+        if ((page.has_child >> i & 1U) == 0) continue;
+        const std::int64_t row = 2 * index.row + static_cast<int>(i / 2),
+                           column = 2 * index.column + static_cast<int>(i % 2);
+        const CastMap::Need need = map.need(map.patch(row * posts, column * posts, posts));
+        const auto error_m = static_cast<double>(record.quarters[i].largest_error_m);
+        const double top_m = record.summary.highest_h_m + error_m + 1.0;
+        if (!(error_m > need.error_m && top_m >= need.low_m)) continue;
+        ORO_TRY(KeptPage* const child, memory_.child(page, i));
+        ORO_CHECK(want(map, *child));
     }
     return {};
 }
 
-void CasterChoice::list(GridPlan& plan) const {
+// What is wanted and is not on the GPU.
+Result<void> CasterChoice::find_missing(GridPlan& plan) {
+    if (std::ranges::all_of(wanted_, [](const Held& held) { return held.address != 0; })) return {};
+    for (const PageIndex& index : plan.missing) {
+        ORO_TRY(KeptPage* const page, memory_.page(index));
+        page->missed_by = turn_;
+    }
+    for (const Held& held : wanted_)
+        if (held.address == 0 && stamp(held.page->missed_by)) plan.missing.push_back(held.page->index());
+    return {};
+}
+
+Result<void> CasterChoice::list(GridPlan& plan) {
     CasterPlan& casters = plan.casters;
     std::vector<PageIndex> low(static_cast<std::size_t>(pages_.levels()),
                                {std::numeric_limits<int>::max(), std::numeric_limits<int>::max(), 0});
     std::vector<PageIndex> high(low.size(), {-1, -1, 0});
-    PageTables numbers(low.size()), missing;
-    const auto add = [&](const PageIndex& index, const gpu::uvec2& block) {
-        const auto number = static_cast<gpu::uint>(casters.pages.size());
-        if (!insert(numbers, index, number)) return;
+    casters.pages.reserve(plan.pages.size() + wanted_.size());
+    const auto add = [&](KeptPage& page, const gpu::uvec2& block) {
+        if (!stamp(page.listed_by)) return;
+        const PageIndex& index = page.index();
         casters.pages.push_back({block, static_cast<gpu::uint>(index.level),
                                  static_cast<gpu::uint>(index.row), static_cast<gpu::uint>(index.column)});
         const auto level = static_cast<std::size_t>(index.level);
@@ -106,20 +112,14 @@ void CasterChoice::list(GridPlan& plan) const {
         high[level].row = std::max(high[level].row, index.row);
         high[level].column = std::max(high[level].column, index.column);
     };
-    const auto is_new_missing = [&](const PageIndex& index) {
-        if (missing.empty()) {
-            missing.resize(low.size());
-            for (const PageIndex& page : plan.missing) insert(missing, page, 0);
-        }
-        return insert(missing, index, 0);
-    };
-    for (std::size_t i = 0; i < plan.pages.size(); ++i) add(plan.page_indices[i], plan.pages[i].block);
-    for (const auto& [index, address] : wanted_) {
-        if (address != 0)
-            add(index, {static_cast<gpu::uint>(address), static_cast<gpu::uint>(address >> 32U)});
-        else if (is_new_missing(index))
-            plan.missing.push_back(index);
+    for (std::size_t i = 0; i < plan.pages.size(); ++i) {
+        ORO_TRY(KeptPage* const page, memory_.page_of(plan, i));
+        add(*page, plan.pages[i].block);
     }
+    for (const auto& [page, address] : wanted_)
+        if (address != 0)
+            add(*page, {static_cast<gpu::uint>(address), static_cast<gpu::uint>(address >> 32U)});
+    ORO_CHECK(find_missing(plan));
     for (std::size_t level = 0; level < low.size(); ++level) {
         if (high[level].row < 0) continue;
         gpu::CasterLevel& held = casters.frame.levels[level];
@@ -137,6 +137,7 @@ void CasterChoice::list(GridPlan& plan) const {
                       held.first_column] = static_cast<gpu::uint>(i);
     }
     casters.frame.page_count = static_cast<gpu::uint>(casters.pages.size());
+    return {};
 }
 
 // What casters may be off for each metre from the eye.
@@ -159,8 +160,8 @@ Result<void> look_for_quarters(PlanMemory& memory, const FrameView& view, const 
     for (std::size_t i = 0; i < plan.pages.size(); ++i) {
         const gpu::FramePage& page = plan.pages[i];
         const PageIndex& index = plan.page_indices[i];
-        ORO_TRY(const PageRecord* const known, memory.record(index));
-        const PageRecord& record = *known;
+        ORO_TRY(const KeptPage* const known, memory.page_of(plan, i));
+        const PageRecord& record = known->record;
         const std::int64_t half = std::int64_t{gpu::page_quads / 2} << index.level;
         for (int quarter = 0; quarter < 4; ++quarter) {
             if (page.children[quarter] != gpu::no_page) continue;
@@ -168,8 +169,7 @@ Result<void> look_for_quarters(PlanMemory& memory, const FrameView& view, const 
                 continue;
             const PageQuarter& part = record.quarters[static_cast<std::size_t>(quarter)];
             if (part.lod_radius_m < 0.0) continue;
-            const glm::dvec3 centre_ecef =
-                record.summary.origin_ecef.m + record.summary.ecef_from_page * part.centre_m;
+            const glm::dvec3& centre_ecef = known->quarter_ecef_m[static_cast<std::size_t>(quarter)];
             const glm::dvec3 centre = view_from_ecef * (centre_ecef - eye);
             const double lift_m =
                 0.1 * glm::dot(centre, centre) / mean_radius_m;  // light that bends shows it higher
@@ -268,11 +268,14 @@ Result<void> plan_casters(PlanMemory& memory, const std::function<std::uint64_t(
         map.cast();
         for (const ShadowReceiver& receiver : others) map.cast_from_other_grid(receiver);
         for_shadows = !plan.pages.empty() || map.any();
-        if (for_shadows) ORO_CHECK(choice.want(map, {0, 0, top}));
+        if (for_shadows) {
+            ORO_TRY(KeptPage* const whole, memory.page({0, 0, top}));
+            ORO_CHECK(choice.want(map, *whole));
+        }
     }
     if (plan.pages.empty() && !for_shadows) return {};
     if (request.sky_openness) ORO_CHECK(choice.want_around(plan));
-    choice.list(plan);
+    ORO_CHECK(choice.list(plan));
     plan.casters.for_shadows = for_shadows;
     plan.casters.for_openness = request.sky_openness;
     const RegionFacts& facts = pages.facts();

@@ -244,8 +244,13 @@ void FrameTables::add_columns(std::span<const double> lon_deg) {
     const std::size_t first = columns_.size();
     columns_.resize(first + lon_deg.size());
     east_deg_.resize(lon_deg.size());
-    for (std::size_t i = 0; i < lon_deg.size(); ++i) east_deg_[i] = lon_deg[i] - eye_.lon_deg;
-    for (double& east_deg : east_deg_) east_deg = within_half_a_turn_deg(east_deg);
+    bool all_within = true;
+    for (std::size_t i = 0; i < lon_deg.size(); ++i) {
+        east_deg_[i] = lon_deg[i] - eye_.lon_deg;
+        all_within &= std::abs(east_deg_[i]) < 180.0;
+    }
+    if (!all_within)
+        for (double& east_deg : east_deg_) east_deg = within_half_a_turn_deg(east_deg);
     if (earth_ != Earth::flat) {
         column_terms(east_deg_, std::span(columns_).subspan(first));
         return;

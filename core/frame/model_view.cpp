@@ -1,6 +1,7 @@
 #include "core/frame/model_view.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -56,21 +57,31 @@ double ModelView::across_m(const glm::dvec3& view_m) const {
 }
 
 // The lift c a^2 / 2 of two points whose a differ by at most r differs by at most c r (a + r / 2).
-ViewSphere ModelView::bent(const ViewSphere& straight) const {
+ModelView::SeenAt ModelView::bent_at(const ViewSphere& straight) const {
     const double c = refraction_.curvature_per_m();
-    if (c == 0.0) return straight;
+    if (c == 0.0) return {straight, 0.0, 1.0};
     const double a = across_m(straight.centre_m), r = straight.radius_m;
-    return {straight.centre_m + 0.5 * c * a * a * up_view_, r + std::abs(c) * r * (a + 0.5 * r)};
+    return {{straight.centre_m + 0.5 * c * a * a * up_view_, r + std::abs(c) * r * (a + 0.5 * r)},
+            a,
+            1.0 + std::abs(c) * (a + r)};
+}
+
+ViewSphere ModelView::bent(const ViewSphere& straight) const {
+    return bent_at(straight).sphere;
 }
 
 ViewSphere ModelView::seen(const PageSummary& page, const glm::dvec3& in_page_m, double radius_m) const {
     return bent({straight_m(page, in_page_m), radius_m});
 }
 
-double ModelView::stretch(const PageSummary& page, const glm::dvec3& in_page_m, double radius_m) const {
-    const double c = refraction_.curvature_per_m();
-    if (c == 0.0) return 1.0;
-    return 1.0 + std::abs(c) * (across_m(straight_m(page, in_page_m)) + radius_m);
+ModelView::SeenAt ModelView::seen_at(const PageSummary& page, const glm::dvec3& in_page_m,
+                                     double radius_m) const {
+    return bent_at({straight_m(page, in_page_m), radius_m});
+}
+
+ModelView::SeenAt ModelView::seen_at(const glm::dvec3& ecef_m, double radius_m) const {
+    assert(model_.earth == Earth::ellipsoid);
+    return bent_at({view_from_ecef_ * (ecef_m - eye_ecef_.m), radius_m});
 }
 
 bool ModelView::may_stand(const PageRecord& page) const {
@@ -116,11 +127,10 @@ ViewSphere ModelView::on_plane(const PostGrid& grid, const PageRecord& page) con
             0.5 * glm::length(corners[1] - corners[0]) + 0.01};
 }
 
-Plane ModelView::plane_for_nodes(const Plane& plane, const PageSummary& page) const {
+Plane ModelView::plane_for_nodes(const Plane& plane, double across_m, double radius_m) const {
     const double c = refraction_.curvature_per_m();
     if (c == 0.0) return plane;
-    const double a = across_m(straight_m(page, page.centre_m));
-    const double near_m = std::max(0.0, a - page.radius_m), far_m = a + page.radius_m;
+    const double near_m = std::max(0.0, across_m - radius_m), far_m = across_m + radius_m;
     const double along = 0.5 * c * glm::dot(glm::dvec3(plane), up_view_);
     return {glm::dvec3(plane), plane.w + std::max(along * near_m * near_m, along * far_m * far_m)};
 }

@@ -48,13 +48,22 @@ class ModelView {
     // Where a sphere of a page's frame is seen: holds all that it held.
     [[nodiscard]] ViewSphere seen(const PageSummary& page, const glm::dvec3& in_page_m,
                                   double radius_m) const;
-    // What the lengths in such a sphere are at most multiplied by when light bends.
-    [[nodiscard]] double stretch(const PageSummary& page, const glm::dvec3& in_page_m, double radius_m) const;
+    // The same, with how far its middle is from the eye's vertical as light goes straight, and with what the
+    // lengths in it are at most multiplied by when light bends.
+    struct SeenAt {
+        ViewSphere sphere;
+        double across_m;
+        double stretch;
+    };
+    [[nodiscard]] SeenAt seen_at(const PageSummary& page, const glm::dvec3& in_page_m, double radius_m) const;
+    // On the ellipsoid, of a sphere around a place in ECEF.
+    [[nodiscard]] SeenAt seen_at(const glm::dvec3& ecef_m, double radius_m) const;
     // Where the triangles of a page and of all below it are seen.
     [[nodiscard]] ViewSphere seen_page(const PostGrid& grid, const PageRecord& page) const;
     // A frustum's plane (view coordinates) for the spheres of a page's nodes where they are before light
-    // bends: moved outwards by as much as anything in the page can be lifted over it.
-    [[nodiscard]] Plane plane_for_nodes(const Plane& plane, const PageSummary& page) const;
+    // bends: moved outwards by as much as anything in the page can be lifted over it. across_m: of seen_at(),
+    // of the sphere around the page that has this radius.
+    [[nodiscard]] Plane plane_for_nodes(const Plane& plane, double across_m, double radius_m) const;
 
     [[nodiscard]] SeenHorizon horizon(const HorizonOccluder& occluder) const;
 
@@ -62,6 +71,7 @@ class ModelView {
     [[nodiscard]] glm::dvec3 straight_m(const PageSummary& page, const glm::dvec3& in_page_m) const;
     [[nodiscard]] double across_m(const glm::dvec3& view_m) const;
     [[nodiscard]] ViewSphere bent(const ViewSphere& straight) const;
+    [[nodiscard]] SeenAt bent_at(const ViewSphere& straight) const;
     [[nodiscard]] ViewSphere on_plane(const PostGrid& grid, const PageRecord& page) const;
 
     WorldModel model_;

@@ -1,9 +1,11 @@
 // What the plans of one grid keep from frame to frame, so that it is not made anew for each.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,32 +20,87 @@
 
 namespace oro {
 
-// Records and angles of rows are the same for every frame. For one thread at a time.
+// A page that frames have asked for, and what of it is the same for every eye.
+struct KeptPage {
+    // What the last choice that wanted it has made of it.
+    struct Wanted {
+        std::uint64_t turn{};  // number of that choice
+        double distance_m{};
+        std::uint64_t address{};  // 0: not on the GPU
+        std::uint32_t fallback_quarters{};
+        std::uint32_t number{gpu::no_page};  // in the frame
+        bool open{};                         // takes part in the frame
+        bool shows{};                        // or may, or is needed by one that may
+    };
+    Wanted wanted;
+    // The last choices of casters that asked for it, that listed it, and that found it missing.
+    std::uint64_t asked_by{}, listed_by{}, missed_by{};
+    PageRecord record;
+    // Middles of the spheres of record, ECEF: of summary.centre_m, and of each quarter.
+    glm::dvec3 centre_ecef_m;
+    std::array<glm::dvec3, 4> quarter_ecef_m;
+    // Pages of the next finer level, where they were asked for: north-west, north-east, south-west,
+    // south-east. Which of them there are is a bit each.
+    std::array<KeptPage*, 4> children{};
+    std::uint32_t has_child{};
+    // The page of the level above that this one lies in, and those that hold what lies beyond its rims:
+    // north, east, south, west; null: nobody has found them. Which of these there may be is a bit each.
+    KeptPage* parent{};
+    std::array<KeptPage*, 4> beside{};
+    std::uint32_t has_beside{};
+    [[nodiscard]] const PageIndex& index() const { return record.summary.index; }
+};
+
+// Records, angles of rows and columns, and cells of casters are the same for every frame. For one thread at a
+// time.
 class PlanMemory {
   public:
     // The pages outlive it.
-    explicit PlanMemory(const RegionPages& pages) : pages_(&pages), angles_(pages.facts().grid) {}
+    explicit PlanMemory(const RegionPages& pages);
 
-    // What records() pointed to may be gone from here on.
-    void begin_frame();
-    // A page's record, good until the next frame begins. Errors: as RegionPages::record().
-    Result<const PageRecord*> record(const PageIndex& page);
+    // What pages were pointed to may be gone from here on. The number of the choice that begins, from 1 on.
+    std::uint64_t begin_frame();
+    // The number of the choice of casters that begins, from 1 on.
+    std::uint64_t begin_casters() { return ++cast_turn_; }
+    // A page, good until the next frame begins. Errors: as RegionPages::record().
+    Result<KeptPage*> page(const PageIndex& index);
+    // One of those that page() has given, or null.
+    [[nodiscard]] KeptPage* find(const PageIndex& index);
+    // Of a page the one above it, and those beside that: as KeptPage has them, found anew where that is not
+    // known. Null: nobody has asked for it.
+    [[nodiscard]] KeptPage* parent(KeptPage& page);
+    [[nodiscard]] KeptPage* beside(KeptPage& page, std::size_t side);
+    // One of the finer pages of a page that has it. Errors: as RegionPages::record().
+    Result<KeptPage*> child(KeptPage& page, std::size_t quarter);
+
+    // The pages of the last plan, in its order.
+    std::vector<KeptPage*> planned;
+    // A page of a plan by its number there; quick for the last plan. Errors: as page().
+    Result<KeptPage*> page_of(const GridPlan& plan, std::size_t number);
+
     [[nodiscard]] KeptAngles& angles() { return angles_; }
     [[nodiscard]] CastCells& cast_cells() {
         return cast_cells_ ? *cast_cells_ : cast_cells_.emplace(*pages_);
     }
     [[nodiscard]] const RegionPages& pages() const { return *pages_; }
+    [[nodiscard]] const PageLayout& layout(int level) const {
+        return layouts_[static_cast<std::size_t>(level)];
+    }
 
   private:
     struct Level {
         PageTable numbers;
-        std::vector<std::unique_ptr<PageRecord>> records;
+        std::vector<std::unique_ptr<KeptPage>> pages;
     };
+    void link(KeptPage& page) const;
+
     const RegionPages* pages_;
     KeptAngles angles_;
     std::optional<CastCells> cast_cells_;
+    std::vector<PageLayout> layouts_;  // of each level
     std::vector<Level> levels_;
     std::size_t size_{};
+    std::uint64_t turn_{}, cast_turn_{};
 };
 
 // The plans of core/frame/frame_plan.h and core/frame/casters.h, to the bit, in less time: of the pages of a

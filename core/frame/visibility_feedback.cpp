@@ -8,10 +8,6 @@ namespace {
 
 constexpr int side = static_cast<int>(gpu::meshlets_per_side);
 
-std::tuple<int, int, int> key_of(const PageIndex& page) {
-    return {page.level, page.row, page.column};
-}
-
 // A page's rows of bits, from eight words of them.
 std::array<std::uint16_t, gpu::meshlets_per_side> rows_of(std::span<const gpu::uint> words) {
     std::array<std::uint16_t, gpu::meshlets_per_side> rows{};
@@ -29,13 +25,66 @@ bool is_same_view(const gpu::FrameConstants& one, const gpu::FrameConstants& oth
            one.eye_high == other.eye_high && one.eye_low == other.eye_low && one.tau_px == other.tau_px;
 }
 
+void PageSet::clear() {
+    for (PageTable& level : levels_) level.clear();
+    pages_.clear();
+}
+
+std::uint32_t PageSet::find(const PageIndex& page) const {
+    const auto level = static_cast<std::size_t>(page.level);
+    return level < levels_.size() ? levels_[level].find(page.row, page.column) : PageTable::none;
+}
+
+std::pair<std::uint32_t, bool> PageSet::number_of(const PageIndex& page) {
+    const auto level = static_cast<std::size_t>(page.level);
+    if (levels_.size() <= level) levels_.resize(level + 1);
+    const std::uint32_t known = levels_[level].find(page.row, page.column);
+    if (known != PageTable::none) return {known, false};
+    const auto number = static_cast<std::uint32_t>(pages_.size());
+    levels_[level].insert(page.row, page.column, number);
+    pages_.push_back(page);
+    return {number, true};
+}
+
+void VisibilityFeedback::Nodes::clear() {
+    pages.clear();
+    bits.clear();
+    below.clear();
+}
+
+const VisibilityFeedback::Bits* VisibilityFeedback::Nodes::bits_of(const PageIndex& page) const {
+    const std::uint32_t number = pages.find(page);
+    return number == PageTable::none ? nullptr : &bits[number];
+}
+
+bool VisibilityFeedback::Nodes::is_same(const Nodes& other) const {
+    if (pages.size() != other.pages.size()) return false;
+    for (std::size_t i = 0; i < pages.size(); ++i) {
+        const Bits* const theirs = other.bits_of(pages[i]);
+        if (theirs == nullptr || *theirs != bits[i]) return false;
+    }
+    return true;
+}
+
+bool VisibilityFeedback::Seen::is_drawn_same(const Seen& other) const {
+    if (shown.pages.size() != other.shown.pages.size()) return false;
+    for (std::size_t i = 0; i < shown.pages.size(); ++i) {
+        const std::uint32_t theirs = other.shown.pages.find(shown.pages[i]);
+        if (theirs == PageTable::none || other.drawn[theirs] != drawn[i]) return false;
+    }
+    return true;
+}
+
 // Adds bits to a page's, and the page to those above it.
 void VisibilityFeedback::mark(Nodes& nodes, const PageIndex& page, const Bits& bits) const {
     if (std::ranges::all_of(bits, [](std::uint16_t row) { return row == 0; })) return;
-    Bits& to = nodes.bits[key_of(page)];
+    const auto [number, is_new] = nodes.pages.number_of(page);
+    if (is_new) nodes.bits.emplace_back();
+    Bits& to = nodes.bits[number];
     for (std::size_t i = 0; i < bits.size(); ++i) to[i] = static_cast<std::uint16_t>(to[i] | bits[i]);
+    if (!is_new) return;
     PageIndex above = page;
-    while (nodes.below.insert(key_of(above)).second && above.level + 1 < pages_->levels())
+    while (nodes.below.insert(above) && above.level + 1 < pages_->levels())
         above = {above.row / 2, above.column / 2, above.level + 1};
 }
 
@@ -71,22 +120,40 @@ void VisibilityFeedback::mark_grown(Nodes& nodes, const PageIndex& page, const B
 }
 
 bool VisibilityFeedback::any_over(const Nodes& nodes, const PageIndex& page) const {
-    if (nodes.below.contains(key_of(page))) return true;
+    if (nodes.below.contains(page)) return true;
     PageIndex above{page.row / 2, page.column / 2, page.level + 1};
     int size = side / 2, first_row = page.row % 2 * size, first_column = page.column % 2 * size;
     while (above.level < pages_->levels()) {
-        const auto found = nodes.bits.find(key_of(above));
+        const Bits* const found = nodes.bits_of(above);
         const int count = std::max(1, size);
         const std::uint32_t mask = ((1U << static_cast<unsigned>(count)) - 1U)
                                    << static_cast<unsigned>(first_column);
-        for (int row = first_row; found != nodes.bits.end() && row < first_row + count; ++row)
-            if ((found->second[static_cast<std::size_t>(row)] & mask) != 0) return true;
+        for (int row = first_row; found != nullptr && row < first_row + count; ++row)
+            if (((*found)[static_cast<std::size_t>(row)] & mask) != 0) return true;
         first_row = (above.row % 2 * side + first_row) / 2;
         first_column = (above.column % 2 * side + first_column) / 2;
         size /= 2;
         above = {above.row / 2, above.column / 2, above.level + 1};
     }
     return false;
+}
+
+void VisibilityFeedback::find_seen(const FrameFeedback& feedback) {
+    seen_.asked.clear();
+    seen_.shown.clear();
+    seen_.finer.clear();
+    for (std::size_t i = 0; i < feedback.pages.size(); ++i) {
+        const std::span words =
+            std::span(feedback.words).subspan(i * gpu::feedback_words, gpu::feedback_words);
+        mark(seen_.asked, feedback.pages[i], rows_of(words.first(gpu::accepted_words)));
+        mark_grown(seen_.shown, feedback.pages[i],
+                   rows_of(words.subspan(gpu::accepted_words, gpu::accepted_words)));
+        mark_grown(seen_.finer, feedback.pages[i], rows_of(words.last(gpu::accepted_words)));
+    }
+    seen_.drawn.assign(seen_.shown.pages.size(), 0);
+    for (const PageIndex& page : feedback.pages)
+        if (const std::uint32_t found = seen_.shown.pages.find(page); found != PageTable::none)
+            seen_.drawn[found] = 1;
 }
 
 bool VisibilityFeedback::add(const FrameFeedback& feedback) {
@@ -100,38 +167,28 @@ bool VisibilityFeedback::add(const FrameFeedback& feedback) {
             views_ = 1;
         }
     }
-    const Nodes asked = std::exchange(asked_, {}), shown = std::exchange(shown_, {}),
-                finer = std::exchange(finer_, {});
-    const std::map<Key, bool> drawn = std::exchange(drawn_, {});
+    std::swap(seen_, before_);
+    find_seen(feedback);
     const std::size_t hidden = hidden_.size();
-    for (std::size_t i = 0; i < feedback.pages.size(); ++i) {
-        const std::span words =
-            std::span(feedback.words).subspan(i * gpu::feedback_words, gpu::feedback_words);
-        mark(asked_, feedback.pages[i], rows_of(words.first(gpu::accepted_words)));
-        mark_grown(shown_, feedback.pages[i],
-                   rows_of(words.subspan(gpu::accepted_words, gpu::accepted_words)));
-        mark_grown(finer_, feedback.pages[i], rows_of(words.last(gpu::accepted_words)));
-    }
-    for (const auto& [key, bits] : shown_.bits) drawn_[key] = false;
+    const bool shows_same = seen_.shown.is_same(before_.shown), is_drawn_same = seen_.is_drawn_same(before_);
+    if (!shows_same || !is_drawn_same) hidden_.clear();
     for (const PageIndex& page : feedback.pages)
-        if (const auto found = drawn_.find(key_of(page)); found != drawn_.end()) found->second = true;
-    if (shown_.bits != shown.bits || drawn_ != drawn) hidden_.clear();
-    for (const PageIndex& page : feedback.pages)
-        if (any_over(asked_, page) && !any_over(shown_, page) && !any_over(finer_, page))
-            hidden_.insert(key_of(page));
-    return asked_.bits != asked.bits || shown_.bits != shown.bits || finer_.bits != finer.bits ||
-           drawn_ != drawn || hidden_.size() != hidden;
+        if (any_over(seen_.asked, page) && !any_over(seen_.shown, page) && !any_over(seen_.finer, page))
+            hidden_.insert(page);
+    return !shows_same || !is_drawn_same || hidden_.size() != hidden || !seen_.asked.is_same(before_.asked) ||
+           !seen_.finer.is_same(before_.finer);
 }
 
 bool VisibilityFeedback::is_hidden(const PageIndex& page) {
-    const Key key = key_of(page);
-    if (came_back_.contains(key)) return false;
-    if (any_over(shown_, page)) {
-        if (were_hidden_.contains(key)) came_back_.insert(key);
+    if (seen_.asked.pages.size() == 0 && seen_.shown.pages.size() == 0 && hidden_.size() == 0) return false;
+    if (came_back_.contains(page)) return false;
+    if (any_over(seen_.shown, page)) {
+        if (were_hidden_.contains(page)) came_back_.insert(page);
         return false;
     }
-    if (!hidden_.contains(key) && (any_over(finer_, page) || !any_over(asked_, page))) return false;
-    were_hidden_.insert(key);
+    if (!hidden_.contains(page) && (any_over(seen_.finer, page) || !any_over(seen_.asked, page)))
+        return false;
+    were_hidden_.insert(page);
     return true;
 }
 

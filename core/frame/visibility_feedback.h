@@ -5,12 +5,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <map>
-#include <set>
 #include <span>
-#include <tuple>
+#include <utility>
 #include <vector>
 
+#include "core/frame/page_table.h"
 #include "core/frame/region_pages.h"
 #include "shaders/shared.h"
 
@@ -29,6 +28,26 @@ struct FrameFeedback {
 // Whether two frames look from one place to the same part of a picture; their samples may differ.
 bool is_same_view(const gpu::FrameConstants& one, const gpu::FrameConstants& other);
 
+// Pages. Emptied in no time, and it keeps its room.
+class PageSet {
+  public:
+    void clear();
+    // Whether it was not there.
+    bool insert(const PageIndex& page) { return number_of(page).second; }
+    [[nodiscard]] bool contains(const PageIndex& page) const { return find(page) != PageTable::none; }
+    // Pages are numbered from 0 in the order in which they came in.
+    [[nodiscard]] std::size_t size() const { return pages_.size(); }
+    [[nodiscard]] const PageIndex& operator[](std::size_t number) const { return pages_[number]; }
+    // PageTable::none where it is not there.
+    [[nodiscard]] std::uint32_t find(const PageIndex& page) const;
+    // Its number, and whether it came in just now.
+    std::pair<std::uint32_t, bool> number_of(const PageIndex& page);
+
+  private:
+    std::vector<PageTable> levels_;
+    std::vector<PageIndex> pages_;
+};
+
 // What the last frame has shown, and which pages were drawn and hidden while what shows was the same.
 class VisibilityFeedback {
   public:
@@ -44,14 +63,17 @@ class VisibilityFeedback {
     static constexpr int views_kept = 32;
 
   private:
-    using Key = std::tuple<int, int, int>;  // level, row, column
     using Bits =
         std::array<std::uint16_t, gpu::meshlets_per_side>;  // a row of nodes each, the first the lowest bit
-    using PageBits = std::map<Key, Bits>;
-    // Bits of pages, and the pages with any of them, with all above these.
+    // Pages with bits, and with these all above them.
     struct Nodes {
-        PageBits bits;
-        std::set<Key> below;
+        PageSet pages;
+        std::vector<Bits> bits;  // of each
+        PageSet below;
+        void clear();
+        // Null where it has none.
+        [[nodiscard]] const Bits* bits_of(const PageIndex& page) const;
+        [[nodiscard]] bool is_same(const Nodes& other) const;
     };
     void mark(Nodes& nodes, const PageIndex& page, const Bits& bits) const;
     void mark_grown(Nodes& nodes, const PageIndex& page, const Bits& bits) const;
@@ -59,11 +81,18 @@ class VisibilityFeedback {
     [[nodiscard]] bool any_over(const Nodes& nodes, const PageIndex& page) const;
 
     const RegionPages* pages_;
-    Nodes asked_, shown_, finer_;  // the last two with those around them
-    // Pages with nodes that show, or beside such nodes; 1 where the frame has drawn them. While these stay as
-    // they are the same ground hides the same, and hidden_ are pages that it was seen to hide.
-    std::map<Key, bool> drawn_;
-    std::set<Key> hidden_, were_hidden_, came_back_;
+    // Of the last frame; the last two with those around them.
+    struct Seen {
+        Nodes asked, shown, finer;
+        // Of each of shown.pages, pages with nodes that show, or beside such nodes, whether the frame has
+        // drawn it. While these stay as they are the same ground hides the same.
+        std::vector<char> drawn;
+        [[nodiscard]] bool is_drawn_same(const Seen& other) const;
+    };
+    void find_seen(const FrameFeedback& feedback);
+    Seen seen_, before_;  // the latter of the frame before
+    // Pages that what shows was seen to hide, that did so in the last views, and that came back.
+    PageSet hidden_, were_hidden_, came_back_;
     int views_{};
     gpu::FrameConstants last_{};
 };

@@ -177,12 +177,7 @@ GrowthPlan plan_growth(const PostGrid& grid, std::span<const PageIndex> page_ind
     GrowthPlan plan;
     const double pixels_per_tangent = 0.5 * view.camera.height_px / view.camera.half_fov_tangent().y;
     plan.reach_m = gpu::tree_reach_m(static_cast<float>(pixels_per_tangent), static_cast<float>(view.tau_px));
-    PageNumbers numbers;
-    for (std::size_t i = 0; i < page_indices.size(); ++i) {
-        const PageIndex& page = page_indices[i];
-        numbers[key_of(page.level, page.row, page.column)] = static_cast<gpu::uint>(i);
-    }
-    if (numbers.empty()) return plan;
+    if (page_indices.empty()) return plan;
     const TilesInView in_view(view.camera, view.tile);
     GroundRange all = ground(0);
     for (std::size_t i = 1; i < page_indices.size(); ++i) {
@@ -192,6 +187,12 @@ GrowthPlan plan_growth(const PostGrid& grid, std::span<const PageIndex> page_ind
     const auto around =
         tiles_around(view.camera.eye, static_cast<double>(plan.reach_m),
                      [&](double east_m, double north_m) { return in_view.may_show(east_m, north_m, all); });
+    if (around.empty()) return plan;
+    PageNumbers numbers;
+    for (std::size_t i = 0; i < page_indices.size(); ++i) {
+        const PageIndex& page = page_indices[i];
+        numbers[key_of(page.level, page.row, page.column)] = static_cast<gpu::uint>(i);
+    }
     for (const NearTile& near : around) {
         if (plan.tiles.size() == gpu::growth_tiles_max) break;
         const auto tile = tile_on_grid(grid, numbers, near.row, near.column);

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstring>
 
-#include "core/frame/page_table.h"
 #include "render/frame/frame_layout.h"
 
 namespace oro {
@@ -199,23 +198,27 @@ void GridFrame::remember(const GridPlan& plan) {
     if (plan.clusters.on)
         clusters_before_ = ++clusters_turn_;
     else
-        before_ = plan.page_indices;
+        remember_pages(plan.page_indices);
+}
+
+void GridFrame::remember_pages(std::span<const PageIndex> pages) {
+    for (PageTable& level : before_) level.clear();
+    for (std::size_t i = 0; i < pages.size(); ++i) {
+        const auto level = static_cast<std::size_t>(pages[i].level);
+        if (before_.size() <= level) before_.resize(level + 1);
+        before_[level].insert(pages[i].row, pages[i].column, static_cast<gpu::uint>(i));
+    }
+    pages_before_ = pages.size();
 }
 
 // FrameConstants::page_before.
 std::vector<gpu::uint> GridFrame::numbers_before(const GridPlan& plan) const {
     std::vector<gpu::uint> numbers(plan.pages.size(), gpu::no_page);
-    std::vector<PageTable> places;  // of each level
-    for (std::size_t i = 0; i < before_.size(); ++i) {
-        const PageIndex& page = before_[i];
-        if (places.size() <= static_cast<std::size_t>(page.level))
-            places.resize(static_cast<std::size_t>(page.level) + 1);
-        places[static_cast<std::size_t>(page.level)].insert(page.row, page.column, static_cast<gpu::uint>(i));
-    }
+    if (pages_before_ == 0) return numbers;
     for (std::size_t i = 0; i < std::min(numbers.size(), plan.page_indices.size()); ++i) {
         const PageIndex& page = plan.page_indices[i];
-        if (places.size() <= static_cast<std::size_t>(page.level)) continue;
-        const std::uint32_t found = places[static_cast<std::size_t>(page.level)].find(page.row, page.column);
+        if (before_.size() <= static_cast<std::size_t>(page.level)) continue;
+        const std::uint32_t found = before_[static_cast<std::size_t>(page.level)].find(page.row, page.column);
         if (found != PageTable::none) numbers[i] = found;
     }
     return numbers;
@@ -253,7 +256,7 @@ void GridFrame::address(GridPlan& plan) const {
         at += VkDeviceSize{4} * gpu::accepted_words * page_capacity_;
     }
     constants.seen = address_words(seen_[turn_].address);
-    if (constants.occlusion != 0 && !before_.empty())
+    if (constants.occlusion != 0 && pages_before_ > 0)
         constants.seen_before = address_words(seen_[1 - turn_].address);
     constants.page_before = address_words(data_.address + layout.before);
     constants.feedback =

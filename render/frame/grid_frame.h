@@ -4,9 +4,11 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "core/frame/frame_plan.h"
+#include "core/frame/page_table.h"
 #include "core/frame/visibility_feedback.h"
 #include "render/device/resources.h"
 #include "render/growth/growth_frame.h"
@@ -41,11 +43,11 @@ class GridFrame {
     // nobody knows.
     void remember(const GridPlan& plan);
     void forget() {
-        before_.clear();
+        pages_before_ = 0;
         clusters_before_ = 0;
     }
     [[nodiscard]] bool remembers(const GridPlan& plan) const {
-        return plan.clusters.on ? clusters_before_ > 0 : !before_.empty();
+        return plan.clusters.on ? clusters_before_ > 0 : pages_before_ > 0;
     }
 
     [[nodiscard]] const Buffer& data() const { return data_; }      // begins with the constants
@@ -65,6 +67,7 @@ class GridFrame {
     Result<void> reserve_seen(const Gpu& gpu, std::size_t pages);
     Result<void> reserve_clusters(const Gpu& gpu, const GridPlan& plan);
     Result<void> reserve_feedback(const Gpu& gpu, const GridPlan& plan);
+    void remember_pages(std::span<const PageIndex> pages);
     [[nodiscard]] std::vector<gpu::uint> numbers_before(const GridPlan& plan) const;
 
     OwnedDescriptorPool pool_;
@@ -77,7 +80,8 @@ class GridFrame {
     Buffer choice_;
     std::array<Buffer, 2> seen_;  // of this frame in rounds and of the last such one, by turns
     std::size_t turn_{};
-    std::vector<PageIndex> before_;    // the last such frame's pages; none: nothing is known of it
+    std::vector<PageTable> before_;    // numbers of the last such frame's pages, of each level
+    std::size_t pages_before_{};       // 0: nothing is known of it
     std::uint32_t clusters_turn_{};    // frames of clusters in rounds so far
     std::uint32_t clusters_before_{};  // the last frame's number among them; 0: nothing is known of it
     Buffer cluster_states_;            // FrameConstants::cluster_states

@@ -126,9 +126,9 @@ Result<void> GridScene::add_growth(const FrameView& view, GridPlan& plan) {
     if (!has_trees_ || view.model.earth != Earth::ellipsoid || plan.pages.empty()) return {};
     std::vector<GroundRange> ranges;
     ranges.reserve(plan.page_indices.size());
-    for (const PageIndex& page : plan.page_indices) {
-        ORO_TRY(const PageRecord* const record, memory_.record(page));
-        ranges.push_back({record->summary.lowest_h_m, record->summary.highest_h_m});
+    for (std::size_t i = 0; i < plan.page_indices.size(); ++i) {
+        ORO_TRY(const KeptPage* const page, memory_.page_of(plan, i));
+        ranges.push_back({page->record.summary.lowest_h_m, page->record.summary.highest_h_m});
     }
     plan.growth =
         plan_growth(pages_->facts().grid, plan.page_indices, [&](std::size_t page) { return ranges[page]; },

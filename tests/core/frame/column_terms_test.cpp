@@ -44,6 +44,24 @@ TEST(ColumnTerms, OfManyAreThoseOfOneToTheBit) {
     }
 }
 
+// All of a page's columns, as a rule: by the shorter series.
+TEST(ColumnTerms, OfManyNearTheEyeAreThoseOfOneToTheBit) {
+    constexpr unsigned seed = 5115;
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> unit(0.0, 1.0), both(-1.0, 1.0);
+    std::vector<double> east_deg{0.0, -0.0, 4.0, -4.0, 1e-9, -1e-9, 5e-324, 1e-300};
+    for (int i = 0; i < 1'000'000; ++i)
+        east_deg.push_back(i % 2 == 0
+                               ? 4.0 * both(random)
+                               : std::copysign(4.0 * std::pow(10.0, -18.0 * unit(random)), both(random)));
+    std::vector<gpu::ColumnTerms> terms(east_deg.size());
+    column_terms(east_deg, terms);
+    for (std::size_t i = 0; i < east_deg.size(); ++i) {
+        const gpu::ColumnTerms one = column_terms(east_deg[i]);
+        ASSERT_EQ(std::memcmp(&one, &terms[i], sizeof(one)), 0) << "seed " << seed << ": " << east_deg[i];
+    }
+}
+
 TEST(ColumnTerms, Literals) {
     EXPECT_EQ(column_terms(90.0).W, 1.0F);
     EXPECT_EQ(column_terms(180.0).V, 2.0F);

@@ -4,7 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdio>
+#include <map>
 #include <random>
+#include <set>
+#include <string>
+#include <utility>
 
 namespace oro {
 namespace {
@@ -147,6 +153,138 @@ TEST(VisibilityFeedback, WhatStandsForAPageMayHideThatItShows) {
     set(other, 1, 7, 7, true);
     seen.add(other);
     EXPECT_FALSE(seen.is_hidden({2, 2, 0})) << "other ground may hide less";
+}
+
+// The same by sets of nodes and of pages, and by where they lie: slow.
+class SeenByPlace {
+  public:
+    explicit SeenByPlace(const RegionPages& pages) : pages_(pages) {}
+    bool add(const FrameFeedback& feedback) {
+        if (feedback.view.eye_high.x != eye_x_) {
+            eye_x_ = feedback.view.eye_high.x;
+            hidden_.clear();
+            if (++views_ > VisibilityFeedback::views_kept) {
+                were_hidden_.clear();
+                came_back_.clear();
+                views_ = 1;
+            }
+        }
+        const Seen before = std::exchange(seen_, {});
+        const std::size_t hidden = hidden_.size();
+        for (std::size_t i = 0; i < feedback.pages.size(); ++i) {
+            add_nodes(feedback, i, 0, 0, seen_.asked);
+            add_nodes(feedback, i, 1, 1, seen_.shown);
+            add_nodes(feedback, i, 2, 1, seen_.finer);
+        }
+        for (const Node& node : seen_.shown) {
+            const PageIndex page{node.row / 16, node.column / 16, node.level};
+            seen_.drawn[page] = std::ranges::find(feedback.pages, page) != feedback.pages.end();
+        }
+        if (seen_.shown != before.shown || seen_.drawn != before.drawn) hidden_.clear();
+        for (const PageIndex& page : feedback.pages)
+            if (any_over(seen_.asked, page) && !any_over(seen_.shown, page) && !any_over(seen_.finer, page))
+                hidden_.insert(page);
+        return seen_ != before || hidden_.size() != hidden;
+    }
+    bool is_hidden(const PageIndex& page) {
+        if (came_back_.contains(page)) return false;
+        if (any_over(seen_.shown, page)) {
+            if (were_hidden_.contains(page)) came_back_.insert(page);
+            return false;
+        }
+        if (!hidden_.contains(page) && (any_over(seen_.finer, page) || !any_over(seen_.asked, page)))
+            return false;
+        were_hidden_.insert(page);
+        return true;
+    }
+
+  private:
+    struct Node {
+        int level, row, column;
+        auto operator<=>(const Node&) const = default;
+    };
+    using Nodes = std::set<Node>;
+    struct Seen {
+        Nodes asked, shown, finer;
+        std::map<PageIndex, bool> drawn;
+        bool operator==(const Seen&) const = default;
+    };
+    void add_nodes(const FrameFeedback& feedback, std::size_t page, std::size_t which, int around,
+                   Nodes& nodes) const {
+        const PageIndex& index = feedback.pages[page];
+        const PageLayout layout = pages_.layout(index.level);
+        const gpu::uint* const words =
+            &feedback.words[page * gpu::feedback_words + which * gpu::accepted_words];
+        for (int node = 0; node < 256; ++node) {
+            if ((words[node / 32] >> (node % 32) & 1U) == 0) continue;
+            for (int down = -around; down <= around; ++down)
+                for (int right = -around; right <= around; ++right) {
+                    const int row = 16 * index.row + node / 16 + down;
+                    const int column = 16 * index.column + node % 16 + right;
+                    if (row < 0 || row >= 16 * layout.rows || column < 0 || column >= 16 * layout.columns)
+                        continue;
+                    nodes.insert({index.level, row, column});
+                }
+        }
+    }
+    static bool any_over(const Nodes& nodes, const PageIndex& page) {
+        const int size = 16 << page.level;
+        return std::ranges::any_of(nodes, [&](const Node& node) {
+            const int own = 1 << node.level;
+            return node.row * own < (page.row + 1) * size && (node.row + 1) * own > page.row * size &&
+                   node.column * own < (page.column + 1) * size &&
+                   (node.column + 1) * own > page.column * size;
+        });
+    }
+
+    const RegionPages& pages_;
+    Seen seen_;
+    std::set<PageIndex> hidden_, were_hidden_, came_back_;
+    int views_{};
+    float eye_x_{};
+};
+
+TEST(VisibilityFeedback, IsThatOfSetsOfNodes) {
+    constexpr unsigned seed = 5116;
+    std::mt19937_64 random(seed);
+    const auto below = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
+    const EvenPages pages;
+    VisibilityFeedback seen(pages);
+    SeenByPlace expected(pages);
+    int hidden = 0, news = 0;
+    FrameFeedback feedback;
+    for (int i = 0; i < 400; ++i) {
+        if (i == 0 || below(3) > 0) {  // else the same once more
+            feedback.pages.clear();
+            for (int j = 1 + below(12); j > 0; --j) {
+                const int level = below(5);
+                const PageIndex page{below(16 >> level), below(16 >> level), level};
+                if (std::ranges::find(feedback.pages, page) == feedback.pages.end())
+                    feedback.pages.push_back(page);
+            }
+            feedback.words.assign(feedback.pages.size() * gpu::feedback_words, 0);
+            for (std::size_t word = 0; word < feedback.words.size(); ++word) {
+                const bool is_asked = word % gpu::feedback_words < gpu::accepted_words;
+                if (below(is_asked ? 2 : 40) == 0) feedback.words[word] = 1U << below(32);
+            }
+        }
+        if (below(4) == 0) feedback.view.eye_high.x += 1.0F;
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", frame " + std::to_string(i));
+        const bool is_new = expected.add(feedback);
+        ASSERT_EQ(seen.add(feedback), is_new);
+        news += is_new ? 1 : 0;
+        for (int j = 0; j < 60; ++j) {
+            const int level = below(5);
+            const PageIndex page{below(16 >> level), below(16 >> level), level};
+            const bool is_hidden = expected.is_hidden(page);
+            ASSERT_EQ(seen.is_hidden(page), is_hidden) << page.row << ", " << page.column << ", " << level;
+            hidden += is_hidden ? 1 : 0;
+        }
+    }
+    std::printf("seed %u: %d of 400 frames tell something new, %d of 24000 pages hidden\n", seed, news,
+                hidden);
+    EXPECT_GT(hidden, 500);
+    EXPECT_LT(news, 400);
 }
 
 }  // namespace
