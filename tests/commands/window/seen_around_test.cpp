@@ -10,6 +10,7 @@
 
 #include "apps/commands/commands.h"
 #include "apps/commands/sight/sight_ground.h"
+#include "apps/options/realisation_options.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
