@@ -238,6 +238,7 @@ set_tests_properties(
   ProfileCommand.WhatIsWrongIsSaidInOneLine
   QuantizedTiles.CornersHaveTheGroundsHeights
   QuantizedTiles.HorizonHidesNothingThatIsSeen
+  RealisedHeights.BetweenPostsAreAsRoughAsTheTruth
   RealisedHeights.ScatterAsMuchAsTheTruthDoes
   RecordedView.DataThatAreGoneCanBeNamed
   RecordedView.LimitsAreTheSameOnBothSides
@@ -265,6 +266,7 @@ set_tests_properties(
   SameEverywhere.AViewWithEveryEffect
   SameEverywhere.EachEffectIsInTheView
   SameEverywhere.EdgesByChoice
+  SeenProbability.OfFinerWorldsIsWhatIsSeen
   SeenProbability.OfTwoHundredWorldsIsWhatIsSeen
   Serve.OutlivesHostileAndSlowClients
   SeveralViews.AreDrawnOneAfterTheOther

@@ -384,6 +384,9 @@ void add_realisations(OptionGroup& group, const char* what_n_does, const char* w
     group.whole_number(
         "--seed", options.seed, 0, 1000000, "N",
         std::string("For --realisations: which simulations. ") + what_a_seed_gives + " Default: 1.");
+    group.whole_number("--finer", options.finer, 1, 4, "N",
+                       "For --realisations: N posts in place of one each way, 1 to 4, so that the ground "
+                       "between posts is simulated, too. Takes N x N times as long. Default: 1.");
 }
 
 void add_sight(CLI::App& app, SightOptions& options, RealisationOptions& realisations) {

@@ -10,6 +10,7 @@ struct RealisationOptions {
     std::optional<double> le90_m;         // the bound of 90 % of height errors
     std::optional<double> correlation_m;  // distance over which errors' correlation falls to 1 / e
     std::optional<int> seed;
+    std::optional<int> finer;  // posts of realisations in place of one, each way, 1 to 4; nothing: 1
 };
 
 }  // namespace oro

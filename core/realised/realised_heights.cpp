@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 
@@ -22,11 +23,12 @@ constexpr double roughness_step = 1.25;  // roughnesses are one where they are n
 constexpr double least_share = 0.01;     // of the errors' deviation: smoother ground counts as that
 
 // Sums of octaves whose deviation grows with the width of cells as its power; that of one post is 1 m. All
-// that is narrower, in one sum: posts do not tell it apart.
-std::vector<NoiseBand> ground_noise(double cell_m, double exponent) {
+// that is narrower than the `narrower`-th octave below, in one sum: posts do not tell it apart.
+std::vector<NoiseBand> ground_noise(double cell_m, double exponent, int narrower) {
     const double ratio = std::exp2(-2.0 * exponent);
-    std::vector<NoiseBand> bands{{0.5 * cell_m, ratio / (1.0 - ratio)}};
-    for (int i = 0; i < ground_bands; ++i)
+    std::vector<NoiseBand> bands{
+        {std::exp2(-narrower - 1) * cell_m, std::pow(ratio, narrower + 1) / (1.0 - ratio)}};
+    for (int i = -narrower; i < ground_bands; ++i)
         bands.push_back({cell_m * std::exp2(i), std::exp2(2.0 * exponent * i)});
     return bands;
 }
@@ -128,13 +130,17 @@ void RealisedHeights::take_in(const HeightField& field, const GridPart& part) {
     } else {
         frame_.grid.lat.first += static_cast<std::int64_t>(grid.lat.step) * part.first_row;
         frame_.grid.lon.first += static_cast<std::int64_t>(grid.lon.step) * part.first_column;
-        frame_.grid.lat.count = rows_;
-        frame_.grid.lon.count = columns_;
+        for (GridAxis* axis : {&frame_.grid.lat, &frame_.grid.lon}) {
+            axis->posts_per_deg *= finer_;
+            axis->first *= finer_;
+        }
+        frame_.grid.lat.count = realised_rows();
+        frame_.grid.lon.count = realised_columns();
         // First columns of grids are in one turn.
-        const auto turn = static_cast<std::int64_t>(std::llround(360.0 * grid.lon.posts_per_deg));
+        const auto turn = static_cast<std::int64_t>(std::llround(360.0 * frame_.grid.lon.posts_per_deg));
         while (frame_.grid.lon.at_deg(0) >= 180.0) frame_.grid.lon.first -= turn;
         while (frame_.grid.lon.at_deg(0) < -180.0) frame_.grid.lon.first += turn;
-        frame_.H_m.assign(part.count(), void_height_m);
+        frame_.H_m.assign(frame_.grid.post_count(), void_height_m);
     }
     float last_m = 0.0F;
     for (int row = -reach; row < rows_ + reach; ++row) {
@@ -169,6 +175,12 @@ void RealisedHeights::place_posts(const HeightField& field, const GridPart& part
             const glm::dvec3 m = ecef_from_geodetic({place.lat_deg, place.lon_deg, 0.0}).m;
             add(places_, m, 1.0);
             add(error_places_, m, errors_.scale);
+        }
+    }
+    for (int row = 0; finer_ > 1 && row < realised_rows(); ++row) {
+        for (int column = 0; column < realised_columns(); ++column) {
+            const PostPlace place = frame_.grid.place_at(row, column);
+            add(finer_places_, ecef_from_geodetic({place.lat_deg, place.lon_deg, 0.0}).m, 1.0);
         }
     }
     // Spacing in the middle of the part.
@@ -208,7 +220,7 @@ double RealisedHeights::fitting_exponent(const SecondDifferences& found, double 
     double least_scatter = std::numeric_limits<double>::infinity(), best = usual_exponent;
     for (int i = 6; i <= 28; ++i) {
         const double exponent = 0.05 * i;
-        const std::vector<NoiseBand> bands = ground_noise(cell_m, exponent);
+        const std::vector<NoiseBand> bands = ground_noise(cell_m, exponent, 0);
         double weights = 0.0, sum = 0.0, squares = 0.0;
         for (std::size_t k = 0; k < found.size(); ++k) {
             if (!(found[k] > 0.1 * variance)) continue;
@@ -244,7 +256,7 @@ double RealisedHeights::squared_roughness(const SecondDifferences& found) const 
 void RealisedHeights::estimate_roughness() {
     const double cell_m = lattice_cell_near(std::sqrt(row_spacing_m_ * column_spacing_m_));
     roughness_.exponent = fitting_exponent(ground_differences(0, 0, rows_, columns_), cell_m);
-    ground_ = ground_noise(cell_m, roughness_.exponent);
+    ground_ = ground_noise(cell_m, roughness_.exponent, finer_ > 1 ? 3 : 0);
     const int block_rows = (rows_ + block_posts - 1) / block_posts,
               block_columns = (columns_ + block_posts - 1) / block_posts;
     constexpr int around = around_block_posts, whole = block_posts + 2 * around_block_posts;
@@ -294,13 +306,13 @@ Result<void> RealisedHeights::make_weights() {
                 std::vector<NoiseBand> ground = ground_;
                 for (NoiseBand& band : ground)
                     band.variance *= static_cast<double>(roughness) * static_cast<double>(roughness);
-                std::vector<float> weights =
-                    predictor_weights(ground, errors_.bands, row_spacing_m_, column_spacing_m_);
+                std::vector<std::vector<float>> weights =
+                    predictor_weights(ground, errors_.bands, row_spacing_m_, column_spacing_m_, finer_);
                 if (weights.empty())
                     return Error{ErrorKind::failed, "realisations",
                                  "the equations of the ground's guess have no solution: give another "
                                  "--accuracy or --correlation"};
-                weights_.push_back(std::move(weights));
+                std::ranges::move(weights, std::back_inserter(weights_));
             }
             if (column > 0 && runs_.back().weights == known->second)
                 ++runs_.back().count;
@@ -323,30 +335,47 @@ float RealisedHeights::weighted(const std::vector<float>& values, const std::vec
     return sum;
 }
 
-void RealisedHeights::guess() {
-    guess_m_.assign(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_), 0.0F);
-    for (const Run& run : runs_) {
-        // From a height near by, so that float sums keep millimetres.
-        const float base = data_m_[wide_number(run.row, run.column)];
-        for (int i = 0; i < run.count; ++i) {
-            float sum = 0.0F;
-            const std::vector<float>& weights = weights_[static_cast<std::size_t>(run.weights)];
-            const float here = data_m_[wide_number(run.row, run.column + i)] - base;
-            for (int r = 0; r < side; ++r)
-                for (int c = 0; c < side; ++c) {
-                    const std::size_t at = wide_number(run.row + r - reach, run.column + i + c - reach);
-                    sum += weights[static_cast<std::size_t>(r * side + c)] *
-                           (void_[at] != 0 ? here : data_m_[at] - base);
-                }
-            guess_m_[static_cast<std::size_t>(run.row) * static_cast<std::size_t>(columns_) +
-                     static_cast<std::size_t>(run.column + i)] = base + sum;
+template <class Each>
+void RealisedHeights::places_of(const Run& run, const Each& each) const {
+    const int stride = realised_columns();
+    for (int down = 0; down < (run.row + 1 < rows_ ? finer_ : 1); ++down) {
+        for (int right = 0; right < finer_; ++right) {
+            // Nothing is east of the last column.
+            const int count = run.count - (right > 0 && run.column + run.count == columns_ ? 1 : 0);
+            each(static_cast<std::size_t>(run.row * finer_ + down) * static_cast<std::size_t>(stride) +
+                     static_cast<std::size_t>(run.column * finer_ + right),
+                 count, weights_[static_cast<std::size_t>(run.weights + down * finer_ + right)]);
         }
     }
 }
 
+void RealisedHeights::guess() {
+    guess_m_.assign(frame_.grid.net ? static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_)
+                                    : frame_.grid.post_count(),
+                    0.0F);
+    for (const Run& run : runs_) {
+        // From a height near by, so that float sums keep millimetres.
+        const float base = data_m_[wide_number(run.row, run.column)];
+        places_of(run, [&](std::size_t first, int count, const std::vector<float>& weights) {
+            for (int i = 0; i < count; ++i) {
+                float sum = 0.0F;
+                const float here = data_m_[wide_number(run.row, run.column + i)] - base;
+                for (int r = 0; r < side; ++r)
+                    for (int c = 0; c < side; ++c) {
+                        const std::size_t at = wide_number(run.row + r - reach, run.column + i + c - reach);
+                        sum += weights[static_cast<std::size_t>(r * side + c)] *
+                               (void_[at] != 0 ? here : data_m_[at] - base);
+                    }
+                guess_m_[first + static_cast<std::size_t>(i) * static_cast<std::size_t>(finer_)] = base + sum;
+            }
+        });
+    }
+}
+
 Result<RealisedHeights> RealisedHeights::create(const HeightField& field, const GridPart& part,
-                                                const HeightErrors& errors) {
+                                                const HeightErrors& errors, int finer) {
     RealisedHeights made;
+    made.finer_ = finer;
     made.errors_ = error_noise(errors);
     made.take_in(field, part);
     ORO_CHECK(field.health());
@@ -357,17 +386,23 @@ Result<RealisedHeights> RealisedHeights::create(const HeightField& field, const 
     return made;
 }
 
+bool RealisedHeights::is_void_at(int row, int column) const {
+    const int top = row / finer_, left = column / finer_, bottom = (row + finer_ - 1) / finer_,
+              right = (column + finer_ - 1) / finer_;
+    return (void_[wide_number(top, left)] | void_[wide_number(top, right)] |
+            void_[wide_number(bottom, left)] | void_[wide_number(bottom, right)]) != 0;
+}
+
 HeightField RealisedHeights::with_heights(const std::vector<float>& H_m) const {
     HeightField field = frame_;
-    const int stride = field.grid.columns();
-    for (int row = 0; row < rows_; ++row) {
-        for (int column = 0; column < columns_; ++column) {
-            if (void_[wide_number(row, column)] != 0) continue;
-            int to = first_column_ + column;
-            if (field.grid.net == nullptr) to = column;
-            field.H_m[static_cast<std::size_t>(first_row_ + row) * static_cast<std::size_t>(stride) +
-                      static_cast<std::size_t>(to)] =
-                H_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+    const auto stride = static_cast<std::size_t>(field.grid.columns());
+    for (int row = 0; row < realised_rows(); ++row) {
+        for (int column = 0; column < realised_columns(); ++column) {
+            if (any_void_ && is_void_at(row, column)) continue;
+            const int to_column = first_column_ + column;
+            field.H_m[static_cast<std::size_t>(first_row_ + row) * stride +
+                      static_cast<std::size_t>(to_column)] =
+                H_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(realised_columns()) +
                     static_cast<std::size_t>(column)];
         }
     }
@@ -375,31 +410,35 @@ HeightField RealisedHeights::with_heights(const std::vector<float>& H_m) const {
 }
 
 HeightField RealisedHeights::realisation(std::uint32_t seed) const {
-    std::vector<float> ground(data_m_.size(), 0.0F), noise(data_m_.size(), 0.0F);
+    std::vector<float> ground(data_m_.size(), 0.0F), noise(data_m_.size(), 0.0F), between;
     add_noise(ground_, 1.0, seed_of(seed, 0), places_, ground);
     add_noise(errors_.bands, errors_.scale, seed_of(seed, 1), error_places_, noise);
+    if (finer_ > 1) {
+        between.assign(guess_m_.size(), 0.0F);
+        add_noise(ground_, 1.0, seed_of(seed, 0), finer_places_, between);
+    }
     std::vector<float> H_m(guess_m_.size()), sums;
     for (const Run& run : runs_) {
-        const auto count = static_cast<std::size_t>(run.count);
-        const std::vector<float>& weights = weights_[static_cast<std::size_t>(run.weights)];
-        sums.assign(count, 0.0F);
-        if (any_void_) {
-            for (std::size_t i = 0; i < count; ++i) {
-                const int column = run.column + static_cast<int>(i);
-                sums[i] = run.roughness * weighted(ground, weights, run.row, column) +
-                          weighted(noise, weights, run.row, column);
+        const std::size_t wide = wide_number(run.row - reach, run.column - reach);
+        places_of(run, [&](std::size_t first, int places, const std::vector<float>& weights) {
+            const auto count = static_cast<std::size_t>(places);
+            sums.assign(count, 0.0F);
+            if (any_void_) {
+                for (int i = 0; i < places; ++i)
+                    sums[static_cast<std::size_t>(i)] =
+                        run.roughness * weighted(ground, weights, run.row, run.column + i) +
+                        weighted(noise, weights, run.row, run.column + i);
+            } else {
+                add_weighted(weights.data(), ground.data() + wide, run.roughness, noise.data() + wide,
+                             static_cast<std::size_t>(wide_columns_), sums.data(), count);
             }
-        } else {
-            const std::size_t first = wide_number(run.row - reach, run.column - reach);
-            add_weighted(weights.data(), ground.data() + first, run.roughness, noise.data() + first,
-                         static_cast<std::size_t>(wide_columns_), sums.data(), count);
-        }
-        const std::size_t at = static_cast<std::size_t>(run.row) * static_cast<std::size_t>(columns_) +
-                               static_cast<std::size_t>(run.column);
-        for (std::size_t i = 0; i < count; ++i) {
-            const std::size_t here = wide_number(run.row, run.column + static_cast<int>(i));
-            H_m[at + i] = guess_m_[at + i] + (run.roughness * ground[here] - sums[i]);
-        }
+            for (std::size_t i = 0; i < count; ++i) {
+                const std::size_t at = first + i * static_cast<std::size_t>(finer_);
+                const float here =
+                    finer_ > 1 ? between[at] : ground[wide_number(run.row, run.column + static_cast<int>(i))];
+                H_m[at] = guess_m_[at] + (run.roughness * here - sums[i]);
+            }
+        });
     }
     return with_heights(H_m);
 }

@@ -44,15 +44,20 @@ class RealisedHeights {
   public:
     // The field may be forgotten afterwards. `part` lies in the grid (of one that goes round the Earth, or a
     // whole turn beside). Errors: the equations of the guess have no solution; posts that cannot be read.
+    // finer: 1 to 4; realisations have so many posts in place of one each way, with the ground between posts
+    // as it may be; above 1 for grids of latitudes and longitudes alone.
     static Result<RealisedHeights> create(const HeightField& field, const GridPart& part,
-                                          const HeightErrors& errors);
+                                          const HeightErrors& errors, int finer = 1);
 
     // Realisation of a seed: a field of the part alone, on a grid of latitudes and longitudes; of a grid on a
     // net the whole field, which differs from the data in the part. Void posts stay void. The same seed gives
     // the same bits for any number of threads. From any thread.
     [[nodiscard]] HeightField realisation(std::uint32_t seed) const;
-    // The data with errors added, which is what one would do first: not calibrated, kept for comparison.
+    // The data with errors added, which is what one would do first: not calibrated, kept for comparison. Of
+    // those that are not finer.
     [[nodiscard]] HeightField data_and_noise(std::uint32_t seed) const;
+    // How many posts of a realisation there are in place of one.
+    [[nodiscard]] int finer() const { return finer_; }
     // Where the part's first post stands in what realisation() gives.
     [[nodiscard]] int first_row() const { return first_row_; }
     [[nodiscard]] int first_column() const { return first_column_; }
@@ -63,7 +68,7 @@ class RealisedHeights {
     // A run of posts of one row that have the same weights.
     struct Run {
         int row, column, count;
-        int weights;  // number in weights_
+        int weights;  // number in weights_, of the posts themselves; those between follow
         float roughness;
     };
 
@@ -83,6 +88,14 @@ class RealisedHeights {
     void spread_roughness(const std::vector<double>& squares, int block_rows, int block_columns);
     Result<void> make_weights();
     void guess();
+    // Of a run, the places that are `down` and `right` pieces from its posts: calls with the number in a
+    // realisation of the first of them, how many there are, and their weights.
+    template <class Each>
+    void places_of(const Run& run, const Each& each) const;
+    [[nodiscard]] int realised_rows() const { return (rows_ - 1) * finer_ + 1; }
+    [[nodiscard]] int realised_columns() const { return (columns_ - 1) * finer_ + 1; }
+    // Whether the cell of a place between posts has a void one.
+    [[nodiscard]] bool is_void_at(int row, int column) const;
     [[nodiscard]] std::size_t wide_number(int row, int column) const;
     [[nodiscard]] float weighted(const std::vector<float>& values, const std::vector<float>& weights, int row,
                                  int column) const;
@@ -98,12 +111,14 @@ class RealisedHeights {
     std::vector<float> data_m_;      // of the part and its reach; voids have the height of a neighbour
     std::vector<char> void_;         // of the part and its reach
     bool any_void_{};
+    int finer_{1};
     NoisePlaces places_, error_places_;
+    NoisePlaces finer_places_;  // of realisations; none where they are not finer
     GroundRoughness roughness_;
     std::vector<float> local_roughness_;  // of the part
     std::vector<std::vector<float>> weights_;
     std::vector<Run> runs_;
-    std::vector<float> guess_m_;  // of the part
+    std::vector<float> guess_m_;  // of the posts of realisations
 };
 
 }  // namespace oro

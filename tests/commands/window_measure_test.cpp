@@ -1,4 +1,5 @@
 // What the window measures is what the commands say, to the last digit.
+#include "apps/options/realisation_options.h"
 #include "apps/window/measure.h"
 
 #include <gtest/gtest.h>

@@ -93,7 +93,10 @@ class Counting {
         for (int row = window.first_row; row < window.first_row + window.rows; ++row) {
             for (int column = window.first_column; column < window.first_column + window.columns; ++column) {
                 if (shed.clearance_deficit_m[window.number(row, column)] != 0.0F) continue;
-                const int of_row = row - realised_.first_row(), of_column = column - realised_.first_column();
+                int of_row = row - realised_.first_row(), of_column = column - realised_.first_column();
+                if (of_row % realised_.finer() != 0 || of_column % realised_.finer() != 0) continue;
+                of_row /= realised_.finer();
+                of_column /= realised_.finer();
                 if (of_row < 0 || of_row >= part_.rows || of_column < 0 || of_column >= part_.columns)
                     continue;
                 seen[static_cast<std::size_t>(of_row) * static_cast<std::size_t>(report_.window.columns) +
@@ -133,16 +136,22 @@ Result<void> check_ground(const RealisationOptions& options, const SightGround& 
 
 Result<RealisedHeights> realised_part(const RealisationOptions& options, const RegionGrid& grid,
                                       const GridPart& part, Simulations& made) {
-    if (part.count() > most_realised_posts)
+    const int finer = options.finer.value_or(1);
+    if (finer > 1 && grid.field.grid.net)
+        return refused("--finer", std::to_string(finer),
+                       "takes data on latitudes and longitudes, not in a CRS of their own");
+    const std::size_t posts = part.count() * static_cast<std::size_t>(finer * finer);
+    if (posts > most_realised_posts)
         return refused("--realisations", std::to_string(*options.count),
-                       "takes at most " + grouped(most_realised_posts) + " posts, not " +
-                           grouped(part.count()) + ": give what is less far");
+                       "takes at most " + grouped(most_realised_posts) + " posts, not " + grouped(posts) +
+                           ": give what is less far");
     ORO_TRY(made.errors, errors_of(options, grid));
     made.realisations = *options.count;
     made.seed = options.seed.value_or(1);
     made.le90_m = made.errors.deviation_m * le90_of_deviation;
-    ORO_TRY(RealisedHeights realised, RealisedHeights::create(grid.field, part, made.errors));
+    ORO_TRY(RealisedHeights realised, RealisedHeights::create(grid.field, part, made.errors, finer));
     made.roughness = realised.roughness();
+    made.finer = finer;
     return realised;
 }
 
@@ -195,17 +204,21 @@ Result<GridPart> part_around(const RealisationOptions& options, const SightEnds&
 }
 
 std::string simulations_words(const Simulations& made) {
-    char text[200];
+    char text[240], between[80] = "";
+    if (made.finer > 1)
+        std::snprintf(between, sizeof between, ", with the ground between posts (%d in place of 1 each way)",
+                      made.finer);
     std::snprintf(text, sizeof text,
-                  "%d realisations of heights with an error of %.4g m (90 %%), correlated over %.4g m",
-                  made.realisations, made.le90_m, made.errors.correlation_m);
+                  "%d realisations of heights with an error of %.4g m (90 %%), correlated over %.4g m%s",
+                  made.realisations, made.le90_m, made.errors.correlation_m, between);
     return text;
 }
 
 nlohmann::ordered_json simulations_json(const Simulations& made) {
     return json_object("count", made.realisations, "seed", made.seed, "le90_m", made.le90_m, "correlation_m",
                        made.errors.correlation_m, "roughness_m", made.roughness.deviation_m,
-                       "roughness_exponent", made.roughness.exponent, "looking_s", made.looking_s);
+                       "roughness_exponent", made.roughness.exponent, "finer", made.finer, "looking_s",
+                       made.looking_s);
 }
 
 }  // namespace
@@ -215,6 +228,7 @@ Result<void> check_realisations(const RealisationOptions& options) {
         const char* const alone = options.le90_m          ? "--accuracy"
                                   : options.correlation_m ? "--correlation"
                                   : options.seed          ? "--seed"
+                                  : options.finer         ? "--finer"
                                                           : nullptr;
         if (alone != nullptr) return refused(alone, "", "needs --realisations");
         return {};
@@ -313,6 +327,7 @@ void add_probability(const SeenProbability& probability, PostRaster& raster) {
          probability.share});
     raster.tags.emplace_back("REALISATIONS", std::to_string(probability.made.realisations));
     raster.tags.emplace_back("REALISATIONS_SEED", std::to_string(probability.made.seed));
+    raster.tags.emplace_back("REALISATIONS_FINER", std::to_string(probability.made.finer));
     raster.tags.emplace_back("HEIGHT_ERROR_LE90_M", all_digits(probability.made.le90_m));
     raster.tags.emplace_back("HEIGHT_ERROR_CORRELATION_M", all_digits(probability.made.errors.correlation_m));
 }

@@ -21,6 +21,7 @@ struct Simulations {
     double le90_m{};
     HeightErrors errors;
     GroundRoughness roughness;
+    int finer{1};  // posts of realisations in place of one of the data, each way
     double looking_s{};
 };
 

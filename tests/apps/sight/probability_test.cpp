@@ -74,6 +74,23 @@ TEST(ProbableViewshed, IsAFurtherBandAndTheOthersAreAsEver) {
     EXPECT_EQ(before["metadata"][""].count("HEIGHT_ERROR_LE90_M"), 0U);
 }
 
+// The file has the data's posts, however fine the realisations are; ground between them hides some.
+TEST(ProbableViewshed, OfFinerRealisationsHasTheSamePosts) {
+    const fs::path folder = oro::test::scratch_folder();
+    const Words words{"--json", "--realisations", "10", "--accuracy", "16"};
+    const auto plain = object_said_by(probability_words(folder / "plain.tif", words)),
+               finer =
+                   object_said_by(probability_words(folder / "finer.tif", joined(words, {"--finer", "2"})));
+    EXPECT_EQ(plain["rows"], finer["rows"]);
+    EXPECT_EQ(plain["columns"], finer["columns"]);
+    EXPECT_EQ(plain["realisations"]["finer"], 1);
+    EXPECT_EQ(finer["realisations"]["finer"], 2);
+    const double of_plain = plain["realisations"]["expected_seen"].get<double>(),
+                 of_finer = finer["realisations"]["expected_seen"].get<double>();
+    EXPECT_GT(of_finer, 0.5 * of_plain);
+    EXPECT_LT(of_finer, of_plain);
+}
+
 // Heights without errors leave one answer: that of the plain viewshed.
 TEST(ProbableViewshed, OfExactHeightsIsYesOrNo) {
     const fs::path out = oro::test::scratch_folder() / "exact.tif";
@@ -89,21 +106,25 @@ TEST(ProbableViewshed, WordsThatMeanNothingAreOneLine) {
     const struct {
         Words words;
         std::string says;
-    } cases[] = {{{"--realisations", "1"}, "--realisations 1: must be between 2 and 10000"},
-                 {{"--realisations", "nan"}, "--realisations nan: is not a whole number"},
-                 {{"--realisations", "99999999999"}, "--realisations 99999999999"},
-                 {{"--realisations", "-7"}, "--realisations -7: must be between 2 and 10000"},
-                 {{"--realisations", "9"}, "needs --accuracy METRES"},
-                 {{"--realisations", "9", "--accuracy", "nan"}, "--accuracy nan"},
-                 {{"--realisations", "9", "--accuracy", "0"}, "--accuracy 0: must be between 0.01 and 1000"},
-                 {{"--realisations", "9", "--accuracy", "-1"}, "--accuracy -1"},
-                 {{"--realisations", "9", "--accuracy", "1e300"}, "--accuracy 1e+300"},
-                 {{"--realisations", "9", "--accuracy", "5", "--correlation", "inf"}, "--correlation inf"},
-                 {{"--realisations", "9", "--accuracy", "5", "--correlation", "0"}, "--correlation 0"},
-                 {{"--realisations", "9", "--accuracy", "5", "--seed", "-1"}, "--seed -1"},
-                 {{"--accuracy", "5"}, "--accuracy: needs --realisations"},
-                 {{"--correlation", "5"}, "--correlation: needs --realisations"},
-                 {{"--seed", "5"}, "--seed: needs --realisations"}};
+    } cases[] = {
+        {{"--realisations", "1"}, "--realisations 1: must be between 2 and 10000"},
+        {{"--realisations", "nan"}, "--realisations nan: is not a whole number"},
+        {{"--realisations", "99999999999"}, "--realisations 99999999999"},
+        {{"--realisations", "-7"}, "--realisations -7: must be between 2 and 10000"},
+        {{"--realisations", "9"}, "needs --accuracy METRES"},
+        {{"--realisations", "9", "--accuracy", "nan"}, "--accuracy nan"},
+        {{"--realisations", "9", "--accuracy", "0"}, "--accuracy 0: must be between 0.01 and 1000"},
+        {{"--realisations", "9", "--accuracy", "-1"}, "--accuracy -1"},
+        {{"--realisations", "9", "--accuracy", "1e300"}, "--accuracy 1e+300"},
+        {{"--realisations", "9", "--accuracy", "5", "--correlation", "inf"}, "--correlation inf"},
+        {{"--realisations", "9", "--accuracy", "5", "--correlation", "0"}, "--correlation 0"},
+        {{"--realisations", "9", "--accuracy", "5", "--seed", "-1"}, "--seed -1"},
+        {{"--realisations", "9", "--accuracy", "5", "--finer", "0"}, "--finer 0: must be between 1 and 4"},
+        {{"--realisations", "9", "--accuracy", "5", "--finer", "1e9"}, "--finer 1e9"},
+        {{"--finer", "2"}, "--finer: needs --realisations"},
+        {{"--accuracy", "5"}, "--accuracy: needs --realisations"},
+        {{"--correlation", "5"}, "--correlation: needs --realisations"},
+        {{"--seed", "5"}, "--seed: needs --realisations"}};
     for (const auto& [words, text] : cases) {
         expect_refusal(run_orograph(probability_words(out, words)), oro::test::usage, {text});
         EXPECT_FALSE(fs::exists(out));

@@ -52,7 +52,9 @@ std::vector<double> smoothed_noise(std::mt19937& random, double width_m) {
     return noise;
 }
 
-std::vector<char> seen_in(const HeightField& field, const ErrorWorld& world) {
+// Of each post of the data: 1 where it is seen, 0 where it is hidden, 2 where there is no answer. The field
+// has so many posts in place of one.
+std::vector<char> seen_in(const HeightField& field, const ErrorWorld& world, int finer) {
     const TrueSurface surface(field, 1.0, 1);
     const Geodetic eye{world.lat_deg, world.lon_deg,
                        surface.h_m(world.lat_deg, world.lon_deg).value() + world.above_m};
@@ -62,8 +64,8 @@ std::vector<char> seen_in(const HeightField& field, const ErrorWorld& world) {
         for (int column = shed.window.first_column; column < shed.window.first_column + shed.window.columns;
              ++column) {
             const float missed_m = shed.clearance_deficit_m[shed.window.number(row, column)];
-            if (missed_m != Viewshed::unknown)
-                seen[static_cast<std::size_t>(row * side + column)] = missed_m == 0.0F;
+            if (missed_m != Viewshed::unknown && row % finer == 0 && column % finer == 0)
+                seen[static_cast<std::size_t>(row / finer * side + column / finer)] = missed_m == 0.0F;
         }
     return seen;
 }
@@ -83,7 +85,7 @@ void print_one(const char* name, const Reliability& reliability) {
 
 }  // namespace
 
-ErrorWorld error_world(std::uint32_t seed, double deviation_m, double correlation_m) {
+ErrorWorld error_world(std::uint32_t seed, double deviation_m, double correlation_m, int finer) {
     std::mt19937 random(seed);
     MadeTerrain made;
     made.kind = MadeKind::fbm;
@@ -91,22 +93,30 @@ ErrorWorld error_world(std::uint32_t seed, double deviation_m, double correlatio
     made.octaves = 12;
     made.low = -200 * 2048;
     made.high = 4000 * 2048;
-    made.posts_per_deg = 1200;
-    made.west = 8 * 1200 + std::uniform_int_distribution<int>(0, 1200)(random);
-    made.south = 46 * 1200;
-    made.east = made.west + side - 1;
-    made.north = made.south + side - 1;
+    made.posts_per_deg = 1200 * finer;
+    made.west = (8 * 1200 + std::uniform_int_distribution<int>(0, 1200)(random)) * finer;
+    made.south = 46 * 1200 * finer;
+    made.east = made.west + (side - 1) * finer;
+    made.north = made.south + (side - 1) * finer;
     ErrorWorld world;
-    const double north_deg = static_cast<double>(made.north) / 1200.0,
-                 west_deg = static_cast<double>(made.west) / 1200.0;
+    world.finer = finer;
+    const auto per_deg = static_cast<double>(made.posts_per_deg);
+    const double north_deg = static_cast<double>(made.north) / per_deg,
+                 west_deg = static_cast<double>(made.west) / per_deg;
     const std::vector<std::int32_t> steps = heights_of(made);
     std::size_t post = 0;
-    world.truth = made_field(north_deg, west_deg, 1200.0, side, side,
+    world.truth = made_field(north_deg, west_deg, per_deg, made.rows(), made.columns(),
                              [&](double, double) { return static_cast<float>(steps[post++] * made_step_m); });
+    int row = 0, column = 0;
+    world.data = made_field(north_deg, west_deg, 1200.0, side, side, [&](double, double) {
+        const float H_m = world.truth.H_at_post_m(row * finer, column * finer);
+        row += ++column == side;
+        column %= side;
+        return H_m;
+    });
     // Bells of noise are correlated by exp(-d^2 / (4 width^2)).
     const std::vector<double> broad = smoothed_noise(random, 0.55 * correlation_m),
                               narrow = smoothed_noise(random, 0.25 * correlation_m);
-    world.data = world.truth;
     for (std::size_t i = 0; i < broad.size(); ++i)
         world.data.H_m[i] +=
             static_cast<float>(deviation_m * (std::sqrt(0.85) * broad[i] + std::sqrt(0.15) * narrow[i]));
@@ -157,23 +167,25 @@ double Reliability::mean_points() const {
 }
 
 void add_world(const ErrorWorld& world, std::uint32_t seed, double deviation_m, double correlation_m,
-               int realisations, Calibration& calibration) {
+               int realisations, Calibration& calibration, int finer) {
     const auto realised =
-        RealisedHeights::create(world.data, {0, side, 0, side}, {deviation_m, correlation_m});
-    const std::vector<char> truth = seen_in(world.truth, world), data = seen_in(world.data, world);
+        RealisedHeights::create(world.data, {0, side, 0, side}, {deviation_m, correlation_m}, finer);
+    const std::vector<char> truth = seen_in(world.truth, world, world.finer),
+                            data = seen_in(world.data, world, 1);
     const auto tell = [&](Reliability& reliability,
                           const std::function<HeightField(std::uint32_t)>& field_of) {
         std::vector<int> seen(truth.size());
         for (int i = 0; i < realisations; ++i) {
             const std::vector<char> found =
-                seen_in(field_of(seed * 100003U + static_cast<std::uint32_t>(i)), world);
+                seen_in(field_of(seed * 100003U + static_cast<std::uint32_t>(i)), world, finer);
             for (std::size_t k = 0; k < seen.size(); ++k) seen[k] += found[k] == 1;
         }
         for (std::size_t k = 0; k < seen.size(); ++k)
             if (truth[k] != 2) reliability.add(static_cast<double>(seen[k]) / realisations, truth[k] == 1);
     };
     tell(calibration.posterior, [&](std::uint32_t n) { return realised.value().realisation(n); });
-    tell(calibration.data_and_noise, [&](std::uint32_t n) { return realised.value().data_and_noise(n); });
+    if (finer == 1)
+        tell(calibration.data_and_noise, [&](std::uint32_t n) { return realised.value().data_and_noise(n); });
     for (std::size_t k = 0; k < truth.size(); ++k)
         if (truth[k] != 2) calibration.yes_no.add(data[k] == 1 ? 1.0 : 0.0, truth[k] == 1);
 }
@@ -186,7 +198,7 @@ void Calibration::add(const Calibration& more) {
 
 void Calibration::print() const {
     print_one("posterior", posterior);
-    print_one("data-and-noise", data_and_noise);
+    if (data_and_noise.posts > 0.0) print_one("data-and-noise", data_and_noise);
     print_one("yes-or-no", yes_no);
 }
 

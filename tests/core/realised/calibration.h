@@ -17,8 +17,9 @@ struct ErrorWorld {
     HeightField truth, data;
     double lat_deg{}, lon_deg{};  // of the observer
     double above_m{};
+    int finer{1};  // posts of the truth in place of one of the data, each way
 };
-ErrorWorld error_world(std::uint32_t seed, double deviation_m, double correlation_m);
+ErrorWorld error_world(std::uint32_t seed, double deviation_m, double correlation_m, int finer = 1);
 
 // Predicted probabilities beside what is seen, of the posts whose prediction is in the same tenth.
 struct Tenth {
@@ -45,9 +46,10 @@ struct Calibration {
     void print() const;
 };
 
-// Adds a world's posts, of `realisations` of each kind. The program is given the errors' deviation and
-// correlation length, and estimates the ground's roughness from the data.
+// Adds a world's posts, of `realisations` of each kind, those of the posterior as fine as is said; of data
+// plus noise only where that is 1. The program is given the errors' deviation and correlation length, and
+// estimates the ground's roughness from the data.
 void add_world(const ErrorWorld& world, std::uint32_t seed, double deviation_m, double correlation_m,
-               int realisations, Calibration& calibration);
+               int realisations, Calibration& calibration, int finer = 1);
 
 }  // namespace oro::test

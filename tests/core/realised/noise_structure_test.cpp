@@ -111,7 +111,7 @@ TEST(PostPredictor, NoOtherWeightsLeaveASmallerError) {
     const std::vector<NoiseBand> ground{{80.0, 4.0}, {160.0, 16.0}, {320.0, 64.0}, {2560.0, 4000.0}};
     for (const double correlation_m : {20.0, 180.0, 600.0}) {
         const ErrorNoise errors = error_noise({9.7, correlation_m});
-        const std::vector<float> found = predictor_weights(ground, errors.bands, 92.6, 64.3);
+        const std::vector<float> found = predictor_weights(ground, errors.bands, 92.6, 64.3, 1).front();
         ASSERT_EQ(found.size(), static_cast<std::size_t>(predictor_side * predictor_side));
         std::vector<double> weights(found.begin(), found.end());
         double sum = 0.0;
@@ -147,7 +147,7 @@ TEST(PostPredictor, DampsWavesOfAllLengths) {
         for (int i = 0; i < 6; ++i) ground.push_back({85.3 * std::exp2(i), std::exp2(2.0 * exponent * i)});
         for (NoiseBand& band : ground) band.variance *= roughness_m * roughness_m;
         const std::vector<float> weights =
-            predictor_weights(ground, error_noise({9.7, correlation_m}).bands, 92.6, 63.7);
+            predictor_weights(ground, error_noise({9.7, correlation_m}).bands, 92.6, 63.7, 1).front();
         double least = 1.0, most = 0.0;
         for (int down = 0; down <= 10; ++down)
             for (int right = 0; right <= 10; ++right) {
@@ -170,10 +170,12 @@ TEST(PostPredictor, DampsWavesOfAllLengths) {
 
 TEST(PostPredictor, OfExactDataIsTheDataAndOfFlatGroundTheMean) {
     const std::vector<NoiseBand> ground{{80.0, 4.0}, {2560.0, 4000.0}};
-    const std::vector<float> exact = predictor_weights(ground, error_noise({0.001, 180.0}).bands, 92.6, 64.3);
+    const std::vector<float> exact =
+        predictor_weights(ground, error_noise({0.001, 180.0}).bands, 92.6, 64.3, 1).front();
     EXPECT_NEAR(exact[predictor_side * predictor_side / 2], 1.0F, 1e-3F);
     const std::vector<NoiseBand> flat{{80.0, 1e-9}};
-    const std::vector<float> mean = predictor_weights(flat, error_noise({9.7, 0.1}).bands, 92.6, 64.3);
+    const std::vector<float> mean =
+        predictor_weights(flat, error_noise({9.7, 0.1}).bands, 92.6, 64.3, 1).front();
     for (const float weight : mean) EXPECT_NEAR(weight, 1.0F / (predictor_side * predictor_side), 1e-4F);
 }
 
