@@ -198,7 +198,7 @@ GroundLight pixel_light(SurfacePoint point, vec3 sun) {
     GroundLight sum = GroundLight(vec3(0.0), vec3(0.0), vec3(0.0));
     if (in_air) point.mean_H_m = land_H_m(point.mean_H_m);
 #ifdef IN_AIR
-    if (of_materials) find_pixel_materials(point);
+    if (of_materials) find_pixel_materials(point, sun);
 #endif
     Images images = images_over(point);
     float share = 0.0;

@@ -41,7 +41,20 @@ float strata(float H_m, float foot_m) {
 // Ground this steep is rock in half of all places.
 float half_rock_deg() { return 0.5 * (FRAME.style.cover.rock_from_deg + FRAME.style.cover.rock_to_deg); }
 
-void find_pixel_materials(SurfacePoint point) {
+const vec3 needles_in_light = vec3(-0.378, 1.091, 1.717), leaves_in_light = vec3(-0.618, 1.468, 1.969);
+const float crowns_in_shadow = 0.65;
+
+// A forest's light where single trees are not drawn, beside that of level ground of its colour. Crowns between the eye and the sun show their
+// shaded sides, and crowns across from the sun their sunlit ones; the lower the sun, the more. Fitted to drawn trees on level ground
+// (docs/notes/2026-11-28-light-of-far-forests.md).
+float crowns_in_light(vec3 to_eye, vec3 sun, vec3 fitted) {
+    float facing_both = 0.5 + 0.5 * dot(to_eye, sun), both_up = max(sun.z, 0.0) + max(to_eye.z, 0.0) + 0.8;
+    float on_slopes = 1.1;  // where forests stand; drawn trees are lighter there than on level ground
+    float in_sun = on_slopes * max(fitted.x + (fitted.y + fitted.z * facing_both) / both_up, 0.3);
+    return mix(crowns_in_shadow, in_sun, sun_share());
+}
+
+void find_pixel_materials(SurfacePoint point, vec3 sun) {
     vec3 to_eye = normalize(-point.view) * axes_at(point.view);
     // A square of as much ground as the pixel's: where that is seen at a grazing angle its longer side alone would leave nothing.
     float facing_eye = max(dot(point.normal, to_eye), 0.15);
@@ -60,9 +73,9 @@ void find_pixel_materials(SurfacePoint point) {
     }
     if (FRAME.style.materials.on > 1u) {
         // Where trees stand their floor is seen, in their shade; the mean of both is the forest's colour.
-        float floor_light = mix(1.0, 0.65, trees_at(length(point.view), tree_reach_m(FRAME.pixels_per_tangent, FRAME.tau_px)));
-        pixel_materials[material_needle_forest] *= floor_light;
-        pixel_materials[material_broad_forest] *= floor_light;
+        float trees = trees_at(length(point.view), tree_reach_m(FRAME.pixels_per_tangent, FRAME.tau_px));
+        pixel_materials[material_needle_forest] *= mix(crowns_in_light(to_eye, sun, needles_in_light), 0.65, trees);
+        pixel_materials[material_broad_forest] *= mix(crowns_in_light(to_eye, sun, leaves_in_light), 0.65, trees);
     }
     if (pixel_slope_deg < parcels_to_deg && foot_m < parcels_to_foot_m) {
         vec2 parcel = parcels_at(point.view, foot_m, pixel_noise.border);
