@@ -88,10 +88,10 @@ Result<void> CasterChoice::find_missing(GridPlan& plan) {
     if (std::ranges::all_of(wanted_, [](const Held& held) { return held.address != 0; })) return {};
     for (const PageIndex& index : plan.missing) {
         ORO_TRY(KeptPage* const page, memory_.page(index));
-        page->missed_by = turn_;
+        page->lacked_by = turn_;
     }
     for (const Held& held : wanted_)
-        if (held.address == 0 && stamp(held.page->missed_by)) plan.missing.push_back(held.page->index());
+        if (held.address == 0 && stamp(held.page->lacked_by)) plan.missing.push_back(held.page->index());
     return {};
 }
 

@@ -15,8 +15,8 @@
 #include "core/frame/cast_cells.h"
 #include "core/frame/frame_plan.h"
 #include "core/frame/frame_tables.h"
-#include "core/frame/page_table.h"
 #include "core/frame/region_pages.h"
+#include "core/terrain/page_table.h"
 
 namespace oro {
 
@@ -34,7 +34,7 @@ struct KeptPage {
     };
     Wanted wanted;
     // The last choices of casters that asked for it, that listed it, and that found it missing.
-    std::uint64_t asked_by{}, listed_by{}, missed_by{};
+    std::uint64_t asked_by{}, listed_by{}, lacked_by{};
     PageRecord record;
     // Middles of the spheres of record, ECEF: of summary.centre_m, and of each quarter.
     glm::dvec3 centre_ecef_m;

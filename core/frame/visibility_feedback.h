@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/frame/page_table.h"
 #include "core/frame/region_pages.h"
+#include "core/terrain/page_table.h"
 #include "shaders/shared.h"
 
 namespace oro {

@@ -6,9 +6,11 @@
 #include <numbers>
 #include <optional>
 #include <tuple>
-#include <unordered_map>
+#include <utility>
 
+#include "core/earth/ellipsoid.h"
 #include "core/growth/tree_sites.h"
+#include "core/terrain/page_table.h"
 
 namespace oro::gpu {
 namespace {
@@ -23,33 +25,59 @@ namespace {
 
 constexpr double tile_circle_m = 185.0;  // around a tile's middle: holds it
 
-// Pages of the frame by their indices.
-using PageNumbers = std::unordered_map<std::uint64_t, gpu::uint>;
-std::uint64_t key_of(int level, int row, int column) {
-    return (static_cast<std::uint64_t>(level) << 58U) | (static_cast<std::uint64_t>(row) << 29U) |
-           static_cast<std::uint64_t>(column);
+// Pages of the frame by their indices: a table of each level.
+using PageNumbers = std::vector<PageTable>;
+PageNumbers numbers_of(std::span<const PageIndex> page_indices) {
+    PageNumbers numbers;
+    for (std::size_t i = 0; i < page_indices.size(); ++i) {
+        const PageIndex& page = page_indices[i];
+        const auto level = static_cast<std::size_t>(page.level);
+        if (numbers.size() <= level) numbers.resize(level + 1);
+        numbers[level].insert(page.row, page.column, static_cast<gpu::uint>(i));
+    }
+    return numbers;
 }
 
 // The finest page that covers all posts between two.
 std::optional<gpu::uint> covering_page(const PageNumbers& numbers, glm::ivec2 low, glm::ivec2 high) {
-    constexpr int page_bits = 7, levels_max = 24;
+    constexpr int page_bits = 7;
     static_assert(1U << page_bits == gpu::page_quads);
-    for (int level = 0; level < levels_max; ++level) {
-        const int shift = level + page_bits;
+    for (std::size_t level = 0; level < numbers.size(); ++level) {
+        const int shift = static_cast<int>(level) + page_bits;
         if (low.x >> shift != high.x >> shift || low.y >> shift != high.y >> shift) continue;
-        const auto found = numbers.find(key_of(level, low.x >> shift, low.y >> shift));
-        if (found != numbers.end()) return found->second;
+        const std::uint32_t found = numbers[level].find(low.x >> shift, low.y >> shift);
+        if (found != PageTable::none) return found;
     }
     return {};
 }
 
+// What the tiles of a row of the lattice have in common.
+struct TileRow {
+    double south_deg, north_deg;
+    std::uint32_t columns;  // tiles round the Earth
+    SineCosine middle;      // of the latitude of their middles
+    double normal_m;        // the radius of curvature along the prime vertical there
+
+    [[nodiscard]] double west_deg(std::uint32_t column) const {
+        return -180.0 + 360.0 * static_cast<double>(column) / columns;
+    }
+};
+TileRow tile_row(std::uint32_t row) {
+    const double lat_deg = site_tile_south_deg(row) + 0.5 * (site_tile_south_deg(1) - site_tile_south_deg(0));
+    const SineCosine lat = sine_cosine_deg(lat_deg);
+    return {site_tile_south_deg(row), site_tile_south_deg(row + 1), site_tile_columns(row), lat,
+            wgs84_a_m / std::sqrt(1.0 - wgs84_e2 * lat.sine * lat.sine)};
+}
+
 // A tile of the lattice on the grid; none where not all of it is there.
 std::optional<gpu::GrowthTile> tile_on_grid(const PostGrid& grid, const PageNumbers& numbers,
-                                            std::uint32_t row, std::uint32_t column) {
+                                            const TileRow& lattice_row, std::uint32_t row,
+                                            std::uint32_t column) {
     std::array<PostNumber, 4> corners{};
+    const double west_deg = lattice_row.west_deg(column);
     for (std::uint32_t i = 0; i < 4; ++i)
-        corners[i] = grid.post_at(site_tile_south_deg(row + i / 2),
-                                  site_tile_west_deg(row, column) + (i % 2) * 360.0 / site_tile_columns(row));
+        corners[i] = grid.post_at(i / 2 == 0 ? lattice_row.south_deg : lattice_row.north_deg,
+                                  west_deg + (i % 2) * 360.0 / lattice_row.columns);
     glm::dvec2 low{corners[0].row, corners[0].column}, high = low;
     for (const PostNumber& corner : corners) {
         low = glm::min(low, glm::dvec2(corner.row, corner.column));
@@ -85,6 +113,8 @@ std::vector<NearTile> tiles_around(const Geodetic& eye, double reach_m, const Ma
     constexpr double m_per_deg = 111320.0;
     const double cosine = std::cos(eye.lat_deg * std::numbers::pi / 180.0);
     std::vector<NearTile> near;
+    // No tile that is within reach by its exact distance is beyond it by its square.
+    const double reach_square = (reach_m + tile_circle_m) * (reach_m + tile_circle_m) * (1.0 + 1.0e-9);
     if (cosine < 0.05) return near;
     const double tile_deg = site_tile_south_deg(1) - site_tile_south_deg(0),
                  reach_deg = reach_m / m_per_deg * 1.01;
@@ -105,8 +135,9 @@ std::vector<NearTile> tiles_around(const Geodetic& eye, double reach_m, const Ma
             const std::int64_t number = static_cast<std::int64_t>(std::floor(middle)) + i;
             const double east_m =
                 (static_cast<double>(number) + 0.5 - middle) / tiles_per_deg * m_per_deg * cosine;
+            if (north_m * north_m + east_m * east_m > reach_square || !may_show(east_m, north_m)) continue;
             const double distance_m = std::hypot(north_m, east_m);
-            if (distance_m > reach_m + tile_circle_m || !may_show(east_m, north_m)) continue;
+            if (distance_m > reach_m + tile_circle_m) continue;
             near.push_back(
                 {distance_m, tile_row, static_cast<std::uint32_t>((number % count + count) % count)});
         }
@@ -126,19 +157,20 @@ class TilesInView {
           tangent_(std::abs(std::tan(camera.eye.lat_deg * std::numbers::pi / 180.0))),
           view_from_ecef_(camera.view_from_ecef()),
           view_from_enu_(view_from_ecef_ * ecef_from_enu(camera.eye.lat_deg, camera.eye.lon_deg)),
-          planes_(frustum_planes_view(projection_of_tile(camera, tile))) {}
-    [[nodiscard]] bool may_show(const gpu::GrowthTile& tile, const GroundRange& ground) const {
+          planes_(frustum_planes_view(projection_of_tile(camera, tile))) {
+        for (std::size_t i = 0; i < planes_.size(); ++i)
+            up_[i] = glm::dot(glm::dvec3(planes_[i]), view_from_enu_[2]);
+    }
+    [[nodiscard]] bool may_show(const TileRow& row, std::uint32_t column, const GroundRange& ground) const {
         constexpr double tallest_m = 40.0, slack_m = tile_circle_m + 30.0;
-        const double lat_deg =
-            site_tile_south_deg(tile.row) + 0.5 * (site_tile_south_deg(1) - site_tile_south_deg(0));
-        const double lon_deg =
-            site_tile_west_deg(tile.row, tile.column) + 180.0 / site_tile_columns(tile.row);
-        const glm::dvec3 low = view_of({lat_deg, lon_deg, ground.low_m});
-        const glm::dvec3 high = view_of({lat_deg, lon_deg, ground.high_m + tallest_m});
-        return std::ranges::all_of(planes_, [&](const Plane& plane) {
+        const double lon_deg = row.west_deg(column) + 180.0 / row.columns;
+        const auto [low, high] = view_of(row, lon_deg, ground.low_m, ground.high_m + tallest_m);
+        for (const Plane& plane : planes_) {
             const glm::dvec3 normal(plane);
-            return std::max(glm::dot(normal, low), glm::dot(normal, high)) + plane.w >= -slack_m;
-        });
+            if (!(std::max(glm::dot(normal, low), glm::dot(normal, high)) + plane.w >= -slack_m))
+                return false;
+        }
+        return true;
     }
 
     // Whether a tile may show whose middle lies so far east and north of the eye by its degrees
@@ -153,21 +185,30 @@ class TilesInView {
         const double low_m = ground.low_m - eye_h_m_ - drop_m;
         const double high_m = ground.high_m + tallest_m - eye_h_m_ - drop_m;
         const glm::dvec3 level = view_from_enu_ * glm::dvec3(east_m, north_m, 0.0);
-        return std::ranges::all_of(planes_, [&](const Plane& plane) {
-            const glm::dvec3 normal(plane);
-            const double up = glm::dot(normal, view_from_enu_[2]);
-            return glm::dot(normal, level) + std::max(up * low_m, up * high_m) + plane.w >= -slack_m;
-        });
+        for (std::size_t i = 0; i < planes_.size(); ++i) {
+            const double above_m = std::max(up_[i] * low_m, up_[i] * high_m);
+            if (!(glm::dot(glm::dvec3(planes_[i]), level) + above_m + planes_[i].w >= -slack_m)) return false;
+        }
+        return true;
     }
 
   private:
-    [[nodiscard]] glm::dvec3 view_of(const Geodetic& place) const {
-        return view_from_ecef_ * (ecef_from_geodetic(place).m - eye_);
+    // Of two heights over a place in the middle of a row: ecef_from_geodetic() of both.
+    [[nodiscard]] std::pair<glm::dvec3, glm::dvec3> view_of(const TileRow& row, double lon_deg, double low_m,
+                                                            double high_m) const {
+        const SineCosine &lat = row.middle, lon = sine_cosine_deg(lon_deg);
+        const auto at = [&](double h_m) {
+            const double rho_m = (row.normal_m + h_m) * lat.cosine;
+            const double z_m = (row.normal_m * (1.0 - wgs84_e2) + h_m) * lat.sine;
+            return view_from_ecef_ * (glm::dvec3(rho_m * lon.cosine, rho_m * lon.sine, z_m) - eye_);
+        };
+        return {at(low_m), at(high_m)};
     }
     glm::dvec3 eye_;
     double eye_h_m_, tangent_;
     glm::dmat3 view_from_ecef_, view_from_enu_;
     std::array<Plane, 5> planes_;
+    std::array<double, 5> up_;  // of each: along the vertical
 };
 
 }  // namespace
@@ -188,15 +229,15 @@ GrowthPlan plan_growth(const PostGrid& grid, std::span<const PageIndex> page_ind
         tiles_around(view.camera.eye, static_cast<double>(plan.reach_m),
                      [&](double east_m, double north_m) { return in_view.may_show(east_m, north_m, all); });
     if (around.empty()) return plan;
-    PageNumbers numbers;
-    for (std::size_t i = 0; i < page_indices.size(); ++i) {
-        const PageIndex& page = page_indices[i];
-        numbers[key_of(page.level, page.row, page.column)] = static_cast<gpu::uint>(i);
-    }
+    const PageNumbers numbers = numbers_of(page_indices);
+    const auto [lowest, highest] = std::ranges::minmax(around, {}, &NearTile::row);
+    std::vector<TileRow> rows;
+    for (std::uint32_t row = lowest.row; row <= highest.row; ++row) rows.push_back(tile_row(row));
     for (const NearTile& near : around) {
         if (plan.tiles.size() == gpu::growth_tiles_max) break;
-        const auto tile = tile_on_grid(grid, numbers, near.row, near.column);
-        if (tile && in_view.may_show(*tile, ground(tile->page))) plan.tiles.push_back(*tile);
+        const TileRow& row = rows[near.row - lowest.row];
+        const auto tile = tile_on_grid(grid, numbers, row, near.row, near.column);
+        if (tile && in_view.may_show(row, near.column, ground(tile->page))) plan.tiles.push_back(*tile);
     }
     return plan;
 }

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/frame/frame_plan.h"
-#include "core/frame/page_table.h"
 #include "core/frame/visibility_feedback.h"
+#include "core/terrain/page_table.h"
 #include "render/device/resources.h"
 #include "render/growth/growth_frame.h"
 #include "render/pipelines/pipelines.h"

@@ -164,10 +164,12 @@ Result<GridPlan> GridScene::begun_plan(const FrameView& view, Clusters clusters)
 }
 
 Result<void> GridScene::end_plan(const FrameView& view, GridPlan& plan) {
-    const auto start = Clock::now();
+    auto start = Clock::now();
     if (cast_.any()) ORO_CHECK(add_casters(view, plan));
     times_.casters_s = seconds_since(start);
+    start = Clock::now();
     ORO_CHECK(add_growth(view, plan));
+    times_.growth_s = seconds_since(start);
     full_for_hidden_ = false;
     missed_ = plan.missing;
     const auto missing_hidden = std::span(plan.missing).last(plan.missing_hidden);
@@ -380,6 +382,7 @@ PlanTimes Scene::times_of_plan() const {
         all.pages_s += grid.times_.pages_s;
         all.clusters_s += grid.times_.clusters_s;
         all.casters_s += grid.times_.casters_s;
+        all.growth_s += grid.times_.growth_s;
     }
     return all;
 }

@@ -43,6 +43,7 @@ struct PlanTimes {
     double pages_s{};     // pages chosen, with the tables that place their posts
     double clusters_s{};  // clusters chosen, with theirs
     double casters_s{};   // what casts shadows and opens the sky
+    double growth_s{};    // tiles of trees
 };
 
 // One grid that is being drawn: its pages, and those of them that are on the GPU.

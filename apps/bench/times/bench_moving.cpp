@@ -33,7 +33,8 @@ struct MovingTimes {
     std::vector<double> planned;   // processor: all of the plan,
     std::vector<double> pages;     // and of that: pages and their tables,
     std::vector<double> clusters;  // clusters and theirs,
-    std::vector<double> casters;   // what casts shadows
+    std::vector<double> casters;   // what casts shadows,
+    std::vector<double> growth;    // tiles of trees
     std::vector<double> loaded;    // processor: what frames have shown, what comes to the GPU
     std::vector<double> recorded;  // processor: tables to the GPU, commands
     std::vector<double> waited;    // for the GPU
@@ -85,6 +86,7 @@ class MovingEye {
         add(times_.pages, parts.pages_s);
         add(times_.clusters, parts.clusters_s);
         add(times_.casters, parts.casters_s);
+        add(times_.growth, parts.growth_s);
         is_missing_ = !plan.is_settled();
         start = Clock::now();
         ORO_CHECK(renderer_.submit(std::move(plan), options_.style, scene_.drapes()));
@@ -138,6 +140,7 @@ void add_plan(GridPlan plan, RunningChecksum& sum) {
     add(plan.casters.pages);
     add(plan.casters.table);
     add(std::span(&plan.casters.frame, 1));
+    add(plan.growth.tiles);
 }
 
 // The plan of an eye once all is here that frames of it may want, coarser clusters, too.
@@ -173,11 +176,12 @@ struct MovingColumn {
     std::vector<double> MovingTimes::*values;
 };
 constexpr MovingColumn columns[] = {
-    {"frame_ms", &MovingTimes::frame},       {"planned_ms", &MovingTimes::planned},
-    {"pages_ms", &MovingTimes::pages},       {"clusters_ms", &MovingTimes::clusters},
-    {"casters_ms", &MovingTimes::casters},   {"loaded_ms", &MovingTimes::loaded},
-    {"recorded_ms", &MovingTimes::recorded}, {"waited_ms", &MovingTimes::waited},
-    {"gpu_ms", &MovingTimes::gpu},           {"latency_ms", &MovingTimes::latency}};
+    {"frame_ms", &MovingTimes::frame},     {"planned_ms", &MovingTimes::planned},
+    {"pages_ms", &MovingTimes::pages},     {"clusters_ms", &MovingTimes::clusters},
+    {"casters_ms", &MovingTimes::casters}, {"growth_ms", &MovingTimes::growth},
+    {"loaded_ms", &MovingTimes::loaded},   {"recorded_ms", &MovingTimes::recorded},
+    {"waited_ms", &MovingTimes::waited},   {"gpu_ms", &MovingTimes::gpu},
+    {"latency_ms", &MovingTimes::latency}};
 
 struct MovingRow {
     std::string mesh, pipeline, style;
@@ -208,11 +212,12 @@ void print_header() {
     std::printf(
         "Milliseconds; of four numbers: median, 95 %%, 99 %% and worst; of three without the worst; else the "
         "median.\n"
-        "planned = pages + clusters + casters; latency: from a frame's camera to its picture.\n\n"
-        "| drawn by | style | whole frame | planned | pages | clusters | casters | loaded | recorded | "
+        "planned = pages + clusters + casters + growth; latency: from a frame's camera to its picture.\n\n"
+        "| drawn by | style | whole frame | planned | pages | clusters | casters | growth | loaded | "
+        "recorded | "
         "waited "
         "| GPU | latency | frames not whole |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
 }
 
 void print_row(const MovingRow& row) {

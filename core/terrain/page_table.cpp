@@ -1,4 +1,4 @@
-#include "core/frame/page_table.h"
+#include "core/terrain/page_table.h"
 
 #include <utility>
 
