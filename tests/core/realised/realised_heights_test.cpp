@@ -173,8 +173,8 @@ TEST(SeenProbability, OfTwoHundredWorldsIsWhatIsSeen) {
 
 // The truth has three posts in place of one of the data, and hides by what lies between them.
 TEST(SeenProbability, OfFinerWorldsIsWhatIsSeen) {
-    const Calibration found = calibration_of(120, 20, 3);
-    EXPECT_LE(found.posterior.worst_points(0.0), 4.0);
+    const Calibration found = calibration_of(60, 40, 3);
+    EXPECT_LE(found.posterior.worst_points(0.0), 3.0);
     EXPECT_LT(found.posterior.brier(), found.yes_no.brier());
 }
 
