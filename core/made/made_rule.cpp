@@ -80,8 +80,8 @@ void set_octaves(const MadeTerrain& terrain, gpu::MadeRule& rule) {
     rule.octaves = std::min(terrain.octaves, gpu::made_octaves_most);
     // The sum of an endless row of octaves is 1: more octaves add to what fewer have made.
     const std::uint64_t half = static_cast<std::uint64_t>(terrain.high - terrain.low) / 2;
-    const std::uint64_t bound = (half << 6U) * 100 / made_noise_percent;  // 2^-17 m
-    std::uint64_t share = ((1000 - terrain.gain) << 24U) / 1000;          // 2^-24
+    const std::uint64_t bound = (half << 6U) * 100 / made_noise_percent;       // 2^-17 m
+    std::uint64_t share = (std::uint64_t{1000 - terrain.gain} << 24U) / 1000;  // 2^-24
     for (std::uint32_t i = 0; i < rule.octaves; ++i) {
         gpu::MadeOctave& octave = rule.octave[i];
         octave = made_octave(terrain.seed, i, terrain.cell_shift - i);

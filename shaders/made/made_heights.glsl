@@ -77,7 +77,7 @@ ORO_FUNCTION int made_ridged_octave(MadeOctave o, int x, int y, int z, ORO_INOUT
     int crest = (1 << 28) - (noise < 0 ? -noise : noise);
     crest = crest < 0 ? 0 : crest;
     int square = made_high(crest << 2, crest << 2);  // 2^-28
-    int centred = 2 * (square - 177167401);          // 0.66
+    int centred = square - 177167401;                // 0.66
     int added = made_high(made_high(centred, o.amplitude), weight) << 4;
     weight = 93952410 + made_high(square << 2, 697932186);  // 0.35 + 0.65 square
     return added;

@@ -91,8 +91,9 @@ ErrorWorld error_world(std::uint32_t seed, double deviation_m, double correlatio
     made.kind = MadeKind::fbm;
     made.seed = seed;
     made.octaves = 12;
-    made.low = -200 * 2048;
-    made.high = 4000 * 2048;
+    // Hills rather than mountains: there errors matter most.
+    made.low = 959 * 2048;
+    made.high = 2841 * 2048;
     made.posts_per_deg = 1200 * finer;
     made.west = (8 * 1200 + std::uniform_int_distribution<int>(0, 1200)(random)) * finer;
     made.south = 46 * 1200 * finer;
