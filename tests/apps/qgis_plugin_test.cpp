@@ -15,16 +15,22 @@ TEST(QgisPlugin, RunsAProgramWithProgressErrorsAndCancel) {
                                               (source / "apps/qgis/orograph").string(),
                                               oro::test::scratch_folder().string()});
     ASSERT_EQ(said.exit_code, 0) << said.err;
-    EXPECT_EQ(
-        said.out,
-        "all files are Python\n"
-        "('{\"words\": \"a b ü\"}', ['orograph: note: a terminal'], [(42, 'reading a b c'), (100, 'done')])\n"
-        "('ProgramFailed: orograph: no such file', ['orograph: no such file'], [])\n"
-        "ProgramFailed: /silent: ended with 4\n"
-        "ProgramFailed: /nothing: cannot be started: No such file or directory\n"
-        "obedient Cancelled:  True True\n"
-        "stubborn Cancelled:  True False\n"
-        "20000 20000 line 20000\n");
+    // Of a system without pseudo-terminals, as a bare chroot is, the program has none: its bar comes by a
+    // pipe.
+    const bool has_terminals =
+        oro::test::run_program({"python3", "-c", "import os; os.openpty()"}).exit_code == 0;
+    const std::string note = has_terminals ? "'orograph: note: a terminal'" : "";
+    EXPECT_EQ(said.out,
+              "all files are Python\n"
+              "('{\"words\": \"a b ü\"}', [" +
+                  note +
+                  "], [(42, 'reading a b c'), (100, 'done')])\n"
+                  "('ProgramFailed: orograph: no such file', ['orograph: no such file'], [])\n"
+                  "ProgramFailed: /silent: ended with 4\n"
+                  "ProgramFailed: /nothing: cannot be started: No such file or directory\n"
+                  "obedient Cancelled:  True True\n"
+                  "stubborn Cancelled:  True False\n"
+                  "20000 20000 line 20000\n");
 }
 
 }  // namespace
