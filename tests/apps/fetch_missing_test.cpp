@@ -1,7 +1,6 @@
 // What commands fetch for themselves, the cache of it, and paths on a network, against a server on the
 // loopback address. Nothing here leaves the machine.
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <chrono>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "tests/apps/program.h"
+#include "tests/support/gzip.h"
 #include "tests/support/loopback_server.h"
 #include "tests/support/test_data.h"
 
@@ -45,17 +45,7 @@ std::string tile_with_a_mountain() {
             bytes += static_cast<char>(height_m >> 8U);
             bytes += static_cast<char>(height_m & 0xffU);
         }
-    z_stream stream{};
-    if (deflateInit2(&stream, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY) != Z_OK) return "";
-    std::string packed(deflateBound(&stream, bytes.size()) + 64, '\0');
-    stream.next_in = reinterpret_cast<Bytef*>(bytes.data());
-    stream.avail_in = static_cast<uInt>(bytes.size());
-    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-    stream.avail_out = static_cast<uInt>(packed.size());
-    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-    packed.resize(stream.total_out);
-    deflateEnd(&stream);
-    return packed;
+    return oro::test::gzip_of(bytes);
 }
 
 // A user with settings and a cache of their own, whose table has the server's tiles as `skadi`, and its names

@@ -1,12 +1,12 @@
 // orograph fetch against a server on the loopback address. Nothing here leaves the machine.
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "tests/apps/program.h"
+#include "tests/support/gzip.h"
 #include "tests/support/loopback_server.h"
 #include "tests/support/test_data.h"
 
@@ -16,6 +16,7 @@ using oro::test::bytes_of;
 using oro::test::Circumstances;
 using oro::test::expect_refusal;
 using oro::test::file_answer;
+using oro::test::gzip_of;
 using oro::test::http_answer;
 using oro::test::joined;
 using oro::test::LoopbackRequest;
@@ -27,20 +28,6 @@ using oro::test::run_orograph;
 using oro::test::says;
 using oro::test::Words;
 using oro::test::write_bytes;
-
-std::string gzip_of(const std::string& bytes) {
-    z_stream stream{};
-    if (deflateInit2(&stream, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY) != Z_OK) return "";
-    std::string packed(deflateBound(&stream, bytes.size()) + 64, '\0');
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-    stream.avail_in = static_cast<uInt>(bytes.size());
-    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-    stream.avail_out = static_cast<uInt>(packed.size());
-    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-    packed.resize(stream.total_out);
-    deflateEnd(&stream);
-    return packed;
-}
 
 // 1201 x 1201 posts that rise by a metre from row to row, with noise of 0 to 3 m, so that it packs badly.
 std::string tile_hgt() {
