@@ -11,8 +11,6 @@
 #include "apps/library/library_structures.h"
 #include "apps/library/open_regions.h"
 #include "apps/library/orograph.h"
-#include "core/base/parallel.h"
-#include "geo/rasters/post_raster.h"
 
 namespace {
 
@@ -54,20 +52,7 @@ Result<AskedHorizons> asked_horizons(oro_region region, const oro_horizon_option
 }
 
 void fill_window(const AskedHorizons& asked, oro_window& window) {
-    const oro::GridPart& part = asked.request.part;
-    const oro::RegionGrid& grid = asked.open->ground->grids->grid(asked.grid);
-    window.grid = asked.grid;
-    window.first_row = part.first_row;
-    window.first_column = part.first_column;
-    window.rows = static_cast<std::size_t>(part.rows);
-    window.columns = static_cast<std::size_t>(part.columns);
-    std::ranges::copy(oro::transform_of_posts(grid.field.grid, grid.posts_crs, part), window.transform);
-    window.known = window.seen = 0;
-}
-
-Result<void> check_window_of_horizons(const oro_window* window) {
-    ORO_CHECK(oro::check_given("window", window));
-    return oro::check_size("window", window->size, sizeof(oro_window));
+    oro::fill_window(asked.grid, asked.open->ground->grids->grid(asked.grid), asked.request.part, window);
 }
 
 // Looks around; the caller's progress function stops it.
@@ -101,7 +86,7 @@ void give_values(const oro::PostHorizons& found, float* elevation_deg, float* sk
 
 oro_status oro_horizon_window(oro_region region, const oro_horizon_options* options, oro_window* window) {
     return oro::guarded_call([&]() -> Result<void> {
-        ORO_CHECK(check_window_of_horizons(window));
+        ORO_CHECK(oro::check_window(window));
         ORO_TRY(const AskedHorizons asked, asked_horizons(region, options));
         fill_window(asked, *window);
         return {};
@@ -112,7 +97,7 @@ oro_status oro_horizon(oro_region region, const oro_horizon_options* options, fl
                        float* sky_view, size_t capacity, oro_window* window, oro_progress progress,
                        void* user) {
     return oro::guarded_call([&]() -> Result<void> {
-        ORO_CHECK(check_window_of_horizons(window));
+        ORO_CHECK(oro::check_window(window));
         ORO_TRY(AskedHorizons asked, asked_horizons(region, options));
         fill_window(asked, *window);
         const std::size_t posts = asked.request.part.count();

@@ -1,5 +1,6 @@
 #include "apps/library/library_structures.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -8,6 +9,7 @@
 
 #include "apps/library/guarded_call.h"
 #include "apps/view/view.h"
+#include "geo/rasters/post_raster.h"
 
 namespace oro {
 namespace {
@@ -66,6 +68,21 @@ Result<std::vector<std::string>> strings_of(const char* name, const char* const*
         strings.emplace_back(texts[i]);
     }
     return strings;
+}
+
+Result<void> check_window(const oro_window* window) {
+    ORO_CHECK(check_given("window", window));
+    return check_size("window", window->size, sizeof(oro_window));
+}
+
+void fill_window(std::size_t grid_number, const RegionGrid& grid, const GridPart& part, oro_window& window) {
+    window.grid = grid_number;
+    window.first_row = part.first_row;
+    window.first_column = part.first_column;
+    window.rows = static_cast<std::size_t>(part.rows);
+    window.columns = static_cast<std::size_t>(part.columns);
+    std::ranges::copy(transform_of_posts(grid.field.grid, grid.posts_crs, part), window.transform);
+    window.known = window.seen = 0;
 }
 
 Result<void> give_text(const std::string& from, char* text, std::size_t capacity, std::size_t* length) {

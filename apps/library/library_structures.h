@@ -8,6 +8,8 @@
 #include "apps/library/orograph.h"
 #include "core/base/result.h"
 #include "core/earth/world_model.h"
+#include "core/terrain/grid_part.h"
+#include "geo/region/region.h"
 
 namespace oro {
 
@@ -20,6 +22,11 @@ Result<Air> air_of(int air, double refraction_k);
 
 // Strings of a caller. Errors (usage): NULL, one that is NULL, more than 10,000,000.
 Result<std::vector<std::string>> strings_of(const char* name, const char* const* texts, std::size_t count);
+
+// Errors (usage): NULL, a structure that is too short.
+Result<void> check_window(const oro_window* window);
+// Where a part of a grid's posts lies. Nothing is known or seen of it yet.
+void fill_window(std::size_t grid_number, const RegionGrid& grid, const GridPart& part, oro_window& window);
 
 // A text with a zero byte at its end, where the caller has room for it; else throws TooSmall. *length becomes
 // the text's. NULL and 0 ask for the length alone.

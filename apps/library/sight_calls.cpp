@@ -15,7 +15,6 @@
 #include "apps/library/library_structures.h"
 #include "apps/library/open_regions.h"
 #include "apps/library/orograph.h"
-#include "geo/rasters/post_raster.h"
 
 namespace {
 
@@ -175,21 +174,10 @@ Result<AskedViewshed> asked_viewshed(oro_region region, std::size_t count, const
 }
 
 void fill_window(const AskedViewshed& asked, oro_window& window) {
-    const oro::GridPart& part = asked.report.window;
-    const oro::RegionGrid& grid = asked.hiding->grid(asked.report.grid);
-    window.grid = asked.report.grid;
-    window.first_row = part.first_row;
-    window.first_column = part.first_column;
-    window.rows = static_cast<std::size_t>(part.rows);
-    window.columns = static_cast<std::size_t>(part.columns);
-    std::ranges::copy(oro::transform_of_posts(grid.field.grid, grid.posts_crs, part), window.transform);
+    const std::size_t grid = asked.report.grid;
+    oro::fill_window(grid, asked.hiding->grid(grid), asked.report.window, window);
     window.known = asked.report.cells;
     window.seen = asked.report.seen;
-}
-
-Result<void> check_window(const oro_window* window) {
-    ORO_CHECK(oro::check_given("window", window));
-    return oro::check_size("window", window->size, sizeof(oro_window));
 }
 
 // Looks around; the caller's progress function stops it.
@@ -226,7 +214,7 @@ oro_status oro_profile(oro_region region, size_t places, const double* lat_deg, 
 oro_status oro_viewshed_window(oro_region region, size_t count, const oro_point* eyes,
                                const oro_viewshed_options* options, oro_window* window) {
     return oro::guarded_call([&]() -> Result<void> {
-        ORO_CHECK(check_window(window));
+        ORO_CHECK(oro::check_window(window));
         ORO_TRY(const AskedViewshed asked, asked_viewshed(region, count, eyes, options));
         fill_window(asked, *window);
         return {};
@@ -237,7 +225,7 @@ oro_status oro_viewshed(oro_region region, size_t count, const oro_point* eyes,
                         const oro_viewshed_options* options, float* clearance_deficit_m, float* observers,
                         size_t capacity, oro_window* window, oro_progress progress, void* user) {
     return oro::guarded_call([&]() -> Result<void> {
-        ORO_CHECK(check_window(window));
+        ORO_CHECK(oro::check_window(window));
         ORO_TRY(AskedViewshed asked, asked_viewshed(region, count, eyes, options));
         fill_window(asked, *window);
         const std::size_t posts = asked.report.window.count();
