@@ -101,6 +101,11 @@ void give_models(const View& view, ViewOptions& options) {
 
 }  // namespace
 
+std::string box_words(const BoundingBox& box) {
+    return all_digits(box.west_deg) + "," + all_digits(box.south_deg) + "," + all_digits(box.east_deg) + "," +
+           all_digits(box.north_deg);
+}
+
 ViewOptions look_options_of(const View& view) {
     const View usual{};
     ViewOptions options;
@@ -132,9 +137,7 @@ RegionOptions region_options_of(const View& view) {
     const RegionRequest& request = view.region;
     RegionOptions options;
     options.paths = request.paths;
-    if (request.box)
-        options.bbox = all_digits(request.box->west_deg) + "," + all_digits(request.box->south_deg) + "," +
-                       all_digits(request.box->east_deg) + "," + all_digits(request.box->north_deg);
+    if (request.box) options.bbox = box_words(*request.box);
     options.height_unit = request.height_unit;
     options.source_crs = request.source_crs;
     options.source_vertical = request.source_vertical;

@@ -20,6 +20,8 @@ std::vector<std::string> words_of(const RegionOptions& options);
 // The same of a view.
 std::vector<std::string> look_words(const View& view);
 std::vector<std::string> region_words(const View& view);
+// A box as --bbox takes it, to the last digit.
+std::string box_words(const BoundingBox& box);
 // Words as a line for a shell: what it would change stands in single quotes.
 std::string shell_line(const std::vector<std::string>& words);
 

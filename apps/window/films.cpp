@@ -36,6 +36,15 @@ void follow(Viewer& viewer, const LineAlong& line, const std::string& name) {
     play(viewer, CameraPath(std::move(*keys)), name + " ends here");
 }
 
+// The words that draw a film of a file, after the program's name.
+std::vector<std::string> film_words(const std::string& file, const View& view, const std::string& out) {
+    std::vector<std::string> words{"film", file};
+    for (const auto& part : {region_words(view), look_words(view)})
+        words.insert(words.end(), part.begin(), part.end());
+    words.insert(words.end(), {"--out", out});
+    return words;
+}
+
 }  // namespace
 
 Result<std::vector<CameraKey>> keys_of_walk(const LineAlong& line, const LineWalk& walk, const Region& region,
@@ -53,11 +62,9 @@ Result<std::vector<CameraKey>> keys_of_walk(const LineAlong& line, const LineWal
 }
 
 std::string film_command(const std::string& file, const View& view) {
-    std::vector<std::string> words{"orograph", "film", file};
-    for (const auto& part : {region_words(view), look_words(view)})
-        words.insert(words.end(), part.begin(), part.end());
-    const std::string out = std::filesystem::path(file).stem().string() + "-frames";
-    words.insert(words.end(), {"--out", out});
+    std::vector<std::string> words =
+        film_words(file, view, std::filesystem::path(file).stem().string() + "-frames");
+    words.insert(words.begin(), "orograph");
     return shell_line(words) + "\n";
 }
 
@@ -121,11 +128,8 @@ void draw_film(Viewer& viewer) {
     command.folder_of_frames = is_movie ? command.out + ".frames" : command.out;
     const double length_s = film.keys.back().time_s - film.keys.front().time_s;
     command.frames = static_cast<std::size_t>(std::floor(length_s * film.fps + 1e-6)) + 1;
-    command.words = {"film", keys};
-    for (const auto& part : {region_words(viewer.view), look_words(viewer.view)})
-        command.words.insert(command.words.end(), part.begin(), part.end());
-    command.words.insert(command.words.end(),
-                         {"--fps", all_digits(film.fps), "--out", command.out, "--quiet"});
+    command.words = film_words(keys, viewer.view, command.out);
+    command.words.insert(command.words.end(), {"--fps", all_digits(film.fps), "--quiet"});
     begin_command(viewer, std::move(command));
 }
 

@@ -10,6 +10,7 @@
 #include "apps/window/begun_command.h"
 #include "apps/window/viewer.h"
 #include "apps/window/window_start.h"
+#include "core/earth/ellipsoid.h"
 
 namespace oro {
 namespace {
@@ -19,11 +20,6 @@ std::string box_text(const BoundingBox& box) {
     std::snprintf(text, sizeof text, "%.4f,%.4f,%.4f,%.4f", box.west_deg, box.south_deg, box.east_deg,
                   box.north_deg);
     return text;
-}
-
-double from_180_to_180(double lon_deg) {
-    const double turned = std::remainder(lon_deg, 360.0);
-    return turned == 180.0 ? -180.0 : turned;
 }
 
 // What maps take of a view's looks.
@@ -62,8 +58,8 @@ std::optional<BoundingBox> box_of_places(std::vector<SeenFromEye> places) {
     }
     const double grow_lat = std::max(0.0, 0.5 * (least_side_deg - (north - south)));
     const double grow_lon = std::max(0.0, 0.5 * (least_side_deg - (east - west)));
-    return BoundingBox{from_180_to_180(half.lon_deg + west - grow_lon), std::max(-90.0, south - grow_lat),
-                       from_180_to_180(half.lon_deg + east + grow_lon), std::min(90.0, north + grow_lat)};
+    return BoundingBox{normalised_lon_deg(half.lon_deg + west - grow_lon), std::max(-90.0, south - grow_lat),
+                       normalised_lon_deg(half.lon_deg + east + grow_lon), std::min(90.0, north + grow_lat)};
 }
 
 std::vector<std::string> map_words(const View& view, const MapChoice& choice, const std::string& out) {

@@ -19,6 +19,7 @@
 #include "apps/report/region_json.h"
 #include "apps/view/model_names.h"
 #include "apps/view/view.h"
+#include "apps/view/view_words.h"
 #include "core/base/elapsed.h"
 #include "core/base/parallel.h"
 #include "core/sight/observer.h"
@@ -76,9 +77,7 @@ Result<RegionOptions> widened_region(const HorizonOptions& options, const std::o
     RegionOptions wide = options.region;
     if (!box) return wide;
     wide.tile.clear();
-    const BoundingBox around = widened(*box, radius_m);
-    wide.bbox = all_digits(around.west_deg) + "," + all_digits(around.south_deg) + "," +
-                all_digits(around.east_deg) + "," + all_digits(around.north_deg);
+    wide.bbox = box_words(widened(*box, radius_m));
     return wide;
 }
 
