@@ -145,6 +145,8 @@ set_tests_properties(
   Help.HasTheSameHeadingsInTheSameOrder
   Help.HidesWhatDoesNothing
   Help.ListsFirstWhatMostPeopleNeed
+  HorizonCommand.LooksBeyondItsBox
+  HorizonCommand.WhatIsWrongIsSaidInOneLine
   HostileInput.AReaderThatHasReadEnough
   HostileInput.AnInterruptedPictureLeavesNothing
   HostileInput.ClosedStandardError
@@ -272,6 +274,7 @@ set_tests_properties(
   SeveralViews.AreDrawnOneAfterTheOther
   SeveralViews.MayBeAListInAFile
   SeveralViews.NeedNumberedNames
+  SharedBakeCommand.HasTheBytesOfOneMachine
   SharedBakeCommand.HasTheBytesOfOneMachineOfSeveralGrids
   Shot.AntimeridianAndPoles
   Shot.EyeBelowSeaLevelAndFacingNorth
@@ -317,13 +320,14 @@ set_tests_properties(
   SunOfAShot.OtherStylesKeepTheirOwn
   TextInput.NestedCacheIsWrittenAnew
   TextInput.PipesDevicesAndEndlessFilesAreRefused
-  TradeCommand.HoldsMadeGroundAgainstItsRule
   TradeCommand.AViewOfTheSkyHasNoErrorsToTell
   TradeCommand.CallsPartsOfTheModelAsPlanDoes
+  TradeCommand.HoldsMadeGroundAgainstItsRule
   TradeCommand.MakesItsFolder
   TradeCommand.RefusesWhatItTriesItself
   TradeCommand.ReplacesOnlyWhenTold
   TradeCommand.WritesATableAndAPage
+  TradePage.TheCheckFindsWhatIsWrong
   Unseen.APartThatWasChosenEndsAndMissesNothing
   Unseen.APictureOfAllTheDataSaysNothing
   Unseen.NothingIsSaidWhereAllLinesEndOnData
@@ -342,8 +346,6 @@ set_tests_properties(
   Verify.ReplacesOnlyWhenTold
   Verify.TheErrorPictureHasALegend
   Verify.WhatAModelLeavesOutIsMeasured
-  HorizonCommand.LooksBeyondItsBox
-  HorizonCommand.WhatIsWrongIsSaidInOneLine
   ViewshedCommand.IsAGeoTiffThatSaysWhatSightSays
   ViewshedCommand.OfAProjectedFileLiesOnItsOwnPosts
   ViewshedCommand.TellsThatACircleLeavesTheData
@@ -361,6 +363,7 @@ set_tests_properties(
   WindowFaults.EndItWithALine
   WindowFaults.OfSuboptimalSwapchainsOneIsEnough
   WindowFaults.SuboptimalSwapchainsAreMadeAnew
+  WindowFilms.AndMapsAreDrawnBesideTheWindow
   WindowFlight.AMinuteOverTheAlps
   WindowFlight.MinutesOverPoland
   WindowProjects.AreSavedAndOpenedAgain
