@@ -58,36 +58,48 @@ std::vector<std::string> CanopyMap::notes() const {
 }
 
 Result<void> CanopyMap::add_heights_of(std::size_t file, std::span<const double> lat_deg,
-                                       std::span<const double> lon_deg, std::span<float> canopy_m) const {
+                                       std::span<const double> lon_deg, const CellSize& cell,
+                                       std::span<KnownSum> sums) const {
     const CanopySource& source = sources_[file];
-    return read_pixels_at(source, *rasters_[file], lat_deg, lon_deg,
-                          [&](const PixelValue& pixel) -> Result<void> {
-                              if (!std::isfinite(pixel.value) || pixel.value == source.no_data) return {};
-                              const double height_m = source.scale * pixel.value + source.offset;
-                              if (!(height_m >= lowest_canopy_m && height_m <= highest_canopy_m))
-                                  return Error{ErrorKind::failed, source.file,
-                                               fault_of_height(height_m, pixel.column, pixel.row)};
-                              canopy_m[pixel.place] = static_cast<float>(std::max(height_m, 0.0));
-                              return {};
-                          });
+    return read_pixels_around(source, *rasters_[file], lat_deg, lon_deg, cell,
+                              [&](const PixelValue& pixel) -> Result<void> {
+                                  if (!std::isfinite(pixel.value) || pixel.value == source.no_data) return {};
+                                  const double height_m = source.scale * pixel.value + source.offset;
+                                  if (!(height_m >= lowest_canopy_m && height_m <= highest_canopy_m))
+                                      return Error{ErrorKind::failed, source.file,
+                                                   fault_of_height(height_m, pixel.column, pixel.row)};
+                                  sums[pixel.place].metres += std::max(height_m, 0.0);
+                                  ++sums[pixel.place].pixels;
+                                  return {};
+                              });
 }
 
-Result<void> CanopyMap::heights_at(std::span<const double> lat_deg, std::span<const double> lon_deg,
-                                   std::span<float> canopy_m) const {
+Result<void> CanopyMap::add_classes_of(std::size_t file, std::span<const double> lat_deg,
+                                       std::span<const double> lon_deg, const CellSize& cell,
+                                       std::span<KnownSum> sums) const {
+    return cover_->read_codes_around(file, lat_deg, lon_deg, cell,
+                                     [&](std::size_t place, int code) -> Result<void> {
+                                         const CoverClass* const known = cover_->table().class_of(code);
+                                         if (!known) return {};
+                                         sums[place].metres += known->canopy_m;
+                                         ++sums[place].pixels;
+                                         return {};
+                                     });
+}
+
+Result<void> CanopyMap::heights_around(std::span<const double> lat_deg, std::span<const double> lon_deg,
+                                       const CellSize& cell, std::span<float> canopy_m) const {
     assert(lat_deg.size() == lon_deg.size() && lat_deg.size() == canopy_m.size());
     std::ranges::fill(canopy_m, no_canopy_m);
-    if (cover_) {
-        std::vector<int> codes(lat_deg.size());
-        ORO_CHECK(cover_->codes_at(lat_deg, lon_deg, codes));
-        for (std::size_t i = 0; i < codes.size(); ++i) {
-            const CoverClass* const known =
-                codes[i] == no_cover_code ? nullptr : cover_->table().class_of(codes[i]);
-            if (known) canopy_m[i] = static_cast<float>(known->canopy_m);
-        }
-        return {};
+    std::vector<KnownSum> sums(canopy_m.size());
+    const std::size_t files = cover_ ? cover_->sources().size() : sources_.size();
+    for (std::size_t file = 0; file < files; ++file) {
+        std::ranges::fill(sums, KnownSum{});
+        ORO_CHECK(cover_ ? add_classes_of(file, lat_deg, lon_deg, cell, sums)
+                         : add_heights_of(file, lat_deg, lon_deg, cell, sums));
+        for (std::size_t i = 0; i < sums.size(); ++i)
+            if (sums[i].pixels > 0) canopy_m[i] = static_cast<float>(sums[i].metres / sums[i].pixels);
     }
-    for (std::size_t file = 0; file < sources_.size(); ++file)
-        ORO_CHECK(add_heights_of(file, lat_deg, lon_deg, canopy_m));
     return {};
 }
 

@@ -49,6 +49,21 @@ void places_of_row(const PostGrid& grid, int row, std::vector<double>& lat_deg,
     }
 }
 
+// How far the posts of a row are from each other, and from those of the next row, in its middle.
+CellSize cell_of_row(const PostGrid& grid, int row) {
+    if (!grid.net) return {grid.lat.spacing_deg(), grid.lon.spacing_deg()};
+    const double column = 0.5 * (grid.columns() - 1);
+    const PostPlace north = grid.net->place_at(row - 0.5, column),
+                    south = grid.net->place_at(row + 0.5, column);
+    const PostPlace west = grid.net->place_at(row, column - 0.5),
+                    east = grid.net->place_at(row, column + 0.5);
+    const auto turn_deg = [](double from_deg, double to_deg) {
+        return std::abs(std::remainder(to_deg - from_deg, 360.0));
+    };
+    return {std::max(std::abs(north.lat_deg - south.lat_deg), std::abs(east.lat_deg - west.lat_deg)),
+            std::max(turn_deg(west.lon_deg, east.lon_deg), turn_deg(north.lon_deg, south.lon_deg))};
+}
+
 struct RowCounts {
     float highest_m{};
     std::uint64_t raised{}, unknown{}, known{};
@@ -59,7 +74,7 @@ Result<RowCounts> raise_row(RegionGrid& grid, int row, const CanopyMap& canopy) 
     std::vector<double> lat_deg(columns), lon_deg(columns);
     std::vector<float> canopy_m(columns);
     places_of_row(grid.field.grid, row, lat_deg, lon_deg);
-    ORO_CHECK(canopy.heights_at(lat_deg, lon_deg, canopy_m));
+    ORO_CHECK(canopy.heights_around(lat_deg, lon_deg, cell_of_row(grid.field.grid, row), canopy_m));
     const float not_held = static_cast<float>(1.0 - grid.canopy->held_share);
     RowCounts counts;
     for (std::size_t i = 0; i < columns; ++i) {

@@ -28,7 +28,7 @@ HeldCanopy held_by_sources(const RegionGrid& grid);
 // grids and of their posts' fingerprints stays that of the ground; posts of a baked grid come into memory,
 // and its levels and clusters are not used any more. `held`: the share of the canopy that the data hold;
 // nothing: held_by_sources(). Not for a region that is raised already. Errors: those of
-// CanopyMap::heights_at(); a canopy that is known of no post (no_data); damage in a baked region.
+// CanopyMap::heights_around(); a canopy that is known of no post (no_data); damage in a baked region.
 Result<void> raise_by_canopy(Region& region, const CanopyMap& canopy, const std::optional<double>& held);
 
 // How high the raised surface of a grid is over the ground at a place, by the posts around it: metres, 0 or

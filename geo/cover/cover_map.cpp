@@ -7,8 +7,8 @@
 #include <limits>
 #include <utility>
 
-#include "geo/drape/pixel_values.h"
 #include "geo/drape/raster_opening.h"
+#include "geo/drape/pixel_values.h"
 #include "geo/drape/shared_raster.h"
 
 namespace oro {
@@ -78,15 +78,16 @@ Result<std::shared_ptr<const CoverMap>> CoverMap::of(std::vector<CoverSource> so
     return std::shared_ptr<const CoverMap>(std::move(map));
 }
 
-Result<void> CoverMap::add_codes_of(std::size_t file, std::span<const double> lat_deg,
-                                    std::span<const double> lon_deg, std::span<int> codes) const {
+Result<void> CoverMap::read_codes_around(std::size_t file, std::span<const double> lat_deg,
+                                         std::span<const double> lon_deg, const CellSize& cell,
+                                         const CodeSink& sink) const {
     const CoverSource& source = sources_[file];
-    return read_pixels_at(source, *rasters_[file], lat_deg, lon_deg,
-                          [&](const PixelValue& pixel) -> Result<void> {
-                              const int code = code_of_value(pixel.value);
-                              if (is_cover(source, code)) codes[pixel.place] = code;
-                              return {};
-                          });
+    return read_pixels_around(source, *rasters_[file], lat_deg, lon_deg, cell,
+                              [&](const PixelValue& pixel) -> Result<void> {
+                                  const int code = code_of_value(pixel.value);
+                                  if (!is_cover(source, code)) return {};
+                                  return sink(pixel.place, code);
+                              });
 }
 
 Result<void> CoverMap::codes_at(std::span<const double> lat_deg, std::span<const double> lon_deg,
@@ -94,7 +95,11 @@ Result<void> CoverMap::codes_at(std::span<const double> lat_deg, std::span<const
     assert(lat_deg.size() == lon_deg.size() && lat_deg.size() == codes.size());
     std::ranges::fill(codes, no_cover_code);
     for (std::size_t file = 0; file < sources_.size(); ++file)
-        ORO_CHECK(add_codes_of(file, lat_deg, lon_deg, codes));
+        ORO_CHECK(read_codes_around(file, lat_deg, lon_deg, CellSize{},
+                                    [&](std::size_t place, int code) -> Result<void> {
+                                        codes[place] = code;
+                                        return {};
+                                    }));
     return {};
 }
 

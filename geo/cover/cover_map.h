@@ -1,6 +1,7 @@
 // Land cover from files, by place.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <span>
@@ -10,6 +11,7 @@
 #include "core/base/result.h"
 #include "geo/cover/cover_source.h"
 #include "geo/cover/cover_table.h"
+#include "geo/drape/cell_size.h"
 
 namespace oro {
 
@@ -45,6 +47,14 @@ class CoverMap {
                           std::span<int> codes) const;
     Result<int> code_at(double lat_deg, double lon_deg) const;
 
+    // All codes of one file, by its number among the sources, in the cell around each place
+    // (read_pixels_around()); those that stand for nothing are passed over. Errors as above; those of the
+    // sink.
+    using CodeSink = std::function<Result<void>(std::size_t place, int code)>;
+    Result<void> read_codes_around(std::size_t file, std::span<const double> lat_deg,
+                                   std::span<const double> lon_deg, const CellSize& cell,
+                                   const CodeSink& sink) const;
+
     // "tree cover", "code 7", or "" for no_cover_code.
     [[nodiscard]] std::string name_of(int code) const;
 
@@ -57,8 +67,6 @@ class CoverMap {
 
   private:
     CoverMap(std::vector<CoverSource> sources, CoverTable table);
-    Result<void> add_codes_of(std::size_t file, std::span<const double> lat_deg,
-                              std::span<const double> lon_deg, std::span<int> codes) const;
 
     std::vector<CoverSource> sources_;  // stay where they are: readers point to them
     CoverTable table_;

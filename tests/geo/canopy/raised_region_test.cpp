@@ -161,6 +161,43 @@ TEST_F(RaisedRegion, BehindTheForestATargetIsHiddenBySixMetresOfSpruce) {
     EXPECT_TRUE(observer.sees(over(110.0, 38.1)));
 }
 
+// A canopy whose pixels have a fifth of the posts' spacing: each post has the mean of the 25 around it, to
+// rounding in float (16 m: 1 um); without data those that are there; at the edge of the file those inside.
+TEST_F(RaisedRegion, TakesTheMeanOfFinerPixels) {
+    test::Raster raster = ten_metres();
+    raster.rows *= 5;
+    raster.columns *= 5;
+    raster.cell_corners[1] = 2.0;
+    raster.cell_corners[5] = -2.0;
+    raster.no_data = -9999.0;
+    const auto tree_m = [](int row, int column) {
+        const int height = (row * 7919 + column * 104729) % 251;
+        return height > 240 ? -9999.0 : height > 100 ? 0.1 * (height - 100) : 0.0;
+    };
+    const std::string file = test::write_raster(folder / "fine.tif", raster, tree_m);
+    Region region = region_of(ground);
+    const auto canopy = canopy_of(file);
+    ASSERT_TRUE(canopy.ok());
+    ASSERT_TRUE(raise_by_canopy(region, **canopy, std::nullopt).ok());
+    const auto mean_m = [&](int post_row, int post_column) {
+        double sum_m = 0.0;
+        int known = 0;
+        for (int row = post_row * 5; row < post_row * 5 + 5; ++row)
+            for (int column = post_column * 5; column < post_column * 5 + 5; ++column)
+                if (const double height_m = tree_m(row, column); height_m >= 0.0) {
+                    sum_m += height_m;
+                    ++known;
+                }
+        return sum_m / known;
+    };
+    for (int row = 0; row < rows; ++row)
+        for (int column = 0; column < columns; ++column) {
+            const float added_m =
+                region.grids[0].canopy->added_m[static_cast<std::size_t>(row * columns + column)];
+            ASSERT_NEAR(added_m, mean_m(row, column), 2e-6) << row << ", " << column;
+        }
+}
+
 TEST_F(RaisedRegion, TakesHeightsOfClasses) {
     test::Raster raster = ten_metres();
     raster.type = GDT_Byte;
