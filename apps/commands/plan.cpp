@@ -8,7 +8,6 @@
 #include "apps/cover/canopy_words.h"
 #include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/region_scene.h"
-#include "apps/eye/asked_summit.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
@@ -183,8 +182,7 @@ Result<void> run_plan(const PlanOptions& options) {
     bar.clear();
     say_changes(view, options.quiet);
     say_notes(region, options.quiet);
-    ORO_TRY(const auto summit, asked_summit(options.view, region, view.exaggeration));
-    say_summit(summit, options.quiet);
+    say_summit(view.stood.summit, options.quiet);
     for (const RegionGrid& grid : region.grids)
         if (const std::string sentence = resampling_sentence(grid); !sentence.empty())
             say(options.quiet, "note: " + sentence);

@@ -6,7 +6,6 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/sun_text.h"
-#include "apps/eye/asked_summit.h"
 #include "apps/eye/standpoint.h"
 #include "apps/light/sun.h"
 #include "apps/options/region_option_table.h"
@@ -117,9 +116,8 @@ Result<void> look_over_terrain(const SunOptions& options, SunReport& report) {
     say_notes(region, options.quiet);
     report.notes = all_notes(region);
     report.place = eye;
-    ORO_TRY(report.moved, asked_summit(view_options, region, view.exaggeration));
-    ORO_TRY(const auto wall, wall_near(view_options, region, view.exaggeration));
-    say_wall(wall, options.quiet);
+    report.moved = view.stood.summit;
+    say_wall(view.stood.wall, options.quiet);
     report.H_m = eye.h_m - N_m;
     if (const auto ground = truth->ground().h_m(eye.lat_deg, eye.lon_deg))
         report.above_ground_m = eye.h_m - *ground;

@@ -12,7 +12,6 @@
 #include "apps/drawing/kept_drawing.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
-#include "apps/eye/asked_summit.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
@@ -167,8 +166,7 @@ Result<void> run_trade(const TradeOptions& options) {
     ORO_CHECK(open_view(options.view_file, view_options, options.region, bar.progress(), view, region));
     say_changes(view, options.quiet);
     say_notes(region, options.quiet);
-    ORO_TRY(const auto summit, asked_summit(options.view, region, view.exaggeration));
-    say_summit(summit, options.quiet);
+    say_summit(view.stood.summit, options.quiet);
     ORO_CHECK(spare_inputs_of(options, {csv, html}, view, region));
     if (!view.has_geoid)
         return refused("--view", options.view_file,

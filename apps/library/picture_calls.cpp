@@ -17,7 +17,6 @@
 #include "apps/commands/shot/shot_scene.h"
 #include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/pipeline_choice.h"
-#include "apps/eye/asked_summit.h"
 #include "apps/labels/labelled_picture.h"
 #include "apps/layers/picture_layers.h"
 #include "apps/legend/legend.h"
@@ -196,7 +195,7 @@ Result<std::unique_ptr<PreparedShot>> prepared_shot(const OpenRegion& open,
     }
     shot.region = region_for_view(open);
     ORO_CHECK(oro::open_view_in_region(options.view, open.request, shot.view, shot.region));
-    ORO_TRY(shot.on_summit, oro::asked_summit(options.view, shot.region, shot.view.exaggeration));
+    shot.on_summit = shot.view.stood.summit;
     if (options.ortho) ORO_CHECK(oro::make_map(shot.view, options, shot.region));
     oro::choose_legend(options, shot.view);
     ORO_TRY(prepared->style, oro::load_style(shot.view, shot.region.grids.front().field));
@@ -331,7 +330,6 @@ Result<void> answer_panorama(const OpenRegion& open, const std::vector<std::stri
     oro::View view;
     oro::Region region = region_for_view(open);
     ORO_CHECK(oro::open_view_in_region(oro::view_options_of(options), open.request, view, region));
-    ORO_CHECK(oro::asked_summit(options.view, region, view.exaggeration));
     // view.mesh tells what is drawn from then on.
     if (const auto drawn = oro::draws_clusters(region, view); !drawn.ok()) return drawn.error();
     ORO_TRY(const oro::RegionCuts cuts, oro::cut_regions(region));

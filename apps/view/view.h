@@ -20,6 +20,7 @@
 #include "core/earth/world_model.h"
 #include "core/frame/height_quantization.h"
 #include "core/terrain/page.h"
+#include "core/terrain/summit.h"
 #include "geo/canopy/canopy_map.h"
 #include "geo/cover/cover_map.h"
 #include "geo/drape/image_source.h"
@@ -55,11 +56,18 @@ struct StyleText {
     std::string text;
 };
 
+// How the eye came to stand where --at says, of a view that options place; both nothing of any other.
+struct Stood {
+    std::optional<MovedToSummit> summit;  // what --on-summit did
+    std::optional<MovedToSummit> wall;    // without it: the post near that is a wall (Standpoint::wall)
+};
+
 struct View : ViewSettings<OfView> {
     RegionRequest region;
     bool own_posts{};      // its region keeps the posts of files in a CRS of their own
     bool several_grids{};  // ... and those of files that lie apart, or over each other, as grids of their own
     Camera camera;         // the eye's h is above the ellipsoid
+    Stood stood;           // the ground's, whatever grows there
     std::optional<MapFrame> map;  // a map from straight above; the camera then only says about where
     std::optional<PanoramaFrame> panorama;  // nothing: a picture on a plane
     bool legend{};                          // a strip below the picture

@@ -3,7 +3,6 @@
 #include <cstdio>
 
 #include "apps/command_line/refusals.h"
-#include "apps/eye/asked_summit.h"
 #include "apps/eye/standpoint.h"
 #include "apps/options/view_limits.h"
 #include "apps/view/overview.h"
@@ -24,6 +23,7 @@ Result<Standpoint> standpoint_of(const ViewOptions& options, const Place& place,
 Result<void> stand_at(View& view, const ViewOptions& options, const Place& place, const Region& region) {
     ORO_TRY(const Standpoint stood, standpoint_of(options, place, region, view.exaggeration));
     view.camera.eye = stood.eye;
+    view.stood = {stood.moved, stood.wall};
     return {};
 }
 
@@ -79,23 +79,6 @@ Result<void> place_eye(View& view, const ViewOptions& options, const Region& reg
     ORO_CHECK(check_eye(options, view.camera.eye));
     if (options.look_at) ORO_CHECK(turn_to(view, *options.look_at, region));
     return {};
-}
-
-Result<std::optional<MovedToSummit>> asked_summit(const ViewOptions& options, const Region& region,
-                                                  double exaggeration) {
-    if (!options.on_summit || !options.at) return std::optional<MovedToSummit>();
-    ORO_TRY(const Place place, place_at("--at", *options.at));
-    ORO_TRY(const Standpoint stood, standpoint_of(options, place, region, exaggeration));
-    return stood.moved;
-}
-
-Result<std::optional<MovedToSummit>> wall_near(const ViewOptions& options, const Region& region,
-                                               double exaggeration) {
-    if (options.on_summit || !options.at) return std::optional<MovedToSummit>();
-    ORO_TRY(const Place place, place_at("--at", *options.at));
-    if (!stands(options, place)) return std::optional<MovedToSummit>();
-    ORO_TRY(const Standpoint stood, standpoint_of(options, place, region, exaggeration));
-    return stood.wall;
 }
 
 Result<std::string> nothing_in_view(const View& view, const Region& region, const std::string& view_file) {

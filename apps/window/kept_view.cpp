@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "apps/view/style.h"
+#include "apps/window/window_start.h"
 
 namespace oro {
 
@@ -22,7 +23,28 @@ WindowOptions options_for_other_region(const WindowOptions& options, const View&
     other.view.geoid = options.view.geoid;
     other.view.mesh = options.view.mesh;
     other.view.tau_px = shown.tau_px;
+    if (shown.canopy_choice.asked()) {
+        other.view.canopy = words_of(shown.canopy_choice);
+        other.view.canopy_held = shown.canopy_choice.held;
+        // The classes that it takes heights of.
+        if (shown.canopy_choice.by_class) other.view.landcover = words_of(shown.cover_choice);
+    }
     return other;
+}
+
+Result<void> open_other_region(WindowOptions& options, const Progress& progress, View& view, Region& region) {
+    const Result<void> opened = open_flight(options, progress, view, region);
+    if (opened.ok() || options.view.canopy.empty() || opened.error().kind != ErrorKind::no_data)
+        return opened;
+    WindowOptions bare = options;
+    bare.view.canopy.clear();
+    bare.view.canopy_held.reset();
+    view = {};
+    region = {};
+    // What is wrong without it, too, is no fault of the canopy's.
+    ORO_CHECK(open_flight(bare, progress, view, region));
+    options = std::move(bare);
+    return {};
 }
 
 void keep_choices(const View& shown, View& view) {

@@ -199,7 +199,8 @@ Result<void> show_region(Viewer& viewer, OpenedRegion opened, OpenedScene scene,
     for (const std::string& note : all_notes(viewer.region))
         viewer.log.push_back({one_line(note), Clock::now(), false, false});
     viewer.wants_picture = true;
-    tell(viewer, "opened " + viewer.name);
+    tell(viewer, "opened " + viewer.name +
+                     (opened.canopy_left_out ? ". The canopy lies elsewhere, and is left out" : ""));
     fill_search(viewer);
     remember_opened(viewer, paths);
     ORO_CHECK(renew_renderer(viewer));

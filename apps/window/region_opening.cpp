@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "apps/window/kept_view.h"
 #include "apps/window/window_start.h"
 #include "core/base/background.h"
 
@@ -39,9 +40,11 @@ Result<OpenedRegion> RegionOpening::wait() {
 
 Result<OpenedRegion> RegionOpening::read(OpenedRegion opened) {
     if (opened.project) opened.view = opened.project->view;
-    ORO_CHECK(open_flight(
+    const bool with_canopy = !opened.options.view.canopy.empty();
+    ORO_CHECK(open_other_region(
         opened.options, [this](double share, const std::string& what) { tell(share, what); }, opened.view,
         opened.region));
+    opened.canopy_left_out = with_canopy && opened.options.view.canopy.empty();
     ORO_TRY(opened.cuts, cut_regions(opened.region));
     ORO_TRY(opened.pages, first_pages(opened.region, opened.cuts, opened.view,
                                       [this](double share) { tell(share, "measuring levels"); }));

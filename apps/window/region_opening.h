@@ -21,7 +21,8 @@ struct OpenedRegion {
     View view;
     Region region;
     RegionCuts cuts;
-    GridPages pages;  // all levels, or of every n-th post (first_pages())
+    GridPages pages;         // all levels, or of every n-th post (first_pages())
+    bool canopy_left_out{};  // it is known nowhere over this region
 
     // The paths as the user knows them.
     [[nodiscard]] std::vector<std::string> paths() const {
@@ -45,7 +46,7 @@ class RegionOpening {
     [[nodiscard]] std::string step() const;
     // What the paths are called in a title.
     [[nodiscard]] const std::string& name() const { return name_; }
-    // The region, once: waits for it. Errors: those of open_flight(), cut_regions() and first_pages().
+    // The region, once: waits for it. Errors: those of open_other_region(), cut_regions() and first_pages().
     Result<OpenedRegion> wait();
 
   private:

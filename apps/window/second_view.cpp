@@ -57,8 +57,9 @@ Result<SecondGround> prepared(SecondGround ground, WindowOptions options, const 
             own->region = region;
             own->cuts = cuts;
         } else {
-            ORO_CHECK(open_flight(
-                options, [&](double share, const std::string&) { tell_share(reading * share); }, own->view,
+            WindowOptions asked = options;
+            ORO_CHECK(open_other_region(
+                asked, [&](double share, const std::string&) { tell_share(reading * share); }, own->view,
                 own->region));
             ORO_TRY(own->cuts, cut_regions(own->region));
         }

@@ -98,6 +98,7 @@ Result<RowCounts> raise_row(RegionGrid& grid, int row, const CanopyMap& canopy) 
 Result<std::uint64_t> raise_grid(RegionGrid& grid, const CanopyMap& canopy) {
     GridCanopy& made = *grid.canopy;
     made.added_m.assign(grid.field.H_m.size(), 0.0F);
+    made.ground_H_m = grid.field.H_m;
     std::mutex together;
     Result<void> first_fault;
     std::uint64_t known = 0;
@@ -155,6 +156,16 @@ Result<void> raise_by_canopy(Region& region, const CanopyMap& canopy, const std:
         return Error{ErrorKind::no_data, file_of(canopy),
                      "holds no canopy over the elevation data: it lies elsewhere, or has no data there"};
     return {};
+}
+
+Region ground_of_raised(const Region& raised) {
+    Region ground = raised;
+    for (RegionGrid& grid : ground.grids) {
+        if (!grid.canopy) continue;
+        grid.field.H_m = std::move(grid.canopy->ground_H_m);
+        grid.canopy.reset();
+    }
+    return ground;
 }
 
 std::optional<double> canopy_over_ground_m(const RegionGrid& grid, double lat_deg, double lon_deg) {

@@ -31,6 +31,9 @@ HeldCanopy held_by_sources(const RegionGrid& grid);
 // CanopyMap::heights_around(); a canopy that is known of no post (no_data); damage in a baked region.
 Result<void> raise_by_canopy(Region& region, const CanopyMap& canopy, const std::optional<double>& held);
 
+// The region as it was before it was raised: its ground, to the bit. Costs a copy of its posts.
+Region ground_of_raised(const Region& raised);
+
 // How high the raised surface of a grid is over the ground at a place, by the posts around it: metres, 0 or
 // more, linear between posts. Nothing where no post around is raised.
 std::optional<double> canopy_over_ground_m(const RegionGrid& grid, double lat_deg, double lon_deg);

@@ -37,12 +37,13 @@ inline constexpr const char* clipped_from = "cut out of ";
 
 // What grows on the ground of a grid whose posts were raised to its top (geo/canopy).
 struct GridCanopy {
-    std::vector<float>
-        added_m;            // to H of each post, row by row; 0 where nothing grows and where nothing is known
-    double held_share{};    // of the canopy's height that the data hold already: it was not added
-    std::string held_by;    // whose heights hold it: "SRTM"; "" where somebody said the share, or it is 0
-    float highest_m{};      // of the whole canopy over the posts, with what the data hold
-    std::uint64_t posts{};  // that were raised
+    // To H of each post, row by row; 0 where nothing grows and where nothing is known.
+    std::vector<float> added_m;
+    std::vector<float> ground_H_m;  // H of the same posts before
+    double held_share{};            // of the canopy's height that the data hold already: it was not added
+    std::string held_by;      // whose heights hold it: "SRTM"; "" where somebody said the share, or it is 0
+    float highest_m{};        // of the whole canopy over the posts, with what the data hold
+    std::uint64_t posts{};    // that were raised
     std::uint64_t unknown{};  // over which no canopy is known
 };
 

@@ -56,6 +56,23 @@ TEST(KeptView, OptionsOfTheWindowStayAndThoseOfDataAndEyeGo) {
     EXPECT_EQ(other.memory.gpu_memory_mb, 512);
 }
 
+// A canopy goes along, with the classes that it takes heights of.
+TEST(KeptView, ACanopyGoesToOtherData) {
+    oro::View shown = shown_view();
+    shown.cover_choice = {{"cover.tif"}, "worldcover"};
+    shown.canopy_choice.by_class = true;
+    shown.canopy_choice.held = 0.25;
+    const oro::WindowOptions of_classes = oro::options_for_other_region({}, shown, {"b"});
+    EXPECT_EQ(of_classes.view.canopy, std::vector<std::string>{"class"});
+    EXPECT_EQ(of_classes.view.canopy_held, 0.25);
+    EXPECT_EQ(of_classes.view.landcover, std::vector<std::string>{"cover.tif,worldcover"});
+    shown.canopy_choice = {{"trees.tif"}, false, {}};
+    const oro::WindowOptions of_file = oro::options_for_other_region({}, shown, {"b"});
+    EXPECT_EQ(of_file.view.canopy, std::vector<std::string>{"trees.tif"});
+    EXPECT_FALSE(of_file.view.canopy_held);
+    EXPECT_TRUE(of_file.view.landcover.empty());
+}
+
 TEST(KeptView, WhatWasChosenHoldsOn) {
     const oro::View shown = shown_view();
     oro::View view;

@@ -11,7 +11,6 @@
 #include "apps/commands/panorama/panorama_drawing.h"
 #include "apps/commands/panorama/panorama_json.h"
 #include "apps/drawing/mesh_choice.h"
-#include "apps/eye/asked_summit.h"
 #include "apps/names/names_in_view.h"
 #include "apps/options/view_limits.h"
 #include "apps/output/overwrite_guard.h"
@@ -91,7 +90,7 @@ Result<void> run_panorama(const PanoramaOptions& options) {
     ORO_CHECK(open_view(options.view_file, view_options_of(options), options.region, bar.progress(), view,
                         report.region, PictureKind::panorama));
     ORO_CHECK(check_unchanged(view, report.region, options.data_changed, options.quiet));
-    ORO_TRY(report.on_summit, asked_summit(options.view, report.region, view.exaggeration));
+    report.on_summit = view.stood.summit;
     if (options.no_paths) view.tells_paths = false;
     say_edited(view, options.quiet);
     std::vector<std::string> outputs = pose_paths(options.out, {false, options.geopose, options.stac});

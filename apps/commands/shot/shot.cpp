@@ -20,7 +20,6 @@
 #include "apps/drawing/picking.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
-#include "apps/eye/asked_summit.h"
 #include "apps/eye/standpoint.h"
 #include "apps/layers/picture_layers.h"
 #include "apps/legend/legend.h"
@@ -47,11 +46,10 @@
 namespace oro {
 namespace {
 
-Result<void> say_notes(const ShotOptions& options, const ShotResult& shot) {
+void say_notes(const ShotOptions& options, const ShotResult& shot) {
     say_notes(shot.region, options.quiet);
     say_summit(shot.on_summit, options.quiet);
-    ORO_TRY(const auto wall, wall_near(options.view, shot.region, shot.view.exaggeration));
-    say_wall(wall, options.quiet);
+    say_wall(shot.view.stood.wall, options.quiet);
     if (const std::string note = note_of_year(shot.view.sun); !note.empty()) say(options.quiet, note);
     if (shot.view.vectors_read) say_vectors(*shot.view.vectors_read, shot.view.vectors, options.quiet);
     const Geodetic& eye = shot.view.camera.eye;
@@ -62,7 +60,6 @@ Result<void> say_notes(const ShotOptions& options, const ShotResult& shot) {
         std::snprintf(text, sizeof text, "note: the eye is %.1f m below the ground", *ground - eye.h_m);
         say(options.quiet, text);
     }
-    return {};
 }
 
 // Where finer ground changes what coarser ground is beside it.
@@ -222,7 +219,7 @@ Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, c
     }
     const auto reading = Clock::now();
     ORO_CHECK(open_view_of(options, listed, bar, series, shot));
-    ORO_TRY(shot.on_summit, asked_summit(options.view, shot.region, shot.view.exaggeration));
+    shot.on_summit = shot.view.stood.summit;
     if (options.ortho && options.view_file.empty()) ORO_CHECK(make_map(shot.view, options, shot.region));
     choose_legend(options, shot.view);
     ORO_CHECK(check_unchanged(shot.view, shot.region, options.data_changed, options.quiet));
@@ -270,7 +267,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
     ShotResult shot;
     ORO_TRY(const Style style, open_shot(options, files, listed, bar, series, shot));
     bar.clear();
-    ORO_CHECK(say_notes(options, shot));
+    say_notes(options, shot);
     if (!series.gpu) {
         ORO_TRY(series.gpu, gpu_to_draw_with());
     }

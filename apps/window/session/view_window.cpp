@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "apps/command_line/refusals.h"
-#include "apps/eye/asked_summit.h"
 #include "apps/eye/standpoint.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
@@ -79,18 +78,15 @@ struct ViewerState {
     std::vector<std::string> images_known{}, cover_known{};
 };
 
-Result<void> say_notes_of(const WindowOptions& options, const View& view, const Region& region,
-                          const std::string& note_of_style) {
+void say_notes_of(const WindowOptions& options, const View& view, const Region& region,
+                  const std::string& note_of_style) {
     const bool quiet = options.quiet;
     say_changes(view, quiet);
     say_notes(region, quiet);
-    ORO_TRY(const auto summit, asked_summit(options.view, region, view.exaggeration));
-    say_summit(summit, quiet);
-    ORO_TRY(const auto wall, wall_near(options.view, region, view.exaggeration));
-    say_wall(wall, quiet);
+    say_summit(view.stood.summit, quiet);
+    say_wall(view.stood.wall, quiet);
     if (const std::string note = note_of_year(view.sun); !note.empty()) say(quiet, note);
     if (!note_of_style.empty()) say(quiet, note_of_style);
-    return {};
 }
 
 // What is shown, in a word.
@@ -192,8 +188,8 @@ Result<void> fly(ViewerState& state, ProgressBar& bar) {
             scene_of_state(state, *gpu, quiet, [&](double share) { bar.show(share, "measuring levels"); }));
     bar.clear();
     if (state.is_first)
-        ORO_CHECK(say_notes_of(options, state.view, state.region,
-                               note_of_missing_footprints(state.style.frame, opened.scene.pages())));
+        say_notes_of(options, state.view, state.region,
+                     note_of_missing_footprints(state.style.frame, opened.scene.pages()));
     if (!first.window) ORO_CHECK(show_sheet(first, state.view.camera, state.name));
     const std::unique_ptr<Window>& window = first.window;
     ORO_TRY(const RasterPath path, choose_path(state.view.pipeline, *gpu));

@@ -132,6 +132,9 @@ TEST_F(RaisedRegion, AddsWhatTheDataDoNotHold) {
                 0.5 * trees_m(0, 0), 1e-4);
     const PostPlace open = half.grids[0].field.grid.place_at(2.5, 8.5);
     EXPECT_FALSE(canopy_over_ground_m(half.grids[0], open.lat_deg, open.lon_deg).has_value());
+    const Region again = ground_of_raised(half);
+    EXPECT_EQ(again.grids[0].field.H_m, ground_alone.grids[0].field.H_m);
+    EXPECT_FALSE(again.grids[0].canopy.has_value());
 }
 
 // A plain, 500 m away a row of spruces of 20 m, 1,000 m away the target, 32 m over the ground, seen by
