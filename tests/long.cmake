@@ -628,6 +628,11 @@ set_tests_properties(
   RandomViews.BoundsAndTolerancesHold
   ReadData.SixteenBits
   ReliefLightTest.BelowTheHorizonTheSunLightsNoSlope
+  MeshShadows.AreTheOracles
+  Town.LayersKnowFeatures
+  Town.PickingNamesTheBuilding
+  Town.SightPassesARoofsEdgeToACentimetre
+  Town.ViewsKeepHowTheTownIsRead
   ShadowsOfPictures.BetweenGridsAreTheOracles
   ShadowsOfPictures.BetweenGridsAreTheSameEitherWay
   ShadowsOfPictures.HaveNoEdgesOfTrianglesNearTheEye

@@ -403,6 +403,7 @@ void add_sight(CLI::App& app, SightOptions& options, RealisationOptions& realisa
                 "Height of the eye above sea level instead. Not with --above.")
         .excludes(&above);
     line.flag("--on-summit", options.on_summit, on_summit_sentence("the eye stands", "--from"));
+    line.choice("--stand-on", options.view.stand_on, {"ground", "top"}, stand_on_sentence);
     line.number("--target", options.target_m, "METRES",
                 "Height of what is looked at over the ground at --to (default 0: the ground itself).");
     line.option("--landcover", options.view.landcover, "FILE",
@@ -462,6 +463,7 @@ void add_viewshed(CLI::App& app, ViewshedOptions& options, RealisationOptions& r
                 "Height of observers above sea level instead. Not with --above.")
         .excludes(&above);
     shed.flag("--on-summit", options.on_summit, on_summit_sentence("each observer stands", "its --at"));
+    shed.choice("--stand-on", options.view.stand_on, {"ground", "top"}, stand_on_sentence);
     shed.number("--target", options.target_m, "METRES",
                 "Height of what is looked at over the ground of each post (default 0: the ground itself).");
     shed.option("--landcover", options.view.landcover, "FILE",
@@ -469,9 +471,9 @@ void add_viewshed(CLI::App& app, ViewshedOptions& options, RealisationOptions& r
         .allow_extra_args(false);
     add_canopy(shed, options.view);
     shed.choice(
-        "--target-on", options.target_on, {"ground", "canopy"},
-        "What targets stand on: the ground, under trees too, or the top of the canopy (default ground). "
-        "Needs --canopy.");
+        "--target-on", options.target_on, {"ground", "canopy", "top"},
+        "What targets stand on: the ground, under trees too; the top of the canopy, which needs --canopy; or "
+        "the top of meshes, roofs, which needs --mesh-file (default ground).");
     shed.number("--radius", options.radius_km, "KM", "How far to look, 0.01 to 1000 (default 20).");
     add_realisations(shed,
                      "Write a further band: how probable it is that a post is seen, by N simulations of the "

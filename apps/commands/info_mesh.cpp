@@ -5,10 +5,12 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/options/region_option_table.h"
+#include "apps/report/feature_words.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "core/base/one_line.h"
+#include "geo/files/letter_case.h"
 #include "geo/meshes/mesh_census.h"
 #include "geo/meshes/mesh_file.h"
 
@@ -36,7 +38,7 @@ nlohmann::ordered_json mesh_json(const SourceMesh& mesh, const MeshCensus& censu
                        census.crowded_edges, "turned_edges", census.turned_edges, "degenerate",
                        census.degenerate, "duplicates", census.duplicates, "not_finite", mesh.not_finite,
                        "invisible", mesh.invisible, "polygons_cut", mesh.polygons_cut, "polygons_crossing",
-                       mesh.polygons_crossing);
+                       mesh.polygons_crossing, "features", mesh.features.size(), "notes", mesh.notes);
 }
 
 void print_range(const char* what, double least, double most) {
@@ -57,6 +59,9 @@ void print_mesh(const SourceMesh& mesh, const MeshCensus& census) {
         std::printf("  part:          %s, %s\n", one_line(mesh.parts[i].name).c_str(),
                     counted(part_triangles(mesh, i), "triangle", "triangles").c_str());
     if (mesh.parts.size() > most_parts) std::printf("  and %zu more parts\n", mesh.parts.size() - most_parts);
+    if (!mesh.features.empty())
+        std::printf("  features:      %zu, the first %s\n", mesh.features.size(),
+                    words_of(mesh.features.front()).c_str());
     std::printf("  CRS:           %s\n",
                 mesh.crs.empty() ? "the file states none" : one_line(mesh.crs).c_str());
     std::printf("  unit:          %s\n",
@@ -83,12 +88,20 @@ void print_mesh(const SourceMesh& mesh, const MeshCensus& census) {
     if (mesh.polygons_crossing > 0)
         std::printf("  not simple:    %s without an area, or crossing themselves\n",
                     counted(mesh.polygons_crossing, "polygon", "polygons").c_str());
+    for (const std::string& note : mesh.notes) std::printf("  note:          %s\n", one_line(note).c_str());
+}
+
+// Whether a GeoPackage holds surfaces: much else is in such files.
+bool is_surfaces_file(const std::string& path) {
+    return lower_case(path).ends_with(".gpkg") && read_mesh(path).ok();
 }
 
 }  // namespace
 
 bool names_meshes(const std::vector<std::string>& paths) {
-    return !paths.empty() && std::ranges::all_of(paths, is_mesh_file);
+    return !paths.empty() && std::ranges::all_of(paths, [](const std::string& path) {
+        return is_mesh_file(path) || is_surfaces_file(path);
+    });
 }
 
 Result<void> run_mesh_info(const InfoOptions& options) {

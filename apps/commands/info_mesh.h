@@ -9,7 +9,7 @@
 
 namespace oro {
 
-// Whether there are paths, and all are files of meshes (is_mesh_file()).
+// Whether there are paths, and all are files of meshes (is_mesh_file()), or GeoPackages of surfaces.
 bool names_meshes(const std::vector<std::string>& paths);
 
 // Prints what each mesh holds, in its own coordinates: as text, or with options.json as one JSON object.

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "apps/report/feature_words.h"
 #include "core/truth/oracle.h"
 #include "geo/canopy/raised_region.h"
 #include "geo/places/geodesic.h"
@@ -36,6 +37,7 @@ Result<std::optional<SeenPlace>> place_seen(const View& view, const RegionGround
     place.row = hit->row;
     place.column = hit->column;
     place.on_mesh = hit->mesh > 0;
+    if (const MeshFeature* const feature = ground.feature(*hit)) place.feature = *feature;
     if (place.on_mesh)
         place.source = ground.mesh(hit->mesh).path;
     else if (const SourceReport* const source = source_at(grid, place.lat_deg, place.lon_deg))
@@ -62,6 +64,10 @@ std::string canopy_text(const SeenPlace& place) {
     return text;
 }
 
+std::string feature_text(const std::optional<MeshFeature>& feature) {
+    return feature ? ", " + words_of(*feature) : "";
+}
+
 }  // namespace
 
 std::string line_of(const std::optional<SeenPlace>& place) {
@@ -75,7 +81,8 @@ std::string line_of(const std::optional<SeenPlace>& place) {
         place->row, place->column);
     const std::string name = std::filesystem::path(place->source).filename().string();
     const std::string cover = place->cover ? "  " + one_line(place->cover->name) : "";
-    return text + (name.empty() ? "an unknown source" : one_line(name)) + cover + canopy_text(*place);
+    return text + (name.empty() ? "an unknown source" : one_line(name)) + feature_text(place->feature) +
+           cover + canopy_text(*place);
 }
 
 }  // namespace oro

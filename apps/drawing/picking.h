@@ -31,9 +31,10 @@ struct SeenPlace {
     // How high the canopy's top is over the ground there, where the view has a canopy: then that is what is
     // seen, and the heights above are the ground's below it.
     std::optional<double> canopy_m;
-    bool canopy_invented{};      // by classes of land cover
-    std::optional<Cover> cover;  // its land cover, where the view has some and the files know any
-    bool on_mesh{};              // the place is on a mesh, and `source` is its file
+    bool canopy_invented{};              // by classes of land cover
+    std::optional<Cover> cover;          // its land cover, where the view has some and the files know any
+    bool on_mesh{};                      // the place is on a mesh, and `source` is its file
+    std::optional<MeshFeature> feature;  // of that mesh: the building, say
     std::string source;  // path of the source that it comes from; empty where no source's box holds it
 };
 

@@ -8,6 +8,7 @@
 #include "apps/command_line/refusals.h"
 #include "core/terrain/ground.h"
 #include "geo/places/geodesic.h"
+#include "geo/together/mesh_tops.h"
 
 namespace oro {
 
@@ -93,6 +94,19 @@ Result<Geodetic> standpoint(const Standing& standing, const HeightField& field, 
                          " or another place" + where_data_are(field.grid, place.lat_deg, place.lon_deg)};
     return Geodetic{place.lat_deg, place.lon_deg,
                     *ground + standing.above_m.value_or(standing.usual_above_m)};
+}
+
+Result<void> lift_onto_top(const Standing& standing, const Region& region, double exaggeration,
+                           Geodetic& point) {
+    if (!standing.on_top) return {};
+    if (!region.meshes) return refused("--stand-on", "top", "needs a mesh: --mesh-file FILE");
+    if (standing.altitude_m)
+        return refused("--stand-on", "top", either_words("--stand-on top", "--altitude"));
+    const auto top = MeshTops(region, exaggeration).at(point.lat_deg, point.lon_deg);
+    const auto ground_m = ground_h_m(grid_at(region, point.lat_deg, point.lon_deg).field, point.lat_deg,
+                                     point.lon_deg, exaggeration);
+    if (top && ground_m && top->h_m > *ground_m) point.h_m += top->h_m - *ground_m;
+    return {};
 }
 
 MovedToSummit moved_to_summit(const Geodetic& place, const HeightField& field, double exaggeration) {

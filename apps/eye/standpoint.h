@@ -23,6 +23,7 @@ struct Standing {
     std::optional<double> altitude_m;          // above sea level instead (--altitude)
     const char* way_out{"--altitude METRES"};  // what to give where there is no ground
     bool on_summit{};                          // on the highest post nearby, and not on the very place
+    bool on_top{};                             // on what a plumb line meets first: a roof, say
 };
 
 struct Standpoint {
@@ -42,6 +43,12 @@ MovedToSummit moved_to_summit(const Geodetic& place, const HeightField& field, d
 // Where an eye stands, moved to the summit where that is asked for. Errors: those of standpoint(); a place
 // with a height of its own that is to be moved (usage).
 Result<Standpoint> stand(const Standing& standing, const HeightField& field, double exaggeration = 1.0);
+
+// Lifts a point over the ground by as much as a mesh of the region stands over the ground there; nothing
+// happens where none does, and to who is not asked to stand on top. Errors (usage): a region without meshes;
+// a height above sea level besides.
+Result<void> lift_onto_top(const Standing& standing, const Region& region, double exaggeration,
+                           Geodetic& point);
 
 // Where that is, on the very place. A geo: place with a height has its own, above the ellipsoid. Errors: text
 // that is no place, two heights (usage); no ground to stand on (no_data), which names the data's box.

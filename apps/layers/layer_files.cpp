@@ -1,7 +1,10 @@
 #include <filesystem>
+#include <set>
 
 #include "apps/layers/picture_layers.h"
+#include "apps/report/feature_words.h"
 #include "apps/report/figures.h"
+#include "geo/meshes/placed_mesh.h"
 #include "geo/rasters/layer_raster.h"
 #include "geo/together/cut_regions.h"
 
@@ -46,10 +49,35 @@ Tags cover_tags(const CoverMap& cover) {
     return tags;
 }
 
+// Names of the features that show; none of more than a metadata block can hold.
+Tags feature_tags(const Region& region, const PictureLayers& layers) {
+    std::set<std::uint32_t> shown;
+    for (const float number : layers.feature)
+        if (number > 0.0F) shown.insert(static_cast<std::uint32_t>(number));
+    constexpr std::size_t most_named = 20000;
+    Tags tags;
+    if (!region.meshes || shown.size() > most_named) return tags;
+    std::uint32_t before = 0;
+    for (const PlacedMesh& mesh : *region.meshes) {
+        const auto count = static_cast<std::uint32_t>(mesh.features.size());
+        for (const std::uint32_t number : shown)
+            if (number > before && number <= before + count)
+                tags.emplace_back("FEATURE_" + std::to_string(number),
+                                  words_of(mesh.features[number - before - 1]));
+        before += count;
+    }
+    return tags;
+}
+
 }  // namespace
 
-std::vector<const char*> layers_of_view(bool covers) {
+bool has_meshes(const View& view) {
+    return !view.region.meshes.files.empty();
+}
+
+std::vector<const char*> layers_of_view(bool covers, bool meshes) {
     std::vector<const char*> names(layer_names.begin(), layer_names.end());
+    if (meshes) names.push_back("feature");
     if (covers) names.push_back("cover");
     return names;
 }
@@ -79,10 +107,16 @@ Result<std::vector<WholeFile>> layer_files(const std::string& picture, bool over
         {Floats(layers.source), "number of the source in the list that --json prints, from 0", ""},
         {Floats(layers.shadow), "share of the sun's light past the terrain: 0 in shadow, 1 in the sun", ""},
     };
+    if (has_meshes(view))
+        all.push_back(
+            {Floats(layers.feature),
+             "number of the thing of a mesh (a building): the tags FEATURE_... have names of those that "
+             "show",
+             ""});
     if (view.cover)
         all.push_back(
             {Floats(layers.cover), "code of the land cover: the tags CLASS_... have its names", ""});
-    const std::vector<const char*> names = layers_of_view(view.cover != nullptr);
+    const std::vector<const char*> names = layers_of_view(view.cover != nullptr, has_meshes(view));
     const Tags common = common_tags(picture, view, region);
     std::vector<WholeFile> files;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -91,6 +125,8 @@ Result<std::vector<WholeFile>> layer_files(const std::string& picture, bool over
         const std::string name = names[i];
         if (name == "source")
             for (auto& tag : source_tags(view, region)) raster.tags.push_back(std::move(tag));
+        if (name == "feature")
+            for (auto& tag : feature_tags(region, layers)) raster.tags.push_back(std::move(tag));
         if (name == "cover")
             for (auto& tag : cover_tags(*view.cover)) raster.tags.push_back(std::move(tag));
         ORO_TRY(WholeFile file, layer_raster(layer_path(picture, name), overwrite, raster));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <span>
 
 #include "apps/command_line/refusals.h"
@@ -31,13 +32,15 @@ class SunOverPlaces {
                    glm::dvec3(up.cosine * around.sine, up.cosine * around.cosine, up.sine);
     }
 
-    [[nodiscard]] float share_at(const ShownPlace& place) const {
+    // beside_grids: the place is on a mesh or on a step, whose height is its own.
+    [[nodiscard]] float share_at(const ShownPlace& place, bool beside_grids) const {
         // A line begins above the true ground, or it would meet what it begins on.
         constexpr double lift_m = 0.02;
         const auto ground_m = ground_.surface(place.grid).h_at_m(place.row, place.column);
         if (!ground_m) return none;
         if (light_ <= 0.0) return 0.0F;
-        const Geodetic from{place.point.lat_deg, place.point.lon_deg, *ground_m + lift_m};
+        const double h_m = beside_grids ? std::max(place.point.h_m, *ground_m) : *ground_m;
+        const Geodetic from{place.point.lat_deg, place.point.lon_deg, h_m + lift_m};
         const bool hidden =
             oracle_.first_hit_from(ecef_from_geodetic(from), towards_, sight_reach_m(from.h_m)).has_value();
         return hidden ? 0.0F : static_cast<float>(light_);
@@ -70,8 +73,8 @@ float number_of_source(const RegionGround& ground, std::size_t grid, const Geode
 }
 
 // All that is told of a place, into a pixel.
-void put(const ShownPlace& place, const View& view, const RegionGround& ground, const SunOverPlaces& sun,
-         std::size_t pixel, PictureLayers& layers) {
+void put(const ShownPlace& place, bool beside_grids, const View& view, const RegionGround& ground,
+         const SunOverPlaces& sun, std::size_t pixel, PictureLayers& layers) {
     const RegionGrid& grid = ground.grid(place.grid);
     const Geodetic& point = place.point;
     const double N_m = grid.field.undulation.at_m(point.lat_deg, point.lon_deg);
@@ -86,7 +89,7 @@ void put(const ShownPlace& place, const View& view, const RegionGround& ground, 
     if (const auto slope_deg = horn_slope_deg(grid.field, place.row, place.column))
         layers.slope_deg[pixel] = static_cast<float>(*slope_deg);
     layers.source[pixel] = number_of_source(ground, place.grid, point);
-    layers.shadow[pixel] = sun.share_at(place);
+    layers.shadow[pixel] = sun.share_at(place, beside_grids);
 }
 
 // The land cover of all pixels that show ground, row by row: each pixel's place is known.
@@ -110,6 +113,35 @@ Result<void> add_cover(const CoverMap& cover, const Camera& camera, PictureLayer
     return all;
 }
 
+// The features of meshes in pixels that show what is no grid's: as the oracle sees them.
+class FeaturesInPixels {
+  public:
+    FeaturesInPixels(const RegionGround& ground, const Region& region, const View& view)
+        : grids_(ground.ground().grids()), camera_(view.camera) {
+        if (!region.meshes) return;
+        oracle_.emplace(ground.ground(), sight_of(view.model, view.camera.eye));
+        std::uint32_t before = 0;
+        for (const PlacedMesh& mesh : *region.meshes) {
+            before_.push_back(before);
+            before += static_cast<std::uint32_t>(mesh.features.size());
+        }
+    }
+    [[nodiscard]] bool any() const { return oracle_.has_value(); }
+    [[nodiscard]] float at(const ShownTriangle& shown, glm::dvec2 point_px) const {
+        if (!oracle_ || shown.grid < grids_) return none;
+        const auto hit =
+            oracle_->first_hit(camera_.ecef_direction_at(point_px), sight_reach_m(camera_.eye.h_m));
+        if (!hit || hit->mesh == 0 || hit->feature == 0) return none;
+        return static_cast<float>(before_[hit->mesh - 1] + hit->feature);
+    }
+
+  private:
+    std::size_t grids_;
+    Camera camera_;
+    std::optional<Oracle> oracle_;
+    std::vector<std::uint32_t> before_;  // features of the meshes before each
+};
+
 double pixels_of(const Camera& camera) {
     return static_cast<double>(camera.width_px) * camera.height_px;
 }
@@ -127,6 +159,8 @@ Result<PictureLayers> picture_layers(const Gpu& gpu, Scene& scene, const View& v
     const Camera& camera = view.camera;
     PictureLayers layers = empty_layers(static_cast<std::size_t>(pixels_of(camera)));
     const ShownPlaces places(ground.ground(), camera, view.model, view.tau_px == 0.0);
+    const FeaturesInPixels features(ground, ground.region(), view);
+    if (features.any()) layers.feature.assign(layers.source.size(), none);
     const SunOverPlaces sun(ground.ground(), camera.eye, style.sun);
     std::atomic<std::uint64_t> ground_px{0};
     const auto take = [&](const Tile& tile, int first_row, int rows,
@@ -135,16 +169,16 @@ Result<PictureLayers> picture_layers(const Gpu& gpu, Scene& scene, const View& v
             const int y = tile.y_px + first_row + row;
             for (int column = 0; column < tile.width_px; ++column) {
                 const int x = tile.x_px + column;
-                const auto place = places.at(
+                const ShownTriangle& shown =
                     triangles[static_cast<std::size_t>(row) * static_cast<std::size_t>(tile.width_px) +
-                              static_cast<std::size_t>(column)],
-                    {x + 0.5, y + 0.5});
+                              static_cast<std::size_t>(column)];
+                const auto place = places.at(shown, {x + 0.5, y + 0.5});
                 if (!place) continue;
                 ++ground_px;
-                put(*place, view, ground, sun,
-                    static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width_px) +
-                        static_cast<std::size_t>(x),
-                    layers);
+                const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width_px) +
+                                   static_cast<std::size_t>(x);
+                put(*place, shown.grid >= ground.ground().grids(), view, ground, sun, pixel, layers);
+                if (features.any()) layers.feature[pixel] = features.at(shown, {x + 0.5, y + 0.5});
             }
         });
         if (progress) progress(static_cast<double>(tile.y_px + first_row + rows) / camera.height_px);

@@ -26,6 +26,9 @@ struct PictureLayers {
     std::vector<float>
         shadow;                // share of the sun's light that comes past the terrain: 0 in shadow, 1 without
     std::vector<float> cover;  // code of the land cover, NaN where there is none; of views with some
+    // Number of the thing of a mesh, in the order of the meshes' files, from 1; NaN elsewhere. Of views with
+    // meshes.
+    std::vector<float> feature;
     std::uint64_t ground_px{};
     std::uint64_t missed_px{};  // whose rays pass beside what was drawn there (ShownPlaces)
 };
@@ -44,8 +47,11 @@ Result<PictureLayers> picture_layers(const Gpu& gpu, Scene& scene, const View& v
 // for there are file systems that see none: height is H, ellipsoidal-height is h.
 inline constexpr std::array layer_names{"longitude", "latitude", "height", "ellipsoidal-height",
                                         "distance",  "slope",    "source", "shadow"};
-// Those of a view, in their order: with land cover, the layer cover is the last.
-std::vector<const char*> layers_of_view(bool covers);
+// Those of a view, in their order: with land cover, the layer cover is the last of all; with meshes, feature
+// comes before it.
+std::vector<const char*> layers_of_view(bool covers, bool meshes);
+// Whether a view has the layer feature.
+bool has_meshes(const View& view);
 std::string layer_path(const std::string& picture, const std::string& layer);
 
 // One file a layer, in the order of the names; whole, without their names yet. Errors: the files'.

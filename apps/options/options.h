@@ -26,6 +26,8 @@ struct RegionOptions {
     std::vector<std::string> mesh_files;  // triangle meshes on the ground
     std::string mesh_crs;                 // where they lie, of files that state nothing or something else
     std::string mesh_unit;
+    std::string mesh_lod;  // of CityJSON
+    std::string building_height, building_base;
 };
 
 // From where, and how it looks.
@@ -41,14 +43,15 @@ struct ViewOptions : ViewSettings<OnCommandLine> {
     std::optional<std::string> size;
     std::optional<std::string> sun;
     std::optional<std::string> sun_time;
-    bool legend{false};                  // a strip below the picture
-    std::vector<std::string> landcover;  // rasters of land cover, each FILE or FILE,TABLE
-    std::vector<std::string> canopy;     // rasters of canopy heights, or "class" alone
-    std::optional<double> canopy_held;   // share of it that the data hold already
-    bool takes_maps{false};              // not an option: whether a view that is a map may be opened
-    bool on_summit{false};               // the eye stands on the highest post near --at
-    bool stands_at_place{false};         // not an option: whether --at alone is where the eye stands
-    std::vector<std::string> names;      // vector files whose points are named
+    bool legend{false};                   // a strip below the picture
+    std::vector<std::string> landcover;   // rasters of land cover, each FILE or FILE,TABLE
+    std::vector<std::string> canopy;      // rasters of canopy heights, or "class" alone
+    std::optional<double> canopy_held;    // share of it that the data hold already
+    bool takes_maps{false};               // not an option: whether a view that is a map may be opened
+    bool on_summit{false};                // the eye stands on the highest post near --at
+    std::optional<std::string> stand_on;  // ground, top: of meshes, too
+    bool stands_at_place{false};          // not an option: whether --at alone is where the eye stands
+    std::vector<std::string> names;       // vector files whose points are named
     std::optional<std::string> names_field;
     std::vector<std::string> overlay;  // vector files that lie on the ground
     std::optional<std::string> overlay_colour;
@@ -79,7 +82,8 @@ struct ShotOptions {
     std::optional<double> unseen_ceiling_m;
     bool verify{false};
     bool layers{false};
-    bool covers{false};  // not an option: the view has land cover
+    bool covers{false};      // not an option: the view has land cover
+    bool has_meshes{false};  // likewise
     bool ortho{false};
     std::optional<std::string> crs;    // of a map; as GDAL takes it
     std::optional<double> resolution;  // of a map: a pixel, in the unit of its CRS

@@ -1,8 +1,10 @@
 #include "apps/options/region_option_table.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "apps/command_line/refusals.h"
+#include "geo/meshes/mesh_file.h"
 
 namespace oro {
 namespace {
@@ -76,8 +78,9 @@ void add_reading(RegionRows& rows) {
 void add_meshes(RegionRows& rows) {
     add(rows, {"--mesh-file FILE", no_trait}, &RegionOptions::mesh_files,
         "Draw a triangle mesh on the ground, and let it hide what is behind it: a surveyor's LandXML (.xml), "
-        "or OBJ, PLY, STL, and surfaces with heights of a GeoPackage. May be given several times. Heights "
-        "without a vertical CRS are above sea "
+        "a town's CityJSON, OBJ, PLY, STL, surfaces with heights of a GeoPackage, and footprints of "
+        "buildings "
+        "with --building-height. May be given several times. Heights without a vertical CRS are above sea "
         "level.");
     add(rows, {"--mesh-crs CRS", no_trait, "the one that its file states"}, &RegionOptions::mesh_crs,
         "Where meshes lie: EPSG:2056, or another that PROJ knows; with heights of a vertical CRS "
@@ -86,6 +89,16 @@ void add_meshes(RegionRows& rows) {
         &RegionOptions::mesh_unit,
         "Take coordinates and heights of meshes in this unit: m, ft, us-ft, cm, dm or mm. Needs --mesh-file.",
         {"m", "ft", "us-ft", "cm", "dm", "mm"});
+    add(rows, {"--lod LEVEL", no_trait, "the highest that each object has"}, &RegionOptions::mesh_lod,
+        "Level of detail to take from CityJSON: 1, 2, 2.2 ... Needs --mesh-file.");
+    add(rows, {"--building-height FIELD", no_trait}, &RegionOptions::building_height,
+        "Raise buildings from the polygons of a vector file (--mesh-file), whose field FIELD has the height "
+        "of "
+        "each over its base, in metres. Walls go down to the lowest ground under the footprint.");
+    add(rows, {"--building-base FIELD", no_trait, "the lowest ground under the footprint"},
+        &RegionOptions::building_base,
+        "Height above sea level of each building's base, in metres, or above the vertical datum that "
+        "--mesh-crs names. Needs --building-height.");
 }
 
 RegionRows made_region_table() {
@@ -128,9 +141,15 @@ const char* first_given_of_region(const RegionOptions& options) {
                        [](const OptionRow<RegionOptions>& row) { return row.name != "PATH"; });
 }
 
+bool names_any_mesh(const RegionOptions& options) {
+    return !options.mesh_files.empty() || std::ranges::any_of(options.paths, is_mesh_file);
+}
+
 Result<void> check_without_meshes(const RegionOptions& options, const char* what) {
-    if (options.mesh_files.empty()) return {};
-    return refused("--mesh-file", "", what);
+    if (!options.mesh_files.empty()) return refused("--mesh-file", "", what);
+    const auto mesh = std::ranges::find_if(options.paths, is_mesh_file);
+    if (mesh != options.paths.end()) return refused("PATH", *mesh, std::string("is a mesh, which ") + what);
+    return {};
 }
 
 }  // namespace oro

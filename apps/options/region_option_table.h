@@ -18,6 +18,8 @@ const std::vector<OptionRow<MemoryOptions>>& memory_option_table();
 // nothing where there is none. The paths of the data are not among these.
 const char* first_given_of_region(const RegionOptions& options);
 
+// Whether a mesh is named, by --mesh-file or as a PATH.
+bool names_any_mesh(const RegionOptions& options);
 // A usage error where meshes are given to what asks the terrain alone. what: that it does, "viewsheds are of
 // terrain alone".
 Result<void> check_without_meshes(const RegionOptions& options, const char* what);

@@ -17,7 +17,11 @@ Result<Standpoint> standpoint_of(const ViewOptions& options, const Place& place,
                                  double exaggeration) {
     Standing standing{"--at", *options.at, "--above", options.above_m, 2.0, options.altitude_m};
     standing.on_summit = options.on_summit;
-    return stand(standing, grid_at(region, place.lat_deg, place.lon_deg).field, exaggeration);
+    standing.on_top = options.stand_on.value_or("ground") == "top";
+    ORO_TRY(Standpoint stood,
+            stand(standing, grid_at(region, place.lat_deg, place.lon_deg).field, exaggeration));
+    ORO_CHECK(lift_onto_top(standing, region, exaggeration, stood.eye));
+    return stood;
 }
 
 Result<void> stand_at(View& view, const ViewOptions& options, const Place& place, const Region& region) {
@@ -30,7 +34,7 @@ Result<void> stand_at(View& view, const ViewOptions& options, const Place& place
 // Whether somebody says how high over the place, or towards what, the eye is: it is then there.
 bool stands(const ViewOptions& options, const Place& place) {
     return options.stands_at_place || options.above_m || options.altitude_m || options.look_at ||
-           options.on_summit || place.height_m;
+           options.on_summit || options.stand_on || place.height_m;
 }
 
 Result<void> show_place(View& view, const ViewOptions& options, const Place& place, const Region& region) {

@@ -10,6 +10,7 @@
 #include "apps/report/json_text.h"
 #include "apps/report/option_words.h"
 #include "apps/view/accuracy.h"
+#include "apps/view/mesh_request.h"
 #include "apps/view/model_names.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
@@ -105,6 +106,11 @@ void read_meshes(const nlohmann::json& json, MeshRequest& request) {
     const nlohmann::json& meshes = json_field(json, "meshes");
     request.files = rasters_from(meshes, "meshes");
     if (meshes.contains("crs")) request.crs = json_string(meshes, "crs");
+    if (meshes.contains("lod")) request.lod = json_string(meshes, "lod");
+    if (is_no_lod(request.lod))
+        throw JsonFault{"'lod' of 'meshes' is '" + request.lod + "', no level of detail"};
+    if (meshes.contains("building_height")) request.building_height = json_string(meshes, "building_height");
+    if (meshes.contains("building_base")) request.building_base = json_string(meshes, "building_base");
     if (!meshes.contains("unit")) return;
     request.unit = json_string(meshes, "unit");
     if (!metres_in(request.unit))
@@ -166,6 +172,9 @@ ordered_json meshes_json(const MeshRequest& meshes) {
     ordered_json json = json_object("files", std::move(files));
     if (!meshes.crs.empty()) json["crs"] = meshes.crs;
     if (!meshes.unit.empty()) json["unit"] = meshes.unit;
+    if (!meshes.lod.empty()) json["lod"] = meshes.lod;
+    if (!meshes.building_height.empty()) json["building_height"] = meshes.building_height;
+    if (!meshes.building_base.empty()) json["building_base"] = meshes.building_base;
     return json;
 }
 

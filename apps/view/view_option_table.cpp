@@ -153,6 +153,8 @@ void add_places(Rows eye) {
             "Height of the eye above sea level instead. Needs --at. Not with --above.");
     eye.add({"--on-summit", of_eye}, &ViewOptions::on_summit, "").sentence =
         on_summit_sentence("the eye stands", "--at");
+    eye.add({"--stand-on ground|top", of_eye, "ground"}, &ViewOptions::stand_on, stand_on_sentence,
+            {"ground", "top"});
 }
 
 void add_directions(Rows eye) {

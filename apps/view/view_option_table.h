@@ -48,6 +48,10 @@ Choice choice_in(const nlohmann::json& json, const char* field, const Names<Choi
     return *found;
 }
 
+// What help prints of --stand-on.
+inline constexpr const char* stand_on_sentence =
+    "What heights over the ground count from: the ground itself, or the top of a mesh that stands there (a "
+    "roof). Needs --mesh-file.";
 // What help prints of --on-summit. who_stands: "the eye stands"; place_option: "--at".
 std::string on_summit_sentence(const std::string& who_stands, const std::string& place_option);
 

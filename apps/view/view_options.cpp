@@ -9,6 +9,7 @@
 #include "apps/options/region_option_table.h"
 #include "apps/report/json_text.h"
 #include "apps/view/accuracy.h"
+#include "apps/view/mesh_request.h"
 #include "apps/view/model_names.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
@@ -139,7 +140,10 @@ Result<RegionRequest> region_request(const RegionOptions& options) {
     if (options.paths.empty())
         return refused("PATH", "", "is missing: name a file or a folder of elevation data");
     RegionRequest request;
-    request.paths = options.paths;
+    request.paths = terrain_paths(options);
+    if (request.paths.empty())
+        return refused("PATH", options.paths.front(),
+                       "is a mesh: name elevation data as well, the terrain that it lies on");
     request.strict_datum = options.strict_datum;
     request.fill_voids = options.fill_voids;
     request.resample = options.resample;
@@ -155,10 +159,7 @@ Result<RegionRequest> region_request(const RegionOptions& options) {
         return refused("--source-crs", options.source_crs, *fault);
     if (const auto fault = fault_of_source_vertical(options.source_vertical))
         return refused("--source-vertical", options.source_vertical, *fault);
-    request.meshes = {options.mesh_files, options.mesh_crs, options.mesh_unit};
-    if (options.mesh_files.empty() && !(options.mesh_crs + options.mesh_unit).empty())
-        return refused(options.mesh_crs.empty() ? "--mesh-unit" : "--mesh-crs", "",
-                       "says nothing without --mesh-file FILE");
+    ORO_TRY(request.meshes, mesh_request(options));
     if (!options.bbox.empty()) {
         const Result<BoundingBox> box = parse_bounding_box(options.bbox);
         if (!box.ok()) return refused("--bbox", options.bbox, box.error().what);
@@ -189,7 +190,7 @@ Result<View> view_without_eye(const ViewOptions& options, RegionRequest region) 
     if (options.altitude_m) ORO_CHECK(within("--altitude", *options.altitude_m, view_limits::altitude_m));
     if (options.above_m) ORO_CHECK(within("--above", *options.above_m, view_limits::above_m));
     const char* const of_place =
-        first_given_of(view_option_table(), options, {"--above", "--altitude", "--on-summit", "--look-at"});
+        first_given_of(view_option_table(), options, {"--above", "--altitude", "--on-summit", "--stand-on", "--look-at"});
     if (!options.at && of_place) return refused(of_place, "", "says nothing without --at PLACE");
     return view;
 }

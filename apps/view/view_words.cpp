@@ -149,6 +149,9 @@ RegionOptions region_options_of(const View& view) {
     options.mesh_files = request.meshes.files;
     options.mesh_crs = request.meshes.crs;
     options.mesh_unit = request.meshes.unit;
+    options.mesh_lod = request.meshes.lod;
+    options.building_height = request.meshes.building_height;
+    options.building_base = request.meshes.building_base;
     return options;
 }
 

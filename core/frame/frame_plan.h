@@ -65,6 +65,12 @@ struct GridPlan {
     GrowthPlan growth;        // none until plan_growth()
     bool request_feedback{};  // the frame tells which of its nodes or clusters show
                               // (core/frame/visibility_feedback.h)
+    // Triangles of meshes that cast shadows on all grids of the frame (core/seam/mesh_casters.h): the device
+    // address of their tree's nodes, 0 where there are none; their number, after which the triangles come;
+    // and where its origin is, ECEF.
+    std::uint64_t mesh_casters{};
+    std::size_t mesh_nodes{};
+    glm::dvec3 mesh_origin_m{0.0};
     // Of whose heights the pages' blocks are: one number, one set of heights. 0: nobody says so.
     std::uint64_t heights{};
 };

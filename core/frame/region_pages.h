@@ -24,6 +24,8 @@ struct RegionFacts {
     std::uint64_t triangles{};  // at full resolution
 };
 
+struct MeshCasters;  // core/seam/mesh_casters.h
+
 // Pages of all levels of a region; safe to ask from several threads.
 class RegionPages {
   public:
@@ -56,6 +58,8 @@ class RegionPages {
     // Whether these are what lies between grids (core/seam), and whether a page of them closes gaps.
     [[nodiscard]] virtual bool is_seam() const { return false; }
     [[nodiscard]] virtual bool is_skirt(const PageIndex&) const { return false; }
+    // Triangles of meshes among these, which cast shadows on all grids of a frame; null: there are none.
+    [[nodiscard]] virtual const MeshCasters* mesh_casters() const { return nullptr; }
 
   private:
     RegionFacts facts_;

@@ -13,6 +13,7 @@
 
 #include "core/base/parallel.h"
 #include "core/net/lattice_georeference.h"
+#include "core/seam/mesh_casters.h"
 #include "core/terrain/drawn_heights.h"
 #include "core/terrain/page_on_net.h"
 
@@ -128,8 +129,9 @@ Result<PostGrid> grid_over(const MiddlePlane& plane, int pages) {
 
 class SeamPages : public RegionPages {
   public:
-    SeamPages(RegionFacts facts, std::vector<SeamQuad> quads, std::size_t pieces)
+    SeamPages(RegionFacts facts, std::vector<SeamQuad> quads, std::size_t pieces, MeshCasters casters)
         : RegionPages(std::move(facts), 1),
+          casters_(std::move(casters)),
           quads_(std::move(quads)),
           piece_pages_(pages_for(pieces)),
           pieces_(pieces) {
@@ -147,6 +149,9 @@ class SeamPages : public RegionPages {
     Result<void> load_places(const PageIndex& page, const gpu::PageBlock& block,
                              gpu::PagePlaces& places) const override;
     [[nodiscard]] bool is_seam() const override { return true; }
+    [[nodiscard]] const MeshCasters* mesh_casters() const override {
+        return casters_.nodes.empty() ? nullptr : &casters_;
+    }
     [[nodiscard]] bool is_skirt(const PageIndex& page) const override {
         return static_cast<std::size_t>(page.column) >= piece_pages_;
     }
@@ -162,6 +167,7 @@ class SeamPages : public RegionPages {
     }
     [[nodiscard]] PageRecord record_of(int page) const;
 
+    MeshCasters casters_;
     std::vector<SeamQuad> quads_;
     std::size_t piece_pages_, pieces_;
     std::vector<PageRecord> records_;
@@ -324,8 +330,8 @@ Result<std::unique_ptr<RegionPages>> seam_pages(const Seam& seam, const Undulati
     std::uint64_t triangles = 0;
     for (const SeamQuad& quad : all) triangles += static_cast<std::uint64_t>(quad.count - 2);
     RegionFacts facts{std::move(grid), drawn_undulation(field), shape, triangles};
-    return std::unique_ptr<RegionPages>(
-        std::make_unique<SeamPages>(std::move(facts), std::move(all), first_skirt));
+    return std::unique_ptr<RegionPages>(std::make_unique<SeamPages>(
+        std::move(facts), std::move(all), first_skirt, mesh_casters_of(seam.pieces)));
 }
 
 }  // namespace oro

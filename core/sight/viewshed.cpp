@@ -12,6 +12,7 @@
 
 #include "core/base/parallel.h"
 #include "core/sight/horizon_sector.h"
+#include "core/sight/mesh_silhouette.h"
 #include "core/terrain/drawn_heights.h"
 
 namespace oro {
@@ -451,6 +452,51 @@ float clearance_deficit_to_m(const Observer& observer, const Geodetic& target) {
     return by_m ? static_cast<float>(*by_m) : std::numeric_limits<float>::infinity();
 }
 
+// What a sweep over the terrain alone is corrected by.
+struct PastMeshes {
+    const TrueGround& ground;
+    const TrueGround& footing;
+    const ViewshedRequest& request;
+    const TrueSurface& surface;
+
+    // Where a post's target stands on a top, that; else where the sweep has it.
+    [[nodiscard]] std::optional<Geodetic> target_on_top(const Geodetic& on_ground) const {
+        if (!request.top_h_m) return std::nullopt;
+        const std::optional<double> top_m = request.top_h_m(on_ground.lat_deg, on_ground.lon_deg);
+        const double above_m = std::max(request.target_m, least_above_m);
+        if (!top_m || *top_m + above_m <= on_ground.h_m) return std::nullopt;
+        return Geodetic{on_ground.lat_deg, on_ground.lon_deg, *top_m + above_m};
+    }
+};
+
+void ask_meshes(const PastMeshes& past, Viewshed& viewshed) {
+    const Sight sight = sight_from(past.request.eye, past.request.air);
+    const MeshSilhouette silhouette(past.ground, sight);
+    if (!silhouette.any()) return;
+    const Observer observer(past.ground, past.request.eye, past.request.air);
+    const GridPart& window = viewshed.window;
+    std::atomic<std::size_t> asked{0};
+    in_parallel(window.rows, past.request.threads, [&](int number) {
+        if (past.request.stop.stop_requested()) return;
+        const int row = window.first_row + number;
+        for (int column = window.first_column; column < window.first_column + window.columns; ++column) {
+            float& missed_m = viewshed.clearance_deficit_m[window.number(row, column)];
+            if (missed_m == Viewshed::unknown || std::isinf(missed_m)) continue;
+            Geodetic target = target_over_post(past.surface, row, column, past.request.target_m);
+            if (past.request.footing != nullptr)
+                if (const auto ground_m = past.footing.h_m(target.lat_deg, target.lon_deg))
+                    target.h_m = *ground_m + std::max(past.request.target_m, least_above_m);
+            const std::optional<Geodetic> on_top = past.target_on_top(target);
+            Geodetic seen = target;  // at the height where terrain alone lets it be seen
+            seen.h_m += static_cast<double>(missed_m);
+            if (!on_top && !silhouette.may_hide(seen)) continue;
+            missed_m = clearance_deficit_to_m(observer, on_top.value_or(target));
+            ++asked;
+        }
+    });
+    viewshed.asked += asked;
+}
+
 }  // namespace
 
 Geodetic target_over_post(const TrueSurface& surface, int row, int column, double target_m) {
@@ -501,8 +547,11 @@ Viewshed viewshed(const TrueGround& ground, std::size_t grid, const ViewshedRequ
     // oracle.
     const TrueGround& footing = request.footing ? *request.footing : ground;
     const TrueSurface* const stood_on = request.footing ? &footing.surface(grid) : nullptr;
-    if (!others_reach(ground, grid, request))
-        return Sweep(surface, stood_on, request, window).result(progress);
+    if (!others_reach(ground, grid, request)) {
+        viewshed = Sweep(surface, stood_on, request, window).result(progress);
+        ask_meshes({ground, footing, request, surface}, viewshed);
+        return viewshed;
+    }
     viewshed.clearance_deficit_m.assign(
         static_cast<std::size_t>(window.rows) * static_cast<std::size_t>(window.columns), Viewshed::unknown);
     const Observer observer(ground, request.eye, request.air);
@@ -519,6 +568,9 @@ Viewshed viewshed(const TrueGround& ground, std::size_t grid, const ViewshedRequ
             if (!ground_m) continue;
             target.h_m = *ground_m;
             if (!reach.holds(target)) continue;
+            if (request.top_h_m)
+                target.h_m = std::max(target.h_m,
+                                      request.top_h_m(target.lat_deg, target.lon_deg).value_or(target.h_m));
             target.h_m += std::max(request.target_m, least_above_m);
             viewshed.clearance_deficit_m[window.number(row, column)] =
                 clearance_deficit_to_m(observer, target);

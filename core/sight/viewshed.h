@@ -38,6 +38,9 @@ struct ViewshedRequest {
     // What targets stand on, where that is not what hides them: the ground under a canopy. Its grids have the
     // posts of those that hide, which are as high or higher; it outlives the request. null: on what hides.
     const TrueGround* footing{nullptr};
+    // Where something stands over the ground that targets are to stand on, a roof say: its height above the
+    // ellipsoid there; nothing elsewhere. Asked from several threads. None: targets stand on the ground.
+    std::function<std::optional<double>(double lat_deg, double lon_deg)> top_h_m{};
 };
 
 // Told how far it is, 0..1; from any thread, one at a time.
@@ -53,6 +56,9 @@ using ViewshedProgress = std::function<void(double share)>;
 // seconds, times how much farther away the target is than what hides it. (Measured: 0.12 m 2 m over hills,
 // out to 12 km; 0.305 m over real mountains. There is no bound.) A sweep takes 70 bytes for each post of the
 // window.
+//
+// Meshes on the ground hide, too: what is behind one (MeshSilhouette), and targets on a top, are asked of the
+// Observer one by one after the sweep, 15 microseconds each, and thirty times that where they are hidden.
 //
 // The sweep: in the plane that is level at the eye all sight lines are straight, and posts are the corners of
 // a net of triangles. Posts are taken by their distance. For narrow ranges of azimuth those edges of the net

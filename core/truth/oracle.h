@@ -40,7 +40,8 @@ struct SightHit {
     std::size_t grid{};   // of the ground's: whose cell it is
     // On a step between two grids, or on a mesh: the cell is the first grid's that the place is on.
     bool between_grids{};
-    std::uint32_t mesh{};  // on one of the region's meshes: its number, from 1
+    std::uint32_t mesh{};     // on one of the region's meshes: its number, from 1
+    std::uint32_t feature{};  // of that mesh: its number, from 1; 0: none
 };
 
 // Sight lines from one eye: tells where each truly meets the ground. Safe to ask from several threads.
@@ -79,7 +80,7 @@ class Oracle {
     class Search;
     [[nodiscard]] std::optional<SightHit> first_hit_after(const glm::dvec3& start_m,
                                                           const glm::dvec3& direction, double reach_m) const;
-    [[nodiscard]] SightHit hit_of_piece(const glm::dvec3& apparent_m, double t_m, std::uint32_t mesh) const;
+    [[nodiscard]] SightHit hit_of_piece(const glm::dvec3& apparent_m, double t_m, std::uint32_t number) const;
 
     TrueGround ground_;
     Sight sight_;

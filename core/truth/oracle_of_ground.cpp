@@ -55,15 +55,16 @@ std::unique_ptr<const TriangleBvh> tree_of(const TrueGround& ground, const Sight
     if (ground.pieces().empty()) return nullptr;
     std::vector<std::array<glm::dvec3, 3>> triangles;
     triangles.reserve(ground.pieces().size());
-    std::vector<std::uint32_t> meshes;
-    for (const SurfaceTriangle& piece : ground.pieces()) {
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t number = 0; number < ground.pieces().size(); ++number) {
+        const SurfaceTriangle& piece = ground.pieces()[number];
         if (crosses_cut(sight, piece)) continue;
         triangles.push_back(seen_corners(sight, piece));
-        meshes.push_back(piece.mesh);
+        numbers.push_back(number);
     }
     const Geodetic& first = ground.pieces().front().corners[0];
     return std::make_unique<const TriangleBvh>(
-        std::move(triangles), ecef_from_enu(first.lat_deg, first.lon_deg), std::move(meshes));
+        std::move(triangles), ecef_from_enu(first.lat_deg, first.lon_deg), std::move(numbers));
 }
 
 }  // namespace
@@ -76,7 +77,7 @@ Oracle::Oracle(const TrueGround& ground, const Sight& sight) : ground_(ground), 
 
 Oracle::~Oracle() = default;
 
-SightHit Oracle::hit_of_piece(const glm::dvec3& apparent_m, double t_m, std::uint32_t mesh) const {
+SightHit Oracle::hit_of_piece(const glm::dvec3& apparent_m, double t_m, std::uint32_t number) const {
     const glm::dvec3 true_m = sight_.refraction.true_m(apparent_m);
     SightHit hit;
     hit.point = sight_.earth == Earth::ellipsoid
@@ -84,7 +85,8 @@ SightHit Oracle::hit_of_piece(const glm::dvec3& apparent_m, double t_m, std::uin
                     : model_point(sight_.earth, sight_.place, true_m).value_or(Geodetic{});
     hit.distance_m = t_m;
     hit.between_grids = true;
-    hit.mesh = mesh;
+    hit.mesh = ground_.pieces()[number].mesh;
+    hit.feature = ground_.pieces()[number].feature;
     hit.grid = ground_.grid_at(hit.point.lat_deg, hit.point.lon_deg).value_or(0);
     const PostGrid& posts = ground_.surface(hit.grid).field().grid;
     const PostNumber post = posts.post_at(hit.point.lat_deg, hit.point.lon_deg);

@@ -21,6 +21,7 @@ struct SurfaceTriangle {
     std::array<Geodetic, 3> corners;  // h above the ellipsoid, exaggerated as the surfaces are
     // Of a mesh: its number, from 1. 0: a step, which is made longer by what it may lack beside its grids.
     std::uint32_t mesh{};
+    std::uint32_t feature{};  // of that mesh: its number, from 1; 0: none
 };
 
 // The surfaces of grids, and the pieces between them. Where several have ground for a place, that with the

@@ -25,7 +25,7 @@ Error no_mesh(const std::string& why) {
 struct FreeMeshFeature {
     void operator()(OGRFeatureH feature) const { OGR_F_Destroy(feature); }
 };
-using MeshFeature = std::unique_ptr<std::remove_pointer_t<OGRFeatureH>, FreeMeshFeature>;
+using OgrMeshFeature = std::unique_ptr<std::remove_pointer_t<OGRFeatureH>, FreeMeshFeature>;
 
 // What a layer says of where it lies: a code, or WKT; "" for nothing.
 std::string crs_of_layer(OGRLayerH layer) {
@@ -69,7 +69,7 @@ class GeoPackageReader {
         constexpr std::size_t features_between_looks = 256;
         for (std::size_t count = 0;; ++count) {
             if (count % features_between_looks == 0 && watch_.spent()) return no_mesh(watch_.fault());
-            const MeshFeature feature(OGR_L_GetNextFeature(layer));
+            const OgrMeshFeature feature(OGR_L_GetNextFeature(layer));
             if (!feature) break;
             if (OGRGeometryH geometry = OGR_F_GetGeometryRef(feature.get()); geometry != nullptr)
                 ORO_CHECK(take(geometry, 0));

@@ -29,6 +29,11 @@ MeshReader mesh_reader_for(const std::string& path) {
     return ending == "xml" || ending == "landxml" ? read_landxml : nullptr;
 }
 
+bool is_city_name(const std::string& path) {
+    if (mesh_ending(path) == "cityjson") return true;
+    return mesh_ending(path) == "json" && mesh_ending(path.substr(0, path.size() - 5)) == "city";
+}
+
 Result<std::string> mesh_bytes(const std::string& path) {
     ORO_TRY(const OpenFile file, OpenFile::open(path, OpenFile::Use::read));
     ORO_TRY(const std::uint64_t size, file.size());
@@ -57,12 +62,14 @@ std::string_view first_element(std::string_view text) {
     return "";
 }
 
-// Drops triangles with a vertex that is not finite, and keeps the parts where they are.
+// Drops triangles with a vertex that is not finite, and keeps parts and features where they are.
 void drop_not_finite(SourceMesh& mesh) {
-    std::size_t kept = 0, part = 0;
+    std::size_t kept = 0, part = 0, feature = 0;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         for (; part < mesh.parts.size() && mesh.parts[part].first_triangle <= i; ++part)
             mesh.parts[part].first_triangle = kept;
+        for (; feature < mesh.features.size() && mesh.features[feature].first_triangle <= i; ++feature)
+            mesh.features[feature].first_triangle = kept;
         const SourceTriangle triangle = mesh.triangles[i];
         const bool finite = std::ranges::all_of(triangle, [&](std::uint32_t corner) {
             const glm::dvec3& at = mesh.vertices[corner];
@@ -71,6 +78,7 @@ void drop_not_finite(SourceMesh& mesh) {
         if (finite) mesh.triangles[kept++] = triangle;
     }
     for (; part < mesh.parts.size(); ++part) mesh.parts[part].first_triangle = kept;
+    for (; feature < mesh.features.size(); ++feature) mesh.features[feature].first_triangle = kept;
     mesh.not_finite = mesh.triangles.size() - kept;
     mesh.triangles.resize(kept);
 }
@@ -87,7 +95,8 @@ const char* add_polygon(const std::vector<std::uint32_t>& corners, SourceMesh& m
 }
 
 bool is_mesh_file(const std::string& path) {
-    if (mesh_ending(path) != "xml") return is_mesh_name(path);
+    const std::string ending = mesh_ending(path);
+    if (is_city_name(path) || (ending != "xml" && ending != "json")) return is_mesh_name(path);
     constexpr std::uint64_t most_looked_at = 65536;
     const Result<OpenFile> file = OpenFile::open(path, OpenFile::Use::read);
     if (!file.ok()) return false;
@@ -95,22 +104,26 @@ bool is_mesh_file(const std::string& path) {
     if (!size.ok()) return false;
     std::string bytes(std::min(*size, most_looked_at), '\0');
     if (!file->read(0, std::as_writable_bytes(std::span(bytes))).ok()) return false;
-    return first_element(bytes) == "LandXML";
+    if (ending == "xml") return first_element(bytes) == "LandXML";
+    return bytes.find("\"CityJSON\"") != std::string::npos ||
+           bytes.find("\"CityObjects\"") != std::string::npos;
 }
 
 bool is_mesh_name(const std::string& path) {
-    return mesh_reader_for(path) != nullptr;
+    return mesh_reader_for(path) != nullptr || is_city_name(path);
 }
 
-Result<SourceMesh> read_mesh(const std::string& path) {
+Result<SourceMesh> read_mesh(const std::string& path, const std::string& lod) {
     const MeshReader reader = mesh_reader_for(path);
-    const bool is_geopackage = mesh_ending(path) == "gpkg";
-    if (reader == nullptr && !is_geopackage)
+    const bool is_geopackage = mesh_ending(path) == "gpkg",
+               is_city = is_city_name(path) || mesh_ending(path) == "json";
+    if (reader == nullptr && !is_geopackage && !is_city)
         return Error{ErrorKind::failed, path,
-                     "is no mesh by its name: .obj, .ply, .stl, .xml, .landxml and .gpkg are"};
+                     "is no mesh by its name: .obj, .ply, .stl, .xml, .landxml, .city.json and .gpkg are; of "
+                     "footprints --building-height FIELD tells how high buildings are"};
     const auto read_bytes = [&]() -> Result<SourceMesh> {
         ORO_TRY(const std::string bytes, mesh_bytes(path));
-        return reader(bytes);
+        return is_city ? read_cityjson(bytes, lod) : reader(bytes);
     };
     Result<SourceMesh> read = is_geopackage ? read_geopackage_mesh(path, geopackage_limit_s) : read_bytes();
     if (!read.ok()) return Error{read.error().kind, path, read.error().what};

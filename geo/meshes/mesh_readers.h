@@ -21,6 +21,9 @@ Result<SourceMesh> read_obj(std::string_view bytes);
 Result<SourceMesh> read_ply(std::string_view bytes);
 Result<SourceMesh> read_stl(std::string_view bytes);
 Result<SourceMesh> read_landxml(std::string_view bytes);
+// CityJSON 1.0 to 2.0: solids, multi and composite surfaces and templates, each object a feature. lod: "", or
+// the level of detail that is read; then objects without it are left out.
+Result<SourceMesh> read_cityjson(std::string_view bytes, const std::string& lod);
 // By OGR, which wants the file itself: TIN, PolyhedralSurface, MultiPolygon and Polygon with heights, of all
 // layers, which lie in one CRS. limit_s: seconds that it may take.
 Result<SourceMesh> read_geopackage_mesh(const std::string& path, double limit_s);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
@@ -16,6 +17,7 @@
 #include "geo/coordinates/crs_places.h"
 #include "geo/datum/proj_operations.h"
 #include "geo/datum/vertical_datum.h"
+#include "geo/meshes/footprints.h"
 #include "geo/meshes/mesh_file.h"
 #include "geo/sources/length_unit.h"
 
@@ -80,7 +82,12 @@ class MeshPlacing {
 
     // Cuts what is longer, and leaves out what has no place.
     Result<void> cut(PlacedMesh& mesh) {
-        for (const SourceTriangle& triangle : source_.triangles) {
+        std::uint32_t feature = 0;
+        for (std::size_t number = 0; number < source_.triangles.size(); ++number) {
+            const SourceTriangle& triangle = source_.triangles[number];
+            while (feature + 1 < source_.features.size() &&
+                   source_.features[feature + 1].first_triangle <= number)
+                ++feature;
             if (std::ranges::any_of(triangle, [&](std::uint32_t i) { return !placed_[i]; })) {
                 ++mesh.not_placed;
                 continue;
@@ -92,6 +99,7 @@ class MeshPlacing {
                 const std::optional<std::size_t> side = long_side(one);
                 if (!side) {
                     mesh.triangles.push_back(one);
+                    if (!source_.features.empty()) mesh.feature_of.push_back(feature);
                     if (mesh.triangles.size() + open.size() > most_placed_triangles)
                         return Error{ErrorKind::failed, source_.path,
                                      "has more than 2,000,000 triangles with sides of 200 m and less"};
@@ -166,6 +174,10 @@ BoundingBox box_around(const std::vector<PlacedVertex>& vertices,
     return box;
 }
 
+void add_note(PlacedMesh& mesh, const std::string& note) {
+    if (!note.empty()) mesh.note += (mesh.note.empty() ? "" : "; ") + note;
+}
+
 // Turns heights of the CRS's own vertical datum into H.
 Result<void> lift_heights(const std::string& crs, const StatedDatum& datum, double height_m,
                           bool strict_datum, const UndulationField& undulation, PlacedMesh& mesh) {
@@ -173,7 +185,7 @@ Result<void> lift_heights(const std::string& crs, const StatedDatum& datum, doub
     ORO_TRY(const GeoidOfRegion geoid, GeoidOfRegion::open(false));
     ORO_TRY(GeoidOfRegion::Shift shift,
             geoid.shift_from(crs, box_around(mesh.vertices, mesh.triangles), strict_datum));
-    if (!shift.note().empty()) mesh.note += (mesh.note.empty() ? "" : "; ") + shift.note();
+    add_note(mesh, shift.note());
     for (PlacedVertex& vertex : mesh.vertices) {
         auto H_m = static_cast<float>(vertex.H_m / height_m * datum.metres_per_unit);
         vertex.H_m = vertex.H_m / height_m * datum.metres_per_unit;
@@ -182,25 +194,120 @@ Result<void> lift_heights(const std::string& crs, const StatedDatum& datum, doub
         vertex.H_m = static_cast<double>(H_m);
     }
     if (shift.beyond_grid() > 0)
-        mesh.note += (mesh.note.empty() ? "" : "; ") + std::string("heights beyond the grid of ") +
-                     datum.name + " count as above sea level";
+        add_note(mesh, "heights beyond the grid of " + datum.name + " count as above sea level");
     return {};
 }
 
-// Leaves out triangles without an area on the lattice.
-void drop_degenerate(const UndulationField& undulation, PlacedMesh& mesh) {
-    std::vector<glm::dvec3> lattice;
+using LatticeKey = std::array<std::int64_t, 3>;
+
+std::vector<LatticeKey> lattice_of(const UndulationField& undulation, const PlacedMesh& mesh) {
+    std::vector<LatticeKey> lattice;
+    lattice.reserve(mesh.vertices.size());
     for (const PlacedVertex& vertex : mesh.vertices) {
         const double N_m = undulation.N_m.empty() ? 0.0 : undulation.at_m(vertex.lat_deg, vertex.lon_deg);
-        const LatticePoint point =
-            lattice_point(ecef_from_geodetic({vertex.lat_deg, vertex.lon_deg, vertex.H_m + N_m}).m);
-        lattice.emplace_back(point.steps[0], point.steps[1], point.steps[2]);
+        lattice.push_back(
+            lattice_point(ecef_from_geodetic({vertex.lat_deg, vertex.lon_deg, vertex.H_m + N_m}).m).steps);
     }
-    mesh.degenerate = std::erase_if(mesh.triangles, [&](const SourceTriangle& triangle) {
-        const glm::dvec3 &a = lattice[triangle[0]], &b = lattice[triangle[1]], &c = lattice[triangle[2]];
-        return glm::cross(b - a, c - a) == glm::dvec3(0.0);
-    });
+    return lattice;
 }
+
+// Whether each triangle has no corners on the lattice that an earlier one has, either way round.
+std::vector<char> are_first(const PlacedMesh& mesh, const std::vector<LatticeKey>& lattice) {
+    using Corners = std::array<LatticeKey, 3>;
+    const auto corners = [&](std::uint32_t number) {
+        Corners at{};
+        for (std::size_t i = 0; i < 3; ++i) at[i] = lattice[mesh.triangles[number][i]];
+        std::ranges::sort(at);
+        return at;
+    };
+    // By a number that all orders of the same corners have.
+    std::vector<std::pair<std::int64_t, std::uint32_t>> order(mesh.triangles.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) {
+        order[i] = {0, i};
+        for (const std::uint32_t corner : mesh.triangles[i]) {
+            const LatticeKey& at = lattice[corner];
+            order[i].first += (at[0] + 3 * at[1] + 7 * at[2]) * (1 + (at[1] & 1023));
+        }
+    }
+    std::ranges::sort(order);
+    std::vector<char> first(order.size(), 1);
+    for (std::size_t i = 0; i < order.size(); ++i)
+        for (std::size_t k = i; k > 0 && order[k - 1].first == order[i].first; --k)
+            if (corners(order[k - 1].second) == corners(order[i].second)) {
+                first[order[i].second] = 0;
+                break;
+            }
+    return first;
+}
+
+// Leaves out triangles without an area on the lattice, and those given again.
+void drop_degenerate(const UndulationField& undulation, PlacedMesh& mesh) {
+    const std::vector<LatticeKey> lattice = lattice_of(undulation, mesh);
+    const std::vector<char> first = are_first(mesh, lattice);
+    const auto has_area = [&](const SourceTriangle& triangle) {
+        std::array<glm::dvec3, 3> at{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const LatticeKey& steps = lattice[triangle[i]];
+            at[i] = {steps[0], steps[1], steps[2]};
+        }
+        return glm::cross(at[1] - at[0], at[2] - at[0]) != glm::dvec3(0.0);
+    };
+    std::size_t kept = 0, again = 0;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const SourceTriangle triangle = mesh.triangles[i];
+        if (!has_area(triangle)) {
+            ++mesh.degenerate;
+            continue;
+        }
+        if (first[i] == 0) {
+            ++again;
+            continue;
+        }
+        if (!mesh.feature_of.empty()) mesh.feature_of[kept] = mesh.feature_of[i];
+        mesh.triangles[kept++] = triangle;
+    }
+    mesh.triangles.resize(kept);
+    if (!mesh.feature_of.empty()) mesh.feature_of.resize(kept);
+    if (again > 0) add_note(mesh, std::to_string(again) + " left out, given twice");
+}
+
+// A mesh is drawn around one place, in steps of 2^-11 m that are 32 bits.
+Result<void> check_reach(const PlacedMesh& mesh) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    glm::dvec3 least(infinite), most(-infinite);
+    for (const SourceTriangle& triangle : mesh.triangles)
+        for (const std::uint32_t corner : triangle) {
+            const PlacedVertex& at = mesh.vertices[corner];
+            const glm::dvec3 place = ecef_from_geodetic({at.lat_deg, at.lon_deg, at.H_m}).m;
+            least = glm::min(least, place), most = glm::max(most, place);
+        }
+    constexpr double most_reach_m = 2.0e6;
+    const double reach_m = glm::distance(least, most);
+    if (reach_m <= most_reach_m) return {};
+    return Error{ErrorKind::failed, mesh.path,
+                 "reaches over " + std::to_string(std::llround(reach_m / 1000.0)) +
+                     " km: one mesh may reach 2,000 km; is --mesh-crs right?"};
+}
+
+// Heights of bases in the vertical datum that --mesh-crs names: sea level where it names none.
+struct Bases {
+    const std::string& crs;
+    bool strict_datum;
+    const UndulationField& undulation;
+
+    [[nodiscard]] Result<void> lift(std::span<const VectorPlace> places, std::span<double> bases_H_m) const {
+        const std::optional<StatedDatum> datum = crs.empty() ? std::nullopt : stated_datum(crs);
+        if (!datum) return {};
+        PlacedMesh each;  // lifted as meshes are: a triangle of one vertex a base
+        for (std::uint32_t i = 0; i < places.size(); ++i) {
+            each.vertices.push_back({places[i].lat_deg, places[i].lon_deg, bases_H_m[i]});
+            each.triangles.push_back({i, i, i});
+        }
+        ORO_CHECK(lift_heights(crs, *datum, 1.0, strict_datum, undulation, each));
+        for (std::size_t i = 0; i < places.size(); ++i) bases_H_m[i] = each.vertices[i].H_m;
+        return {};
+    }
+};
 
 std::uint64_t fingerprint_of(const SourceMesh& source, const std::string& crs, const std::string& unit) {
     const std::string how = crs + "\n" + unit + "\n" + source.unit;
@@ -225,6 +332,8 @@ Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, 
     PlacedMesh mesh;
     mesh.path = source.path, mesh.format = source.format;
     mesh.crs = places->name(), mesh.heights = "sea level (EGM96)", mesh.note = scale.note;
+    for (const std::string& note : source.notes) add_note(mesh, note);
+    mesh.features = source.features;
     mesh.in_file = source.triangles.size() + source.not_finite;
     mesh.not_finite = source.not_finite;
     mesh.fingerprint = fingerprint_of(source, crs, request.unit);
@@ -238,6 +347,7 @@ Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, 
                          (why.ok() ? std::string("its heights are beyond 100 km") : why.error().what) +
                          "; is --mesh-crs right?"};
     }
+    ORO_CHECK(check_reach(mesh));
     if (const std::optional<StatedDatum> datum = stated_datum(crs))
         ORO_CHECK(lift_heights(crs, *datum, scale.height_m, strict_datum, undulation, mesh));
     drop_degenerate(undulation, mesh);
@@ -249,8 +359,9 @@ Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, 
 }  // namespace
 
 std::string note_of_mesh(const PlacedMesh& mesh) {
-    std::string note = mesh.path + ": a mesh of " + std::to_string(mesh.in_file) +
-                       " triangles, heights above " + mesh.heights;
+    std::string note = mesh.path + ": a mesh of " + std::to_string(mesh.in_file) + " triangles";
+    if (!mesh.features.empty()) note += " in " + std::to_string(mesh.features.size()) + " features";
+    note += ", heights above " + mesh.heights;
     const auto left_out = [&](std::size_t count, const char* why) {
         if (count > 0) note += "; " + std::to_string(count) + " left out, " + why;
     };
@@ -260,15 +371,35 @@ std::string note_of_mesh(const PlacedMesh& mesh) {
     return mesh.note.empty() ? note : note + "; " + mesh.note;
 }
 
-Result<std::shared_ptr<const std::vector<PlacedMesh>>> open_meshes(const MeshRequest& request,
-                                                                   bool strict_datum,
-                                                                   const UndulationField& undulation) {
+Result<std::shared_ptr<const std::vector<PlacedMesh>>> open_meshes(
+    const MeshRequest& request, bool strict_datum, const UndulationField& undulation,
+    std::span<const HeightField* const> ground) {
     auto meshes = std::make_shared<std::vector<PlacedMesh>>();
+    bool has_footprints = false;
     for (const std::string& file : request.files) {
-        ORO_TRY(const SourceMesh source, read_mesh(file));
+        const bool are_footprints = !request.building_height.empty() && !is_mesh_file(file);
+        has_footprints = has_footprints || are_footprints;
+        if (are_footprints) {
+            const Bases bases{request.crs, strict_datum, undulation};
+            ORO_TRY(const SourceMesh source,
+                    buildings_on_footprints(
+                        file, {request.building_height, request.building_base}, ground,
+                        [&](std::span<const VectorPlace> places, std::span<double> bases_H_m) {
+                            return bases.lift(places, bases_H_m);
+                        }));
+            MeshRequest as_placed = request;
+            as_placed.crs.clear(), as_placed.unit.clear();
+            ORO_TRY(PlacedMesh mesh, placed(source, as_placed, strict_datum, undulation));
+            meshes->push_back(std::move(mesh));
+            continue;
+        }
+        ORO_TRY(const SourceMesh source, read_mesh(file, request.lod));
         ORO_TRY(PlacedMesh mesh, placed(source, request, strict_datum, undulation));
         meshes->push_back(std::move(mesh));
     }
+    if (!request.building_height.empty() && !has_footprints)
+        return Error{ErrorKind::usage, "--building-height " + request.building_height,
+                     "is of footprints, and no --mesh-file holds any"};
     return std::shared_ptr<const std::vector<PlacedMesh>>(std::move(meshes));
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,9 @@ struct PlacedMesh {
     std::string heights;  // what its heights are above: "sea level (EGM96)", "EPSG:5728 LN02 height"
     std::vector<PlacedVertex> vertices;
     std::vector<SourceTriangle> triangles;
-    std::size_t in_file{};  // triangles of the file
+    std::vector<MeshFeature> features;
+    std::vector<std::uint32_t> feature_of;  // number of each triangle's feature; empty where there are none
+    std::size_t in_file{};                  // triangles of the file
     std::size_t
         not_placed{};  // ... left out: the CRS has no place for a vertex, or none near where it is made for
     std::size_t not_finite{};     // ... left out: a vertex of the file is no finite number
@@ -52,8 +55,9 @@ inline constexpr std::size_t most_placed_triangles = 2000000;
 // float32 on their way). Heights without a stated datum are above sea level. Errors: those of read_mesh(); a
 // file that states no CRS where the request names none; a CRS or a unit that is unknown (usage); with
 // strict_datum a vertical datum that there is no way from; no triangle that has a place; too many triangles.
-Result<std::shared_ptr<const std::vector<PlacedMesh>>> open_meshes(const MeshRequest& request,
-                                                                   bool strict_datum,
-                                                                   const UndulationField& undulation);
+// ground: of the region, the best first: footprints stand on it.
+Result<std::shared_ptr<const std::vector<PlacedMesh>>> open_meshes(
+    const MeshRequest& request, bool strict_datum, const UndulationField& undulation,
+    std::span<const HeightField* const> ground = {});
 
 }  // namespace oro

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace oro {
@@ -16,19 +17,32 @@ struct MeshPart {
     std::size_t first_triangle{};
 };
 
+// A thing that a file tells apart, a building say: the triangles from `first_triangle` to the next feature's
+// first.
+struct MeshFeature {
+    std::string name;     // its identifier, or what a field `name` says
+    std::string type;     // "BuildingPart"; "" where there is none
+    std::string part_of;  // the building that it is part of; "" for none
+    std::vector<std::pair<std::string, std::string>>
+        attributes;  // as written; then those of what it is part of
+    std::size_t first_triangle{};
+};
+
 using SourceTriangle = std::array<std::uint32_t, 3>;  // numbers of vertices, from 0
 
 // What a file of triangles holds. Each triangle's vertices are there, and are finite.
 struct SourceMesh {
     std::string path;
-    std::string format;                // "OBJ", "PLY", "STL", "LandXML", "GeoPackage"
+    std::string format;  // "OBJ", "PLY", "STL", "LandXML", "GeoPackage", "CityJSON", "footprints"
     std::vector<glm::dvec3> vertices;  // east (x), north (y), height, in the file's units
     std::vector<SourceTriangle> triangles;
     std::vector<MeshPart> parts;
-    std::string unit;                 // as the file names it: "foot"; "" where it names none
-    double metres_per_unit{1.0};      // of `unit`; 1 where there is none
+    std::vector<MeshFeature> features;  // none, or every triangle belongs to one
+    std::string unit;                   // as the file names it: "foot"; "" where it names none
+    double metres_per_unit{1.0};        // of `unit`; 1 where there is none
     std::string crs;                  // that the file states, as "EPSG:2056" or WKT; "" where it states none
     std::size_t not_finite{};         // triangles left out: a vertex is NaN or infinite
+    std::vector<std::string> notes;   // what a user must know of what was left out, one line each
     std::size_t invisible{};          // triangles left out: the file says that they are not to be seen
     std::size_t polygons_cut{};       // polygons of more than three corners, cut into triangles
     std::size_t polygons_crossing{};  // ... of which no cut is sound: they cross themselves, or have no area

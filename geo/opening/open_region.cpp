@@ -29,13 +29,13 @@ namespace {
 
 // The meshes on a region, and what is to be told of them.
 Result<void> open_meshes_of(const RegionRequest& request, Region& region) {
-    ORO_TRY(region.meshes,
-            open_meshes(request.meshes, request.strict_datum, region.grids.front().field.undulation));
     std::vector<const RegionGrid*> grids;
     for (const RegionGrid& grid : region.grids) grids.push_back(&grid);
     std::ranges::stable_sort(grids, {}, [](const RegionGrid* grid) { return grid->rank; });
     std::vector<const HeightField*> fields;
     for (const RegionGrid* const grid : grids) fields.push_back(&grid->field);
+    ORO_TRY(region.meshes,
+            open_meshes(request.meshes, request.strict_datum, region.grids.front().field.undulation, fields));
     RegionGrid& first = region.grids.front();
     for (const PlacedMesh& mesh : *region.meshes)
         first.notes.push_back(note_of_mesh(mesh) + "; " +

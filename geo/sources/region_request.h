@@ -14,6 +14,10 @@ struct MeshRequest {
     std::vector<std::string> files;
     std::string crs;  // where they lie, and with a vertical part what their heights refer to; "": as they say
     std::string unit;  // "", or one that metres_in() knows: overrides what the files say
+    std::string lod;   // of CityJSON: the level of detail; "": the highest that an object has
+    // Of vector files whose polygons are the footprints of buildings: fields of a building's height over its
+    // base, and of the base's own height. No height: files are meshes. No base: it is the lowest ground.
+    std::string building_height, building_base;
     bool operator==(const MeshRequest&) const = default;
 };
 

@@ -98,10 +98,12 @@ void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double 
 void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration,
               std::uint32_t number, std::vector<SurfaceTriangle>& pieces) {
     const std::vector<SeamCorner> corners = drawn_vertices(mesh, undulation, exaggeration);
-    for (const SourceTriangle& triangle : mesh.triangles) {
+    for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
         SurfaceTriangle piece;
-        for (std::size_t i = 0; i < 3; ++i) piece.corners[i] = geodetic_from_ecef(corners[triangle[i]].at);
+        for (std::size_t i = 0; i < 3; ++i)
+            piece.corners[i] = geodetic_from_ecef(corners[mesh.triangles[k][i]].at);
         piece.mesh = number;
+        piece.feature = mesh.feature_of.empty() ? 0 : mesh.feature_of[k] + 1;
         pieces.push_back(piece);
     }
 }

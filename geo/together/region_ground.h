@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/truth/oracle.h"
 #include "core/truth/true_ground.h"
 #include "geo/meshes/placed_mesh.h"
 #include "geo/region/region.h"
@@ -35,6 +36,11 @@ class RegionGround {
     [[nodiscard]] const PlacedMesh& mesh(std::uint32_t number) const {
         return (*region_->meshes)[number - 1];
     }
+    // The thing of a mesh that a hit is on; nothing where the mesh tells none apart.
+    [[nodiscard]] const MeshFeature* feature(const SightHit& hit) const {
+        return hit.mesh > 0 && hit.feature > 0 ? &mesh(hit.mesh).features[hit.feature - 1] : nullptr;
+    }
+    [[nodiscard]] const Region& region() const { return *region_; }
     [[nodiscard]] const RegionGrid& grid(std::size_t number) const { return region_->grids[number]; }
 
   private:

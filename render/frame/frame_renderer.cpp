@@ -295,6 +295,7 @@ Result<void> FrameRenderer::begin(FramePlan plan, const FrameAsked& asked) {
     if (occlusion_->is_on() && !occlusion_->uses_last_frame())
         for (GridFrame& grid : grids_) grid.forget();
     ORO_CHECK(shared_shares_.reserve(*gpu_, plan, asked.style));
+    ORO_CHECK(mesh_shadows_.prepare(*gpu_, options_.path, *pipelines_, plan, shared_shares_, slot_));
     last_width_px_ = plan.view.width_px();
     last_grids_.clear();
     for (std::size_t i = 0; i < plan.grids.size(); ++i) {

@@ -17,6 +17,7 @@
 #include "render/raster/compute_raster.h"
 #include "render/raster/occlusion.h"
 #include "render/shading/air_tables.h"
+#include "render/shading/mesh_shadows.h"
 
 namespace oro {
 
@@ -201,6 +202,7 @@ class FrameRenderer {
     std::optional<Occlusion> occlusion_;
     AirTables air_;
     SharedShares shared_shares_;
+    MeshShadowFrame mesh_shadows_;
     Image ids_, depth_, sum_, picture_;
     Buffer depths_;
     Buffer tiles_in_parts_;

@@ -68,6 +68,13 @@ void FrameRenderer::record_casters(VkCommandBuffer commands, const FramePlan& pl
     each([&](CasterBuffers& casters) { casters.record_casters(commands, *pipelines_); });
     each([&](CasterBuffers& casters) { casters.record_places(commands, *pipelines_); });
     each([&](CasterBuffers& casters) { casters.record_shares(commands, *pipelines_); });
+    if (!mesh_shadows_.is_on()) return;
+    for (std::size_t i = 0; i < plan.grids.size(); ++i) {
+        if (!grids_[i].casters.has_shadows()) continue;
+        grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+        mesh_shadows_.record(commands, *pipelines_);
+        return;
+    }
 }
 
 void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan) {

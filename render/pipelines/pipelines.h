@@ -84,6 +84,7 @@ struct Pipelines {
     std::array<OwnedPipeline, 2> cast_places;
     std::array<std::array<OwnedPipeline, 5>, 2> joined_shares;
     OwnedPipeline join_shares;
+    OwnedPipeline mesh_shares;  // past meshes, 8 x 8
     OwnedPipeline triangles;  // what each pixel shows, compute, 8 x 8
     OwnedPipeline show;       // colours by what draws a pixel, compute, 8 x 8
     // Of frames that draw clusters: see add_cluster_pipelines().

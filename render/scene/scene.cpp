@@ -10,6 +10,7 @@
 #include "core/base/parallel.h"
 #include "core/frame/casters.h"
 #include "core/lod/ground_means.h"
+#include "core/seam/mesh_casters.h"
 
 namespace oro {
 namespace {
@@ -21,6 +22,20 @@ Result<Buffer> create_undulation(const Gpu& gpu, const UndulationField& field) {
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
                           MemoryKind::upload, "undulation"));
     std::memcpy(buffer.mapped, field.N_m.data(), size);
+    return buffer;
+}
+
+// Nodes, then triangles: each is of whole words of 4 bytes, and 32 bytes a node keep what follows aligned.
+Result<Buffer> create_mesh_casters(const Gpu& gpu, const MeshCasters& casters) {
+    const VkDeviceSize nodes = casters.nodes.size() * sizeof(gpu::MeshNode),
+                       triangles = casters.triangles.size() * sizeof(gpu::MeshTriangle);
+    static_assert(sizeof(gpu::MeshNode) == 32 && sizeof(gpu::MeshTriangle) == 36);
+    ORO_TRY(Buffer buffer,
+            create_buffer(gpu, nodes + triangles,
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                          MemoryKind::upload, "meshes that cast shadows"));
+    std::memcpy(buffer.mapped, casters.nodes.data(), nodes);
+    std::memcpy(buffer.mapped + nodes, casters.triangles.data(), triangles);
     return buffer;
 }
 
@@ -58,6 +73,9 @@ Result<GridScene> GridScene::create(const Gpu& gpu, std::unique_ptr<RegionPages>
     const UndulationField& undulation = scene.pages_->facts().undulation;
     if (!undulation.N_m.empty()) {
         ORO_TRY(scene.undulation_, create_undulation(gpu, undulation));
+    }
+    if (const MeshCasters* const casters = scene.pages_->mesh_casters(); casters != nullptr) {
+        ORO_TRY(scene.mesh_casters_, create_mesh_casters(gpu, *casters));
     }
     return scene;
 }
@@ -185,6 +203,11 @@ Result<void> GridScene::end_plan(const FrameView& view, GridPlan& plan) {
     }
     plan.constants.undulation.N_m = address_words(undulation_.address);
     plan.heights = number_;
+    if (const MeshCasters* const casters = pages_->mesh_casters(); casters != nullptr) {
+        plan.mesh_casters = mesh_casters_.address;
+        plan.mesh_nodes = casters->nodes.size();
+        plan.mesh_origin_m = casters->origin_m;
+    }
     return {};
 }
 

@@ -97,6 +97,7 @@ class GridScene {
     PageStore store_;
     std::unique_ptr<DrapeStore> drape_;
     Buffer undulation_;
+    Buffer mesh_casters_;  // nodes, then triangles; of a seam with meshes
     std::uint64_t number_{};  // GridPlan::heights
     PlanMemory memory_;
     VisibilityFeedback seen_;

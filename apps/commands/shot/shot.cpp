@@ -24,6 +24,7 @@
 #include "apps/layers/picture_layers.h"
 #include "apps/legend/legend.h"
 #include "apps/maps/ortho_map.h"
+#include "apps/options/region_option_table.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/output/picture_file.h"
 #include "apps/output/pose_files.h"
@@ -121,7 +122,7 @@ void tell(const ShotOptions& options, const PictureFiles& files, bool checks, co
     for (const std::string& pose : pose_paths(files.picture, {options.kml, options.geopose, options.stac}))
         say(options.quiet, "wrote " + pose);
     if (shot.layers)
-        for (const char* layer : layers_of_view(shot.view.cover != nullptr))
+        for (const char* layer : layers_of_view(shot.view.cover != nullptr, has_meshes(shot.view)))
             say(options.quiet, "wrote " + layer_path(files.picture, layer));
     // Measurements say it themselves.
     if (const std::string note = unseen_sentence(shot.unseen); !shot.verification && !note.empty())
@@ -297,6 +298,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
 Result<void> check_view_of_file(const View& recorded, ShotOptions& options) {
     options.ortho = recorded.map.has_value();
     options.covers = options.covers || !recorded.cover_choice.files.empty();
+    options.has_meshes = options.has_meshes || has_meshes(recorded);
     if (options.ortho && (options.verify || options.layers))
         return refused(options.verify ? "--verify" : "--layers", "",
                        "is for pictures from an eye; " + options.view_file + " is a map");
@@ -336,6 +338,7 @@ Result<void> take_shots(const ShotOptions& options, const std::vector<ListedView
 Result<void> run_shot(const ShotOptions& asked) {
     ShotOptions options = asked;
     options.covers = !options.view.landcover.empty();
+    options.has_meshes = names_any_mesh(options.region);
     if (!options.view_files.empty()) options.view_file = options.view_files.front();
     ORO_CHECK(check_map_options(options));
     ORO_TRY(const PictureFiles files, shot_files(options));

@@ -72,7 +72,7 @@ std::vector<std::string> written_files(const ShotOptions& options, const Picture
     for (const std::string& pose : pose_paths(files.picture, {options.kml, options.geopose, options.stac}))
         all.push_back(pose);
     if (options.layers)
-        for (const char* layer : layers_of_view(options.covers))
+        for (const char* layer : layers_of_view(options.covers, options.has_meshes))
             all.push_back(layer_path(files.picture, layer));
     return all;
 }

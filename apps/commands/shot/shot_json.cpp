@@ -4,6 +4,7 @@
 
 #include "apps/cover/canopy_words.h"
 #include "apps/layers/picture_layers.h"
+#include "apps/report/feature_words.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/region_json.h"
@@ -31,6 +32,7 @@ ordered_json destination_json(const std::optional<SeenPlace>& place) {
     json["cell"] = json_object("row", place->row, "column", place->column);
     json["source"] = nullptr;
     if (!place->source.empty()) json["source"] = place->source;
+    if (place->feature) json["feature"] = feature_json(*place->feature);
     if (place->canopy_m) json["canopy_m"] = *place->canopy_m;
     if (place->cover) json["cover"] = json_object("code", place->cover->code, "name", place->cover->name);
     return json;
@@ -152,10 +154,11 @@ void put_style(const ShotResult& shot, const Style& style, ordered_json& json) {
 }
 
 // The files by what is in them.
-void put_layers(const LayersReport& layers, bool covers, const ShotTimes& times, const PictureFiles& files,
-                ordered_json& json) {
+void put_layers(const LayersReport& layers, const View& view, const ShotTimes& times,
+                const PictureFiles& files, ordered_json& json) {
     ordered_json& layer_files = json["layers"] = ordered_json::object();
-    for (const char* layer : layers_of_view(covers)) layer_files[layer] = layer_path(files.picture, layer);
+    for (const char* layer : layers_of_view(view.cover != nullptr, has_meshes(view)))
+        layer_files[layer] = layer_path(files.picture, layer);
     json["layer_pixels"] = json_object("ground", layers.ground_px, "beside", layers.missed_px);
     json["times_s"]["layers"] = times.layers_s;
 }
@@ -223,7 +226,7 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
                                  device.driver, "api", version_words(device.vulkan_version));
     json["pipeline"] = name_of(shot.picture.path);
     if (shot.view.map) put_map(*shot.view.map, files, json);
-    if (shot.layers) put_layers(*shot.layers, shot.view.cover != nullptr, shot.times, files, json);
+    if (shot.layers) put_layers(*shot.layers, shot.view, shot.times, files, json);
     if (shot.verification) {
         json["times_s"]["verify"] = shot.times.verify_s;
         json["error_picture"] = files.error;

@@ -42,8 +42,6 @@ Result<void> write(const ProfileOptions& options, const Profile& profile) {
 
 Result<void> run_profile(const ProfileOptions& options) {
     ORO_CHECK(check_words(options));
-    ORO_CHECK(check_without_meshes(options.region,
-                                   "is not cut by profiles, which are of terrain alone: ask sight"));
     Profile profile;
     ORO_TRY(profile.line, line_along(options.along, options.line));
     ORO_CHECK(check_length(options, profile.line));

@@ -6,11 +6,27 @@
 #include "apps/report/json_text.h"
 
 namespace oro {
+namespace {
+
+// A comma before each; what a top is on in quotation marks.
+std::string top_fields(const ProfileTop& top) {
+    if (!top.is_there) return ",,,";
+    char heights[80];
+    std::snprintf(heights, sizeof heights, ",%.3f,%.3f,\"", top.H_m, top.h_m);
+    std::string text = heights;
+    for (const char c : top.on) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return text + "\"";
+}
+
+}  // namespace
 
 std::string profile_csv(const Profile& profile) {
-    std::string text = "distance_m,lat_deg,lon_deg,H_m,h_m\n";
+    const bool has_tops = !profile.tops.empty();
+    std::string text =
+        std::string("distance_m,lat_deg,lon_deg,H_m,h_m") + (has_tops ? ",top_H_m,top_h_m,on\n" : "\n");
     char line[160];
-    for (const ProfilePoint& point : profile.points) {
+    for (std::size_t i = 0; i < profile.points.size(); ++i) {
+        const ProfilePoint& point = profile.points[i];
         std::snprintf(line, sizeof line, "%.4f,%.9f,%.9f,", point.along_m, point.lat_deg, point.lon_deg);
         text += line;
         if (point.has_ground) {
@@ -19,6 +35,7 @@ std::string profile_csv(const Profile& profile) {
         } else {
             text += ",";
         }
+        if (has_tops) text += top_fields(profile.tops[i]);
         text += "\n";
     }
     return text;
@@ -32,13 +49,13 @@ using nlohmann::ordered_json;
 // next begins at -180, or the other way round.
 struct LineParts {
     ordered_json places = ordered_json::array(), distances = ordered_json::array(),
-                 heights = ordered_json::array();
+                 heights = ordered_json::array(), tops = ordered_json::array();
 
     void begin() {
-        for (ordered_json* const list : {&places, &distances, &heights})
+        for (ordered_json* const list : {&places, &distances, &heights, &tops})
             list->push_back(ordered_json::array());
     }
-    void add(const ProfilePoint& point, double lon_deg);
+    void add(const ProfilePoint& point, double lon_deg, std::optional<double> top_H_m = {});
     // Ends a part and begins the next where it crosses the meridian.
     void cross(const ProfilePoint& from, const ProfilePoint& crossing, const ProfilePoint& to) {
         if (std::abs(from.lon_deg) != 180.0) add(crossing, std::copysign(180.0, from.lon_deg));
@@ -49,7 +66,7 @@ struct LineParts {
     void drop_single_places() {
         for (std::size_t i = places.size(); i-- > 0;) {
             if (places[i].size() > 1) continue;
-            for (ordered_json* const list : {&places, &distances, &heights}) list->erase(i);
+            for (ordered_json* const list : {&places, &distances, &heights, &tops}) list->erase(i);
         }
     }
 };
@@ -59,10 +76,11 @@ double rounded(double value, double steps) {
     return std::round(value * steps) / steps;
 }
 
-void LineParts::add(const ProfilePoint& point, double lon_deg) {
+void LineParts::add(const ProfilePoint& point, double lon_deg, std::optional<double> top_H_m) {
     places.back().push_back({rounded(lon_deg, 1e9), rounded(point.lat_deg, 1e9), rounded(point.h_m, 1e3)});
     distances.back().push_back(rounded(point.along_m, 1e4));
     heights.back().push_back(rounded(point.H_m, 1e3));
+    tops.back().push_back(top_H_m ? ordered_json(rounded(*top_H_m, 1e3)) : ordered_json(nullptr));
 }
 
 }  // namespace
@@ -87,7 +105,8 @@ std::string profile_geojson(const Profile& profile) {
             parts.begin();
         }
         before = &point;
-        parts.add(point, point.lon_deg);
+        const bool has_top = !profile.tops.empty() && profile.tops[i].is_there;
+        parts.add(point, point.lon_deg, has_top ? std::optional(profile.tops[i].H_m) : std::nullopt);
     }
     parts.drop_single_places();
     ordered_json feature = ordered_json::object();
@@ -95,6 +114,7 @@ std::string profile_geojson(const Profile& profile) {
     feature["properties"] = profile_json(profile);
     feature["properties"]["distance_m"] = parts.distances;
     feature["properties"]["H_m"] = parts.heights;
+    if (!profile.tops.empty()) feature["properties"]["top_H_m"] = parts.tops;
     feature["geometry"]["type"] = "MultiLineString";
     feature["geometry"]["coordinates"] = parts.places;
     return json_text(feature, false) + "\n";

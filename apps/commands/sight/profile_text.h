@@ -16,9 +16,17 @@ struct MeridianCrossing {
     ProfilePoint point;
 };
 
+// What a plumb line meets first at a point of a profile, of a region with meshes.
+struct ProfileTop {
+    bool is_there{};
+    double H_m{}, h_m{};
+    std::string on;  // the feature of the mesh, or its file
+};
+
 struct Profile {
     LineAlong line;
     std::vector<ProfilePoint> points;
+    std::vector<ProfileTop> tops;             // of each point; empty: the region has no meshes
     std::vector<MeridianCrossing> crossings;  // ascending; of lines that are written as GeoJSON
     ProfileSums sums;
     [[nodiscard]] double length_m() const { return line.distances_m.back(); }
@@ -30,7 +38,8 @@ nlohmann::ordered_json profile_json(const Profile& profile);
 // "46.570000,7.990000 to 46.620000,8.050000"
 std::string ends_text(const Profile& profile);
 
-// Comma-separated, with a line of names: distance_m, lat_deg, lon_deg, H_m, h_m. No heights over no ground.
+// Comma-separated, with a line of names: distance_m, lat_deg, lon_deg, H_m, h_m; with meshes top_H_m, top_h_m
+// and on. No heights over no ground, no top where no mesh is.
 std::string profile_csv(const Profile& profile);
 // A feature whose line has h (above the ellipsoid) for its third number, as RFC 7946 wants it, cut where
 // there is no ground and at the 180th meridian. Its properties: what profile_json() says; and distance_m and

@@ -63,9 +63,11 @@ Result<void> run_sight(const SightOptions& options, const RealisationOptions& re
     ORO_TRY(const auto ground, open_sight_ground(options.region, bar.progress(), asked));
     Standing standing{"--from", options.from, "--above", options.above_m, 2.0, options.altitude_m};
     standing.on_summit = options.on_summit;
+    standing.on_top = options.view.stand_on.value_or("ground") == "top";
     ORO_TRY(const Standpoint from, stand_over_ground(standing, *ground));
-    const Standing looked_at{"--to", options.to,   "--target",          options.target_m,
-                             0.0,    std::nullopt, "geo:LAT,LON,HEIGHT"};
+    Standing looked_at{"--to", options.to,   "--target",          options.target_m,
+                       0.0,    std::nullopt, "geo:LAT,LON,HEIGHT"};
+    looked_at.on_top = standing.on_top;
     ORO_TRY(const Standpoint target, stand_over_ground(looked_at, *ground));
     const Geodetic& to = target.eye;
     bar.show(1.0, "looking");

@@ -120,6 +120,7 @@ Result<Standpoint> stand_over_ground(const Standing& standing, const Region& reg
     const RegionGrid& there = grid_at(region, place.lat_deg, place.lon_deg);
     ORO_TRY(Standpoint stood, stand(standing, there.field));
     Geodetic& point = stood.eye;
+    ORO_CHECK(lift_onto_top(standing, region, ground.exaggeration(), point));
     if (!view_limits::sight_h_m.hold(point.h_m)) {
         char text[120];
         std::snprintf(text, sizeof text, "would be at h %g m, not between %g and %g", point.h_m,

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "apps/cover/canopy_words.h"
+#include "apps/report/feature_words.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 #include "apps/report/summit_words.h"
@@ -56,6 +57,11 @@ std::string file_name_of(const PlacedMesh& mesh) {
     return one_line(std::filesystem::path(mesh.path).filename().string());
 }
 
+std::string feature_of_obstacle(const SightHit& hit, const SightGround& ground) {
+    const MeshFeature* const feature = ground.grids->feature(hit);
+    return feature == nullptr ? "" : ", " + words_of(*feature);
+}
+
 std::string hidden_text(const SightReport& report, const SightGround& ground) {
     std::string text = "Hidden";
     if (report.target_clearance_deficit_m)
@@ -68,7 +74,8 @@ std::string hidden_text(const SightReport& report, const SightGround& ground) {
     if (report.obstacle_canopy_m)
         text += printed("canopy, %.1f m over the ground, at ", *report.obstacle_canopy_m);
     else if (report.obstacle->mesh > 0)
-        text += "a mesh, " + file_name_of(ground.grids->mesh(report.obstacle->mesh)) + ", at ";
+        text += "a mesh, " + file_name_of(ground.grids->mesh(report.obstacle->mesh)) +
+                feature_of_obstacle(*report.obstacle, ground) + ", at ";
     else if (ground.canopy)
         text += "the ground at ";
     return text + ground_text(report.obstacle->point, report.obstacle_distance_m, ground) +
@@ -122,6 +129,8 @@ ordered_json sight_json(const SightReport& report, const SightGround& ground) {
         obstacle["distance_m"] = report.obstacle_distance_m;
         obstacle["slant_m"] = report.obstacle->distance_m;
         if (report.obstacle->mesh > 0) obstacle["mesh"] = ground.grids->mesh(report.obstacle->mesh).path;
+        if (const MeshFeature* const feature = ground.grids->feature(*report.obstacle))
+            obstacle["feature"] = feature_json(*feature);
         if (!report.obstacle_cover.empty()) obstacle["cover"] = report.obstacle_cover;
         if (ground.canopy) {
             obstacle["is"] = report.obstacle_canopy_m ? "canopy" : "ground";

@@ -141,8 +141,6 @@ void say_walls(const Standpoints& standpoints, std::size_t eyes, bool quiet) {
 
 Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptions& realisations) {
     ORO_CHECK(check_words(options));
-    ORO_CHECK(check_without_meshes(options.region,
-                                   "does not hide in viewsheds, which are of terrain alone: ask sight"));
     ORO_CHECK(check_realisations(realisations));
     ORO_CHECK(check_target_on(options));
     ViewshedQuestion question;
@@ -155,6 +153,9 @@ Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptio
     Standpoints standpoints;
     ORO_CHECK(place_eyes(asked_eyes(options), options.target_on.value_or("") == "canopy", *ground, question,
                          standpoints));
+    std::optional<MeshTops> tops;
+    if (options.target_on == "top")
+        question.tops = &tops.emplace(ground->region, ground->ground().exaggeration());
     const RegionGround& hiding = ground->canopy ? *ground->canopy->grids : *ground->grids;
     ORO_TRY(ViewshedReport report,
             viewshed_report(question, hiding, [&](double share) { bar.show(share, "looking around"); }));

@@ -5,6 +5,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/cover/canopy_words.h"
 #include "apps/report/figures.h"
+#include "apps/view/mesh_request.h"
 #include "apps/view/view.h"
 
 namespace oro {
@@ -39,6 +40,11 @@ Result<void> check_viewshed(const ViewshedOptions& options) {
 }
 
 Result<void> check_target_on(const ViewshedOptions& options) {
+    if (options.target_on == "top") {
+        ORO_TRY(const MeshRequest meshes, mesh_request(options.region));
+        return meshes.files.empty() ? refused("--target-on", "top", "needs a mesh: --mesh-file FILE")
+                                    : Result<void>();
+    }
     if (options.target_on && options.view.canopy.empty())
         return refused("--target-on", *options.target_on, "needs --canopy");
     return {};
@@ -57,6 +63,7 @@ std::vector<Standing> asked_eyes(const ViewshedOptions& options) {
     for (const std::string& at : options.at) {
         Standing standing{"--at", at, "--above", options.above_m, 2.0, options.altitude_m};
         standing.on_summit = options.on_summit;
+        standing.on_top = options.view.stand_on.value_or("ground") == "top";
         eyes.push_back(std::move(standing));
     }
     return eyes;

@@ -97,9 +97,14 @@ Result<void> look_around(const RegionGround& ground, const ViewshedValues& value
     const PostGrid& grid = ground.grid(report.grid).field.grid;
     const auto looking = Clock::now();
     for (std::size_t i = 0; i < question.eyes.size(); ++i) {
-        const ViewshedRequest request{
+        ViewshedRequest request{
             question.eyes[i], question.air, question.target_m, question.radius_km * 1000.0,
             thread_count(),   stop,         question.footing};
+        if (question.tops != nullptr)
+            request.top_h_m = [&](double lat_deg, double lon_deg) -> std::optional<double> {
+                const auto top = question.tops->at(lat_deg, lon_deg);
+                return top ? std::optional(top->h_m) : std::nullopt;
+            };
         const auto of_all = static_cast<double>(question.eyes.size());
         take_in(viewshed(ground.ground(), report.grid, request,
                          [&](double share) {

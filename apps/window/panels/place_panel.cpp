@@ -1,9 +1,11 @@
 #include <cstdio>
 
+#include "apps/report/feature_words.h"
 #include "apps/report/figures.h"
 #include "apps/window/panels/panel_parts.h"
 #include "apps/window/panels/panels.h"
 #include "apps/window/places.h"
+#include "core/base/one_line.h"
 #include "geo/places/place_forms.h"
 
 namespace oro {
@@ -76,6 +78,11 @@ void all_about(const Viewer& viewer, const PickedPlace& picked) {
     value_line("Bearing", written("%.2f°", seen.bearing_deg), "True, from the eye, clockwise from north");
     value_line("Source", seen.source.empty() ? "unknown" : seen.source.substr(seen.source.rfind('/') + 1),
                "The file that its height comes from");
+    if (seen.feature) {
+        value_line("Feature", words_of(*seen.feature), "The thing of the mesh: a building, say");
+        for (const auto& [name, text] : seen.feature->attributes)
+            value_line(("  " + one_line(name)).c_str(), one_line(text), "An attribute that its file gives");
+    }
     if (picked.source_spacing_m)
         value_line("  its posts", metres(*picked.source_spacing_m) + " m apart",
                    "From post to post of that file, north to south");

@@ -22,7 +22,9 @@ Result<std::shared_ptr<const std::vector<PlacedMesh>>> placed_from(const std::st
     std::filesystem::create_directories(folder);
     const std::string path = (folder / name).string();
     std::ofstream(path, std::ios::binary) << text;
-    return open_meshes({{path}, crs, unit}, false, {});
+    MeshRequest request;
+    request.files = {path}, request.crs = crs, request.unit = unit;
+    return open_meshes(request, false, {});
 }
 
 const std::string near_bern =
@@ -63,7 +65,9 @@ TEST(PlacedMesh, HeightsAboveTheEllipsoidAreLessByN) {
     fifty_m.N_m.assign(9, 50.0F);
     const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "above.obj";
     std::ofstream(path) << "v 7.4 46.9 500\nv 7.401 46.9 500\nv 7.4 46.901 500\nf 1 2 3\n";
-    const auto meshes = open_meshes({{path.string()}, "EPSG:4979", ""}, true, fifty_m);
+    MeshRequest request;
+    request.files = {path.string()}, request.crs = "EPSG:4979";
+    const auto meshes = open_meshes(request, true, fifty_m);
     ASSERT_TRUE(meshes.ok()) << meshes.error().line();
     const PlacedMesh& mesh = (*meshes)->front();
     EXPECT_NEAR(mesh.vertices[0].lat_deg, 46.9, 1.0e-10);

@@ -1,0 +1,43 @@
+#include "apps/view/mesh_request.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
+
+#include "apps/command_line/refusals.h"
+#include "geo/meshes/mesh_file.h"
+
+namespace oro {
+
+std::vector<std::string> terrain_paths(const RegionOptions& options) {
+    std::vector<std::string> paths;
+    std::ranges::remove_copy_if(options.paths, std::back_inserter(paths), is_mesh_file);
+    return paths;
+}
+
+bool is_no_lod(const std::string& lod) {
+    return lod.size() > 4 || lod.find_first_not_of("0123456789.") != std::string::npos ||
+           lod.starts_with('.') || lod.ends_with('.') || std::ranges::count(lod, '.') > 1;
+}
+
+Result<MeshRequest> mesh_request(const RegionOptions& options) {
+    MeshRequest meshes{options.mesh_files, options.mesh_crs,        options.mesh_unit,
+                       options.mesh_lod,   options.building_height, options.building_base};
+    std::ranges::copy_if(options.paths, std::back_inserter(meshes.files), is_mesh_file);
+    const std::array<std::pair<const char*, const std::string*>, 5> given{
+        {{"--mesh-crs", &meshes.crs},
+         {"--mesh-unit", &meshes.unit},
+         {"--lod", &meshes.lod},
+         {"--building-height", &meshes.building_height},
+         {"--building-base", &meshes.building_base}}};
+    for (const auto& [option, value] : given)
+        if (meshes.files.empty() && !value->empty())
+            return refused(option, "", "says nothing without --mesh-file FILE");
+    if (meshes.building_height.empty() && !meshes.building_base.empty())
+        return refused("--building-base", "", "says nothing without --building-height FIELD");
+    if (is_no_lod(meshes.lod)) return refused("--lod", meshes.lod, "is no level of detail: 1, 2, 2.2, say");
+    return meshes;
+}
+
+}  // namespace oro
