@@ -10,6 +10,8 @@ namespace oro::gpu {
 
 // A bit of MaterialTable.on: trees stand where the materials are forest.
 ORO_CONST uint materials_with_trees = 2u;
+// ... and grass near the eye where they are meadow (shared_meadow.h).
+ORO_CONST uint materials_with_grass = 4u;
 
 // Sites where a tree may stand: rows of latitude from the south pole on, and in each tile of 64 rows a whole number of
 // columns round the Earth from 180 degrees west on. So a site has the same numbers in every dataset, and there is no

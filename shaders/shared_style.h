@@ -127,6 +127,8 @@ struct MaterialTable {
     vec2 dry_lat_deg;   // north or south: between these there is no meadow and no forest,
     vec2 dry_H_m;       // ... from between these on
     float snow_to_deg;  // the steepest slope that snow lies on
+    float wind;         // over grass, of the usual: 0 where the air is still,
+    float wind_time_s;  // ... and when it blows
 };
 // An octave of the noise that breaks the materials' borders (core/frame/ground_noise.h): a lattice of cubes
 // in space, turned, where the eye is.

@@ -123,6 +123,8 @@ std::vector<std::string> legend_lines(const View& view, const Region& region, co
                                       : "Ground cover: invented, by a rule of height, slope and latitude");
     if ((style.frame.materials.on & gpu::materials_with_trees) != 0)
         lines.emplace_back("Trees: invented, by a rule, where the ground cover is forest");
+    if ((style.frame.materials.on & gpu::materials_with_grass) != 0)
+        lines.emplace_back("Grass within 60 m: invented, by a rule, where the ground cover is meadow");
     if (style.frame.contours.interval_m > 0.0F)
         lines.push_back(text_of("Contour lines: every %.6g m, every fifth thicker",
                                 static_cast<double>(style.frame.contours.interval_m)));

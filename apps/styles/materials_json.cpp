@@ -9,6 +9,7 @@
 #include "apps/styles/style_fields.h"
 #include "apps/styles/style_json.h"
 #include "core/drape/materials.h"
+#include "shaders/shared_growth.h"
 
 namespace oro {
 namespace {
@@ -69,10 +70,11 @@ gpu::MaterialTable materials_of(const json& object) {
     return table;
 }
 
-bool has_trees(const json& object) {
+gpu::uint growth_of(const json& object) {
     const bool trees = json_flag(object, "trees");
-    refuse_unknown(object, "'growth'", {"trees"});
-    return trees;
+    const bool grass = object.contains("grass") && json_flag(object, "grass");
+    refuse_unknown(object, "'growth'", {"trees", "grass"});
+    return (trees ? gpu::materials_with_trees : 0) | (grass ? gpu::materials_with_grass : 0);
 }
 
 }  // namespace oro

@@ -78,8 +78,7 @@ void read_ground(const json& object, gpu::FrameStyle& style) {
     if (style.colour_by != gpu::colour_by_cover || !object.contains("air"))
         throw JsonFault{"'materials' is for 'colour_by': 'cover', with 'air'"};
     style.materials = materials_of(json_field(object, "materials"));
-    if (object.contains("growth") && has_trees(json_field(object, "growth")))
-        style.materials.on |= gpu::materials_with_trees;
+    if (object.contains("growth")) style.materials.on |= growth_of(json_field(object, "growth"));
 }
 
 SunDirection read_light(const json& object, gpu::FrameStyle& style) {

@@ -31,7 +31,8 @@ gpu::GroundCover cover_of(const nlohmann::json& object, bool as_codes);
 // What the ground is made of, of a style's "materials". Throws a JsonFault.
 gpu::MaterialTable materials_of(const nlohmann::json& object);
 
-// Whether single trees are drawn, of a style's "growth". Throws a JsonFault.
-bool has_trees(const nlohmann::json& object);
+// What grows on the ground, of a style's "growth": gpu::materials_with_trees and gpu::materials_with_grass.
+// Throws a JsonFault.
+gpu::uint growth_of(const nlohmann::json& object);
 
 }  // namespace oro

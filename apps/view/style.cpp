@@ -111,6 +111,12 @@ std::string present_name(const std::string& style) {
 void light_by(const SunDirection& sun, gpu::FrameStyle& style) {
     style.sun_enu = gpu::vec3(enu_towards(sun.azimuth_deg, sun.elevation_deg));
     style.sun_hidden = static_cast<float>(1.0 - direct_light(sun));
+    // Wind has the clock's time of the day; where nobody asked for one, the air is still.
+    constexpr std::int64_t day_s = 86400;
+    style.materials.wind = style.materials.wind_time_s = 0.0F;
+    if (!sun.time || sun.is_usual) return;
+    style.materials.wind = 1.0F;
+    style.materials.wind_time_s = static_cast<float>((sun.time->utc_s % day_s + day_s) % day_s);
 }
 
 namespace {

@@ -184,7 +184,7 @@ Tile whole_tile(const Camera& camera) {
 gpu::FrameStyle style_at(gpu::FrameStyle style, const DetailStep& step) {
     if (!step.shadows) {
         style.shadows = 0;
-        style.materials.on &= ~gpu::materials_with_trees;
+        style.materials.on &= ~(gpu::materials_with_trees | gpu::materials_with_grass);
     }
     if (!step.means) {
         style.footprint = gpu::footprint_point;
@@ -196,7 +196,6 @@ gpu::FrameStyle style_at(gpu::FrameStyle style, const DetailStep& step) {
 void require_fields(Scene& scene, const gpu::FrameStyle& style, const DetailStep& step) {
     const gpu::FrameStyle at_step = style_at(style, step);
     scene.require_fields(at_step);
-    scene.set_trees((at_step.materials.on & gpu::materials_with_trees) != 0);
 }
 
 Camera scaled_camera(const Camera& camera, double scale) {

@@ -14,6 +14,7 @@
 #include "core/frame/height_quantization.h"
 #include "core/frame/region_pages.h"
 #include "core/growth/growth_plan.h"
+#include "core/growth/meadow_plan.h"
 #include "shaders/shared.h"
 
 namespace oro {
@@ -63,6 +64,7 @@ struct GridPlan {
     ClusterPlan clusters;     // off until draw_clusters()
     CasterPlan casters;       // none until plan_casters()
     GrowthPlan growth;        // none until plan_growth()
+    MeadowPlan meadow;        // none until plan_meadow()
     bool request_feedback{};  // the frame tells which of its nodes or clusters show
                               // (core/frame/visibility_feedback.h)
     // Triangles of meshes that cast shadows on all grids of the frame (core/seam/mesh_casters.h): the device

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "core/earth/ellipsoid.h"
+#include "core/growth/covering_pages.h"
 #include "core/growth/tree_sites.h"
-#include "core/terrain/page_table.h"
 
 namespace oro::gpu {
 namespace {
@@ -24,32 +24,6 @@ namespace oro {
 namespace {
 
 constexpr double tile_circle_m = 185.0;  // around a tile's middle: holds it
-
-// Pages of the frame by their indices: a table of each level.
-using PageNumbers = std::vector<PageTable>;
-PageNumbers numbers_of(std::span<const PageIndex> page_indices) {
-    PageNumbers numbers;
-    for (std::size_t i = 0; i < page_indices.size(); ++i) {
-        const PageIndex& page = page_indices[i];
-        const auto level = static_cast<std::size_t>(page.level);
-        if (numbers.size() <= level) numbers.resize(level + 1);
-        numbers[level].insert(page.row, page.column, static_cast<gpu::uint>(i));
-    }
-    return numbers;
-}
-
-// The finest page that covers all posts between two.
-std::optional<gpu::uint> covering_page(const PageNumbers& numbers, glm::ivec2 low, glm::ivec2 high) {
-    constexpr int page_bits = 7;
-    static_assert(1U << page_bits == gpu::page_quads);
-    for (std::size_t level = 0; level < numbers.size(); ++level) {
-        const int shift = static_cast<int>(level) + page_bits;
-        if (low.x >> shift != high.x >> shift || low.y >> shift != high.y >> shift) continue;
-        const std::uint32_t found = numbers[level].find(low.x >> shift, low.y >> shift);
-        if (found != PageTable::none) return found;
-    }
-    return {};
-}
 
 // What the tiles of a row of the lattice have in common.
 struct TileRow {
@@ -70,34 +44,17 @@ TileRow tile_row(std::uint32_t row) {
 }
 
 // A tile of the lattice on the grid; none where not all of it is there.
-std::optional<gpu::GrowthTile> tile_on_grid(const PostGrid& grid, const PageNumbers& numbers,
+std::optional<gpu::GrowthTile> tile_on_grid(const PostGrid& grid, const CoveringPages& pages,
                                             const TileRow& lattice_row, std::uint32_t row,
                                             std::uint32_t column) {
-    std::array<PostNumber, 4> corners{};
+    TileCorners corners{};
     const double west_deg = lattice_row.west_deg(column);
-    for (std::uint32_t i = 0; i < 4; ++i)
-        corners[i] = grid.post_at(i / 2 == 0 ? lattice_row.south_deg : lattice_row.north_deg,
-                                  west_deg + (i % 2) * 360.0 / lattice_row.columns);
-    glm::dvec2 low{corners[0].row, corners[0].column}, high = low;
-    for (const PostNumber& corner : corners) {
-        low = glm::min(low, glm::dvec2(corner.row, corner.column));
-        high = glm::max(high, glm::dvec2(corner.row, corner.column));
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        const PostNumber post = grid.post_at(i / 2 == 0 ? lattice_row.south_deg : lattice_row.north_deg,
+                                             west_deg + (i % 2) * 360.0 / lattice_row.columns);
+        corners[i] = {post.row, post.column};
     }
-    // A tree may stand a little beside its tile. Round the Earth a tile has its columns on one side, or is
-    // left out.
-    const glm::dvec2 beyond = 0.02 * (high - low);
-    low -= beyond;
-    high += beyond;
-    if (!(low.x >= 0.0 && low.y >= 0.0 && high.x < grid.rows() - 1 && high.y < grid.columns() - 1)) return {};
-    const auto page = covering_page(numbers, glm::ivec2(low), glm::ivec2(high));
-    if (!page) return {};
-    gpu::GrowthTile tile{row, column, *page, {}, {}};
-    const glm::dvec2 base = glm::floor(glm::dvec2(corners[0].row, corners[0].column));
-    tile.post[0] = static_cast<int>(base.x);
-    tile.post[1] = static_cast<int>(base.y);
-    for (std::size_t i = 0; i < 4; ++i)
-        tile.corners[i] = gpu::vec2(glm::dvec2(corners[i].row, corners[i].column) - base);
-    return tile;
+    return growth_tile(grid, pages, row, column, corners);
 }
 
 // A tile of the lattice near the eye.
@@ -229,14 +186,14 @@ GrowthPlan plan_growth(const PostGrid& grid, std::span<const PageIndex> page_ind
         tiles_around(view.camera.eye, static_cast<double>(plan.reach_m),
                      [&](double east_m, double north_m) { return in_view.may_show(east_m, north_m, all); });
     if (around.empty()) return plan;
-    const PageNumbers numbers = numbers_of(page_indices);
+    const CoveringPages pages(page_indices);
     const auto [lowest, highest] = std::ranges::minmax(around, {}, &NearTile::row);
     std::vector<TileRow> rows;
     for (std::uint32_t row = lowest.row; row <= highest.row; ++row) rows.push_back(tile_row(row));
     for (const NearTile& near : around) {
         if (plan.tiles.size() == gpu::growth_tiles_max) break;
         const TileRow& row = rows[near.row - lowest.row];
-        const auto tile = tile_on_grid(grid, numbers, row, near.row, near.column);
+        const auto tile = tile_on_grid(grid, pages, row, near.row, near.column);
         if (tile && in_view.may_show(row, near.column, ground(tile->page))) plan.tiles.push_back(*tile);
     }
     return plan;

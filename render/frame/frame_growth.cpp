@@ -1,5 +1,5 @@
-// The part of FrameRenderer that draws trees, once the ground is drawn and what casts shadows is known, and
-// before pixels are coloured. Frames without trees have none of it.
+// The part of FrameRenderer that draws trees and grass, once the ground is drawn and what casts shadows is
+// known, and before pixels are coloured. Frames without them have none of it.
 #include <algorithm>
 
 #include "render/frame/frame_layout.h"
@@ -14,7 +14,9 @@ bool FrameRenderer::draws_growth() const {
 }
 
 bool FrameRenderer::has_growth(const FramePlan& plan) const {
-    return std::ranges::any_of(plan.grids, [](const GridPlan& grid) { return !grid.growth.tiles.empty(); });
+    return std::ranges::any_of(plan.grids, [](const GridPlan& grid) {
+        return !grid.growth.tiles.empty() || !grid.meadow.tiles.empty();
+    });
 }
 
 Result<void> FrameRenderer::reserve_growth(const FramePlan& plan) {
@@ -32,7 +34,8 @@ Result<void> FrameRenderer::choose_growth(GridFrame& grid, const GridPlan& plan)
     const GrowthKind kind{grid.casters.has_shadows(), grid.casters.opens(), grid.drape.is_on(),
                           constants.has_means != 0, options_.smooth_edges};
     const VkExtent2D culled = options_.occlusion == OcclusionUse::off ? VkExtent2D{} : options_.extent;
-    return grid.growth.prepare(*gpu_, *pipelines_, plan.growth, kind, culled, slot_);
+    ORO_CHECK(grid.growth.prepare(*gpu_, *pipelines_, plan.growth, kind, culled, slot_));
+    return grid.meadow.prepare(*gpu_, *pipelines_, plan.meadow, kind, grid.growth, slot_);
 }
 
 void FrameRenderer::record_growth(VkCommandBuffer commands, const FramePlan& plan) const {
@@ -58,6 +61,12 @@ void FrameRenderer::record_growth(VkCommandBuffer commands, const FramePlan& pla
         grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
         grids_[i].growth.record_draw(commands, *pipelines_, plan.view.width_px(), plan.view.height_px());
     }
+    for (std::size_t i = 0; i < plan.grids.size(); ++i) {
+        if (!grids_[i].meadow.is_on()) continue;
+        wait();
+        grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+        grids_[i].meadow.record_draw(commands, *pipelines_);
+    }
     if (!compute_) {
         image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, shader_read, shader_write);
         copy(pipelines_->keep_ids);
@@ -68,13 +77,19 @@ void FrameRenderer::record_growth(VkCommandBuffer commands, const FramePlan& pla
 
 void FrameRenderer::record_growth_pixels(VkCommandBuffer commands, const FramePlan& plan,
                                          GrowthPass pass) const {
-    for (std::size_t i = 0; i < plan.grids.size(); ++i) {
-        if (!grids_[i].growth.is_on()) continue;
+    const auto record = [&](const GridFrame& grid, const auto& growth, auto pixels) {
+        if (!growth.is_on()) return;
         memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                        VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
-        grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
-        (grids_[i].growth.*pass)(commands, *pipelines_, plan.view.width_px(), plan.view.height_px());
+        grid.bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
+        (growth.*pixels)(commands, *pipelines_, plan.view.width_px(), plan.view.height_px());
+    };
+    const bool shades = pass == GrowthPass::shade;
+    for (std::size_t i = 0; i < plan.grids.size(); ++i) {
+        const GridFrame& grid = grids_[i];
+        record(grid, grid.growth, shades ? &GrowthFrame::record_shade : &GrowthFrame::record_smooth);
+        record(grid, grid.meadow, shades ? &MeadowFrame::record_shade : &MeadowFrame::record_smooth);
     }
 }
 

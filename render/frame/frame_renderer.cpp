@@ -26,13 +26,17 @@ Result<OwnedQueryPool> create_timestamps(const Gpu& gpu) {
     return OwnedQueryPool(gpu.device(), handle);
 }
 
-// Ids of triangles go on from one grid to the next, and then over the tiles of trees of each: these are
-// others to all grids.
+// Ids of triangles go on from one grid to the next, and then over the tiles of trees and grass of each: these
+// are others to all grids.
 Result<void> number_pages(FramePlan& plan, bool draws_growth) {
     std::size_t first = 0, others = plan.grids.size() - 1;
     for (GridPlan& grid : plan.grids) {
-        if (!draws_growth) grid.growth = {};
+        if (!draws_growth) {
+            grid.growth = {};
+            grid.meadow = {};
+        }
         if (!grid.growth.tiles.empty()) ++others;
+        if (!grid.meadow.tiles.empty()) ++others;
         grid.constants.first_page = static_cast<gpu::uint>(first);
         first += grid.pages.size();
     }
@@ -41,11 +45,13 @@ Result<void> number_pages(FramePlan& plan, bool draws_growth) {
         return Error{ErrorKind::failed, "picture",
                      "needs " + std::to_string(first) + " pages of all its grids; a frame numbers " +
                          std::to_string(gpu::pages_max) + " at most: a larger --tau takes fewer"};
-    for (GridPlan& grid : plan.grids) {
-        grid.growth.tiles.resize(std::min(grid.growth.tiles.size(), gpu::pages_max - first));
-        grid.growth.first_page = static_cast<gpu::uint>(first);
-        first += grid.growth.tiles.size();
-    }
+    const auto number = [&](auto& growth) {
+        growth.tiles.resize(std::min(growth.tiles.size(), gpu::pages_max - first));
+        growth.first_page = static_cast<gpu::uint>(first);
+        first += growth.tiles.size();
+    };
+    for (GridPlan& grid : plan.grids) number(grid.meadow);
+    for (GridPlan& grid : plan.grids) number(grid.growth);
     return {};
 }
 
@@ -210,6 +216,7 @@ Result<void> FrameRenderer::upload(std::size_t number, GridPlan& plan, const Fra
     constants.record_view = options_.record_view ? 1U : 0U;
     constants.style = asked.style;
     if (plan.growth.tiles.empty()) constants.style.materials.on &= ~gpu::materials_with_trees;
+    if (plan.meadow.tiles.empty()) constants.style.materials.on &= ~gpu::materials_with_grass;
     constants.show = options_.show;
     constants.overdraw = address_words(overdraw_.address);
     if (plan.clusters.on)

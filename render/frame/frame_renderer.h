@@ -181,7 +181,7 @@ class FrameRenderer {
     Result<void> reserve_growth(const FramePlan& plan);
     Result<void> choose_growth(GridFrame& grid, const GridPlan& plan);
     void record_growth(VkCommandBuffer commands, const FramePlan& plan) const;
-    using GrowthPass = void (GrowthFrame::*)(VkCommandBuffer, const Pipelines&, gpu::uint, gpu::uint) const;
+    enum class GrowthPass { shade, smooth };
     void record_growth_pixels(VkCommandBuffer commands, const FramePlan& plan, GrowthPass pass) const;
     void record_show(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_ids_alone(VkCommandBuffer commands) const;

@@ -116,9 +116,9 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
         pass(grids_[i], grids_[i].shade);
         pass(grids_[i], grids_[i].shade_parts);
     }
-    record_growth_pixels(commands, plan, &GrowthFrame::record_shade);
+    record_growth_pixels(commands, plan, GrowthPass::shade);
     for (std::size_t i = 0; options_.smooth_edges && i < plan.grids.size(); ++i) pass(grids_[i], edges_);
-    record_growth_pixels(commands, plan, &GrowthFrame::record_smooth);
+    record_growth_pixels(commands, plan, GrowthPass::smooth);
     if (options_.show != gpu::show_colours) record_show(commands, plan);
 }
 

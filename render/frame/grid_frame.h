@@ -12,6 +12,7 @@
 #include "core/terrain/page_table.h"
 #include "render/device/resources.h"
 #include "render/growth/growth_frame.h"
+#include "render/growth/meadow_frame.h"
 #include "render/pipelines/pipelines.h"
 #include "render/shading/caster_buffers.h"
 #include "render/shading/texture_tile_feedback.h"
@@ -60,6 +61,7 @@ class GridFrame {
     CasterBuffers casters;
     TextureTileFeedback drape;
     GrowthFrame growth;
+    MeadowFrame meadow;
     VkPipeline shade{VK_NULL_HANDLE}, shade_parts{VK_NULL_HANDLE};  // of the frame
 
   private:

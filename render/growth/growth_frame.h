@@ -31,6 +31,12 @@ class GrowthFrame {
     // nodes of its casters are there.
     void record_draw(VkCommandBuffer commands, const Pipelines& pipelines, gpu::uint width_px,
                      gpu::uint height_px) const;
+    // GrowthTable::shade_map; null without shadows of trees.
+    [[nodiscard]] const Buffer* shade_map() const {
+        return is_on() && map_ != VK_NULL_HANDLE ? &shade_map_ : nullptr;
+    }
+    // GrowthTable::farthest, once trees are drawn; null where what is hidden is drawn, too.
+    [[nodiscard]] const Buffer* farthest_depths() const { return is_on() && culls_ ? &farthest_ : nullptr; }
     // For the programs that colour the grid's ground, which look up the shadows of its trees.
     void push(VkCommandBuffer commands, const Pipelines& pipelines) const;
     // Colours its pixels; and, of pictures of one sample whose edges follow, softens its outlines once all

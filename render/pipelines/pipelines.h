@@ -97,6 +97,10 @@ struct Pipelines {
     std::map<std::size_t, std::array<OwnedPipeline, 2>> growth;
     OwnedPipeline draw_crowns, draw_large_crowns, draw_shade_map, farthest_depths, smooth_crowns;
     OwnedPipeline seed_visibility, keep_ids;
+    // Of frames with grass, likewise; shade_meadow by edges_follow.
+    std::map<std::size_t, OwnedPipeline> grow_meadow;
+    OwnedPipeline draw_meadow, smooth_meadow;
+    std::array<OwnedPipeline, 2> shade_meadow;
 };
 
 // What a renderer is asked for besides triangle ids.

@@ -141,16 +141,17 @@ Result<void> GridScene::add_casters(const FrameView& view, GridPlan& plan) {
 
 // The records are those that the choice of pages has read.
 Result<void> GridScene::add_growth(const FrameView& view, GridPlan& plan) {
-    if (!has_trees_ || view.model.earth != Earth::ellipsoid || plan.pages.empty()) return {};
+    if (!(has_trees_ || has_grass_) || view.model.earth != Earth::ellipsoid || plan.pages.empty()) return {};
     std::vector<GroundRange> ranges;
     ranges.reserve(plan.page_indices.size());
     for (std::size_t i = 0; i < plan.page_indices.size(); ++i) {
         ORO_TRY(const KeptPage* const page, memory_.page_of(plan, i));
         ranges.push_back({page->record.summary.lowest_h_m, page->record.summary.highest_h_m});
     }
-    plan.growth =
-        plan_growth(pages_->facts().grid, plan.page_indices, [&](std::size_t page) { return ranges[page]; },
-                    {view.camera, view.tile, view.tau_px});
+    const auto ground = [&](std::size_t page) { return ranges[page]; };
+    const GrowthView from{view.camera, view.tile, view.tau_px};
+    if (has_trees_) plan.growth = plan_growth(pages_->facts().grid, plan.page_indices, ground, from);
+    if (has_grass_) plan.meadow = plan_meadow(pages_->facts().grid, plan.page_indices, ground, from);
     return {};
 }
 
@@ -339,8 +340,13 @@ void Scene::set_trees(bool on) {
     for (GridScene& grid : grids_) grid.has_trees_ = on && !grid.pages_->is_seam();
 }
 
+void Scene::set_grass(bool on) {
+    for (GridScene& grid : grids_) grid.has_grass_ = on && !grid.pages_->is_seam();
+}
+
 void Scene::require_fields(const gpu::FrameStyle& style) {
     set_trees((style.materials.on & gpu::materials_with_trees) != 0);
+    set_grass((style.materials.on & gpu::materials_with_grass) != 0);
     set_shadow_request(shadow_request(style));
     set_footprint_spacing(means_spacing_px(style));
 }

@@ -105,7 +105,8 @@ class GridScene {
     std::set<PageIndex> hidden_;     // of those
     bool full_{false};               // of the last frame's pages
     bool full_for_hidden_{false};    // at least for those
-    bool has_trees_{false};          // whether plans have sites of trees
+    bool has_trees_{false};          // whether plans have sites of trees,
+    bool has_grass_{false};          // ... and of grass
     bool can_evict_hidden_{false};   // hidden pages of the last plan could, for missing ones
     ShadowRequest cast_;
     double asked_means_px_{gpu::means_spacing_px}, means_spacing_px_{gpu::means_spacing_px};
@@ -141,7 +142,9 @@ class Scene {
     void set_footprint_spacing(double spacing_px);
     // ... and the sites of trees around the eye (core/growth/growth_plan.h), on WGS84.
     void set_trees(bool on);
-    // All three, as a style asks for them.
+    // ... and those of grass (core/growth/meadow_plan.h), likewise.
+    void set_grass(bool on);
+    // All of these, as a style asks for them.
     void require_fields(const gpu::FrameStyle& style);
     // What a frame draws with the pages and clusters that are on the GPU now.
     Result<FramePlan> plan(const FrameView& view);

@@ -60,14 +60,14 @@ float enters_stem(vec3 p, vec3 d, float high_m, float radius_m) {
 // How far out a place is in its crown: 0 at the stem, 1 on the cone or the ellipsoid around all of it.
 float out_in_crown(Crown crown, vec3 at) {
     float length_m = crown.high_m - crown.low_m;
-    if (crown.kind == site_needle) return length(at.xy) / max(crown.radius_m * (crown.high_m - at.z) / length_m, 0.05);
-    return length((at - vec3(0.0, 0.0, 0.5 * (crown.low_m + crown.high_m))) / vec3(crown.radius_m, crown.radius_m, 0.5 * length_m));
+    if (crown.kind == site_needle) return crown.shell * length(at.xy) / max(crown.radius_m * (crown.high_m - at.z) / length_m, 0.05);
+    return crown.shell * length((at - vec3(0.0, 0.0, 0.5 * (crown.low_m + crown.high_m))) / vec3(crown.radius_m, crown.radius_m, 0.5 * length_m));
 }
 
 // Negative among leaves: these reach out as far as noise says. Broad-leaved trees have bunches of bunches of them, needle trees branches
 // that hang down. detail, leaves: 1 where bunches,
 // and where leaves, are larger than pixels, 0 where they are not; the crown's mean size stays.
-float outside_leaves(Crown crown, vec3 at, float detail, float leaves) {
+float outside_leaves(Crown crown, vec3 at, float detail, vec2 leaves) {
     float out_share = out_in_crown(crown, at);
     if (detail <= 0.0) return out_share - 0.9;
     float reach;
@@ -77,32 +77,35 @@ float outside_leaves(Crown crown, vec3 at, float detail, float leaves) {
     } else {
         reach = 0.4 + 0.78 * leaf_noise(at * 0.62, crown.hash) + 0.36 * leaf_noise(at * 1.9, crown.hash + 1u) - 0.1;
     }
-    if (leaves > 0.0) reach += leaves * 0.42 * (leaf_noise(at * 6.7, crown.hash + 2u) - 0.5);
+    if (leaves.x > 0.0) reach += leaves.x * 0.42 * (leaf_noise(at * 6.7, crown.hash + 2u) - 0.5);
+    if (leaves.y > 0.0) reach += leaves.y * 0.3 * (leaf_noise(at * 19.0, crown.hash + 3u) - 0.5);
     return out_share - mix(0.9, reach, detail);
 }
 
-vec3 normal_of_crown(Crown crown, vec3 at, float detail, float leaves) {
-    float e = 0.12 + 0.3 * (1.0 - detail) - 0.08 * leaves, here = outside_leaves(crown, at, detail, leaves);
+vec3 normal_of_crown(Crown crown, vec3 at, float detail, vec2 leaves) {
+    float e = 0.12 + 0.3 * (1.0 - detail) - 0.08 * leaves.x - 0.025 * leaves.y, here = outside_leaves(crown, at, detail, leaves);
     vec3 change = vec3(outside_leaves(crown, at + vec3(e, 0.0, 0.0), detail, leaves), outside_leaves(crown, at + vec3(0.0, e, 0.0), detail, leaves),
                        outside_leaves(crown, at + vec3(0.0, 0.0, e), detail, leaves)) - here;
     return dot(change, change) > 0.0 ? normalize(change) : vec3(0.0, 0.0, 1.0);
 }
 
-float detail_at(float pixel_m) { return clamp(1.5 - 1.15 * pixel_m, 0.0, 1.0); }
-float leaves_at(float pixel_m) { return clamp(1.4 - 18.0 * pixel_m, 0.0, 1.0); }
+// Of leaves, and of what of them is seen from near.
+vec2 leaves_at(float pixel_m) { return clamp(vec2(1.4, 1.5) - vec2(18.0, 60.0) * pixel_m, 0.0, 1.0); }
 
-const int crown_steps = 16;
-// A line from a place along a ray, both in view coordinates. pixel_m: what a pixel covers at the tree.
-bool meets_crown(Crown crown, vec3 from, vec3 ray, float pixel_m, out CrownHit hit) {
+const int crown_steps = 22;
+// A line from a place along a ray, both in view coordinates, from a depth on. pixel_m: what a pixel covers at the tree.
+bool meets_crown(Crown crown, vec3 from, vec3 ray, float pixel_m, float least, out CrownHit hit) {
     vec3 middle = crown.foot + 0.5 * crown.high_m * crown.axes[2] - from;
     float begin = dot(middle, ray) / dot(ray, ray);
     vec3 p = (ray * begin + (from - crown.foot)) * crown.axes, d = ray * crown.axes;
-    float detail = detail_at(pixel_m), leaves = leaves_at(pixel_m), size = detail > 0.0 ? 1.0 : 0.9, best = no_hit;
+    float detail = detail_at(pixel_m), size = detail > 0.0 ? 1.0 : 0.9, best = no_hit;
+    vec2 leaves = leaves_at(pixel_m);
     bool is_needle = crown.kind == site_needle;
     float s = is_needle ? enters_cone(p, d, crown.low_m, crown.high_m, crown.radius_m * size) : enters_ellipsoid(p, d, crown.low_m, crown.high_m, crown.radius_m);
     hit.is_stem = false;
     hit.inside = 0.0;
     if (s < no_hit && detail <= 0.0) best = s;
+    if (detail > 0.0 && s < no_hit) s = max(s, least - begin);
     // Along the line through what is convex, until it is among leaves.
     float step_m = 0.5 * crown.radius_m / length(d), before = 1.0, last = s;
     for (int i = 0; s < no_hit && detail > 0.0 && i < crown_steps; ++i) {
@@ -112,7 +115,7 @@ bool meets_crown(Crown crown, vec3 from, vec3 ray, float pixel_m, out CrownHit h
             best = mix(last, s, clamp(before / max(before - outside, 1.0e-6), 0.0, 1.0));
             break;
         }
-        if (i > 0 && (out_in_crown(crown, at) > 1.001 || at.z < crown.low_m || at.z > crown.high_m)) break;
+        if (i > 0 && (out_in_crown(crown, at) > 1.001 * crown.shell || at.z < crown.low_m || at.z > crown.high_m)) break;
         before = outside;
         last = s;
         s += step_m * clamp(outside, 0.12, 0.5);
@@ -132,6 +135,5 @@ bool meets_crown(Crown crown, vec3 from, vec3 ray, float pixel_m, out CrownHit h
 }
 // Through a pixel.
 bool hits_crown(Crown crown, vec3 ray, float pixel_m, out CrownHit hit) {
-    return meets_crown(crown, vec3(0.0), ray, pixel_m, hit) && hit.depth_m > 0.3;
+    return meets_crown(crown, vec3(0.0), ray, pixel_m, 0.3, hit) && hit.depth_m >= 0.3;
 }
-float pixel_m_at(vec3 view) { return -view.z / FRAME.pixels_per_tangent; }

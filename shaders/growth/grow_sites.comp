@@ -32,6 +32,7 @@ const bool of_materials = true;
 #include "shaders/shade/cover_tiles.glsl"
 #include "shaders/shade/ground.glsl"
 #include "shaders/growth/growth.glsl"
+#include "shaders/growth/site_ground.glsl"
 
 layout(local_size_x = 128) in;  // site_group
 
@@ -51,62 +52,6 @@ Stands stands_of(MaterialShares shares) {
     return Stands(shares.of[material_needle_forest], shares.of[material_broad_forest], open);
 }
 
-// The ground under a site, for the rule of materials.
-SurfacePoint ground_of(SitePlace place) {
-    FramePage page = frame_pages().at[place.page];
-    PageBlocks block = PageBlocks(page.block);
-    SurfacePoint point;
-    point.view = place.view;
-    point.post = place.post;
-    point.page = place.page;
-    point.region = vec2(place.whole) + place.part;
-    point.h_m = place.h_m;
-    point.H_m = point.mean_H_m = (place.h_m - undulation_at(point.region)) / FRAME.exaggeration;
-    point.normal = normal_at(block, page, place.post);
-    point.smooth_normal = point.normal;
-    RowTerms row = RowTable(FRAME.row_terms).at[page.row_terms + uint(place.post.x)];
-    point.lat_deg = degrees(atan(row.S, row.C));
-    point.snow_line_m = snow_line_m(point.lat_deg);
-    point.wide_level = 0.0;
-    point.parts = 0;
-    point.post_m = block.at[0].row_spacing_m;
-    point.hollow_m = by_means ? hollow_m_at(point, length(place.view) / FRAME.pixels_per_tangent) : 0.0;
-    return point;
-}
-
-// Of a map of land cover: the finest of its texels that is here.
-MaterialShares shares_of_texel(uint texel, inout float known) {
-    MaterialShares shares;
-    for (uint i = 0u; i < material_count; ++i) shares.of[i] = 0.0;
-    for (; texel != 0u; texel >>= 8u) {
-        uint ground = texel & 15u;
-        if (ground == cover_unknown) continue;
-        float share = float((texel >> 4u) & 15u) / 15.0;
-        uint materials = DrapeTiles(FRAME.drape.tiles).at[FRAME.drape.tile_mask + 2u + ground].texels.x;
-        shares.of[materials & 255u] += share * (1.0 - pixel_second);
-        shares.of[(materials >> 8u) & 255u] += share * pixel_second;
-        known += share;
-    }
-    return shares;
-}
-MaterialShares shares_by_map(SitePlace place, SurfacePoint point, out float known) {
-    point.drape_post = place.whole;
-    point.drape_part = place.part;
-    ivec2 levels = cover_levels(), whole;
-    vec2 part;
-    known = 0.0;
-    cover_tap(point, DrapeFootprint(1, vec2(0.0), levels.x, 0.0), 0, levels, whole, part);
-    for (int level = levels.x; level <= levels.y; ++level) {
-        DrapeSpot spot = cover_spot(whole, part, level);
-        uvec2 texels;
-        if (!drape_find(spot, texels)) continue;
-        if (texels == uvec2(0u)) break;
-        uvec2 at = uvec2(clamp(spot.texel + 1.0, vec2(0.0), vec2(float(drape_stride) - 1.0)));
-        return shares_of_texel(DrapeTexels(texels).at[at.x * drape_stride + at.y], known);
-    }
-    return shares_of_texel(0u, known);
-}
-
 Stands stands_at(SitePlace place, SurfacePoint point) {
     pixel_noise = ground_noise(point.view, foot_m, 0.0005);
     pixel_second = patched(0.0, 1.0);
@@ -121,40 +66,14 @@ Stands stands_at(SitePlace place, SurfacePoint point) {
     return Stands(by_map.needle + left * by_rule.needle, by_map.broad + left * by_rule.broad, by_map.open + left * by_rule.open);
 }
 
-// What a tree sees of the sun over the terrain, at some of its height.
-float sun_on_tree(SitePlace place, SurfacePoint point, float height_m) {
-    if (!casts) return 1.0;
-    CastPoint at_tree;
-    at_tree.post = place.whole;
-    at_tree.beyond = place.part;
-    at_tree.distance_m = length(place.view);
-    at_tree.level = frame_pages().at[place.page].level;
-    CastPoint shown_point = cast_point(place.page * (meshlets_per_page * meshlet_triangles), point);
-    at_tree.latitude = shown_point.latitude;
-    at_tree.longitude = shown_point.longitude;
-    CastStart start;
-    if (!starts_on_ground(at_tree, start)) return 1.0;
-    CastSearch search = search_from(start);
-    search.lift_m = 0.6 * height_m;
-    uint level = start.level;
-    SunLine line = sun_line(start.at);
-    CastPiece piece = CastPiece(0.0, 0.0, at_tree.beyond, line.a1.xy * line.per_m);
-    for (int i = 0; i < 500 && piece.from_m < line.length_m; ++i) {
-        piece.to_m = min(piece.from_m + cast_piece_m, line.length_m);
-        vec2 end = at_tree.beyond + along(line, piece.to_m).xy;
-        piece.per_m = (end - piece.at) / (piece.to_m - piece.from_m);
-        if (!look_along(line, piece, start.error_m, level, search) || search.least <= -sun_radius_rad) break;
-        piece.from_m = piece.to_m;
-        piece.at = end;
-    }
-    return disc_share(search.least);
-}
-
 // What of the sun's light falls on a closed canopy, which lies as its ground does: that on level ground is 1.
 float sun_on_canopy(SurfacePoint point) {
     vec3 sun = sun_at(point.view);
     return clamp(dot(steeper(point.normal, FRAME.style.relief), sun) / max(sun.z, 0.15), 0.08, most_sun);
 }
+
+// Of single trees, that have leaves: as the rule has forests.
+float broad_share(SurfacePoint point) { return patched((1.9 * FRAME.style.cover.forest_m - above_snow_line_m(point)) / 220.0, 1.0); }
 
 // Lower towards where trees end, and where they are few.
 float size_at(SurfacePoint point, bool in_open, uint hash) {
@@ -165,7 +84,7 @@ float size_at(SurfacePoint point, bool in_open, uint hash) {
 
 bool may_show(SitePlace place) {
     float distance_m = length(place.view);
-    if (distance_m > GROWTH.reach_m || distance_m < 6.0) return false;
+    if (distance_m > GROWTH.reach_m || distance_m < 3.0) return false;
     vec3 middle = place.view + 15.0 * normalize(place.view + (FRAME.earth_radius_m + FRAME.eye_h_m) * FRAME.up_view);
     // Near the eye those beside the picture, too: their shadows may be in it.
     float w = -middle.z, reach_m = distance_m < shade_map_reach_m ? 80.0 : 24.0;
@@ -177,7 +96,7 @@ bool may_show(SitePlace place) {
 // Whether neither the largest tree there nor its shadow is seen.
 bool is_hidden(SitePlace place) {
     // With what it leans; broad-leaved ones that stand alone are the widest.
-    float tallest_m = 30.0 * FRAME.exaggeration, widest_m = 9.0 + 0.1 * tallest_m;
+    float tallest_m = 33.0 * FRAME.exaggeration, widest_m = 11.5 + 0.1 * tallest_m;
     if (length(place.view) < shade_map_reach_m + 40.0) return false;
     vec3 up = normalize(place.view + (FRAME.earth_radius_m + FRAME.eye_h_m) * FRAME.up_view), top = place.view + tallest_m * up;
     ivec4 box = pixels_around(place.view, top, widest_m);
@@ -197,12 +116,13 @@ uint what_stands(GrowthTile tile, uint site) {
     float forest = stands.needle + stands.broad, number = site_number(hash, 11u);
     bool in_forest = number < forest;
     if (!in_forest && number >= forest + stands.open) return 0u;
-    uint kind = site_number(hash, 12u) * max(forest, 1.0e-6) < stands.needle ? site_needle : site_broad;
+    float needle = in_forest ? stands.needle / forest : 1.0 - broad_share(point);
+    uint kind = site_number(hash, 12u) < needle ? site_needle : site_broad;
     // Where trees are left out the farther they are, the next of them are small already.
     float size = size_at(point, !in_forest, hash) * smoothstep(0.0, grows_in, kept - rank);
     uint size_code = uint(clamp(size, 0.0, 1.0) * 255.0 + 0.5);
     if (size_code < 20u) return 0u;
-    float sun = sun_on_tree(place, point, size * tree_height_m(hash)) * (in_forest ? sun_on_canopy(point) : 1.0);
+    float sun = sun_on_site(place, point, 0.6 * (size * tree_height_m(hash))) * (in_forest ? sun_on_canopy(point) : 1.0);
     uint sun_code = uint(sun / most_sun * 255.0 + 0.5);
     return kind | (in_forest ? site_in_forest : 0u) | sun_code << site_sun_bit | size_code << site_size_bit;
 }

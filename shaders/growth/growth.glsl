@@ -19,6 +19,7 @@ struct SitePlace {
     vec2 part;    // ... and the rest
     vec3 view;    // metres
     float h_m;    // above the ellipsoid, as drawn
+    vec3 corners[3];  // of the triangle, view coordinates
 };
 
 // Down to the finest page over a post of the region.
@@ -33,9 +34,8 @@ uint finest_page(uint number, ivec2 whole) {
     return number;
 }
 
-// False where there is no ground.
-bool place_of_site(GrowthTile tile, uint site, uint hash, out SitePlace place) {
-    vec2 at = (vec2(site % sites_per_side, site / sites_per_side) + site_place(hash)) / float(sites_per_side);
+// Of a place in a tile, 0 to 1 from the west and the south. False where there is no ground.
+bool place_in_tile(GrowthTile tile, vec2 at, out SitePlace place) {
     vec2 off = mix(mix(tile.corners[0], tile.corners[1], at.x), mix(tile.corners[2], tile.corners[3], at.x), at.y), posts = floor(off);
     place.whole = ivec2(tile.post[0], tile.post[1]) + ivec2(posts);
     place.part = off - posts;
@@ -58,10 +58,15 @@ bool place_of_site(GrowthTile tile, uint site, uint hash, out SitePlace place) {
     for (int i = 0; i < 3; ++i) {
         int height = post_height(block, corners[i]);
         if (height == void_height) return false;
-        place.view += shares[i] * place_in_view(page, corners[i], height);
+        place.corners[i] = place_in_view(page, corners[i], height);
+        place.view += shares[i] * place.corners[i];
         place.h_m += shares[i] * float(height) * height_step_m;
     }
     return true;
+}
+bool place_of_site(GrowthTile tile, uint site, uint hash, out SitePlace place) {
+    vec2 at = (vec2(site % sites_per_side, site / sites_per_side) + site_place(hash)) / float(sites_per_side);
+    return place_in_tile(tile, at, place);
 }
 
 // A crown and its stem, in a frame at the foot: east, north and along the stem, as columns in view coordinates.
@@ -71,10 +76,15 @@ struct Crown {
     float low_m;   // where the crown begins
     float high_m;  // its top
     float radius_m;
+    float shell;  // how far out leaves may reach, over the mean: low_m, high_m and radius_m hold them
     float colour;
     uint kind;
     uint hash;
 };
+// 1 where bunches of leaves are larger than pixels, 0 where they are not.
+float detail_at(float pixel_m) { return clamp(1.5 - 1.15 * pixel_m, 0.0, 1.0); }
+float pixel_m_at(vec3 view) { return -view.z / FRAME.pixels_per_tangent; }
+const float shell_of_leaves = 1.25;
 Crown crown_at(vec3 view, uint hash, uint stands) {
     Tree tree = tree_of_site(hash, stands & 3u, float((stands >> site_size_bit) & 255u) / 255.0);
     vec3 up = normalize(view + (FRAME.earth_radius_m + FRAME.eye_h_m) * FRAME.up_view);
@@ -88,7 +98,14 @@ Crown crown_at(vec3 view, uint hash, uint stands) {
     bool alone = (stands & site_in_forest) == 0u;
     crown.low_m = (alone ? 0.4 : 1.0) * tree.crown_m * FRAME.exaggeration;
     crown.high_m = tree.height_m * FRAME.exaggeration;
-    crown.radius_m = (alone ? 1.25 : 1.0) * tree.radius_m;
+    // Leaves reach out of a smooth crown here and there; far away it is smooth.
+    crown.shell = detail_at(pixel_m_at(view)) > 0.0 ? shell_of_leaves : 1.0;
+    crown.radius_m = (alone ? 1.25 : 1.0) * tree.radius_m * crown.shell;
+    if ((stands & 3u) != site_needle) {
+        float beyond_m = 0.5 * (crown.shell - 1.0) * (crown.high_m - crown.low_m);
+        crown.high_m += beyond_m;
+        crown.low_m = max(crown.low_m - beyond_m, 0.0);
+    }
     crown.colour = tree.colour;
     crown.kind = stands & 3u;
     crown.hash = hash;
@@ -114,7 +131,8 @@ ivec4 pixels_around(vec3 foot, vec3 top, float radius_m) {
     for (int i = 0; i < 2; ++i) {
         vec3 at = i == 0 ? foot : top;
         float w = -at.z, near_m = w - radius_m;
-        if (near_m < 0.5) return ivec4(0, 0, -1, -1);  // beside the eye or behind it
+        // Around the eye: anywhere; behind it: nowhere.
+        if (near_m < 0.5) return max(-foot.z, -top.z) + radius_m < 0.5 ? ivec4(0, 0, -1, -1) : ivec4(0, 0, FRAME.width_px - 1u, FRAME.height_px - 1u);
         vec2 middle = at.xy / w, reach = radius_m * (1.0 + abs(middle)) / near_m;
         low = min(low, (middle - reach) * FRAME.projection_scale);
         high = max(high, (middle + reach) * FRAME.projection_scale);

@@ -72,7 +72,7 @@ GroundLight light_of_crown(Crown crown, CrownHit hit, uint stands, vec3 sun, vec
     vec3 normal = hit.is_stem ? normalize(vec3(hit.at.xy, 0.01)) : normal_of_crown(crown, hit.at, detail, leaves_at(pixel_m));
     // Leaves of a bunch look every way: its normal is most of it, and a smooth crown's the rest; light that goes
     // from leaf to leaf comes from above.
-    vec3 smooth_normal = hit.is_stem ? normal : normal_of_crown(crown, hit.at, 0.0, 0.0);
+    vec3 smooth_normal = hit.is_stem ? normal : normal_of_crown(crown, hit.at, 0.0, vec2(0.0));
     normal = normalize(mix(smooth_normal, normal, 0.65) + vec3(0.0, 0.0, hit.is_stem ? 0.0 : 0.45));
     if (!hit.is_stem) albedo *= 1.0 + detail * 0.7 * (leaf_noise(5.5 * hit.at, crown.hash + 4u) - 0.5);
     float up = clamp((hit.at.z - crown.low_m) / max(crown.high_m - crown.low_m, 0.1), 0.0, 1.0);

@@ -4,6 +4,8 @@
 // Heights, stems per hectare and crowns are those of a mountain forest of beech, spruce and fir. Source: J.-M. Monnet, field
 // inventory and airborne laser scan of Chablais, plot 3 (R package lidaRtRee): 402 stems a hectare, heights with 10, 50, 90 and
 // 99 % quantiles of 7.3, 14.3, 21.7 and 25.9 m, 0.76 of the ground under crowns above 3 m.
+#ifndef OROGRAPH_SHADERS_GROWTH_TREE_RULE
+#define OROGRAPH_SHADERS_GROWTH_TREE_RULE
 
 // Source: C. Wellons, hash-prospector, lowbias32 (public domain).
 ORO_FUNCTION uint site_mixed(uint h) {
@@ -57,9 +59,12 @@ ORO_FUNCTION Tree tree_of_site(uint hash, uint kind, float size) {
     float wide = 0.8f + 0.4f * site_number(hash, 4u), low = site_number(hash, 5u);
     bool is_needle = kind == site_needle;
     tree.crown_m = tree.height_m * (is_needle ? 0.08f + 0.17f * low : 0.2f + 0.18f * low);
-    tree.radius_m = wide * (is_needle ? 0.85f + 0.105f * tree.height_m : 0.9f + 0.165f * tree.height_m);
+    // Of a small tree no more than its height allows: it is no cushion.
+    float radius_m = is_needle ? 0.85f + 0.105f * tree.height_m : 0.9f + 0.165f * tree.height_m, most_m = (is_needle ? 0.36f : 0.43f) * tree.height_m;
+    tree.radius_m = wide * (radius_m < most_m ? radius_m : most_m);
     float leans = is_needle ? 0.025f : 0.07f;
     tree.lean = vec2(leans * (2.0f * site_number(hash, 6u) - 1.0f), leans * (2.0f * site_number(hash, 7u) - 1.0f));
     tree.colour = site_number(hash, 8u) + site_number(hash, 9u) - 1.0f;
     return tree;
 }
+#endif

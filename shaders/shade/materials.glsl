@@ -3,7 +3,9 @@
 #ifdef IN_AIR
 #include "shaders/shade/ground_noise.glsl"
 #include "shaders/shade/parcels.glsl"
+#include "shaders/shared_meadow.h"
 #include "shaders/growth/reach.glsl"
+#include "shaders/growth/meadow_reach.glsl"
 
 // By number (material_rock and so on); together 1.
 struct MaterialShares { float of[12]; };
@@ -71,12 +73,16 @@ void find_pixel_materials(SurfacePoint point, vec3 sun) {
         vec3 colour = FRAME.style.materials.of[i].colour + patches * FRAME.style.materials.of[i].patches;
         pixel_materials[i] = colour * max(1.0 + FRAME.style.materials.of[i].grain * pixel_noise.grain, 0.1);
     }
-    if (FRAME.style.materials.on > 1u) {
+    if ((FRAME.style.materials.on & materials_with_trees) != 0u) {
         // Where trees stand their floor is seen, in their shade; the mean of both is the forest's colour.
         float trees = trees_at(length(point.view), tree_reach_m(FRAME.pixels_per_tangent, FRAME.tau_px));
         pixel_materials[material_needle_forest] *= mix(crowns_in_light(to_eye, sun, needles_in_light), 0.65, trees);
         pixel_materials[material_broad_forest] *= mix(crowns_in_light(to_eye, sun, leaves_in_light), 0.65, trees);
     }
+#ifndef GROWS_GRASS
+    // What is seen between blades stands in their shade; the mean of both is the meadow's colour.
+    if ((FRAME.style.materials.on & materials_with_grass) != 0u) pixel_materials[material_meadow] *= meadow_floor_at(length(point.view), dot(point.normal, to_eye));
+#endif
     if (pixel_slope_deg < parcels_to_deg && foot_m < parcels_to_foot_m) {
         vec2 parcel = parcels_at(point.view, foot_m, pixel_noise.border);
         vec3 hue = FRAME.style.materials.of[material_crops].patches;

@@ -109,7 +109,7 @@ bool shade(ivec2 pixel) {
         cast_on(point, id, pixel);
         look_for_snow(point);
 #ifdef IN_AIR
-        if (casts && FRAME.style.materials.on > 1u) shown_share *= light_past_trees(point.view, 0.4);
+        if (casts && (FRAME.style.materials.on & materials_with_trees) != 0u) shown_share *= light_past_trees(point.view, 0.4);
         place = ground_place(point);
     }
     if (!is_sky) colour = through_air(sent_by(place), place.view);

@@ -32,11 +32,11 @@ class TreePictures : public test::StyleTest {
     static std::string natural_text(bool trees) {
         std::ifstream file(test::bundled_data() / "styles" / "natural.json");
         std::string text((std::istreambuf_iterator<char>(file)), {});
-        const std::string growth = ",\n  \"growth\": { \"trees\": true }";
+        const std::string growth = ",\n  \"growth\": { \"trees\": true, \"grass\": true }";
         const std::size_t at = text.find(growth);
         EXPECT_NE(at, std::string::npos);
-        if (!trees && at != std::string::npos) text.erase(at, growth.size());
-        return text;
+        if (at == std::string::npos) return text;
+        return text.replace(at, growth.size(), trees ? ",\n  \"growth\": { \"trees\": true }" : "");
     }
     static gpu::FrameStyle natural(const Region& region, bool trees,
                                    const SunDirection& sun = {180.0, 50.0}) {

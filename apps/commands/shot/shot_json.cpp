@@ -148,7 +148,9 @@ void put_style(const ShotResult& shot, const Style& style, ordered_json& json) {
     json["cover"] = nullptr;
     if (style.frame.colour_by == gpu::colour_by_cover) json["cover"] = shot.view.cover ? "files" : "rule";
     if ((style.frame.materials.on & gpu::materials_with_trees) != 0)
-        json["growth"] = json_object("trees", "invented, by a rule, where the ground cover is forest");
+        json["growth"]["trees"] = "invented, by a rule, where the ground cover is forest";
+    if ((style.frame.materials.on & gpu::materials_with_grass) != 0)
+        json["growth"]["grass"] = "invented, by a rule, within 60 m where the ground cover is meadow";
     json["contour_interval_m"] = nullptr;
     if (style.frame.contours.interval_m > 0.0F) json["contour_interval_m"] = style.frame.contours.interval_m;
 }
