@@ -136,6 +136,8 @@ set_tests_properties(
   GridsOverEachOther.StandInPanoramasWithNames
   GridsUnderImages.LieOnTheSamePlaces
   GroundModel.IsWithinItsErrorAndWithoutGaps
+  ExportCommand.A3dTilesetHasTheProvenErrors
+  GroundTileset.ErrorHoldsAtEveryPlace
   GroundTileset.ErrorHoldsOnANetAndBesideVoids
   GroundTileset.IsTheSameForAnyNumberOfThreads
   GroundTileset.WallsCloseGapsBetweenLevels

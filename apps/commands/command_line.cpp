@@ -558,10 +558,14 @@ void add_export(CLI::App& app, ExportOptions& options) {
     written.number(
         "--hole-height", options.hole_height_m, "METRES",
         "Height of places without ground, -10000 to 10000 (default 0). Needs terrain-rgb or quantized-mesh.");
-    written.number("--max-error", options.max_error_m, "METRES",
-                   "How far a model may be from the ground, 0 to 100000: the larger, the fewer triangles "
-                   "(default 0, every "
-                   "sample). Needs gltf.");
+    written.number(
+        "--max-error", options.max_error_m, "METRES",
+        "How far a model, or the finest 3D Tiles, may be from the ground, 0 to 100000: the larger, "
+        "the fewer triangles. Default: 0 (every sample) of a model, a fifth of the way between "
+        "samples of 3D Tiles. Needs gltf or 3dtiles.");
+    written.flag(
+        "--no-normals", options.no_normals,
+        "Leave normals out of 3D Tiles, a fifth of their size, where the viewer's shader makes its own.");
     written.flag("--overwrite", options.overwrite,
                  "Replace a file that is there, or a folder that holds such tiles and nothing else.");
     add_region_options(command, options.region);

@@ -14,7 +14,8 @@ struct ExportOptions {
     std::string out;                      // a file of cog and gltf, a folder of the others
     std::optional<std::string> zoom;      // LOW:HIGH
     std::optional<double> hole_height_m;  // what places without ground hold
-    std::optional<double> max_error_m;    // of a model
+    std::optional<double> max_error_m;    // of a model, or of the finest tiles
+    bool no_normals{false};               // of 3D Tiles
     bool overwrite{false};
     bool json{false};
     bool quiet{false};

@@ -17,10 +17,11 @@ static_assert(std::endian::native == std::endian::little, "glTF is little endian
 using Json = nlohmann::ordered_json;
 
 // glTF's names for what buffers hold.
-constexpr int component_short = 5122, component_unsigned_short = 5123, component_float = 5126;
+constexpr int component_byte = 5120, component_short = 5122, component_unsigned_short = 5123,
+              component_unsigned_int = 5125, component_float = 5126;
 constexpr int array_buffer = 34962, element_array_buffer = 34963;
-constexpr std::size_t position_bytes = 12, normal_bytes = 8;  // three floats; three shorts and two bytes more
-constexpr int normal_bits = 12;
+constexpr std::size_t float_bytes = 12, short_bytes = 8, normal_bytes = 4;  // the last two: three and padding
+constexpr int normal_bits = 8;
 constexpr const char* compression = "EXT_meshopt_compression";
 
 template <class Vector>
@@ -46,10 +47,11 @@ struct View {
     const char* mode{};
     const char* filter{};  // null for none
     int target{};
+    int component{};
 };
 struct Views {
     std::vector<std::uint8_t> bytes;
-    std::vector<View> views;  // positions, normals, triangles
+    std::vector<View> views;  // positions, normals if there are any, triangles
 };
 
 // The mesh's triangles as graphics cards like them, and its vertices in the order of their use.
@@ -60,11 +62,12 @@ struct OrderedMesh {
 
 OrderedMesh ordered(const GroundMesh& mesh) {
     OrderedMesh order;
-    const std::size_t vertices = mesh.positions_m.size(), ground = 3 * mesh.ground_triangles;
+    const std::size_t vertices = mesh.positions.size(), ground = 3 * mesh.ground_triangles;
     order.indices.resize(mesh.indices.size());
-    meshopt_optimizeVertexCache(order.indices.data(), mesh.indices.data(), ground, vertices);
-    meshopt_optimizeVertexCache(order.indices.data() + ground, mesh.indices.data() + ground,
-                                mesh.indices.size() - ground, vertices);
+    // In strips, which take fewer bytes.
+    meshopt_optimizeVertexCacheStrip(order.indices.data(), mesh.indices.data(), ground, vertices);
+    meshopt_optimizeVertexCacheStrip(order.indices.data() + ground, mesh.indices.data() + ground,
+                                     mesh.indices.size() - ground, vertices);
     order.numbers.resize(vertices);
     meshopt_optimizeVertexFetchRemap(order.numbers.data(), order.indices.data(), order.indices.size(),
                                      vertices);
@@ -72,13 +75,16 @@ OrderedMesh ordered(const GroundMesh& mesh) {
     return order;
 }
 
-// A coordinate as the filter EXPONENTIAL has it: 2^exponent times a whole number of 24 bits.
-std::uint32_t exponential(float value_m, int exponent) {
-    constexpr double most = 0x7FFFFF;
-    double steps = std::ldexp(static_cast<double>(value_m), -exponent);
-    while (std::abs(steps) > most) steps = std::round(std::ldexp(steps, -1)), ++exponent;
-    return static_cast<std::uint32_t>(exponent) << 24U |
-           (static_cast<std::uint32_t>(static_cast<std::int32_t>(steps)) & 0xFFFFFFU);
+// A coordinate as the filter EXPONENTIAL has it: 2^0 times a whole number of 24 bits.
+std::uint32_t exponential(std::int32_t steps) {
+    return static_cast<std::uint32_t>(steps) & 0xFFFFFFU;
+}
+
+bool fits_shorts(const GroundMesh& mesh) {
+    constexpr int most = 32767;
+    return std::ranges::all_of(mesh.positions, [](const glm::ivec3& position) {
+        return std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)}) <= most;
+    });
 }
 
 // Codes that all decoders of the extension know.
@@ -95,35 +101,61 @@ void add_view(Views& views, View view, std::vector<std::uint8_t> bytes) {
     views.views.push_back(view);
 }
 
-void add_vertices(Views& views, const void* vertices, std::size_t count, std::size_t stride,
-                  const char* filter) {
+// Vertices in their new order.
+template <class Vertex>
+void add_vertices(Views& views, const std::vector<Vertex>& vertices, const char* filter, int component) {
+    const std::size_t count = vertices.size(), stride = sizeof(Vertex);
     std::vector<std::uint8_t> bytes(meshopt_encodeVertexBufferBound(count, stride));
-    bytes.resize(meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), vertices, count, stride));
-    add_view(views, {0, 0, count, stride, "ATTRIBUTES", filter, array_buffer}, std::move(bytes));
+    bytes.resize(meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), vertices.data(), count, stride));
+    add_view(views, {0, 0, count, stride, "ATTRIBUTES", filter, array_buffer, component}, std::move(bytes));
+}
+
+void add_positions(Views& views, const GroundMesh& mesh, const OrderedMesh& order) {
+    const std::size_t count = mesh.positions.size();
+    if (fits_shorts(mesh)) {
+        std::vector<std::array<std::int16_t, short_bytes / 2>> shorts(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const glm::ivec3& at = mesh.positions[i];
+            shorts[order.numbers[i]] = {static_cast<std::int16_t>(at.x), static_cast<std::int16_t>(at.y),
+                                        static_cast<std::int16_t>(at.z), 0};
+        }
+        add_vertices(views, shorts, nullptr, component_short);
+        return;
+    }
+    std::vector<std::array<std::uint32_t, float_bytes / 4>> floats(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::ivec3& at = mesh.positions[i];
+        floats[order.numbers[i]] = {exponential(at.x), exponential(at.y), exponential(at.z)};
+    }
+    add_vertices(views, floats, "EXPONENTIAL", component_float);
+}
+
+void add_normals(Views& views, const GroundMesh& mesh, const OrderedMesh& order) {
+    const std::size_t count = mesh.normals.size();
+    if (count == 0) return;
+    std::vector<std::array<float, 4>> normals(count);
+    for (std::size_t i = 0; i < count; ++i)
+        normals[order.numbers[i]] = {mesh.normals[i].x, mesh.normals[i].y, mesh.normals[i].z, 0.0F};
+    std::vector<std::array<std::int8_t, normal_bytes>> octahedral(count);
+    meshopt_encodeFilterOct(octahedral.data(), count, normal_bytes, normal_bits, normals.front().data());
+    add_vertices(views, octahedral, "OCTAHEDRAL", component_byte);
 }
 
 Views views_of(const GroundMesh& mesh, const OrderedMesh& order) {
     [[maybe_unused]] static const bool chosen = (choose_codes(), true);
-    assert(chosen && mesh.positions_m.size() < 0xFFFF);
-    const std::size_t count = mesh.positions_m.size();
-    const int exponent = static_cast<int>(std::lround(std::log2(mesh.step_m)));
-    std::vector<std::array<std::uint32_t, 3>> positions(count);
-    std::vector<std::array<float, 4>> normals(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const glm::vec3 position = y_up(mesh.positions_m[i]), normal = y_up(mesh.normals[i]);
-        positions[order.numbers[i]] = {exponential(position.x, exponent), exponential(position.y, exponent),
-                                       exponential(position.z, exponent)};
-        normals[order.numbers[i]] = {normal.x, normal.y, normal.z, 0.0F};
-    }
+    assert(chosen);
+    constexpr std::size_t most_of_short = 65535;  // 65535 itself is no vertex
+    const std::size_t count = mesh.positions.size();
     Views views;
-    add_vertices(views, positions.data(), count, position_bytes, "EXPONENTIAL");
-    std::vector<std::array<std::int16_t, 4>> octahedral(count);
-    meshopt_encodeFilterOct(octahedral.data(), count, normal_bytes, normal_bits, normals.front().data());
-    add_vertices(views, octahedral.data(), count, normal_bytes, "OCTAHEDRAL");
+    add_positions(views, mesh, order);
+    add_normals(views, mesh, order);
     std::vector<std::uint8_t> triangles(meshopt_encodeIndexBufferBound(order.indices.size(), count));
     triangles.resize(meshopt_encodeIndexBuffer(triangles.data(), triangles.size(), order.indices.data(),
                                                order.indices.size()));
-    add_view(views, {0, 0, order.indices.size(), 2, "TRIANGLES", nullptr, element_array_buffer},
+    const bool shorts = count <= most_of_short;
+    add_view(views,
+             {0, 0, order.indices.size(), shorts ? std::size_t{2} : std::size_t{4}, "TRIANGLES", nullptr,
+              element_array_buffer, shorts ? component_unsigned_short : component_unsigned_int},
              std::move(triangles));
     return views;
 }
@@ -131,6 +163,18 @@ Views views_of(const GroundMesh& mesh, const OrderedMesh& order) {
 Json vector_json(const glm::dvec3& vector) {
     Json list = Json::array();
     for (const double part : {vector.x, vector.y, vector.z}) list.push_back(part == 0.0 ? 0.0 : part);
+    return list;
+}
+
+// From whole steps along the mesh's axes to glTF's.
+Json matrix_json(const GroundMesh& mesh) {
+    Json list = Json::array();
+    for (int i = 0; i < 3; ++i) {
+        const glm::dvec3 axis = y_up(mesh.step_m * mesh.ecef_from_mesh[i]);
+        for (const double part : {axis.x, axis.y, axis.z, 0.0}) list.push_back(part == 0.0 ? 0.0 : part);
+    }
+    const glm::dvec3 centre_m = y_up(mesh.centre_m);
+    for (const double part : {centre_m.x, centre_m.y, centre_m.z, 1.0}) list.push_back(part);
     return list;
 }
 
@@ -163,21 +207,25 @@ Json accessor_json(int view, int component, std::size_t count, const char* type)
     return accessor;
 }
 
-Json accessors_json(const GroundMesh& mesh) {
-    glm::vec3 low = y_up(mesh.positions_m.front()), high = low;
-    for (const glm::vec3& position : mesh.positions_m) {
-        low = glm::min(low, y_up(position));
-        high = glm::max(high, y_up(position));
+Json accessors_json(const GroundMesh& mesh, const Views& views) {
+    glm::ivec3 low = mesh.positions.front(), high = low;
+    for (const glm::ivec3& position : mesh.positions) {
+        low = glm::min(low, position);
+        high = glm::max(high, position);
     }
     Json list = Json::array();
-    Json positions = accessor_json(0, component_float, mesh.positions_m.size(), "VEC3");
-    positions["min"] = vector_json(low);
-    positions["max"] = vector_json(high);
-    list.push_back(std::move(positions));
-    Json normals = accessor_json(1, component_short, mesh.normals.size(), "VEC3");
-    normals["normalized"] = true;
-    list.push_back(std::move(normals));
-    list.push_back(accessor_json(2, component_unsigned_short, mesh.indices.size(), "SCALAR"));
+    for (const View& view : views.views) {
+        const int number = static_cast<int>(list.size());
+        const bool triangles = view.target == element_array_buffer;
+        Json accessor = accessor_json(number, view.component, view.count, triangles ? "SCALAR" : "VEC3");
+        if (number == 0) {
+            accessor["min"] = vector_json(low);
+            accessor["max"] = vector_json(high);
+        } else if (!triangles) {
+            accessor["normalized"] = true;
+        }
+        list.push_back(std::move(accessor));
+    }
     return list;
 }
 
@@ -203,10 +251,10 @@ Json list_of(Json one) {
 Json mesh_json(const GroundMesh& mesh) {
     Json attributes = Json::object();
     attributes["POSITION"] = 0;
-    attributes["NORMAL"] = 1;
+    if (!mesh.normals.empty()) attributes["NORMAL"] = 1;
     Json primitive = Json::object();
     primitive["attributes"] = std::move(attributes);
-    primitive["indices"] = 2;
+    primitive["indices"] = mesh.normals.empty() ? 1 : 2;
     primitive["material"] = 0;
     Json json = Json::object();
     json["primitives"] = list_of(std::move(primitive));
@@ -227,11 +275,11 @@ Json gltf_json(const GroundMesh& mesh, const GlbLook& look, const Views& views) 
     json["scenes"][0]["nodes"] = list_of(0);
     Json node = Json::object();
     node["mesh"] = 0;
-    node["translation"] = vector_json(y_up(mesh.centre_m));
+    node["matrix"] = matrix_json(mesh);
     json["nodes"] = list_of(std::move(node));
     json["meshes"] = list_of(mesh_json(mesh));
     json["materials"] = list_of(material_json(look));
-    json["accessors"] = accessors_json(mesh);
+    json["accessors"] = accessors_json(mesh, views);
     json["bufferViews"] = Json::array();
     std::size_t fallback_bytes = 0;
     for (const View& view : views.views) {

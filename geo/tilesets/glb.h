@@ -16,13 +16,13 @@ struct GlbLook {
     std::string generator;
 };
 
-// The bytes of a .glb of a mesh that has a triangle: one node, which the mesh's centre moves in double, one
-// mesh, one buffer that is compressed (EXT_meshopt_compression; a viewer that does not know it cannot read
-// the file). y is up in glTF, so ECEF's (x, y, z) is (x, z, -y); viewers of 3D Tiles turn it back. Positions
-// of ground are the mesh's own bits, as float32. Parts of normals are 1/1000 off at most
-// (KHR_mesh_quantization). Triangles come in another order. mesh.extras.groundTriangles: how many of them,
-// the first ones, are ground; the others are walls. Source: Khronos, glTF 2.0 specification; OGC 22-025r4, 3D
-// Tiles 1.1.
+// The bytes of a .glb of a mesh that has a triangle: one node, which takes whole steps along the mesh's axes
+// to their place, in double; one mesh, one buffer that is compressed (EXT_meshopt_compression; a viewer that
+// does not know it cannot read the file). y is up in glTF, so ECEF's (x, y, z) is (x, z, -y); viewers of 3D
+// Tiles turn it back. Positions are the mesh's own whole numbers, as shorts where they fit
+// (KHR_mesh_quantization), else as float32. Normals, if there are any, have 8 bits, and are 1/100 off at
+// most. Triangles come in another order. mesh.extras.groundTriangles: how many of them, the first ones, are
+// ground; the others are walls. Source: Khronos, glTF 2.0 specification; OGC 22-025r4, 3D Tiles 1.1.
 std::vector<std::uint8_t> glb_bytes(const GroundMesh& mesh, const GlbLook& look);
 // The bytes of a .glb around a text of JSON and its one buffer.
 std::vector<std::uint8_t> glb_around(const std::string& json, std::vector<std::uint8_t> buffer);

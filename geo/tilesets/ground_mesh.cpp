@@ -4,221 +4,279 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <memory>
-#include <optional>
+#include <glm/matrix.hpp>
+#include <unordered_map>
 
-#include "core/terrain/cell_diagonal.h"
-#include "core/terrain/drawn_heights.h"
-#include "core/terrain/page_posts.h"
+#include "geo/tilesets/clipped_triangle.h"
 #include "geo/tilesets/post_place.h"
 
 namespace oro {
 namespace {
 
-constexpr int quads = static_cast<int>(gpu::page_quads);
-constexpr int across = static_cast<int>(gpu::height_stride);  // of posts -1 .. 129
+constexpr std::uint32_t none = 0xFFFFFFFFU;
+constexpr double unset = 1.0e9;
 
-struct PlacedPost {
-    glm::dvec3 ecef_m{0.0};
-    glm::dvec3 up{0.0};  // the ellipsoid's normal
-    bool there{};
-};
-
-// Makes the mesh of a page from its block.
+// Makes the mesh of a tile from a cut.
 class MeshBuilder {
   public:
-    MeshBuilder(const PostGrid& grid, const PageIndex& page, const PageSummary& summary,
-                const gpu::PageBlock& block)
-        : block_(block), numbers_(static_cast<std::size_t>(across * across), none) {
-        mesh_.centre_m = summary.origin_ecef.m + summary.ecef_from_page * summary.centre_m;
-        place_posts(grid, page);
-        mesh_.box = {unset, unset, -unset, -unset, summary.lowest_h_m, summary.highest_h_m};
-        middle_lon_deg_ = summary.origin.lon_deg;
-    }
-    GroundMesh build(const TileWalls& walls, double step_m) {
-        mesh_.step_m = step_m;
-        for (int row = 0; row < quads; ++row)
-            for (int column = 0; column < quads; ++column) add_quad(row, column);
-        mesh_.ground_triangles = mesh_.indices.size() / 3;
-        for (std::size_t edge = 0; edge < walls.down_m.size(); ++edge)
-            if (walls.down_m[edge] > 0.0) add_wall(edge, walls.down_m[edge], walls.out_m[edge]);
-        widen_box(*std::ranges::max_element(walls.down_m), *std::ranges::max_element(walls.out_m));
-        return std::move(mesh_);
-    }
+    MeshBuilder(const ClusteredGround& ground, const TilesetLayout& layout, const LevelCut& cut,
+                const TileIndex& tile, std::span<const glm::vec3> normals);
+    GroundMesh build(const TileWalls& walls);
 
   private:
-    static constexpr std::uint32_t none = 0xFFFFFFFFU;
-    static constexpr double unset = 1.0e9;
-    struct Post {
-        int row, column;
+    // A corner of the mesh before it is rounded.
+    struct Vertex {
+        double row, column;
+        glm::dvec3 ecef_m, up;
+        glm::vec3 normal;                                           // ECEF
+        std::array<std::uint32_t, 4> feet{none, none, none, none};  // of the walls along the four edges
+    };
+    // Two corners with the ground on the left hand, and the edge of the tile that they lie on.
+    struct Rim {
+        std::uint32_t from, to;
+        std::size_t edge;
+    };
+    // A place on an edge of the cut; or a vertex of the surface.
+    struct Key {
+        VertexNumber a, b;
+        std::int8_t line;
+        friend bool operator==(const Key&, const Key&) = default;
+    };
+    struct Hash {
+        std::size_t operator()(const Key& key) const {
+            constexpr std::uint64_t factor = 0x9E3779B97F4A7C15U;
+            const std::uint64_t both = std::uint64_t{key.a} << 32U | key.b;
+            const std::uint64_t mixed = (both ^ both >> 29U) * factor + static_cast<std::uint64_t>(key.line);
+            return static_cast<std::size_t>(mixed ^ mixed >> 32U);
+        }
     };
 
-    static std::size_t at(const Post& post) {
-        return static_cast<std::size_t>((post.row + 1) * across + post.column + 1);
-    }
-    [[nodiscard]] const PlacedPost& placed(const Post& post) const { return posts_[at(post)]; }
-    void place_posts(const PostGrid& grid, const PageIndex& page);
-    [[nodiscard]] Diagonal diagonal(int row, int column) const;
-    [[nodiscard]] bool has_triangle(int row, int column, bool west) const;
-    [[nodiscard]] glm::dvec3 normal_of(const Post& post) const;
-    std::uint32_t vertex(const Post& post);
-    std::uint32_t add_vertex(const glm::dvec3& ecef_m, const glm::vec3& normal);
-    void add_quad(int row, int column);
-    void add_wall(std::size_t edge, double down_m, double out_m);
+    void add_triangle(std::uint32_t number);
+    std::uint32_t vertex(const ClippedCorner& corner, const VertexTriangle& triangle);
+    [[nodiscard]] Vertex placed(const ClippedCorner& corner, const VertexTriangle& triangle) const;
+    std::uint32_t add_vertex(const Vertex& vertex);
+    void widen_box_to(const Vertex& vertex);
+    void find_rims(std::span<const std::uint32_t> polygon);
+    void add_wall(const Rim& rim, double down_m, double out_m);
+    std::uint32_t foot(std::uint32_t top, std::size_t edge, double down_m, double out_m);
+    [[nodiscard]] glm::dvec3 outwards(const Vertex& vertex, std::size_t edge) const;
     void widen_box(double down_m, double out_m);
 
-    const gpu::PageBlock& block_;
-    std::vector<PlacedPost> posts_;
-    std::vector<std::uint32_t> numbers_;
+    const ClusteredGround& ground_;
+    const LevelCut& cut_;
+    std::span<const std::uint32_t> triangles_;
+    std::span<const glm::vec3> normals_;
+    TilesetLayout::Lines lines_;
+    TriangleClip clip_;
+    std::array<SurfaceVertex, 3> corners_;
+    std::vector<std::uint32_t> polygon_;
+    std::unordered_map<Key, std::uint32_t, Hash> numbers_;
+    std::vector<Vertex> vertices_;
+    std::vector<Rim> rims_;
     GroundMesh mesh_;
     double middle_lon_deg_{};
+    double longest_edge_m_{};
 };
 
-void MeshBuilder::place_posts(const PostGrid& grid, const PageIndex& page) {
-    const PagePosts region(grid, page);
-    posts_.resize(static_cast<std::size_t>(across * across));
-    for (int row = -1; row < across - 1; ++row) {
-        for (int column = -1; column < across - 1; ++column) {
-            const std::size_t number = at({row, column});
-            const std::int32_t steps = block_.heights[number];
-            const std::optional<PageIndex> post = region.region_post(row, column);
-            if (steps == void_height_steps || !post) continue;
-            const glm::dvec3 up = post_up(grid, post->row, post->column);
-            posts_[number] = {ecef_above(up, steps * height_step_m), up, true};
+MeshBuilder::MeshBuilder(const ClusteredGround& ground, const TilesetLayout& layout, const LevelCut& cut,
+                         const TileIndex& tile, std::span<const glm::vec3> normals)
+    : ground_(ground),
+      cut_(cut),
+      triangles_(cut.tiles[layout.number(tile)]),
+      normals_(normals),
+      lines_(layout.lines(tile)) {
+    std::int32_t lowest = highest_height_steps, highest = -highest_height_steps;
+    for (const std::uint32_t number : triangles_) {
+        for (const VertexNumber corner : cut.triangles[number]) {
+            const std::int32_t steps = ground.surface().vertex(corner).steps;
+            lowest = std::min(lowest, steps);
+            highest = std::max(highest, steps);
+        }
+    }
+    const PostPlace middle =
+        ground.grid().place_at(0.5 * (lines_.north + lines_.south), 0.5 * (lines_.west + lines_.east));
+    middle_lon_deg_ = middle.lon_deg;
+    const double h_m = 0.5 * height_step_m * (static_cast<double>(lowest) + highest);
+    mesh_.centre_m = ecef_from_geodetic({middle.lat_deg, middle.lon_deg, h_m}).m;
+    mesh_.ecef_from_mesh = ecef_from_enu(middle.lat_deg, middle.lon_deg);
+    mesh_.step_m = cut.step_m;
+    mesh_.box = {unset, unset, -unset, -unset, unset, -unset};
+}
+
+MeshBuilder::Vertex MeshBuilder::placed(const ClippedCorner& corner, const VertexTriangle& triangle) const {
+    const auto place = [&](int number) { return ground_.ecef(corners_[static_cast<std::size_t>(number)]).m; };
+    const auto normal = [&](int number) {
+        return normals_.empty() ? glm::vec3(0.0F) : normals_[triangle[static_cast<std::size_t>(number)]];
+    };
+    Vertex vertex{corner.row, corner.column, {}, {}, {}};
+    if (corner.line == ClippedCorner::inner) {
+        const auto area = [&](const std::array<double, 2>& a, const std::array<double, 2>& b,
+                              const std::array<double, 2>& c) {
+            return (b[1] - a[1]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[1] - a[1]);
+        };
+        const auto at = [&](std::size_t i) {
+            return std::array<double, 2>{static_cast<double>(corners_[i].row),
+                                         static_cast<double>(corners_[i].column)};
+        };
+        const std::array<double, 2> here{corner.row, corner.column};
+        const double whole = area(at(0), at(1), at(2));
+        const std::array shares{area(here, at(1), at(2)) / whole, area(at(0), here, at(2)) / whole,
+                                area(at(0), at(1), here) / whole};
+        for (int i = 0; i < 3; ++i) {
+            vertex.ecef_m += shares[static_cast<std::size_t>(i)] * place(i);
+            vertex.normal += static_cast<float>(shares[static_cast<std::size_t>(i)]) * normal(i);
+        }
+    } else {
+        vertex.ecef_m = glm::mix(place(corner.a), place(corner.b), corner.share);
+        vertex.normal = glm::mix(normal(corner.a), normal(corner.b), static_cast<float>(corner.share));
+    }
+    const Geodetic at = geodetic_from_ecef({vertex.ecef_m});
+    const SineCosine lat = sine_cosine_deg(at.lat_deg), lon = sine_cosine_deg(at.lon_deg);
+    vertex.up = {lat.cosine * lon.cosine, lat.cosine * lon.sine, lat.sine};
+    if (const float length = glm::length(vertex.normal); length > 0.0F)
+        vertex.normal /= length;
+    else
+        vertex.normal = glm::vec3(vertex.up);
+    return vertex;
+}
+
+std::uint32_t MeshBuilder::add_vertex(const Vertex& vertex) {
+    const glm::dvec3 local_m = glm::transpose(mesh_.ecef_from_mesh) * (vertex.ecef_m - mesh_.centre_m);
+    mesh_.positions.emplace_back(glm::round(local_m / mesh_.step_m));
+    if (!normals_.empty())
+        mesh_.normals.emplace_back(glm::transpose(mesh_.ecef_from_mesh) * glm::dvec3(vertex.normal));
+    vertices_.push_back(vertex);
+    return static_cast<std::uint32_t>(vertices_.size() - 1);
+}
+
+void MeshBuilder::widen_box_to(const Vertex& vertex) {
+    const Geodetic at = geodetic_from_ecef({vertex.ecef_m});
+    const double lon_deg = middle_lon_deg_ + std::remainder(at.lon_deg - middle_lon_deg_, 360.0);
+    TileBox& box = mesh_.box;
+    box.south_deg = std::min(box.south_deg, at.lat_deg);
+    box.north_deg = std::max(box.north_deg, at.lat_deg);
+    box.west_deg = std::min(box.west_deg, lon_deg);
+    box.east_deg = std::max(box.east_deg, lon_deg);
+    box.lowest_h_m = std::min(box.lowest_h_m, at.h_m);
+    box.highest_h_m = std::max(box.highest_h_m, at.h_m);
+}
+
+std::uint32_t MeshBuilder::vertex(const ClippedCorner& corner, const VertexTriangle& triangle) {
+    if (corner.line != ClippedCorner::inner) {
+        const Key key{triangle[static_cast<std::size_t>(corner.a)],
+                      triangle[static_cast<std::size_t>(corner.b)], corner.line};
+        const auto [known, is_new] = numbers_.try_emplace(key, none);
+        if (!is_new) return known->second;
+        known->second = add_vertex(placed(corner, triangle));
+    } else {
+        add_vertex(placed(corner, triangle));
+    }
+    widen_box_to(vertices_.back());
+    return static_cast<std::uint32_t>(vertices_.size() - 1);
+}
+
+// Edges of a polygon, anticlockwise, that lie on an edge of the tile.
+void MeshBuilder::find_rims(std::span<const std::uint32_t> polygon) {
+    const std::array<double, 4> at{static_cast<double>(lines_.north), static_cast<double>(lines_.east),
+                                   static_cast<double>(lines_.south), static_cast<double>(lines_.west)};
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const std::uint32_t from = polygon[i], to = polygon[(i + 1) % polygon.size()];
+        for (std::size_t edge = 0; edge < at.size(); ++edge) {
+            const auto along = [&](std::uint32_t number) {
+                return edge % 2 == 0 ? vertices_[number].row : vertices_[number].column;
+            };
+            if (along(from) == at[edge] && along(to) == at[edge]) rims_.push_back({from, to, edge});
         }
     }
 }
 
-Diagonal MeshBuilder::diagonal(int row, int column) const {
-    constexpr int side = static_cast<int>(gpu::meshlet_quads);
-    const int meshlet = row / side * static_cast<int>(gpu::meshlets_per_side) + column / side;
-    const int cell = row % side * side + column % side;
-    return (block_.sw_ne[2 * meshlet + cell / 32] >> static_cast<unsigned>(cell % 32) & 1U) != 0
-               ? Diagonal::sw_ne
-               : Diagonal::nw_se;
+void MeshBuilder::add_triangle(std::uint32_t number) {
+    const VertexTriangle& triangle = cut_.triangles[number];
+    for (std::size_t i = 0; i < 3; ++i) corners_[i] = ground_.surface().vertex(triangle[i]);
+    polygon_.clear();
+    for (const ClippedCorner& corner : clip_.clip(corners_, triangle, lines_))
+        polygon_.push_back(vertex(corner, triangle));
+    // What is clockwise on the map is so from above.
+    std::ranges::reverse(polygon_);
+    for (std::size_t i = 2; i < polygon_.size(); ++i)
+        mesh_.indices.insert(mesh_.indices.end(), {polygon_[0], polygon_[i - 1], polygon_[i]});
+    find_rims(polygon_);
+    for (std::size_t i = 0; i < polygon_.size(); ++i)
+        longest_edge_m_ = std::max(
+            longest_edge_m_, glm::distance(vertices_[polygon_[i]].ecef_m, vertices_[polygon_[0]].ecef_m));
 }
 
-bool MeshBuilder::has_triangle(int row, int column, bool west) const {
-    return std::ranges::all_of(cell_corners(diagonal(row, column), west),
-                               [&](const std::array<int, 2>& corner) {
-                                   return placed({row + corner[0], column + corner[1]}).there;
-                               });
-}
-
-// Of the ground through the posts on either side, or the post itself where there is none.
-glm::dvec3 MeshBuilder::normal_of(const Post& post) const {
-    const auto between = [&](const Post& from, const Post& to) {
-        const PlacedPost &own = placed(post), &a = placed(from), &b = placed(to);
-        return (b.there ? b : own).ecef_m - (a.there ? a : own).ecef_m;
+// Level, from a place on an edge of the tile, away from the tile.
+glm::dvec3 MeshBuilder::outwards(const Vertex& vertex, std::size_t edge) const {
+    constexpr std::array<std::array<double, 2>, 4> steps{{{-1.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}, {0.0, -1.0}}};
+    const auto on_ellipsoid = [&](double row, double column) {
+        const PostPlace at = ground_.grid().place_at(row, column);
+        return ecef_from_geodetic({at.lat_deg, at.lon_deg, 0.0}).m;
     };
-    const glm::dvec3 east = between({post.row, post.column - 1}, {post.row, post.column + 1});
-    const glm::dvec3 north = between({post.row + 1, post.column}, {post.row - 1, post.column});
-    const glm::dvec3 normal = glm::cross(east, north);
-    const double length = glm::length(normal);
-    // Posts of a pole are one point.
-    return length > 1.0e-9 * glm::length(east) * glm::length(north) && length > 0.0 ? normal / length
-                                                                                    : placed(post).up;
+    glm::dvec3 out = on_ellipsoid(vertex.row + steps[edge][0], vertex.column + steps[edge][1]) -
+                     on_ellipsoid(vertex.row, vertex.column);
+    out -= glm::dot(out, vertex.up) * vertex.up;
+    const double length = glm::length(out);
+    return length > 0.0 ? out / length : glm::dvec3(0.0);
 }
 
-std::uint32_t MeshBuilder::add_vertex(const glm::dvec3& ecef_m, const glm::vec3& normal) {
-    mesh_.positions_m.emplace_back(glm::round((ecef_m - mesh_.centre_m) / mesh_.step_m) * mesh_.step_m);
-    mesh_.normals.push_back(normal);
-    return static_cast<std::uint32_t>(mesh_.positions_m.size() - 1);
-}
-
-std::uint32_t MeshBuilder::vertex(const Post& post) {
-    std::uint32_t& number = numbers_[at(post)];
-    if (number != none) return number;
-    number = add_vertex(placed(post).ecef_m, glm::vec3(normal_of(post)));
-    const glm::dvec3& up = placed(post).up;
-    const double lat_deg = deg_from_radians(Radians{std::atan2(up.z, std::hypot(up.x, up.y))});
-    const double lon_deg =
-        middle_lon_deg_ +
-        std::remainder(deg_from_radians(Radians{std::atan2(up.y, up.x)}) - middle_lon_deg_, 360.0);
-    mesh_.box.south_deg = std::min(mesh_.box.south_deg, lat_deg);
-    mesh_.box.north_deg = std::max(mesh_.box.north_deg, lat_deg);
-    mesh_.box.west_deg = std::min(mesh_.box.west_deg, lon_deg);
-    mesh_.box.east_deg = std::max(mesh_.box.east_deg, lon_deg);
+std::uint32_t MeshBuilder::foot(std::uint32_t top, std::size_t edge, double down_m, double out_m) {
+    if (vertices_[top].feet[edge] != none) return vertices_[top].feet[edge];
+    Vertex vertex = vertices_[top];
+    vertex.ecef_m += out_m * outwards(vertex, edge) - down_m * vertex.up;
+    const std::uint32_t number = add_vertex(vertex);
+    vertices_[top].feet[edge] = number;
     return number;
 }
 
-void MeshBuilder::add_quad(int row, int column) {
-    for (const bool west : {true, false}) {
-        if (!has_triangle(row, column, west)) continue;
-        for (const auto& [down, right] : cell_corners(diagonal(row, column), west))
-            mesh_.indices.push_back(vertex({row + down, column + right}));
-    }
-}
-
-// Each wall hangs from the triangles that have an edge there, and leans outwards.
-void MeshBuilder::add_wall(std::size_t edge, double down_m, double out_m) {
-    const bool along_row = edge % 2 == 0;                  // northern, southern
-    const int fixed = edge == 1 || edge == 2 ? quads : 0;  // eastern, southern
-    const int inwards = fixed == 0 ? 1 : -1;
-    const bool runs_back = edge == 0 || edge == 1;  // so that the ground is on the left hand
-    std::vector<std::uint32_t> feet(static_cast<std::size_t>(quads + 1), none);
-    const auto post_at = [&](int i) { return along_row ? Post{fixed, i} : Post{i, fixed}; };
-    const auto foot = [&](int i) {
-        std::uint32_t& number = feet[static_cast<std::size_t>(i)];
-        if (number != none) return number;
-        const Post post = post_at(i);
-        const Post inner = along_row ? Post{fixed + inwards, i} : Post{i, fixed + inwards};
-        const PlacedPost& own = placed(post);
-        glm::dvec3 out = placed(inner).there ? own.ecef_m - placed(inner).ecef_m : glm::dvec3(0.0);
-        out -= glm::dot(out, own.up) * own.up;
-        if (glm::length(out) > 0.0) out = glm::normalize(out);
-        return number = add_vertex(own.ecef_m - down_m * own.up + out_m * out, glm::vec3(normal_of(post)));
-    };
-    const int quad_at = fixed == 0 ? 0 : quads - 1;
-    for (int i = 0; i < quads; ++i) {
-        // The triangle with a quad's northern edge is the western one where it is split from south-west.
-        const bool sw_ne = (along_row ? diagonal(quad_at, i) : diagonal(i, quad_at)) == Diagonal::sw_ne;
-        const bool west = edge == 0 ? sw_ne : edge == 1 ? false : edge == 2 ? !sw_ne : true;
-        if (!(along_row ? has_triangle(quad_at, i, west) : has_triangle(i, quad_at, west))) continue;
-        const int from = runs_back ? i + 1 : i, to = runs_back ? i : i + 1;
-        const std::uint32_t a = vertex(post_at(from)), b = vertex(post_at(to));
-        const std::uint32_t a_foot = foot(from), b_foot = foot(to);
-        mesh_.indices.insert(mesh_.indices.end(), {a, a_foot, b_foot, a, b_foot, b});
-    }
+// A wall hangs from an edge of a triangle, and leans outwards.
+void MeshBuilder::add_wall(const Rim& rim, double down_m, double out_m) {
+    const std::uint32_t from_foot = foot(rim.from, rim.edge, down_m, out_m),
+                        to_foot = foot(rim.to, rim.edge, down_m, out_m);
+    mesh_.indices.insert(mesh_.indices.end(), {rim.from, from_foot, to_foot, rim.from, to_foot, rim.to});
 }
 
 // Flat triangles and walls reach beyond their posts: down by the walls' depth, and sideways. A flat triangle
 // is nowhere higher than its highest corner, as what lies below a height above the ellipsoid is convex.
 void MeshBuilder::widen_box(double down_m, double out_m) {
     TileBox& box = mesh_.box;
-    double longest_m = 0.0;
-    for (const glm::vec3& position : mesh_.positions_m)
-        longest_m = std::max<double>(longest_m, glm::length(position));
-    // A chord is off the arc above it by less than this; so is it off a meridian or a parallel.
-    const double step_m = 2.0 * longest_m / quads + 1.0;
-    const double sag_m = step_m * step_m / wgs84_b_m + mesh_.step_m + 0.01;
+    // A chord is off the arc above it by less than this; and off a meridian or a parallel.
+    const double farthest_deg = std::max(std::abs(box.south_deg), std::abs(box.north_deg));
+    const double bend = farthest_deg > 89.0 ? 60.0 : 1.0 + std::tan(radians_from_deg(farthest_deg).rad);
+    const double sag_m = bend * longest_edge_m_ * longest_edge_m_ / wgs84_b_m + mesh_.step_m + 0.01;
     box.lowest_h_m -= down_m + sag_m;
     box.highest_h_m += mesh_.step_m + 0.01;
     const double aside_deg = deg_from_radians(Radians{(out_m + sag_m) / (0.99 * wgs84_b_m)});
     box.south_deg = std::max(-90.0, box.south_deg - aside_deg);
     box.north_deg = std::min(90.0, box.north_deg + aside_deg);
-    const double farthest_deg = std::max(std::abs(box.south_deg), std::abs(box.north_deg));
-    if (farthest_deg > 89.0 || box.east_deg - box.west_deg > 180.0) {
+    const double outer_deg = std::max(std::abs(box.south_deg), std::abs(box.north_deg));
+    if (outer_deg > 89.0 || box.east_deg - box.west_deg > 180.0) {
         // Around a pole, or so wide that one may lie within it.
         box.west_deg = -180.0, box.east_deg = 180.0;
         if (box.north_deg >= -box.south_deg) box.north_deg = 90.0;
         if (box.south_deg <= -box.north_deg) box.south_deg = -90.0;
         return;
     }
-    const double lon_aside_deg = aside_deg * (1.0 + std::tan(radians_from_deg(farthest_deg).rad)) /
-                                 std::cos(radians_from_deg(farthest_deg).rad);
+    const double lon_aside_deg = aside_deg * (1.0 + std::tan(radians_from_deg(outer_deg).rad)) /
+                                 std::cos(radians_from_deg(outer_deg).rad);
     box.west_deg -= lon_aside_deg;
     box.east_deg += lon_aside_deg;
 }
 
+GroundMesh MeshBuilder::build(const TileWalls& walls) {
+    for (const std::uint32_t number : triangles_) add_triangle(number);
+    mesh_.ground_triangles = mesh_.indices.size() / 3;
+    for (const Rim& rim : rims_)
+        if (walls.down_m[rim.edge] > 0.0) add_wall(rim, walls.down_m[rim.edge], walls.out_m[rim.edge]);
+    widen_box(*std::ranges::max_element(walls.down_m), *std::ranges::max_element(walls.out_m));
+    return std::move(mesh_);
+}
+
 }  // namespace
 
-Result<GroundMesh> ground_mesh(const RegionPages& pages, const PageIndex& page, const TileBounds& bounds) {
-    const auto block = std::make_unique<gpu::PageBlock>();
-    ORO_CHECK(pages.load(page, *block));
-    ORO_TRY(const PageRecord record, pages.record(page));
-    return MeshBuilder(pages.facts().grid, page, record.summary, *block)
-        .build(bounds.walls(page), bounds.step_m(page));
+GroundMesh ground_mesh(const ClusteredGround& ground, const TilesetLayout& layout, const LevelCut& cut,
+                       const TileIndex& tile, const TileWalls& walls, std::span<const glm::vec3> normals) {
+    return MeshBuilder(ground, layout, cut, tile, normals).build(walls);
 }
 
 }  // namespace oro

@@ -1,13 +1,14 @@
-// The ground of one page as a mesh around a centre, and the walls along its edges.
+// The ground of one tile as a mesh around a centre, and the walls along its edges.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
-#include "core/base/result.h"
-#include "core/frame/region_pages.h"
+#include "geo/tilesets/level_cut.h"
 #include "geo/tilesets/tile_bounds.h"
 
 namespace oro {
@@ -21,19 +22,22 @@ struct TileBox {
 // Triangles are anticlockwise, seen from above or, of walls, from outside.
 struct GroundMesh {
     glm::dvec3 centre_m{0.0};  // ECEF
-    // ECEF less the centre, in whole steps: half a step off along each axis at most. Those of ground have 23
-    // bits and a sign, and so are the same in float.
+    // Axes of the mesh: east, north and up at its centre, in ECEF.
+    glm::dmat3 ecef_from_mesh{1.0};
+    // Along these axes, from the centre, in whole steps: half a step off at most.
     double step_m{};
-    std::vector<glm::vec3> positions_m;
-    std::vector<glm::vec3>
-        normals;  // unit, ECEF, of the ground around the vertex; a wall has those of its edge
+    std::vector<glm::ivec3> positions;
+    // Unit, along the same axes, of the ground around the vertex; a wall has those of its edge. Empty where
+    // none are wanted.
+    std::vector<glm::vec3> normals;
     std::vector<std::uint32_t> indices;  // three a triangle: those of the ground, then those of walls
     std::size_t ground_triangles{};
     TileBox box;  // holds all triangles, walls included
 };
 
-// The page with all its quads and its walls, each post in its place in double before it is rounded; posts
-// without a height leave out what lies between them. Errors: a file that cannot be read.
-Result<GroundMesh> ground_mesh(const RegionPages& pages, const PageIndex& page, const TileBounds& bounds);
+// What a tile has of a cut, divided along the tile's edges, and its walls; each corner in its place in double
+// before it is rounded. normals: of each vertex of the surface (normals_of()), or none.
+GroundMesh ground_mesh(const ClusteredGround& ground, const TilesetLayout& layout, const LevelCut& cut,
+                       const TileIndex& tile, const TileWalls& walls, std::span<const glm::vec3> normals);
 
 }  // namespace oro

@@ -194,7 +194,7 @@ Result<GroundModel> ModelBuilder::build() {
         return Error{ErrorKind::no_data, "region", "no triangle has a height at each corner"};
     // Three coordinates that are half a unit of float's last place off.
     constexpr double float_share = 0x1.0p-24;
-    const double sag_m = flat_triangle_sag_m(grid_, 0, highest_h_m_ + certified_m_,
+    const double sag_m = flat_triangle_sag_m(grid_, 1.0, 1.0, highest_h_m_ + certified_m_,
                                              highest_h_m_ - lowest_h_m_ + 2.0 * certified_m_);
     model_.error_m = certified_m_ + sag_m + 0.5 * height_step_m + float_share * farthest_m_;
     return std::move(model_);

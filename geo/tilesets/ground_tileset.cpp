@@ -12,6 +12,9 @@
 
 #include "core/base/parallel.h"
 #include "geo/files/plain_file.h"
+#include "geo/tilesets/ground_mesh.h"
+#include "geo/tilesets/level_cut.h"
+#include "geo/tilesets/post_place.h"
 #include "geo/tilesets/tile_bounds.h"
 
 namespace oro {
@@ -20,7 +23,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 // What is kept of a page when its file is written.
-struct WrittenPage {
+struct WrittenTile {
     bool has_content{};
     std::uint64_t triangles{}, bytes{};
     std::optional<TileBox> box;  // of all that is below it, too
@@ -46,59 +49,112 @@ double size_m(const TileBox& box) {
                       box.highest_h_m - box.lowest_h_m);
 }
 
-std::string tile_name(const PageIndex& page) {
+std::string tile_name(const TileIndex& page) {
     return std::to_string(page.level) + "/" + std::to_string(page.row) + "/" + std::to_string(page.column) +
            ".glb";
 }
 
-// Writes the pages, the finest first, and then the file that tells of them.
+// What a level aims at.
+struct LevelAim {
+    double cut_m{};   // error of the cut of clusters
+    double step_m{};  // that positions are rounded to
+};
+
+// Errors grow from level to level by this while a tile's sides are doubled: so tiles of all levels have some
+// as many triangles.
+constexpr double error_growth = 3.0;
+// Of positions with 16 bits, and with those of float, a sign among them.
+constexpr double steps_of_short = 65000.0, steps_of_float = 0x1.0p23;
+
+double largest_spacing_m(const PostGrid& grid) {
+    return wgs84_a_m * std::max(grid.row_step_rad(), grid.column_step_rad());
+}
+
+// The step is a sixteenth of the error, or somewhat more where positions then have 16 bits.
+LevelAim aim_of(const ClusteredGround& ground, const TilesetLayout& layout, int level,
+                double finest_error_m) {
+    constexpr double usual_share = 1.0 / 16.0, most_share = 1.0 / 8.0;
+    constexpr double finest_m = 0x1.0p-11, coarsest_of_posts_m = 0x1.0p-4, share_of_posts = 0x1.0p-10;
+    const PostGrid& grid = ground.grid();
+    const double spacing_m = largest_spacing_m(grid);
+    const double error_m =
+        level == 0 ? finest_error_m
+                   : std::max(finest_error_m, usual_finest_error_m(grid)) * std::pow(error_growth, level);
+    const TilesetLayout::Lines first = layout.lines({0, 0, level});
+    const double size_m =
+        std::min(3.0 * wgs84_a_m, spacing_m * std::hypot(first.south - first.north, first.east - first.west));
+    LevelAim aim;
+    aim.step_m =
+        std::max({finest_m, usual_share * error_m, std::min(coarsest_of_posts_m, share_of_posts * spacing_m),
+                  size_m / steps_of_float});
+    const double short_m = size_m / steps_of_short;
+    if (short_m <= most_share * error_m) aim.step_m = std::max(aim.step_m, short_m);
+    const double rise_m = ground.highest_h_m() - ground.lowest_h_m() + 2.0 * error_m;
+    aim.cut_m = std::max(
+        0.0, error_m - TileBounds::added_m(grid, ground.highest_h_m() + error_m, rise_m, aim.step_m));
+    return aim;
+}
+
+// Writes the tiles, the finest first, and then the file that tells of them.
 class TilesetWriter {
   public:
-    TilesetWriter(const std::string& folder, const RegionPages& pages, const TileBounds& bounds,
-                  const TilesetRequest& request)
-        : folder_(folder), pages_(pages), bounds_(bounds), request_(request) {}
+    TilesetWriter(const std::string& folder, const ClusteredGround& ground, const TilesetRequest& request)
+        : folder_(folder),
+          ground_(ground),
+          request_(request),
+          layout_(ground.grid().rows(), ground.grid().columns(), request.tile_quads),
+          cuts_(cuts()),
+          bounds_(TileBounds::of(ground, layout_, cuts_)) {}
 
-    Result<void> write_pages(const TilesetProgress& progress);
+    Result<void> write_tiles(const TilesetProgress& progress);
     Result<TilesetWritten> write_json();
 
   private:
+    [[nodiscard]] std::vector<LevelCut> cuts() const;
     Result<void> make_folders(int level) const;
-    Result<WrittenPage> write_page(const PageIndex& page) const;
+    Result<WrittenTile> write_tile(const TileIndex& tile, std::span<const glm::vec3> normals) const;
     void join_boxes(int level);
-    [[nodiscard]] const WrittenPage& at(const PageIndex& page) const {
-        return written_[static_cast<std::size_t>(page.level)]
-                       [pages_.layout(page.level).number(page.row, page.column)];
+    [[nodiscard]] const WrittenTile& at(const TileIndex& tile) const {
+        return written_[static_cast<std::size_t>(tile.level)][layout_.number(tile)];
     }
-    [[nodiscard]] std::vector<PageIndex> below(const PageIndex& page) const;
-    [[nodiscard]] double error_m(const PageIndex& page) const {
-        return at(page).has_content ? bounds_.error_m(page) : tileset_error_m_;
-    }
-    [[nodiscard]] Json tile_json(const PageIndex& page) const;
+    [[nodiscard]] std::vector<TileIndex> below(const TileIndex& tile) const;
+    [[nodiscard]] Json tile_json(const TileIndex& tile) const;
     [[nodiscard]] Json metadata_json() const;
     [[nodiscard]] TilesetLevel summed_up(int level) const;
 
     const std::string& folder_;
-    const RegionPages& pages_;
-    const TileBounds& bounds_;
+    const ClusteredGround& ground_;
     const TilesetRequest& request_;
-    std::vector<std::vector<WrittenPage>> written_;  // by level
+    TilesetLayout layout_;
+    std::vector<LevelCut> cuts_;
+    TileBounds bounds_;
+    std::vector<std::vector<WrittenTile>> written_;  // by level
     double tileset_error_m_{};
 };
 
-std::vector<PageIndex> TilesetWriter::below(const PageIndex& page) const {
-    std::vector<PageIndex> pages;
-    if (page.level == 0) return pages;
-    const PageLayout layout = pages_.layout(page.level - 1);
+std::vector<LevelCut> TilesetWriter::cuts() const {
+    std::vector<LevelCut> cuts(static_cast<std::size_t>(layout_.levels()));
+    in_parallel(layout_.levels(), request_.threads, [&](int level) {
+        const LevelAim aim = aim_of(ground_, layout_, level, request_.finest_error_m);
+        cuts[static_cast<std::size_t>(level)] = level_cut(ground_, layout_, level, aim.cut_m, aim.step_m);
+    });
+    return cuts;
+}
+
+std::vector<TileIndex> TilesetWriter::below(const TileIndex& tile) const {
+    std::vector<TileIndex> tiles;
+    if (tile.level == 0) return tiles;
     for (int i = 0; i < 4; ++i) {
-        const PageIndex one{2 * page.row + i / 2, 2 * page.column + i % 2, page.level - 1};
-        if (one.row < layout.rows && one.column < layout.columns && at(one).box) pages.push_back(one);
+        const TileIndex one{2 * tile.row + i / 2, 2 * tile.column + i % 2, tile.level - 1};
+        if (one.row < layout_.rows(one.level) && one.column < layout_.columns(one.level) && at(one).box)
+            tiles.push_back(one);
     }
-    return pages;
+    return tiles;
 }
 
 Result<void> TilesetWriter::make_folders(int level) const {
     std::error_code failed;
-    for (int row = 0; row < pages_.layout(level).rows; ++row) {
+    for (int row = 0; row < layout_.rows(level); ++row) {
         const std::string path = folder_ + "/" + std::to_string(level) + "/" + std::to_string(row);
         if (fs::create_directories(path, failed); failed)
             return Error{ErrorKind::failed, path, "cannot be made: " + failed.message()};
@@ -106,34 +162,33 @@ Result<void> TilesetWriter::make_folders(int level) const {
     return {};
 }
 
-Result<WrittenPage> TilesetWriter::write_page(const PageIndex& page) const {
-    WrittenPage written;
-    if (!bounds_.drawn(page) || std::isinf(bounds_.error_m(page))) return written;
-    ORO_TRY(const GroundMesh mesh, ground_mesh(pages_, page, bounds_));
-    if (mesh.ground_triangles == 0) return written;
+Result<WrittenTile> TilesetWriter::write_tile(const TileIndex& tile,
+                                              std::span<const glm::vec3> normals) const {
+    WrittenTile written;
+    if (!bounds_.drawn(tile)) return written;
+    const GroundMesh mesh = ground_mesh(ground_, layout_, cuts_[static_cast<std::size_t>(tile.level)], tile,
+                                        bounds_.walls(tile), normals);
     const std::vector<std::uint8_t> glb = glb_bytes(mesh, request_.look);
-    ORO_CHECK(write_plain_file(folder_ + "/" + tile_name(page), glb));
-    return WrittenPage{true, mesh.ground_triangles, glb.size(), mesh.box};
+    ORO_CHECK(write_plain_file(folder_ + "/" + tile_name(tile), glb));
+    return WrittenTile{true, mesh.ground_triangles, glb.size(), mesh.box};
 }
 
 void TilesetWriter::join_boxes(int level) {
-    const PageLayout layout = pages_.layout(level);
-    for (int row = 0; row < layout.rows; ++row) {
-        for (int column = 0; column < layout.columns; ++column) {
-            std::optional<TileBox>& box = written_.back()[layout.number(row, column)].box;
-            for (const PageIndex& one : below({row, column, level}))
-                box = box ? joined(*box, *at(one).box) : *at(one).box;
-        }
+    for (std::size_t number = 0; number < layout_.count(level); ++number) {
+        std::optional<TileBox>& box = written_.back()[number].box;
+        for (const TileIndex& one : below(layout_.tile(number, level)))
+            box = box ? joined(*box, *at(one).box) : *at(one).box;
     }
 }
 
-Result<void> TilesetWriter::write_pages(const TilesetProgress& progress) {
-    const auto all = static_cast<double>(tileset_pages(pages_));
+Result<void> TilesetWriter::write_tiles(const TilesetProgress& progress) {
+    const auto all = static_cast<double>(layout_.all());
     double done = 0.0;
-    for (int level = 0; level < pages_.levels(); ++level) {
+    for (int level = 0; level < layout_.levels(); ++level) {
         ORO_CHECK(make_folders(level));
-        const PageLayout layout = pages_.layout(level);
-        std::vector<WrittenPage>& written = written_.emplace_back(layout.count());
+        std::vector<WrittenTile>& written = written_.emplace_back(layout_.count(level));
+        std::vector<glm::vec3> normals;
+        if (request_.normals) normals = normals_of(ground_, cuts_[static_cast<std::size_t>(level)]);
         std::mutex mutex;
         Result<void> fault;
         // In parts, so that progress is told between them.
@@ -142,9 +197,7 @@ Result<void> TilesetWriter::write_pages(const TilesetProgress& progress) {
             const std::size_t count = std::min(at_once, written.size() - first);
             in_parallel(static_cast<int>(count), request_.threads, [&](int i) {
                 const std::size_t number = first + static_cast<std::size_t>(i);
-                const auto columns = static_cast<std::size_t>(layout.columns);
-                const Result<WrittenPage> one = write_page(
-                    {static_cast<int>(number / columns), static_cast<int>(number % columns), level});
+                const Result<WrittenTile> one = write_tile(layout_.tile(number, level), normals);
                 if (one.ok()) {
                     written[number] = one.value();
                     return;
@@ -159,7 +212,7 @@ Result<void> TilesetWriter::write_pages(const TilesetProgress& progress) {
         join_boxes(level);
         std::error_code ignored;
         // Those without a tile; of folders that hold something rmdir does nothing.
-        for (int row = 0; row < layout.rows; ++row)
+        for (int row = 0; row < layout_.rows(level); ++row)
             fs::remove(folder_ + "/" + std::to_string(level) + "/" + std::to_string(row), ignored);
         fs::remove(folder_ + "/" + std::to_string(level), ignored);
     }
@@ -178,16 +231,16 @@ Json region_json_of(const TileBox& box) {
     return list;
 }
 
-Json TilesetWriter::tile_json(const PageIndex& page) const {
-    Json tile = Json::object();
-    tile["boundingVolume"]["region"] = region_json_of(*at(page).box);
-    tile["geometricError"] = error_m(page);
-    if (page.level == pages_.levels() - 1) tile["refine"] = "REPLACE";
-    if (at(page).has_content) tile["content"]["uri"] = tile_name(page);
+Json TilesetWriter::tile_json(const TileIndex& tile) const {
+    Json json = Json::object();
+    json["boundingVolume"]["region"] = region_json_of(*at(tile).box);
+    json["geometricError"] = bounds_.error_m(tile);
+    if (tile.level == layout_.levels() - 1) json["refine"] = "REPLACE";
+    json["content"]["uri"] = tile_name(tile);
     Json children = Json::array();
-    for (const PageIndex& one : below(page)) children.push_back(tile_json(one));
-    if (!children.empty()) tile["children"] = std::move(children);
-    return tile;
+    for (const TileIndex& one : below(tile)) children.push_back(tile_json(one));
+    if (!children.empty()) json["children"] = std::move(children);
+    return json;
 }
 
 // Each of them a string of one class. Source: OGC 22-025r4, 3D Metadata Specification.
@@ -208,24 +261,20 @@ Json TilesetWriter::metadata_json() const {
 TilesetLevel TilesetWriter::summed_up(int level) const {
     TilesetLevel sum;
     sum.level = level;
-    const PageLayout layout = pages_.layout(level);
-    for (int row = 0; row < layout.rows; ++row) {
-        for (int column = 0; column < layout.columns; ++column) {
-            const PageIndex page{row, column, level};
-            const WrittenPage& one = at(page);
-            sum.without_content += one.box && !one.has_content ? 1 : 0;
-            if (!one.has_content) continue;
-            ++sum.tiles;
-            sum.triangles += one.triangles;
-            sum.bytes += one.bytes;
-            sum.largest_error_m = std::max(sum.largest_error_m, bounds_.error_m(page));
-        }
+    for (std::size_t number = 0; number < layout_.count(level); ++number) {
+        const TileIndex tile = layout_.tile(number, level);
+        const WrittenTile& one = at(tile);
+        if (!one.has_content) continue;
+        ++sum.tiles;
+        sum.triangles += one.triangles;
+        sum.bytes += one.bytes;
+        sum.largest_error_m = std::max(sum.largest_error_m, bounds_.error_m(tile));
     }
     return sum;
 }
 
 Result<TilesetWritten> TilesetWriter::write_json() {
-    const PageIndex root{0, 0, pages_.levels() - 1};
+    const TileIndex root{0, 0, layout_.levels() - 1};
     if (!at(root).box) return Error{ErrorKind::no_data, "region", "no triangle has a height at each corner"};
     TilesetWritten written;
     for (int level = root.level; level >= 0; --level) written.levels.push_back(summed_up(level));
@@ -234,7 +283,7 @@ Result<TilesetWritten> TilesetWriter::write_json() {
     for (const TilesetLevel& level : written.levels)
         tileset_error_m_ = std::max(tileset_error_m_, level.largest_error_m);
     written.geometric_error_m = tileset_error_m_;
-    written.root_error_m = error_m(root);
+    written.root_error_m = bounds_.error_m(root);
     Json json = Json::object();
     json["asset"]["version"] = "1.1";
     json["asset"]["generator"] = request_.look.generator;
@@ -249,17 +298,19 @@ Result<TilesetWritten> TilesetWriter::write_json() {
 
 }  // namespace
 
-std::uint64_t tileset_pages(const RegionPages& pages) {
-    std::uint64_t count = 0;
-    for (int level = 0; level < pages.levels(); ++level) count += pages.layout(level).count();
-    return count;
+double usual_finest_error_m(const PostGrid& grid) {
+    constexpr double share = 0.2;
+    return share * largest_spacing_m(grid);
 }
 
-Result<TilesetWritten> write_tileset(const std::string& folder, const RegionPages& pages,
+std::uint64_t tileset_tiles(const PostGrid& grid) {
+    return TilesetLayout(grid.rows(), grid.columns()).all();
+}
+
+Result<TilesetWritten> write_tileset(const std::string& folder, const ClusteredGround& ground,
                                      const TilesetRequest& request, const TilesetProgress& progress) {
-    ORO_TRY(const TileBounds bounds, TileBounds::of(pages));
-    TilesetWriter writer(folder, pages, bounds, request);
-    ORO_CHECK(writer.write_pages(progress));
+    TilesetWriter writer(folder, ground, request);
+    ORO_CHECK(writer.write_tiles(progress));
     return writer.write_json();
 }
 

@@ -1,4 +1,4 @@
-// The levels of a grid as 3D Tiles 1.1: each page is a tile, refined by the four below it.
+// The ground of a grid as 3D Tiles 1.1: cuts of its cluster graph, coarser and coarser, divided into tiles.
 #pragma once
 
 #include <array>
@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "core/frame/region_pages.h"
+#include "geo/tilesets/clustered_ground.h"
 #include "geo/tilesets/glb.h"
+#include "geo/tilesets/tileset_layout.h"
 
 namespace oro {
 
@@ -18,38 +19,43 @@ struct TilesetRequest {
     GlbLook look;
     // What the tileset says of itself, a name and its text each (tileset.json, metadata).
     std::vector<std::pair<std::string, std::string>> metadata;
+    // What tiles of level 0 may be off, metres; 0: they have every post.
+    double finest_error_m{};
+    bool normals{true};
+    int tile_quads{TilesetLayout::usual_quads};  // along the sides of a tile of level 0
     int threads{1};
 };
 
 struct TilesetLevel {
-    int level{};                      // 0 has every post
-    std::uint64_t tiles{};            // with content
-    std::uint64_t without_content{};  // that cannot stand for what they cover, because of voids
-    std::uint64_t triangles{};        // of ground
+    int level{};  // 0 is the finest
+    std::uint64_t tiles{};
+    std::uint64_t triangles{};  // of ground
     std::uint64_t bytes{};
-    double largest_error_m{};  // of those with content
+    double largest_error_m{};
 };
 struct TilesetWritten {
     std::vector<TilesetLevel> levels;  // the coarsest first
     TileBox box;
     double geometric_error_m{};  // of the tileset: what is missing when none of it is drawn
-    double root_error_m{};       // of the root; of one without content that of the tileset
+    double root_error_m{};
 };
 
-// Most tiles of a tileset, which is one text in memory.
-inline constexpr std::uint64_t most_tileset_tiles = 300000;
-// Pages of all levels.
-std::uint64_t tileset_pages(const RegionPages& pages);
+// Most posts of a tileset, whose cluster graph is in memory: some 9 GB.
+inline constexpr std::size_t most_tileset_posts = 64000000;
+// Of all levels, those without ground among them.
+std::uint64_t tileset_tiles(const PostGrid& grid);
+// A fifth of the way from a post to the next, where that is longest: what tiles of level 0 are off where
+// nobody says it. Heights of such data are off about as much.
+double usual_finest_error_m(const PostGrid& grid);
 
 // Told how much is done, 0 .. 1, from the calling thread.
 using TilesetProgress = std::function<void(double share)>;
 
-// Writes FOLDER/LEVEL/ROW/COLUMN.glb of every page that has ground, and FOLDER/tileset.json. A tile's
+// Writes FOLDER/LEVEL/ROW/COLUMN.glb of every tile that has ground, and FOLDER/tileset.json. A tile's
 // geometricError is the bound of TileBounds: nothing of the surface is farther than it from what the tile
-// has in its place. A page that cannot stand for what it covers has no content, and an error as large as the
-// tileset's, so that viewers go on to those below it. The folder is there and empty. Same bytes for any
-// number of threads. Errors: what cannot be written, pages that cannot be read; no triangle (no_data).
-Result<TilesetWritten> write_tileset(const std::string& folder, const RegionPages& pages,
+// has in its place. The folder is there and empty. Same bytes for any number of threads. Errors: what cannot
+// be written; no triangle (no_data).
+Result<TilesetWritten> write_tileset(const std::string& folder, const ClusteredGround& ground,
                                      const TilesetRequest& request, const TilesetProgress& progress);
 
 }  // namespace oro

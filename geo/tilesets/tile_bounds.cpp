@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
-#include "core/lod/levels_gpu.h"
-#include "core/terrain/drawn_heights.h"
-#include "core/terrain/level_grid.h"
-#include "core/terrain/post_spacing.h"
+#include "geo/tilesets/post_place.h"
 
 namespace oro {
 namespace {
@@ -15,39 +13,19 @@ namespace {
 constexpr double largest_radius_m = 6399594.0;
 // Three coordinates that are half a step off: sqrt(3) / 2, rounded up.
 constexpr double rounded_share = 0.8661;
-// See TileBounds::step_m().
-double step_of_m(double certified_m, double post_m, double radius_m) {
-    constexpr double finest_m = 0x1.0p-11, coarsest_of_posts_m = 0x1.0p-4, share = 0x1.0p-10;
-    // A post is no farther from the sphere's centre than this, and a coordinate has 23 bits and a sign.
-    const double least_m = 2.0 * radius_m * 0x1.0p-22;
-    const double wanted_m =
-        std::max({finest_m, std::min(coarsest_of_posts_m, share * post_m), share * certified_m});
-    return std::max(std::exp2(std::floor(std::log2(wanted_m))), std::exp2(std::ceil(std::log2(least_m))));
-}
 
-// Where the page's posts are closest to each other.
-PostSpacing post_spacing_at_page(const PostGrid& grid, const PageIndex& page) {
-    const LevelGrid level = level_grid(grid, page.level);
-    constexpr int page_quads = static_cast<int>(gpu::page_quads);
-    const auto ends = [](const LevelAxis& axis, int number) {
-        return std::array{axis.region_post(number * page_quads),
-                          axis.region_post(std::min((number + 1) * page_quads, axis.quads))};
-    };
-    constexpr double far_m = 1.0e9, turned = 0.5;  // a net's posts are nowhere twice as close as at corners
-    PostSpacing closest{far_m, far_m};
-    for (const int row : ends(level.row, page.row))
-        for (const int column : ends(level.column, page.column)) {
-            const PostSpacing apart = post_spacing_at(grid, row, column);
-            closest = {std::min(closest.row_m, apart.row_m), std::min(closest.column_m, apart.column_m)};
-        }
-    return grid.net ? PostSpacing{turned * closest.row_m, turned * closest.column_m} : closest;
-}
+// The largest of a tile's triangles.
+struct Largest {
+    double rows{}, columns{}, rise_m{};  // each by itself
+    double steepness{};
+};
 
 }  // namespace
 
 // As in core/lod/node_deviations.cpp, with both radii of curvature at their largest.
-double flat_triangle_sag_m(const PostGrid& grid, int level, double highest_h_m, double dh_m) {
-    const double both = std::ldexp(grid.row_step_rad(), level) + std::ldexp(grid.column_step_rad(), level);
+double flat_triangle_sag_m(const PostGrid& grid, double rows, double columns, double highest_h_m,
+                           double dh_m) {
+    const double both = rows * grid.row_step_rad() + columns * grid.column_step_rad();
     const double radius_m = largest_radius_m + std::max(0.0, highest_h_m);
     if (grid.net)
         return 0.125 * (grid.net->bend() * radius_m * both * both + 2.02 * dh_m * both +
@@ -55,107 +33,111 @@ double flat_triangle_sag_m(const PostGrid& grid, int level, double highest_h_m, 
     return 0.125 * 1.0001 * (radius_m * both * both + 2.0 * dh_m * both);
 }
 
-const TileBounds::Bound& TileBounds::at(const PageIndex& page) const {
-    return levels_[static_cast<std::size_t>(page.level)]
-                  [pages_->layout(page.level).number(page.row, page.column)];
+double TileBounds::added_m(const PostGrid& grid, double highest_h_m, double rise_m, double step_m) {
+    return flat_triangle_sag_m(grid, 1.0, 1.0, highest_h_m, rise_m) + 0.5 * height_step_m +
+           rounded_share * step_m;
 }
 
-Result<TileBounds::Bound> TileBounds::bound_of(const PageIndex& page) const {
-    ORO_TRY(const PageRecord record, pages_->record(page));
-    const PageSummary& summary = record.summary;
-    const PostGrid& grid = pages_->facts().grid;
+TileBounds::Bound TileBounds::bound_of(const ClusteredGround& ground, const LevelCut& cut,
+                                       const TileIndex& tile) const {
     Bound bound;
-    bound.drawn = summary.triangles > 0;
-    const double certified_m = page.level == 0 ? 0.0 : static_cast<double>(summary.largest_error_m);
-    const double dh_m = summary.highest_h_m - summary.lowest_h_m;
-    const PostSpacing apart = post_spacing_at_page(grid, page);
-    bound.post_m = std::min(apart.row_m, apart.column_m);
-    const bool fits = certified_m < static_cast<double>(gpu::unfit_error_m);
-    bound.step_m = step_of_m(fits ? certified_m : 0.0, bound.post_m, std::max(1.0, summary.radius_m));
-    bound.beside_m = flat_triangle_sag_m(grid, page.level, summary.highest_h_m, dh_m) + bound.step_m;
-    if (bound.drawn) bound.lowest_h_m = summary.lowest_h_m, bound.highest_h_m = summary.highest_h_m;
-    // Of the pages below it.
-    double error_m = 0.0, shown_error_m = -1.0;
-    for (int i = 0; page.level > 0 && i < 4; ++i) {
-        const PageIndex child{2 * page.row + i / 2, 2 * page.column + i % 2, page.level - 1};
-        const PageLayout below = pages_->layout(child.level);
-        if (child.row >= below.rows || child.column >= below.columns) continue;
-        error_m = std::max(error_m, at(child).error_m);
-        shown_error_m = std::max(shown_error_m, at(child).shown_error_m);
-        bound.lowest_h_m = std::min(bound.lowest_h_m, at(child).lowest_h_m);
-        bound.highest_h_m = std::max(bound.highest_h_m, at(child).highest_h_m);
-        bound.post_m = std::min(bound.post_m, at(child).post_m);
+    Largest largest;
+    double error_m = -1.0;
+    for (const std::uint32_t number : cut.tiles[layout_->number(tile)]) {
+        error_m = std::max(error_m, static_cast<double>(cut.errors_m[number]));
+        std::array<SurfaceVertex, 3> corners;
+        std::array<glm::dvec3, 3> at_m;
+        for (std::size_t i = 0; i < 3; ++i) {
+            corners[i] = ground.surface().vertex(cut.triangles[number][i]);
+            at_m[i] = ground.ecef(corners[i]).m;
+        }
+        const auto [north, south] = std::minmax({corners[0].row, corners[1].row, corners[2].row});
+        const auto [west, east] = std::minmax({corners[0].column, corners[1].column, corners[2].column});
+        const auto [low, high] = std::minmax({corners[0].steps, corners[1].steps, corners[2].steps});
+        bound.lowest_h_m = std::min(bound.lowest_h_m, low * height_step_m);
+        bound.highest_h_m = std::max(bound.highest_h_m, high * height_step_m);
+        largest.rows = std::max<double>(largest.rows, south - north);
+        largest.columns = std::max<double>(largest.columns, east - west);
+        largest.rise_m = std::max(largest.rise_m, (high - low) * height_step_m);
+        const glm::dvec3 normal = glm::cross(at_m[2] - at_m[0], at_m[1] - at_m[0]);
+        const double up = glm::dot(normal, glm::normalize(at_m[0]));
+        if (up > 0.0) largest.steepness = std::max(largest.steepness, glm::length(normal) / up);
     }
-    if (!fits) {
-        bound.error_m = unbounded_m;
-        bound.shown_error_m = shown_error_m;
-        return bound;
+    if (error_m < 0.0) return bound;
+    const double rise_m = bound.highest_h_m - bound.lowest_h_m + 2.0 * error_m;
+    // The surface's own triangles lie within the error of the tile's heights.
+    bound.error_m = error_m + added_m(ground.grid(), bound.highest_h_m + error_m, rise_m, cut.step_m);
+    bound.beside_m =
+        flat_triangle_sag_m(ground.grid(), largest.rows, largest.columns, bound.highest_h_m, largest.rise_m) +
+        cut.step_m;
+    bound.steepness = largest.steepness;
+    for (int i = 0; tile.level > 0 && i < 4; ++i) {
+        const TileIndex child{2 * tile.row + i / 2, 2 * tile.column + i % 2, tile.level - 1};
+        if (child.row >= layout_->rows(child.level) || child.column >= layout_->columns(child.level))
+            continue;
+        const Bound& below = at(child);
+        bound.error_m = std::max(bound.error_m, below.error_m);
+        bound.beside_m = std::max(bound.beside_m, below.beside_m);
+        bound.steepness = std::max(bound.steepness, below.steepness);
+        bound.lowest_h_m = std::min(bound.lowest_h_m, below.lowest_h_m);
+        bound.highest_h_m = std::max(bound.highest_h_m, below.highest_h_m);
     }
-    // The surface's own triangles lie within the certificate of the page's heights.
-    const double surface_sag_m =
-        flat_triangle_sag_m(grid, 0, summary.highest_h_m + certified_m, dh_m + 2.0 * certified_m);
-    bound.error_m =
-        std::max(error_m, certified_m + surface_sag_m + 0.5 * height_step_m + rounded_share * bound.step_m);
-    if (bound.drawn) bound.shown_error_m = bound.error_m;
     return bound;
 }
 
-Result<TileBounds> TileBounds::of(const RegionPages& pages) {
-    TileBounds bounds(pages);
-    for (int level = 0; level < pages.levels(); ++level) {
-        const PageLayout layout = pages.layout(level);
+TileBounds TileBounds::of(const ClusteredGround& ground, const TilesetLayout& layout,
+                          const std::vector<LevelCut>& cuts) {
+    TileBounds bounds(layout);
+    bounds.wraps_longitude_ = ground.grid().wraps_longitude();
+    for (int level = 0; level < layout.levels(); ++level) {
         std::vector<Bound>& all = bounds.levels_.emplace_back();
-        all.reserve(layout.count());
-        for (int row = 0; row < layout.rows; ++row) {
-            for (int column = 0; column < layout.columns; ++column) {
-                ORO_TRY(const Bound bound, bounds.bound_of({row, column, level}));
-                all.push_back(bound);
-            }
-        }
+        all.reserve(layout.count(level));
+        for (std::size_t number = 0; number < layout.count(level); ++number)
+            all.push_back(
+                bounds.bound_of(ground, cuts[static_cast<std::size_t>(level)], layout.tile(number, level)));
     }
     return bounds;
 }
 
-std::optional<PageIndex> TileBounds::across(const PageIndex& page, int level, std::size_t edge) const {
+std::optional<TileIndex> TileBounds::across(const TileIndex& tile, int level, std::size_t edge) const {
     // North, east, south, west.
     constexpr std::array<std::array<int, 2>, 4> steps{{{-1, 0}, {0, 1}, {1, 0}, {0, -1}}};
     const auto [down, right] = steps[edge];
-    const int up = level - page.level;
-    const PageLayout finest = pages_->layout(page.level), layout = pages_->layout(level);
-    const PageIndex above{page.row >> up, page.column >> up, level};
-    PageIndex other{above.row + down, above.column + right, level};
-    const bool round = page.column + right < 0 || page.column + right >= finest.columns;
-    // Where the edge is not one of the page above, that page covers both sides.
-    if (!round && ((page.row + down) >> up != other.row || (page.column + right) >> up != other.column))
+    const int up = level - tile.level;
+    const int columns = layout_->columns(level);
+    const TileIndex above{tile.row >> up, tile.column >> up, level};
+    TileIndex other{above.row + down, above.column + right, level};
+    const bool round = tile.column + right < 0 || tile.column + right >= layout_->columns(tile.level);
+    // Where the edge is not one of the tile above, that tile covers both sides.
+    if (!round && ((tile.row + down) >> up != other.row || (tile.column + right) >> up != other.column))
         return std::nullopt;
-    if (round && pages_->wraps_longitude()) other.column = right < 0 ? layout.columns - 1 : 0;
-    if (other.row < 0 || other.row >= layout.rows || other.column < 0 || other.column >= layout.columns ||
+    if (round && wraps_longitude_) other.column = right < 0 ? columns - 1 : 0;
+    if (other.row < 0 || other.row >= layout_->rows(level) || other.column < 0 || other.column >= columns ||
         other == above)
         return std::nullopt;
     return other;
 }
 
-TileWalls TileBounds::walls(const PageIndex& page) const {
+TileWalls TileBounds::walls(const TileIndex& tile) const {
     TileWalls walls;
-    const Bound& own = at(page);
-    if (std::isinf(own.error_m)) return walls;
+    const Bound& own = at(tile);
+    if (own.error_m < 0.0) return walls;
     for (std::size_t edge = 0; edge < walls.down_m.size(); ++edge) {
-        double error_m = -1.0, beside_m = 0.0, steepness = 0.0, lowest_h_m = own.highest_h_m;
-        for (int level = page.level; level < pages_->levels(); ++level) {
-            const std::optional<PageIndex> index = across(page, level, edge);
+        Bound other;
+        for (int level = tile.level; level < layout_->levels(); ++level) {
+            const std::optional<TileIndex> index = across(tile, level, edge);
             if (!index) break;
-            const Bound& other = at(*index);
-            if (other.shown_error_m < 0.0) continue;
-            error_m = std::max(error_m, other.shown_error_m);
-            beside_m = std::max(beside_m, other.beside_m);
-            steepness = std::max(steepness, (other.highest_h_m - other.lowest_h_m) / other.post_m);
-            lowest_h_m = std::min(lowest_h_m, other.lowest_h_m);
+            const Bound& one = at(*index);
+            other.error_m = std::max(other.error_m, one.error_m);
+            other.beside_m = std::max(other.beside_m, one.beside_m);
+            other.steepness = std::max(other.steepness, one.steepness);
+            other.lowest_h_m = std::min(other.lowest_h_m, one.lowest_h_m);
         }
-        if (error_m < 0.0) continue;
-        walls.out_m[edge] = 2.0 * (own.beside_m + beside_m);
-        walls.down_m[edge] =
-            own.error_m + error_m +
-            std::min(1.5 * walls.out_m[edge] * steepness, own.highest_h_m - lowest_h_m + beside_m);
+        if (other.error_m < 0.0) continue;
+        walls.out_m[edge] = 2.0 * (own.beside_m + other.beside_m);
+        walls.down_m[edge] = own.error_m + other.error_m +
+                             std::min(1.5 * walls.out_m[edge] * other.steepness,
+                                      std::max(0.0, own.highest_h_m - other.lowest_h_m) + other.beside_m);
     }
     return walls;
 }

@@ -87,12 +87,19 @@ TEST(ExportCommand, TilesHaveTheHeightsThatSightTells) {
 TEST(ExportCommand, A3dTilesetHasTheProvenErrors) {
     const fs::path out = oro::test::scratch_folder() / "tiles";
     const auto said = object_said_by(export_words("3dtiles", out, {"--json"}));
-    EXPECT_EQ(said["tiles"], 12 + 4 + 1);
-    EXPECT_EQ(said["without_content"], 0);
-    ASSERT_EQ(said["levels"].size(), 3U);
-    EXPECT_EQ(said["levels"][2]["triangles"], 2 * 402 * 343);
+    EXPECT_EQ(said["tiles"], 4 + 1);
+    ASSERT_EQ(said["levels"].size(), 2U);
+    // A fifth of 3" along a meridian, with the equator's radius: 6378137 m pi / 180 / 1200 / 5.
+    EXPECT_LE(said["levels"][1]["largest_error_m"].get<double>(), 18.5533);
+    EXPECT_GT(said["levels"][1]["largest_error_m"].get<double>(), 17.0);
+    const auto every =
+        object_said_by(export_words("3dtiles", out.string() + "0", {"--json", "--max-error", "0"}));
+    EXPECT_EQ(every["levels"][1]["triangles"], 2 * 402 * 343);
     // Rounding alone where each post is drawn: steps of 2^-4 m at most.
-    EXPECT_LT(said["levels"][2]["largest_error_m"].get<double>(), 0.07);
+    EXPECT_LT(every["levels"][1]["largest_error_m"].get<double>(), 0.07);
+    const auto bare = object_said_by(export_words("3dtiles", out.string() + "1", {"--json", "--no-normals"}));
+    EXPECT_EQ(bare["levels"][1]["triangles"], said["levels"][1]["triangles"]);
+    EXPECT_LT(bare["bytes"].get<double>(), 0.85 * said["bytes"].get<double>());
     const auto tileset = nlohmann::json::parse(bytes_of(out / "tileset.json"));
     EXPECT_EQ(tileset["asset"]["version"], "1.1");
     EXPECT_EQ(tileset["root"]["geometricError"], said["levels"][0]["largest_error_m"]);
@@ -156,12 +163,12 @@ TEST(ExportCommand, AModelKeepsToItsError) {
 
 TEST(ExportCommand, A3dTilesetReplacesOnlyATileset) {
     const fs::path folder = oro::test::scratch_folder(), out = folder / "tiles";
-    const Words words = export_words("3dtiles", out);
+    const Words words = export_words("3dtiles", out, {"--bbox=-84.4,36.5,-84.3,36.6"});
     EXPECT_EQ(run_orograph(words).exit_code, 0);
-    EXPECT_EQ(names_in(out), (Words{"0", "1", "2", "tileset.json"}));
+    EXPECT_EQ(names_in(out), (Words{"0", "tileset.json"}));
     const std::string before = bytes_of(out / "tileset.json");
     expect_refusal(run_orograph(words), oro::test::failed, {"is there already (--overwrite replaces it)"});
-    const Words again = export_words("3dtiles", out, {"--overwrite"});
+    const Words again = oro::test::joined(words, {"--overwrite"});
     EXPECT_EQ(run_orograph(again).exit_code, 0);
     EXPECT_EQ(bytes_of(out / "tileset.json"), before);
     oro::test::write_bytes(out / "0" / "0" / "notes.txt", "mine");
@@ -209,6 +216,10 @@ TEST(ExportCommand, RefusesWhatHasNoMeaning) {
                    oro::test::usage, {"--hole-height", "needs --to terrain-rgb or quantized-mesh"});
     expect_refusal(run_orograph(export_words("3dtiles", folder / "t", {"--zoom", "3:4"})), oro::test::usage,
                    {"--zoom 3:4: needs --to terrain-rgb or quantized-mesh"});
+    expect_refusal(run_orograph(export_words("cog", folder / "t.tif", {"--max-error", "1"})),
+                   oro::test::usage, {"--max-error 1: needs --to gltf or 3dtiles"});
+    expect_refusal(run_orograph(export_words("gltf", folder / "t.glb", {"--no-normals"})), oro::test::usage,
+                   {"--no-normals: needs --to 3dtiles"});
     expect_refusal(run_orograph(export_words("obj", folder / "t")), oro::test::usage,
                    {"choose cog, terrain-rgb, 3dtiles, quantized-mesh or gltf"});
     EXPECT_TRUE(names_in(folder).empty());

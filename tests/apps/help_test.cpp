@@ -109,7 +109,7 @@ TEST(Help, ExplainsEachOption) {
                       "--data-changed", "--overwrite",  "--json",         "-q, --quiet", "--check",
                       "--no-legend",    "--fill-voids", "--strict-datum", "-h, --help",  "--resample",
                       "--on-summit",    "--kml",        "--geopose",      "--cors",      "--dry-run",
-                      "--join",         "--stac",       "--network",      "--cache"};
+                      "--join",         "--stac",       "--network",      "--cache",     "--no-normals"};
     for (const std::string& command : commands) {
         const auto options = options_in(help_of({command}));
         EXPECT_GE(options.size(), 2U) << command;

@@ -41,8 +41,11 @@ Result<void> check_words(const ExportOptions& options) {
     const char* const needed = "needs --to terrain-rgb or quantized-mesh";
     if (options.zoom && !has_zooms) return refused("--zoom", *options.zoom, needed);
     if (options.hole_height_m && !has_zooms) return refused("--hole-height", "", needed);
-    if (options.max_error_m && *options.to != "gltf")
-        return refused("--max-error", all_digits(*options.max_error_m), "needs --to gltf");
+    const bool has_error = *options.to == "gltf" || *options.to == "3dtiles";
+    if (options.max_error_m && !has_error)
+        return refused("--max-error", all_digits(*options.max_error_m), "needs --to gltf or 3dtiles");
+    if (options.no_normals && *options.to != "3dtiles")
+        return refused("--no-normals", "", "needs --to 3dtiles");
     constexpr double most_error_m = 100000.0;
     if (const double error_m = options.max_error_m.value_or(0.0);
         !(error_m >= 0.0 && error_m <= most_error_m))

@@ -6,7 +6,6 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/commands/export/exported_region.h"
-#include "apps/drawing/region_scene.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
@@ -18,7 +17,7 @@
 namespace oro {
 namespace {
 
-TilesetRequest request_of(const Region& region) {
+TilesetRequest request_of(const ExportOptions& options, const Region& region) {
     TilesetRequest request;
     request.look = look_of(region);
     request.metadata = {
@@ -27,6 +26,9 @@ TilesetRequest request_of(const Region& region) {
         {"attribution", request.look.attribution},
         {"geometricError",
          "metres; no point of the surface of all posts is farther from what a tile has for it"}};
+    request.finest_error_m =
+        options.max_error_m.value_or(usual_finest_error_m(region.grids.front().field.grid));
+    request.normals = !options.no_normals;
     request.threads = thread_count();
     return request;
 }
@@ -34,33 +36,28 @@ TilesetRequest request_of(const Region& region) {
 nlohmann::ordered_json levels_json(const TilesetWritten& written) {
     auto list = nlohmann::ordered_json::array();
     for (const TilesetLevel& level : written.levels)
-        list.push_back(json_object("level", level.level, "tiles", level.tiles, "without_content",
-                                   level.without_content, "triangles", level.triangles, "bytes", level.bytes,
-                                   "largest_error_m", level.largest_error_m));
+        list.push_back(json_object("level", level.level, "tiles", level.tiles, "triangles", level.triangles,
+                                   "bytes", level.bytes, "largest_error_m", level.largest_error_m));
     return list;
 }
 
 void tell_tileset(const ExportOptions& options, const Region& region, const TilesetWritten& written) {
-    std::uint64_t tiles = 0, bytes = 0, without = 0;
+    std::uint64_t tiles = 0, bytes = 0;
     for (const TilesetLevel& level : written.levels) {
         tiles += level.tiles;
         bytes += level.bytes;
-        without += level.without_content;
     }
     if (options.json) {
         auto json = json_object("folder", options.out, "format", "3dtiles", "tiles", tiles, "bytes", bytes,
-                                "without_content", without, "geometric_error_m", written.geometric_error_m,
-                                "heights", heights_words(region), "attribution", attribution_of(region),
-                                "levels", levels_json(written), "notes", all_notes(region));
+                                "geometric_error_m", written.geometric_error_m, "heights",
+                                heights_words(region), "attribution", attribution_of(region), "levels",
+                                levels_json(written), "notes", all_notes(region));
         std::printf("%s\n", json_text(json, true).c_str());
         return;
     }
     std::printf("Wrote %s: %s, %s bytes\n", options.out.c_str(), counted(tiles, "tile", "tiles").c_str(),
                 grouped(bytes).c_str());
     std::printf("Heights: h, above the ellipsoid WGS84; the data's are %s\n", heights_words(region).c_str());
-    if (without > 0)
-        std::printf("Without content: %s, which cannot stand for ground with voids\n",
-                    counted(without, "tile", "tiles").c_str());
     std::printf("Metres from the ground, at most (proven):\n  level   tiles   triangles   largest\n");
     for (const TilesetLevel& level : written.levels)
         std::printf("  %5d  %6s  %10s  %8s\n", level.level, grouped(level.tiles).c_str(),
@@ -72,16 +69,18 @@ void tell_tileset(const ExportOptions& options, const Region& region, const Tile
 
 Result<void> export_3d_tiles(const ExportOptions& options, const Region& region, ProgressBar& bar) {
     ORO_CHECK(check_one_grid(options, region));
-    ORO_TRY(const std::unique_ptr<RegionPages> pages,
-            grid_pages(region.grids.front(), {}, 1.0,
-                       [&](double share) { bar.show(share, "measuring levels"); }));
-    if (const std::uint64_t tiles = tileset_pages(*pages); tiles > most_tileset_tiles)
+    const RegionGrid& grid = region.grids.front();
+    if (const std::size_t posts = grid.field.grid.post_count(); posts > most_tileset_posts)
         return refused("--to", "3dtiles",
-                       grouped(tiles) + " tiles are more than " + grouped(most_tileset_tiles) +
+                       grouped(posts) + " posts are more than " + grouped(most_tileset_posts) +
                            ": give a part of the data with --bbox");
+    bar.show(0.0, "building clusters");
+    ORO_TRY(const std::unique_ptr<ClusteredGround> ground,
+            ClusteredGround::of(grid.field, grid.clusters.get(), thread_count()));
+    ORO_CHECK(region.health());
     ORO_TRY(WholeFolder folder, WholeFolder::create(options.out, options.overwrite));
     ORO_TRY(const TilesetWritten written,
-            write_tileset(folder.path(), *pages, request_of(region),
+            write_tileset(folder.path(), *ground, request_of(options, region),
                           [&](double share) { bar.show(share, "writing tiles"); }));
     ORO_CHECK(region.health());
     ORO_CHECK(folder.commit());

@@ -9,7 +9,11 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -71,15 +75,16 @@ inline std::string view_bytes(const nlohmann::json& gltf, const std::string& bin
     return bytes;
 }
 
-// Vectors of an accessor of floats or of normalized shorts, as they stand, y up.
+// Vectors of an accessor of floats, of shorts or of normalized bytes, as they stand.
 inline std::vector<glm::dvec3> vectors_of(const nlohmann::json& gltf, const std::string& bin, int accessor) {
     const auto& of = gltf["accessors"][static_cast<std::size_t>(accessor)];
     const auto number = of["bufferView"].get<std::size_t>();
     const std::string bytes = view_bytes(gltf, bin, number);
     EXPECT_EQ(of["type"], "VEC3");
-    const bool shorts = of["componentType"] == 5122;
-    EXPECT_TRUE(shorts || of["componentType"] == 5126);
-    const std::size_t part = shorts ? 2 : 4;
+    const int component = of["componentType"];
+    EXPECT_TRUE(component == 5120 || component == 5122 || component == 5126) << component;
+    EXPECT_EQ(of.value("normalized", false), component == 5120);
+    const std::size_t part = component == 5120 ? 1 : component == 5122 ? 2 : 4;
     const auto stride = gltf["bufferViews"][number]["byteStride"].get<std::size_t>(),
                count = of["count"].get<std::size_t>();
     EXPECT_EQ(count * stride, bytes.size());
@@ -88,8 +93,9 @@ inline std::vector<glm::dvec3> vectors_of(const nlohmann::json& gltf, const std:
         std::array<double, 3> parts{};
         for (std::size_t j = 0; j < 3; ++j) {
             const std::size_t at = i * stride + j * part;
-            parts[j] = shorts ? std::max(-1.0, value_at<std::int16_t>(bytes, at) / 32767.0)
-                              : static_cast<double>(value_at<float>(bytes, at));
+            parts[j] = component == 5120   ? std::max(-1.0, value_at<std::int8_t>(bytes, at) / 127.0)
+                       : component == 5122 ? value_at<std::int16_t>(bytes, at)
+                                           : static_cast<double>(value_at<float>(bytes, at));
         }
         vectors.emplace_back(parts[0], parts[1], parts[2]);
         for (std::size_t j = 0; of.contains("min") && j < 3; ++j) {
@@ -119,21 +125,24 @@ inline void read_glb(const std::string& bytes, ReadTile& tile) {
     const std::string bin = bytes.substr(28 + json_size, bin_size);
     ASSERT_EQ(bin.size(), bin_size);
     const auto& node = gltf["nodes"][gltf["scenes"][0]["nodes"][0].get<std::size_t>()];
-    const auto& move = node["translation"];
-    const glm::dvec3 centre(move[0], move[1], move[2]);
+    glm::dmat4 matrix(1.0);
+    for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = node["matrix"][static_cast<std::size_t>(i)];
     const auto& mesh = gltf["meshes"][node["mesh"].get<std::size_t>()];
     const auto& primitive = mesh["primitives"][0];
     for (const glm::dvec3& position : vectors_of(gltf, bin, primitive["attributes"]["POSITION"]))
-        tile.posts_m.push_back(z_up(position + centre));
-    for (const glm::dvec3& normal : vectors_of(gltf, bin, primitive["attributes"]["NORMAL"]))
-        tile.normals.push_back(z_up(normal));
+        tile.posts_m.push_back(z_up(glm::dvec3(matrix * glm::dvec4(position, 1.0))));
+    if (primitive["attributes"].contains("NORMAL"))
+        for (const glm::dvec3& normal : vectors_of(gltf, bin, primitive["attributes"]["NORMAL"]))
+            tile.normals.push_back(glm::normalize(z_up(glm::dmat3(matrix) * normal)));
     const auto& indices = gltf["accessors"][primitive["indices"].get<std::size_t>()];
-    EXPECT_EQ(indices["componentType"], 5123);
+    const bool shorts = indices["componentType"] == 5123;
+    EXPECT_EQ(shorts, tile.posts_m.size() <= 65535U);
     const std::string bytes_of_indices = view_bytes(gltf, bin, indices["bufferView"].get<std::size_t>());
     for (std::size_t i = 0; i < indices["count"].get<std::size_t>() / 3; ++i) {
         auto& triangle = tile.triangles.emplace_back();
         for (std::size_t j = 0; j < 3; ++j) {
-            triangle[j] = value_at<std::uint16_t>(bytes_of_indices, 2 * (3 * i + j));
+            triangle[j] = shorts ? value_at<std::uint16_t>(bytes_of_indices, 2 * (3 * i + j))
+                                 : value_at<std::uint32_t>(bytes_of_indices, 4 * (3 * i + j));
             ASSERT_LT(triangle[j], tile.posts_m.size());
         }
     }
