@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "apps/command_line/refusals.h"
 #include "apps/fetch/public_sources.h"
@@ -15,13 +14,12 @@
 #include "geo/fetch/fetch_tiles.h"
 #include "geo/listing/file_listing.h"
 #include "geo/places/place.h"
+#include "geo/places/widened_box.h"
 
 namespace oro {
 namespace {
 
 constexpr std::size_t most_missing_tiles = 200;
-// A degree of a meridian, in the middle.
-constexpr double km_per_deg = 111.1;
 constexpr double share_wait_s = 600.0;
 // Posts lie half a step inside of their tiles.
 constexpr double rim_deg = 0.002;
@@ -36,18 +34,11 @@ Result<TileLayout> heights_named(const PublicSources& sources, const std::string
     return refused("--fetch", name, choose_words(names));
 }
 
-// The box around a place, or around what it stands for. It may cross the antimeridian; no pole.
+// Around a place, or around what it stands for.
 BoundingBox box_around(const Place& place, double km) {
-    PlaceCell cell =
+    const PlaceCell cell =
         place.cell.value_or(PlaceCell{place.lat_deg, place.lon_deg, place.lat_deg, place.lon_deg});
-    const double lat_deg = km / km_per_deg;
-    const double south_deg = std::max(cell.south_deg - lat_deg, -90.0);
-    const double north_deg = std::min(cell.north_deg + lat_deg, 90.0);
-    const double widest_deg = std::max(std::abs(south_deg), std::abs(north_deg));
-    const double across = std::cos(std::min(widest_deg, 89.0) * std::numbers::pi / 180.0);
-    const double lon_deg = std::min(lat_deg / across, 179.0 - 0.5 * (cell.east_deg - cell.west_deg));
-    const auto in_turn = [](double angle_deg) { return std::remainder(angle_deg, 360.0); };
-    return {in_turn(cell.west_deg - lon_deg), south_deg, in_turn(cell.east_deg + lon_deg), north_deg};
+    return widened_box({cell.west_deg, cell.south_deg, cell.east_deg, cell.north_deg}, 1000.0 * km);
 }
 
 Result<std::vector<BoundingBox>> boxes_asked(const RegionOptions& region,

@@ -26,6 +26,7 @@
 #include "core/sight/post_horizons.h"
 #include "core/sight/viewshed.h"
 #include "geo/files/letter_case.h"
+#include "geo/places/widened_box.h"
 #include "geo/rasters/post_raster.h"
 
 namespace oro {
@@ -77,7 +78,7 @@ Result<RegionOptions> widened_region(const HorizonOptions& options, const std::o
     RegionOptions wide = options.region;
     if (!box) return wide;
     wide.tile.clear();
-    wide.bbox = box_words(widened(*box, radius_m));
+    wide.bbox = box_words(widened_box(*box, radius_m));
     return wide;
 }
 

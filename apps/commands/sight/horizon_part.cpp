@@ -33,24 +33,6 @@ GridPart part_of_net(const PostGrid& grid, const BoundingBox& box) {
 
 }  // namespace
 
-BoundingBox widened(const BoundingBox& box, double by_m) {
-    constexpr double least_radius_m = 6.33e6;  // no radius of curvature is smaller
-    constexpr double spare = 1.02;
-    const double by_rad = spare * by_m / least_radius_m, by_deg = deg_from_radians(Radians(by_rad));
-    BoundingBox wide{-180.0, std::max(-90.0, box.south_deg - by_deg), 180.0,
-                     std::min(90.0, box.north_deg + by_deg)};
-    const double farthest_deg = std::max(std::abs(wide.south_deg), std::abs(wide.north_deg));
-    const double share = std::sin(by_rad) / sine_cosine_deg(farthest_deg).cosine;
-    if (farthest_deg >= 90.0 || !(share < 1.0)) return wide;
-    const double sideways_deg = deg_from_radians(Radians(std::asin(share)));
-    const double width_deg =
-        box.east_deg - box.west_deg + (box.west_deg > box.east_deg ? 360.0 : 0.0) + 2.0 * sideways_deg;
-    if (width_deg >= 360.0) return wide;
-    wide.west_deg = normalised_lon_deg(box.west_deg - sideways_deg);
-    wide.east_deg = normalised_lon_deg(box.east_deg + sideways_deg);
-    return wide;
-}
-
 GridPart part_in_box(const PostGrid& grid, const std::optional<BoundingBox>& box) {
     if (!box) return {0, grid.rows(), 0, grid.columns()};
     if (grid.net) return part_of_net(grid, *box);

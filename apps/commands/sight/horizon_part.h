@@ -1,4 +1,4 @@
-// Which posts orograph horizon answers for, and which data it reads for that.
+// Which posts orograph horizon answers for.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,6 @@
 #include "geo/places/bounding_box.h"
 
 namespace oro {
-
-// A box wider by a distance on all sides; round the Earth where that comes to a pole.
-BoundingBox widened(const BoundingBox& box, double by_m);
 
 // The posts of a grid within a box; all of them without one. On a net: the rows and columns that hold them.
 // Columns may run past a turn (GridPart). Empty where there are none.

@@ -260,6 +260,33 @@ TEST_F(FetchFile, GivesUpOnAServerThatFallsSilent) {
     EXPECT_EQ(server.requests()[1].headers.at("range"), "bytes=10-");
 }
 
+// 300,000 bytes in 1.5 s, longer than stall_s: waited for, in one request.
+TEST_F(FetchFile, WaitsForASlowServer) {
+    const LoopbackServer server([&](const LoopbackRequest& request, const LoopbackSend& send) {
+        const std::string answer = file_answer(request, wanted_, etag);
+        const std::size_t piece = answer.size() / 15 + 1;
+        for (std::size_t at = 0; at < answer.size(); at += piece) {
+            if (!send(answer.substr(at, piece))) return;
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
+    });
+    expect_fetched(server, 1);
+}
+
+// A byte each 50 ms, for hours: less than slowest_bytes_per_s, and given up.
+TEST_F(FetchFile, GivesUpOnAServerThatDrips) {
+    const LoopbackServer* ending = nullptr;
+    const LoopbackServer server([&](const LoopbackRequest& request, const LoopbackSend& send) {
+        for (const char byte : file_answer(request, wanted_, etag)) {
+            if (ending->is_ending() || !send(std::string(1, byte))) return;
+            std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        }
+    });
+    ending = &server;
+    EXPECT_TRUE(says(fault(server, quick(0)), "/tile: "));
+    EXPECT_EQ(server.requests().size(), 1U);
+}
+
 TEST_F(FetchFile, FollowsRedirectsAndNoCircle) {
     const LoopbackServer server([&](const LoopbackRequest& request, const LoopbackSend& send) {
         send(request.path == "/tile" ? http_answer("302 Found", "Location: /other\r\n", "")
