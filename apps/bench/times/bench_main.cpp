@@ -261,6 +261,10 @@ void add_modes(CLI::App& app, BenchOptions& options) {
            "ground to 5 km/s above, drawn as a window draws them; tells times of whole frames, "
            "processor, GPU and waiting apart. With --style: by plain colours and by that style")
         ->check(CLI::Range(1, 10000));
+    app.add_option("--frame-rate", options.frame_rate_hz,
+                   "With --moving: frames begun a second, as a window begins them on a display of that rate, "
+                   "where pages have time to come. Without it: as many as there can be")
+        ->check(CLI::Range(1.0, 1000.0));
     app.add_flag(
         "--fingerprint", options.fingerprint,
         "With --moving: tell a checksum of all plans in place of times, each made once all it asks for "
