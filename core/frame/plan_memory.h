@@ -9,12 +9,14 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
 #include "core/frame/cast_cells.h"
 #include "core/frame/frame_plan.h"
 #include "core/frame/frame_tables.h"
+#include "core/frame/plan_sources.h"
 #include "core/frame/region_pages.h"
 #include "core/terrain/page_table.h"
 
@@ -78,6 +80,12 @@ class PlanMemory {
     // A page of a plan by its number there; quick for the last plan. Errors: as page().
     Result<KeptPage*> page_of(const GridPlan& plan, std::size_t number);
 
+    // From the next plan on, what a device can make by itself is left to it, of these sources (DevicePlan).
+    // It does so on WGS84, where light goes straight and the eye is near (PlanSources::is_near()).
+    void set_sources(PlanSources sources) { sources_.emplace(std::move(sources)); }
+    // Null: there are none.
+    [[nodiscard]] PlanSources* sources() { return sources_ ? &*sources_ : nullptr; }
+
     [[nodiscard]] KeptAngles& angles() { return angles_; }
     [[nodiscard]] CastCells& cast_cells() {
         return cast_cells_ ? *cast_cells_ : cast_cells_.emplace(*pages_);
@@ -97,6 +105,7 @@ class PlanMemory {
     const RegionPages* pages_;
     KeptAngles angles_;
     std::optional<CastCells> cast_cells_;
+    std::optional<PlanSources> sources_;
     std::vector<PageLayout> layouts_;  // of each level
     std::vector<Level> levels_;
     std::size_t size_{};

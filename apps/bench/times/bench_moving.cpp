@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "apps/bench/times/bench_flights.h"
+#include "apps/bench/times/bench_plans.h"
 #include "apps/bench/times/bench_random.h"
 #include "apps/bench/times/bench_region.h"
 #include "apps/bench/times/bench_times.h"
@@ -367,6 +368,9 @@ Result<void> run_moving(const Gpu& gpu, BenchOptions options) {
         return Error{ErrorKind::usage, "--moving", "needs a region file (orograph bake makes one)"};
     ORO_TRY(const std::vector<RasterPath> paths, raster_paths_of(options, gpu.report()));
     ORO_TRY(const std::vector<RandomFlight> flights, flights_of(options));
+    for (const RasterPath path : paths)
+        if (options.compare_plans) ORO_CHECK(compare_plans(gpu, path, flights, options));
+    if (options.compare_plans) return {};
     if (options.fingerprint) return print_fingerprints(gpu, flights, options);
     ordered_json json = ordered_json::object();
     json["device"] = gpu.report().name;
@@ -375,6 +379,7 @@ Result<void> run_moving(const Gpu& gpu, BenchOptions options) {
     json["size_px"] = json_list(options.width_px, options.height_px);
     json["tau_px"] = options.tau_px;
     json["flights"] = options.moving;
+    json["plan"] = options.plan_on_device ? "gpu" : "cpu";
     json["frames_a_flight"] = options.frames;
     json["seed"] = options.seed;
     json["rows"] = ordered_json::array();
