@@ -50,6 +50,8 @@ struct KeptPage {
     KeptPage* parent{};
     std::array<KeptPage*, 4> beside{};
     std::uint32_t has_beside{};
+    // Those around it on its own level, row by row; null: nobody has found them, or there are none.
+    std::array<KeptPage*, 8> around{};
     [[nodiscard]] const PageIndex& index() const { return record.summary.index; }
 };
 
@@ -62,6 +64,8 @@ class PlanMemory {
 
     // What pages were pointed to may be gone from here on. The number of the choice that begins, from 1 on.
     std::uint64_t begin_frame();
+    // Of the choice that began last.
+    [[nodiscard]] std::uint64_t turn() const { return turn_; }
     // The number of the choice of casters that begins, from 1 on.
     std::uint64_t begin_casters() { return ++cast_turn_; }
     // A page, good until the next frame begins. Errors: as RegionPages::record().
@@ -72,6 +76,9 @@ class PlanMemory {
     // known. Null: nobody has asked for it.
     [[nodiscard]] KeptPage* parent(KeptPage& page);
     [[nodiscard]] KeptPage* beside(KeptPage& page, std::size_t side);
+    // Of a page's level the one so many rows below it and columns to the right, each -1 to 1; it is one of
+    // the layout. Errors: as page().
+    Result<KeptPage*> around(KeptPage& page, int down, int right);
     // One of the finer pages of a page that has it. Errors: as RegionPages::record().
     Result<KeptPage*> child(KeptPage& page, std::size_t quarter);
 
