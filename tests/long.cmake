@@ -215,6 +215,8 @@ set_tests_properties(
   Panorama.RefusesWhatCannotBe
   Panorama.SaysTheSameInAllFormats
   PanoramaPeaks.AreWhereGeographicLibHasThemAndNamedWhereTheyAreSeen
+  Paths/PlanOnDeviceLong.HasTheIdsOfTheProcessorsAt500Eyes/compute
+  Paths/PlanOnDeviceLong.HasTheIdsOfTheProcessorsAt500Eyes/mesh
   Pipeline.APictureMeasuresNothingWhereAProcessorDraws
   Pipeline.IsMeasuredOnceAndRemembered
   Pipeline.NeedsNoCache

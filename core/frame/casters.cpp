@@ -37,6 +37,12 @@ class CasterChoice {
         KeptPage* page;
         std::uint64_t address;
     };
+    // The plan has asked for what it shows.
+    [[nodiscard]] std::uint64_t address_of(const KeptPage& page) const {
+        const KeptPage::Wanted& planned = page.wanted;
+        const bool is_shown = planned.turn == memory_.turn() && planned.open && planned.shows;
+        return is_shown && planned.address != 0 ? planned.address : residency_(page.index());
+    }
     // False where it was so already.
     bool stamp(std::uint64_t& by) const { return std::exchange(by, turn_) != turn_; }
     Result<void> find_missing(GridPlan& plan);
@@ -49,14 +55,17 @@ class CasterChoice {
 };
 
 Result<void> CasterChoice::want_around(const GridPlan& plan) {
-    for (const PageIndex& page : plan.page_indices) {
+    for (std::size_t i = 0; i < plan.page_indices.size(); ++i) {
+        const PageIndex& page = plan.page_indices[i];
+        ORO_TRY(KeptPage* const kept, memory_.page_of(plan, i));
         const PageLayout& layout = memory_.layout(page.level);
         for (int row = std::max(0, page.row - 1); row <= std::min(layout.rows - 1, page.row + 1); ++row)
             for (int column = std::max(0, page.column - 1);
                  column <= std::min(layout.columns - 1, page.column + 1); ++column) {
-                ORO_TRY(KeptPage* const neighbour, memory_.page({row, column, page.level}));
+                ORO_TRY(KeptPage* const neighbour,
+                        memory_.around(*kept, row - page.row, column - page.column));
                 if (!stamp(neighbour->asked_by) || neighbour->record.reach_m < 0.0) continue;
-                wanted_.push_back({neighbour, residency_(neighbour->index())});
+                wanted_.push_back({neighbour, address_of(*neighbour)});
             }
     }
     return {};
@@ -67,7 +76,7 @@ Result<void> CasterChoice::want(const CastMap& map, KeptPage& page) {
     const PageRecord& record = page.record;
     if (record.reach_m < 0.0) return {};
     const PageIndex& index = page.index();
-    wanted_.push_back({&page, residency_(index)});
+    wanted_.push_back({&page, address_of(page)});
     const std::int64_t posts = std::int64_t{gpu::page_quads} << std::max(0, index.level - 1);
     for (std::size_t i = 0; i < 4; ++i) {
         if ((page.has_child >> i & 1U) == 0) continue;

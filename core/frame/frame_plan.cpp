@@ -42,7 +42,8 @@ class PageChoice {
     Result<void> choose();
     void apply_occlusion_feedback(const IsHidden& is_hidden);
     void number_pages(GridPlan& plan);
-    void list_pages(FrameTables& tables, GridPlan& plan) const;
+    [[nodiscard]] PlanSources* sources(const Geodetic& eye) const;
+    void list_pages(FrameTables& tables, PlanSources* sources, GridPlan& plan) const;
 
   private:
     using WantedLevel = std::vector<KeptPage*>;
@@ -62,7 +63,9 @@ class PageChoice {
         const KeptPage* const found = wanted(page);
         return found == nullptr ? gpu::no_page : found->wanted.number;
     }
-    void set_frame_page(KeptPage& page, gpu::FramePage& frame) const;
+    void leave_to_device(const FrameTables& tables, PlanSources& sources, GridPlan& plan) const;
+    void set_place(const KeptPage& page, gpu::FramePage& frame) const;
+    void set_frame_page(KeptPage& page, bool by_device, gpu::FramePage& frame) const;
     void set_from_eye(const PageSummary& page, gpu::FramePage& frame) const;
     void set_neighbours(KeptPage& page, gpu::FramePage& frame) const;
 
@@ -255,7 +258,8 @@ void PageChoice::set_from_eye(const PageSummary& page, gpu::FramePage& frame) co
     }
 }
 
-void PageChoice::set_frame_page(KeptPage& page, gpu::FramePage& frame) const {
+// Matrices, planes and directions; whether the frustum may hide some of it.
+void PageChoice::set_place(const KeptPage& page, gpu::FramePage& frame) const {
     const PageSummary& summary = page.record.summary;
     const glm::dmat3 view_from_page = view_from_ecef_ * summary.ecef_from_page;
     const glm::dmat3 page_from_view = glm::transpose(view_from_page);
@@ -275,8 +279,14 @@ void PageChoice::set_frame_page(KeptPage& page, gpu::FramePage& frame) const {
             inside_all && glm::dot(normal, seen.sphere.centre_m) + planes_[i].w > seen.sphere.radius_m;
     }
     frame.horizon_direction = gpu::vec3(horizon_.eye.direction - summary.horizon.direction);
-    frame.cull = (inside_all ? 0U : gpu::cull_by_frustum) |
-                 (horizon_.eye.angle_rad < std::numbers::pi ? gpu::cull_by_horizon : 0U);
+    if (inside_all) frame.cull &= ~gpu::cull_by_frustum;
+}
+
+void PageChoice::set_frame_page(KeptPage& page, bool by_device, gpu::FramePage& frame) const {
+    const PageSummary& summary = page.record.summary;
+    frame.cull =
+        gpu::cull_by_frustum | (horizon_.eye.angle_rad < std::numbers::pi ? gpu::cull_by_horizon : 0U);
+    if (!by_device) set_place(page, frame);
     if (!model_.culls_nodes() || pages_.is_seam()) frame.cull = 0;
     if (pages_.is_skirt(summary.index)) frame.cull |= gpu::is_skirt;
     if (pages_.facts().grid.net && !pages_.is_seam() && reaches_far(summary))
@@ -291,13 +301,45 @@ void PageChoice::set_frame_page(KeptPage& page, gpu::FramePage& frame) const {
     set_neighbours(page, frame);
 }
 
-void PageChoice::list_pages(FrameTables& tables, GridPlan& plan) const {
+// Null where the processor makes all of the plan.
+PlanSources* PageChoice::sources(const Geodetic& eye) const {
+    PlanSources* const sources = memory_.sources();
+    if (sources == nullptr || !model_.culls_nodes() || model_.curvature_per_m() != 0.0) return nullptr;
+    return sources->is_near(eye.lon_deg) ? sources : nullptr;
+}
+
+void PageChoice::list_pages(FrameTables& tables, PlanSources* sources, GridPlan& plan) const {
+    if (sources != nullptr) tables.leave_to(*sources);
     plan.pages.resize(memory_.planned.size());
     for (std::size_t i = 0; i < plan.pages.size(); ++i) {
         KeptPage& page = *memory_.planned[i];
-        set_frame_page(page, plan.pages[i]);
+        set_frame_page(page, sources != nullptr, plan.pages[i]);
         tables.place(page.index(), plan.pages[i]);
     }
+    if (sources != nullptr) leave_to_device(tables, *sources, plan);
+}
+
+void PageChoice::leave_to_device(const FrameTables& tables, PlanSources& sources, GridPlan& plan) const {
+    plan.device.on = true;
+    gpu::PlanTerms& terms = plan.device.terms;
+    tables.set_eye(terms);
+    terms.page_count = static_cast<gpu::uint>(plan.pages.size());
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            terms.view_from_ecef[3 * column + row] = view_from_ecef_[column][row];
+    for (int axis = 0; axis < 3; ++axis) {
+        terms.eye_ecef[axis] = eye_ecef_.m[axis];
+        terms.horizon[axis] = horizon_.eye.direction[axis];
+    }
+    for (int i = 0; i < static_cast<int>(planes_.size()); ++i)
+        for (int axis = 0; axis < 4; ++axis)
+            terms.planes[4 * i + axis] = planes_[static_cast<std::size_t>(i)][axis];
+    std::vector<gpu::uint>& numbers = plan.device.numbers;
+    numbers.reserve(tables.row_sources().size() + tables.column_sources().size() + plan.pages.size());
+    numbers.insert(numbers.end(), tables.row_sources().begin(), tables.row_sources().end());
+    numbers.insert(numbers.end(), tables.column_sources().begin(), tables.column_sources().end());
+    for (const KeptPage* const page : memory_.planned)
+        numbers.push_back(sources.page(page->record.summary, page->centre_ecef_m));
 }
 
 }  // namespace
@@ -318,7 +360,7 @@ Result<GridPlan> plan_grid(PlanMemory& memory, const Residency& residency, const
                      std::to_string(plan.page_indices.size()) + " pages of terrain in one frame, at most " +
                          std::to_string(gpu::pages_max) + " can be drawn (a larger --tau needs fewer)"};
     FrameTables tables(pages.facts().grid, camera.eye, model.earth, &memory.angles());
-    choice.list_pages(tables, plan);
+    choice.list_pages(tables, choice.sources(camera.eye), plan);
     plan.row_terms = tables.take_rows();
     plan.column_terms = tables.take_columns();
     plan.constants = frame_constants(pages, camera, tile, tau_px, model, coding);

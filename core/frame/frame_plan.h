@@ -15,6 +15,7 @@
 #include "core/frame/region_pages.h"
 #include "core/growth/growth_plan.h"
 #include "core/growth/meadow_plan.h"
+#include "shaders/plan/shared_plan.h"
 #include "shaders/shared.h"
 
 namespace oro {
@@ -45,6 +46,17 @@ struct FrameView {
     [[nodiscard]] std::uint32_t height_px() const { return static_cast<std::uint32_t>(tile.height_px); }
 };
 
+// What the device makes of a plan by itself before it draws it (shaders/plan), to the bit as a plan has it:
+// where that is on, the plan has no tables, and its pages lack their matrices, planes and directions; their
+// gpu::cull_by_frustum says that they may have it. All but addresses of the frame's own buffers.
+struct DevicePlan {
+    bool on{};
+    gpu::PlanTerms terms{};
+    // Of its rows and columns of pages and of its pages, one kind after the other
+    // (core/frame/plan_sources.h).
+    std::vector<gpu::uint> numbers;
+};
+
 // What a frame draws of one grid, ready for the GPU but for the addresses of its buffers and the style.
 struct GridPlan {
     gpu::FrameConstants constants{};
@@ -52,6 +64,7 @@ struct GridPlan {
     std::vector<PageIndex> page_indices;
     std::vector<gpu::RowTerms> row_terms;        // 129 for each row of pages of a level
     std::vector<gpu::ColumnTerms> column_terms;  // 129 for each column of pages of a level
+    DevicePlan device;                           // in place of these, where the plan's memory has sources
     // Pages that the frame should have and has not, most wanted first. Where there are any, coarser ones
     // stand in; the picture still has no cracks. The last `missing_hidden` of them would not show.
     std::vector<PageIndex> missing;
@@ -73,6 +86,13 @@ struct GridPlan {
     std::uint64_t mesh_casters{};
     std::size_t mesh_nodes{};
     glm::dvec3 mesh_origin_m{0.0};
+    // Terms of rows and columns of posts, whoever makes them.
+    [[nodiscard]] std::size_t row_count() const {
+        return device.on ? gpu::page_posts * std::size_t{device.terms.row_count} : row_terms.size();
+    }
+    [[nodiscard]] std::size_t column_count() const {
+        return device.on ? gpu::page_posts * std::size_t{device.terms.column_count} : column_terms.size();
+    }
     // Of whose heights the pages' blocks are: one number, one set of heights. 0: nobody says so.
     std::uint64_t heights{};
 };

@@ -9,6 +9,7 @@
 #include "core/frame/column_terms.h"
 #include "core/frame/ground_noise.h"
 #include "core/frame/model_view.h"
+#include "core/frame/plan_sources.h"
 #include "core/lod/levels.h"
 #include "core/terrain/drawn_heights.h"
 #include "core/terrain/page_on_net.h"
@@ -97,6 +98,10 @@ gpu::NetMap net_map(const LatticeGeoreference& net, const SineCosine& lon) {
     for (std::size_t i = 0; i < LatticeGeoreference::Inverse::terms; ++i)
         map.coefficients[i] = gpu::vec2(inverse.coefficients[i]);
     return map;
+}
+
+gpu::uvec2 address_words(std::uint64_t address) {
+    return {static_cast<gpu::uint>(address), static_cast<gpu::uint>(address >> 32U)};
 }
 
 double within_half_a_turn_deg(double east_deg) {
@@ -266,16 +271,41 @@ std::uint32_t& FrameTables::first_of(FirstOfPages& all, int level, int number, i
     return of_level[static_cast<std::size_t>(number)];
 }
 
+void FrameTables::set_eye(gpu::PlanTerms& terms) const {
+    terms.reference_m = reference_m_;
+    terms.rho_m = rho_m_;
+    terms.z_m = z_m_;
+    terms.eye_lon_deg = eye_.lon_deg;
+    terms.row_count = static_cast<gpu::uint>(row_sources_.size());
+    terms.column_count = static_cast<gpu::uint>(column_sources_.size());
+    terms.row_sources = address_words(sources_->row_address());
+    terms.column_sources = address_words(sources_->column_address());
+    terms.page_sources = address_words(sources_->page_address());
+}
+
+void FrameTables::place_for_device(const LevelGrid& level, const PageIndex& index, std::uint32_t& row,
+                                   std::uint32_t& column) {
+    if (row == nowhere) {
+        row = gpu::page_posts * static_cast<std::uint32_t>(row_sources_.size());
+        row_sources_.push_back(sources_->rows(level.row, index.row, kept_->rows));
+    }
+    if (column == nowhere) {
+        column = gpu::page_posts * static_cast<std::uint32_t>(column_sources_.size());
+        column_sources_.push_back(sources_->columns(level.column, index.column, kept_->columns));
+    }
+}
+
 void FrameTables::place(const PageIndex& index, gpu::FramePage& page) {
     const LevelGrid level = level_grid(grid_, index.level);
     page.first_row = static_cast<gpu::uint>(std::int64_t{index.row} * quads << index.level);
     page.first_column = static_cast<gpu::uint>(std::int64_t{index.column} * quads << index.level);
     std::uint32_t& row = first_of(first_rows_, index.level, index.row, level.row.pages());
+    std::uint32_t& column = first_of(first_columns_, index.level, index.column, level.column.pages());
+    if (sources_ != nullptr) place_for_device(level, index, row, column);
     if (row == nowhere) {
         row = static_cast<std::uint32_t>(rows_.size());
         add_page_rows(level.row, index.row);
     }
-    std::uint32_t& column = first_of(first_columns_, index.level, index.column, level.column.pages());
     if (column == nowhere) {
         column = static_cast<std::uint32_t>(columns_.size());
         if (grid_.net)

@@ -14,9 +14,12 @@
 #include "core/frame/height_quantization.h"
 #include "core/frame/region_pages.h"
 #include "core/frame/row_angles.h"
+#include "shaders/plan/shared_plan.h"
 #include "shaders/shared.h"
 
 namespace oro {
+
+class PlanSources;
 
 // What tables of a grid keep from frame to frame.
 struct KeptAngles {
@@ -39,6 +42,15 @@ class FrameTables {
     FrameTables(const FrameTables&) = delete;
     FrameTables& operator=(const FrameTables&) = delete;
 
+    // What a device makes of this eye's tables is the device's, from here on: place() says where it will be.
+    // sources: outlive this. On the ellipsoid; the eye is_near().
+    void leave_to(PlanSources& sources) { sources_ = &sources; }
+    // Numbers of rows of pages and of columns of pages of those sources, in the order of the tables.
+    [[nodiscard]] std::span<const gpu::uint> row_sources() const { return row_sources_; }
+    [[nodiscard]] std::span<const gpu::uint> column_sources() const { return column_sources_; }
+    // Tells it of the eye.
+    void set_eye(gpu::PlanTerms& terms) const;
+
     // Makes sure that a page's rows and columns are there, and tells the page where, and where it lies.
     void place(const PageIndex& index, gpu::FramePage& page);
 
@@ -60,6 +72,8 @@ class FrameTables {
     }
 
   private:
+    void place_for_device(const LevelGrid& level, const PageIndex& index, std::uint32_t& row,
+                          std::uint32_t& column);
     void add_row(std::int64_t row);
     void add_rows(const RowAngles::Rows& rows, std::size_t count);
     void add_page_rows(const LevelAxis& level, int page_row);
@@ -85,6 +99,8 @@ class FrameTables {
     std::optional<KeptAngles> own_angles_;
     KeptAngles* kept_;
     std::vector<double> east_deg_;  // of columns that are being added
+    PlanSources* sources_{};
+    std::vector<gpu::uint> row_sources_, column_sources_;
 };
 
 // The whole metres that a frame's heights are relative to: the eye's own, but no farther from the ellipsoid

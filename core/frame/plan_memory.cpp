@@ -94,6 +94,16 @@ KeptPage* PlanMemory::beside(KeptPage& page, std::size_t side) {
     return page.beside[side];
 }
 
+Result<KeptPage*> PlanMemory::around(KeptPage& page, int down, int right) {
+    if (down == 0 && right == 0) return &page;
+    const int place = 3 * (down + 1) + right + 1;
+    KeptPage*& known = page.around[static_cast<std::size_t>(place < 4 ? place : place - 1)];
+    if (known != nullptr) return known;
+    const PageIndex& index = page.index();
+    ORO_TRY(known, this->page({index.row + down, index.column + right, index.level}));
+    return known;
+}
+
 Result<KeptPage*> PlanMemory::child(KeptPage& page, std::size_t quarter) {
     if (page.children[quarter] != nullptr) return page.children[quarter];
     const PageIndex& index = page.index();

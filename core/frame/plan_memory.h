@@ -9,12 +9,14 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
 #include "core/frame/cast_cells.h"
 #include "core/frame/frame_plan.h"
 #include "core/frame/frame_tables.h"
+#include "core/frame/plan_sources.h"
 #include "core/frame/region_pages.h"
 #include "core/terrain/page_table.h"
 
@@ -48,6 +50,8 @@ struct KeptPage {
     KeptPage* parent{};
     std::array<KeptPage*, 4> beside{};
     std::uint32_t has_beside{};
+    // Those around it on its own level, row by row; null: nobody has found them, or there are none.
+    std::array<KeptPage*, 8> around{};
     [[nodiscard]] const PageIndex& index() const { return record.summary.index; }
 };
 
@@ -60,6 +64,8 @@ class PlanMemory {
 
     // What pages were pointed to may be gone from here on. The number of the choice that begins, from 1 on.
     std::uint64_t begin_frame();
+    // Of the choice that began last.
+    [[nodiscard]] std::uint64_t turn() const { return turn_; }
     // The number of the choice of casters that begins, from 1 on.
     std::uint64_t begin_casters() { return ++cast_turn_; }
     // A page, good until the next frame begins. Errors: as RegionPages::record().
@@ -70,6 +76,9 @@ class PlanMemory {
     // known. Null: nobody has asked for it.
     [[nodiscard]] KeptPage* parent(KeptPage& page);
     [[nodiscard]] KeptPage* beside(KeptPage& page, std::size_t side);
+    // Of a page's level the one so many rows below it and columns to the right, each -1 to 1; it is one of
+    // the layout. Errors: as page().
+    Result<KeptPage*> around(KeptPage& page, int down, int right);
     // One of the finer pages of a page that has it. Errors: as RegionPages::record().
     Result<KeptPage*> child(KeptPage& page, std::size_t quarter);
 
@@ -77,6 +86,12 @@ class PlanMemory {
     std::vector<KeptPage*> planned;
     // A page of a plan by its number there; quick for the last plan. Errors: as page().
     Result<KeptPage*> page_of(const GridPlan& plan, std::size_t number);
+
+    // From the next plan on, what a device can make by itself is left to it, of these sources (DevicePlan).
+    // It does so on WGS84, where light goes straight and the eye is near (PlanSources::is_near()).
+    void set_sources(PlanSources sources) { sources_.emplace(std::move(sources)); }
+    // Null: there are none.
+    [[nodiscard]] PlanSources* sources() { return sources_ ? &*sources_ : nullptr; }
 
     [[nodiscard]] KeptAngles& angles() { return angles_; }
     [[nodiscard]] CastCells& cast_cells() {
@@ -97,6 +112,7 @@ class PlanMemory {
     const RegionPages* pages_;
     KeptAngles angles_;
     std::optional<CastCells> cast_cells_;
+    std::optional<PlanSources> sources_;
     std::vector<PageLayout> layouts_;  // of each level
     std::vector<Level> levels_;
     std::size_t size_{};

@@ -16,6 +16,12 @@ std::array<std::uint16_t, gpu::meshlets_per_side> rows_of(std::span<const gpu::u
     return rows;
 }
 
+bool any_of(const std::array<std::uint16_t, gpu::meshlets_per_side>& bits) {
+    std::uint32_t all = 0;
+    for (const std::uint16_t row : bits) all |= row;
+    return all != 0;
+}
+
 }  // namespace
 
 bool is_same_view(const gpu::FrameConstants& one, const gpu::FrameConstants& other) {
@@ -60,7 +66,8 @@ const VisibilityFeedback::Bits* VisibilityFeedback::Nodes::bits_of(const PageInd
 bool VisibilityFeedback::Nodes::is_same(const Nodes& other) const {
     if (pages.size() != other.pages.size()) return false;
     for (std::size_t i = 0; i < pages.size(); ++i) {
-        const Bits* const theirs = other.bits_of(pages[i]);
+        // Mostly in the same order.
+        const Bits* const theirs = other.pages[i] == pages[i] ? &other.bits[i] : other.bits_of(pages[i]);
         if (theirs == nullptr || *theirs != bits[i]) return false;
     }
     return true;
@@ -69,7 +76,9 @@ bool VisibilityFeedback::Nodes::is_same(const Nodes& other) const {
 bool VisibilityFeedback::Seen::is_drawn_same(const Seen& other) const {
     if (shown.pages.size() != other.shown.pages.size()) return false;
     for (std::size_t i = 0; i < shown.pages.size(); ++i) {
-        const std::uint32_t theirs = other.shown.pages.find(shown.pages[i]);
+        const std::uint32_t theirs = other.shown.pages[i] == shown.pages[i]
+                                         ? static_cast<std::uint32_t>(i)
+                                         : other.shown.pages.find(shown.pages[i]);
         if (theirs == PageTable::none || other.drawn[theirs] != drawn[i]) return false;
     }
     return true;
@@ -77,7 +86,7 @@ bool VisibilityFeedback::Seen::is_drawn_same(const Seen& other) const {
 
 // Adds bits to a page's, and the page to those above it.
 void VisibilityFeedback::mark(Nodes& nodes, const PageIndex& page, const Bits& bits) const {
-    if (std::ranges::all_of(bits, [](std::uint16_t row) { return row == 0; })) return;
+    if (!any_of(bits)) return;
     const auto [number, is_new] = nodes.pages.number_of(page);
     if (is_new) nodes.bits.emplace_back();
     Bits& to = nodes.bits[number];
@@ -90,15 +99,23 @@ void VisibilityFeedback::mark(Nodes& nodes, const PageIndex& page, const Bits& b
 
 // Nodes and those around them: in the pages beside, too.
 void VisibilityFeedback::mark_grown(Nodes& nodes, const PageIndex& page, const Bits& bits) const {
+    if (!any_of(bits)) return;
     std::array<std::uint32_t, side + 2> grown{};  // from row and column -1 on
     for (int row = 0; row < side; ++row) {
         const std::uint32_t own = std::uint32_t{bits[static_cast<std::size_t>(row)]} << 1U;
         const std::uint32_t wide = own | own << 1U | own >> 1U;
         for (int i = row; i < row + 3; ++i) grown[static_cast<std::size_t>(i)] |= wide;
     }
+    std::uint32_t columns = 0;
+    for (const std::uint32_t row : grown) columns |= row;
+    // Whether any of them lie beyond a rim.
+    const std::array rows{grown.front() != 0, true, grown.back() != 0};
+    const std::array sides{(columns & 1U) != 0, true, (columns >> static_cast<unsigned>(side + 1)) != 0};
     const PageLayout layout = pages_->layout(page.level);
     for (int down = -1; down <= 1; ++down)
         for (int right = -1; right <= 1; ++right) {
+            if (!rows[static_cast<std::size_t>(down + 1)] || !sides[static_cast<std::size_t>(right + 1)])
+                continue;
             PageIndex neighbour{page.row + down, page.column + right, page.level};
             if (pages_->wraps_longitude())
                 neighbour.column = (neighbour.column + layout.columns) % layout.columns;

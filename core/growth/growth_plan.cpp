@@ -28,80 +28,46 @@ constexpr double tile_circle_m = 185.0;  // around a tile's middle: holds it
 // What the tiles of a row of the lattice have in common.
 struct TileRow {
     double south_deg, north_deg;
-    std::uint32_t columns;  // tiles round the Earth
-    SineCosine middle;      // of the latitude of their middles
-    double normal_m;        // the radius of curvature along the prime vertical there
+    std::uint32_t columns;          // tiles round the Earth
+    SineCosine middle;              // of the latitude of their middles
+    double normal_m;                // the radius of curvature along the prime vertical there
+    double south_post, north_post;  // rows of posts along their edges; on a net nothing
 
     [[nodiscard]] double west_deg(std::uint32_t column) const {
         return -180.0 + 360.0 * static_cast<double>(column) / columns;
     }
 };
-TileRow tile_row(std::uint32_t row) {
+TileRow tile_row(const PostGrid& grid, std::uint32_t row) {
     const double lat_deg = site_tile_south_deg(row) + 0.5 * (site_tile_south_deg(1) - site_tile_south_deg(0));
     const SineCosine lat = sine_cosine_deg(lat_deg);
-    return {site_tile_south_deg(row), site_tile_south_deg(row + 1), site_tile_columns(row), lat,
-            wgs84_a_m / std::sqrt(1.0 - wgs84_e2 * lat.sine * lat.sine)};
+    const double south_deg = site_tile_south_deg(row), north_deg = site_tile_south_deg(row + 1);
+    return {south_deg,
+            north_deg,
+            site_tile_columns(row),
+            lat,
+            wgs84_a_m / std::sqrt(1.0 - wgs84_e2 * lat.sine * lat.sine),
+            grid.net ? 0.0 : grid.lat.index_at(south_deg),
+            grid.net ? 0.0 : grid.lat.index_at(north_deg)};
+}
+
+// Fractional numbers of the posts at a tile's corners: south-west, south-east, north-west, north-east.
+std::array<PostNumber, 4> corners_of(const PostGrid& grid, const TileRow& row, std::uint32_t column) {
+    const double west_deg = row.west_deg(column), east_deg = west_deg + 360.0 / row.columns;
+    if (grid.net)
+        return {grid.post_at(row.south_deg, west_deg), grid.post_at(row.south_deg, east_deg),
+                grid.post_at(row.north_deg, west_deg), grid.post_at(row.north_deg, east_deg)};
+    const double west = grid.column_at(west_deg), east = grid.column_at(east_deg);
+    return {{{row.south_post, west}, {row.south_post, east}, {row.north_post, west}, {row.north_post, east}}};
 }
 
 // A tile of the lattice on the grid; none where not all of it is there.
 std::optional<gpu::GrowthTile> tile_on_grid(const PostGrid& grid, const CoveringPages& pages,
                                             const TileRow& lattice_row, std::uint32_t row,
                                             std::uint32_t column) {
+    const std::array<PostNumber, 4> posts = corners_of(grid, lattice_row, column);
     TileCorners corners{};
-    const double west_deg = lattice_row.west_deg(column);
-    for (std::uint32_t i = 0; i < 4; ++i) {
-        const PostNumber post = grid.post_at(i / 2 == 0 ? lattice_row.south_deg : lattice_row.north_deg,
-                                             west_deg + (i % 2) * 360.0 / lattice_row.columns);
-        corners[i] = {post.row, post.column};
-    }
+    for (std::size_t i = 0; i < posts.size(); ++i) corners[i] = {posts[i].row, posts[i].column};
     return growth_tile(grid, pages, row, column, corners);
-}
-
-// A tile of the lattice near the eye.
-struct NearTile {
-    double distance_m;
-    std::uint32_t row, column;
-};
-
-// Those within reach that may show, for all that is known of a place east and north of the eye; nearest
-// first. None near a pole.
-template <class MayShow>
-std::vector<NearTile> tiles_around(const Geodetic& eye, double reach_m, const MayShow& may_show) {
-    constexpr double m_per_deg = 111320.0;
-    const double cosine = std::cos(eye.lat_deg * std::numbers::pi / 180.0);
-    std::vector<NearTile> near;
-    // No tile that is within reach by its exact distance is beyond it by its square.
-    const double reach_square = (reach_m + tile_circle_m) * (reach_m + tile_circle_m) * (1.0 + 1.0e-9);
-    if (cosine < 0.05) return near;
-    const double tile_deg = site_tile_south_deg(1) - site_tile_south_deg(0),
-                 reach_deg = reach_m / m_per_deg * 1.01;
-    const auto row_at = [&](double lat_deg) {
-        return static_cast<std::int64_t>(std::floor((lat_deg + 90.0) / tile_deg));
-    };
-    const std::int64_t first = std::max<std::int64_t>(row_at(eye.lat_deg - reach_deg), 0);
-    const std::int64_t last =
-        std::min<std::int64_t>(row_at(eye.lat_deg + reach_deg), gpu::site_tile_rows - 1);
-    for (std::int64_t row = first; row <= last; ++row) {
-        const auto tile_row = static_cast<std::uint32_t>(row);
-        const std::int64_t count = site_tile_columns(tile_row);
-        const double tiles_per_deg = static_cast<double>(count) / 360.0;
-        const double middle = (eye.lon_deg + 180.0) * tiles_per_deg;
-        const double north_m = (site_tile_south_deg(tile_row) + 0.5 * tile_deg - eye.lat_deg) * m_per_deg;
-        const auto across = static_cast<std::int64_t>(std::ceil(reach_deg / cosine * tiles_per_deg)) + 1;
-        for (std::int64_t i = -across; i <= across; ++i) {
-            const std::int64_t number = static_cast<std::int64_t>(std::floor(middle)) + i;
-            const double east_m =
-                (static_cast<double>(number) + 0.5 - middle) / tiles_per_deg * m_per_deg * cosine;
-            if (north_m * north_m + east_m * east_m > reach_square || !may_show(east_m, north_m)) continue;
-            const double distance_m = std::hypot(north_m, east_m);
-            if (distance_m > reach_m + tile_circle_m) continue;
-            near.push_back(
-                {distance_m, tile_row, static_cast<std::uint32_t>((number % count + count) % count)});
-        }
-    }
-    std::ranges::sort(near, {},
-                      [](const NearTile& one) { return std::tuple(one.distance_m, one.row, one.column); });
-    return near;
 }
 
 // Which tiles the frustum does not leave out. Light that bends, lean and what a tile's trees reach beyond it
@@ -128,6 +94,30 @@ class TilesInView {
                 return false;
         }
         return true;
+    }
+
+    // From where to where, metres east of the eye, tiles of a row may show whose middles lie so far north of
+    // it: for none beyond, within a distance, is the answer below true. The first is larger where there are
+    // none.
+    [[nodiscard]] std::pair<double, double> columns_that_may_show(double north_m, double within_m,
+                                                                  const GroundRange& ground) const {
+        constexpr double tallest_m = 40.0, earth_m = 6371.0e3, rounding_m = 1.0;
+        const double square = within_m * within_m * (1.0 + 1.0e-6), drop_m = square / (2.0 * earth_m);
+        const double slack_m =
+            tile_circle_m + 60.0 + 0.012 * std::sqrt(square) + tangent_ * square / earth_m + rounding_m;
+        const double low_m = ground.low_m - eye_h_m_ - drop_m, high_m = ground.high_m + tallest_m - eye_h_m_;
+        const double half_m = std::sqrt(std::max(0.0, square - north_m * north_m)) + rounding_m;
+        double from_m = -half_m, to_m = half_m;
+        for (std::size_t i = 0; i < planes_.size(); ++i) {
+            const glm::dvec3 normal(planes_[i]);
+            const double east = glm::dot(normal, view_from_enu_[0]);
+            const double rest_m = glm::dot(normal, view_from_enu_[1]) * north_m +
+                                  std::max(up_[i] * low_m, up_[i] * high_m) + planes_[i].w + slack_m;
+            // East times so many metres and the rest are above nothing.
+            if (east > 1.0e-6) from_m = std::max(from_m, -rest_m / east - rounding_m);
+            if (east < -1.0e-6) to_m = std::min(to_m, -rest_m / east + rounding_m);
+        }
+        return {from_m, to_m};
     }
 
     // Whether a tile may show whose middle lies so far east and north of the eye by its degrees
@@ -168,6 +158,63 @@ class TilesInView {
     std::array<double, 5> up_;  // of each: along the vertical
 };
 
+// A tile of the lattice near the eye.
+struct NearTile {
+    double distance_m;
+    std::uint32_t row, column;
+};
+
+// Those within reach that may show, of ground between two heights; nearest first. None near a pole.
+std::vector<NearTile> tiles_around(const Geodetic& eye, double reach_m, const TilesInView& in_view,
+                                   const GroundRange& ground) {
+    constexpr double m_per_deg = 111320.0;
+    const double cosine = std::cos(eye.lat_deg * std::numbers::pi / 180.0);
+    std::vector<NearTile> near;
+    // No tile that is within reach by its exact distance is beyond it by its square.
+    const double reach_square = (reach_m + tile_circle_m) * (reach_m + tile_circle_m) * (1.0 + 1.0e-9);
+    if (cosine < 0.05) return near;
+    const double tile_deg = site_tile_south_deg(1) - site_tile_south_deg(0),
+                 reach_deg = reach_m / m_per_deg * 1.01;
+    const auto row_at = [&](double lat_deg) {
+        return static_cast<std::int64_t>(std::floor((lat_deg + 90.0) / tile_deg));
+    };
+    const std::int64_t first = std::max<std::int64_t>(row_at(eye.lat_deg - reach_deg), 0);
+    const std::int64_t last =
+        std::min<std::int64_t>(row_at(eye.lat_deg + reach_deg), gpu::site_tile_rows - 1);
+    for (std::int64_t row = first; row <= last; ++row) {
+        const auto tile_row = static_cast<std::uint32_t>(row);
+        const std::int64_t count = site_tile_columns(tile_row);
+        const double tiles_per_deg = static_cast<double>(count) / 360.0;
+        const double middle = (eye.lon_deg + 180.0) * tiles_per_deg;
+        const double north_m = (site_tile_south_deg(tile_row) + 0.5 * tile_deg - eye.lat_deg) * m_per_deg;
+        const auto across = static_cast<std::int64_t>(std::ceil(reach_deg / cosine * tiles_per_deg)) + 1;
+        const double around_m = reach_m + tile_circle_m;
+        const auto [west_m, east_most_m] = in_view.columns_that_may_show(north_m, around_m, ground);
+        if (west_m > east_most_m) continue;
+        const auto first_of = [&](double east_m) {
+            const double number = east_m / (m_per_deg * cosine) * tiles_per_deg + middle - 0.5;
+            return static_cast<std::int64_t>(std::floor(number - std::floor(middle)));
+        };
+        for (std::int64_t i = std::max(-across, first_of(west_m) - 1),
+                          last_column = std::min(across, first_of(east_most_m) + 2);
+             i <= last_column; ++i) {
+            const std::int64_t number = static_cast<std::int64_t>(std::floor(middle)) + i;
+            const double east_m =
+                (static_cast<double>(number) + 0.5 - middle) / tiles_per_deg * m_per_deg * cosine;
+            if (north_m * north_m + east_m * east_m > reach_square ||
+                !in_view.may_show(east_m, north_m, ground))
+                continue;
+            const double distance_m = std::hypot(north_m, east_m);
+            if (distance_m > reach_m + tile_circle_m) continue;
+            near.push_back(
+                {distance_m, tile_row, static_cast<std::uint32_t>((number % count + count) % count)});
+        }
+    }
+    std::ranges::sort(near, {},
+                      [](const NearTile& one) { return std::tuple(one.distance_m, one.row, one.column); });
+    return near;
+}
+
 }  // namespace
 
 GrowthPlan plan_growth(const PostGrid& grid, std::span<const PageIndex> page_indices,
@@ -182,14 +229,12 @@ GrowthPlan plan_growth(const PostGrid& grid, std::span<const PageIndex> page_ind
         const GroundRange one = ground(i);
         all = {std::min(all.low_m, one.low_m), std::max(all.high_m, one.high_m)};
     }
-    const auto around =
-        tiles_around(view.camera.eye, static_cast<double>(plan.reach_m),
-                     [&](double east_m, double north_m) { return in_view.may_show(east_m, north_m, all); });
+    const auto around = tiles_around(view.camera.eye, static_cast<double>(plan.reach_m), in_view, all);
     if (around.empty()) return plan;
     const CoveringPages pages(page_indices);
     const auto [lowest, highest] = std::ranges::minmax(around, {}, &NearTile::row);
     std::vector<TileRow> rows;
-    for (std::uint32_t row = lowest.row; row <= highest.row; ++row) rows.push_back(tile_row(row));
+    for (std::uint32_t row = lowest.row; row <= highest.row; ++row) rows.push_back(tile_row(grid, row));
     for (const NearTile& near : around) {
         if (plan.tiles.size() == gpu::growth_tiles_max) break;
         const TileRow& row = rows[near.row - lowest.row];

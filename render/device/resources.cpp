@@ -44,6 +44,8 @@ VkMemoryPropertyFlags properties_of(MemoryKind memory_kind) {
     switch (memory_kind) {
         case MemoryKind::upload:
             return host;
+        case MemoryKind::mapped_device:
+            return host | VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
         case MemoryKind::readback:
             return host | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
         case MemoryKind::device:
@@ -69,6 +71,9 @@ Result<Buffer> create_buffer(const Gpu& gpu, VkDeviceSize size, VkBufferUsageFla
     VkMemoryRequirements needs{};
     vkGetBufferMemoryRequirements(gpu.device(), handle, &needs);
     const bool addressed = (usage & VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT) != 0;
+    if (memory_kind == MemoryKind::mapped_device &&
+        !gpu.memory_type(needs.memoryTypeBits, properties_of(memory_kind)))
+        memory_kind = MemoryKind::upload;
     ORO_TRY(buffer.memory, allocate(gpu, needs, properties_of(memory_kind), addressed, name, full));
     ORO_VK(vkBindBufferMemory(gpu.device(), handle, buffer.memory.get(), 0));
     if (memory_kind != MemoryKind::device) {

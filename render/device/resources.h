@@ -24,7 +24,8 @@ struct Buffer {
 inline gpu::uvec2 address_words(VkDeviceAddress address) {
     return {static_cast<std::uint32_t>(address), static_cast<std::uint32_t>(address >> 32U)};
 }
-enum class MemoryKind { device, upload, readback };
+// mapped_device: the device's own, that the host writes to, and where it has none such, upload.
+enum class MemoryKind { device, upload, readback, mapped_device };
 // Errors: the device is out of memory (the message says how much was asked for what; `full`, if given, is set
 // to true then).
 Result<Buffer> create_buffer(const Gpu& gpu, VkDeviceSize size, VkBufferUsageFlags usage,

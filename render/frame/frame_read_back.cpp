@@ -163,6 +163,20 @@ Result<std::vector<std::uint32_t>> FrameRenderer::read_cluster_states(std::size_
     return read_words(grids_[0].cluster_states(), 0, clusters);
 }
 
+Result<FrameRenderer::PlannedWords> FrameRenderer::read_plan(std::size_t grid) {
+    const GridFrame& drawn = grids_[grid];
+    const auto part = [&](std::size_t number) {
+        const GridFrame::DataPart& bytes = drawn.planned_parts()[number];
+        return read_words(drawn.data(), bytes.first / sizeof(std::uint32_t),
+                          bytes.size / sizeof(std::uint32_t));
+    };
+    PlannedWords words;
+    ORO_TRY(words.pages, part(0));
+    ORO_TRY(words.rows, part(1));
+    ORO_TRY(words.columns, part(2));
+    return words;
+}
+
 Result<std::vector<float>> FrameRenderer::read_air() {
     assert(air_.entries().handle);
     ORO_TRY(const std::vector<std::uint32_t> bits,

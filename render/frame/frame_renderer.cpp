@@ -248,6 +248,24 @@ void FrameRenderer::record_upload(VkCommandBuffer commands, std::size_t grids) c
                        VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
 }
 
+Result<void> FrameRenderer::prepare_device_plans(const FramePlan& plan) {
+    if (plan_pass_ || std::ranges::none_of(plan.grids, [](const GridPlan& grid) { return grid.device.on; }))
+        return {};
+    ORO_TRY(PlanPass pass, PlanPass::create(*gpu_));
+    plan_pass_.emplace(std::move(pass));
+    return {};
+}
+
+void FrameRenderer::record_device_plans(VkCommandBuffer commands, const FramePlan& plan) const {
+    bool any = false;
+    for (std::size_t i = 0; i < plan.grids.size(); ++i) {
+        if (!plan.grids[i].device.on) continue;
+        plan_pass_->record(commands, plan.grids[i].device, grids_[i].plan_terms());
+        any = true;
+    }
+    if (any) PlanPass::record_end(commands);
+}
+
 void FrameRenderer::record(VkCommandBuffer commands, const Slot& slot) {
     const FramePlan& plan = *slot.plan;
     const auto stamp = [&](std::uint32_t number) {
@@ -257,6 +275,7 @@ void FrameRenderer::record(VkCommandBuffer commands, const Slot& slot) {
     wait_for_earlier(commands);
     record_upload(commands, plan.grids.size());
     stamp(0);
+    record_device_plans(commands, plan);
     record_clear(commands, plan);
     for (std::size_t i = 0; i < plan.grids.size(); ++i) record_choice(commands, grids_[i], plan.grids[i]);
     stamp(1);
@@ -298,6 +317,7 @@ Result<void> FrameRenderer::begin(FramePlan plan, const FrameAsked& asked) {
     ORO_CHECK(number_pages(plan, draws_growth()));
     ORO_CHECK(choose_pipelines(plan));
     ORO_CHECK(reserve(plan));
+    ORO_CHECK(prepare_device_plans(plan));
     occlusion_->begin(plan, remembers(plan));
     if (occlusion_->is_on() && !occlusion_->uses_last_frame())
         for (GridFrame& grid : grids_) grid.forget();

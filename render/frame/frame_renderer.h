@@ -13,6 +13,7 @@
 #include "core/measure/drawn_point.h"
 #include "render/device/resources.h"
 #include "render/frame/grid_frame.h"
+#include "render/pipelines/plan_pass.h"
 #include "render/pipelines/pipelines.h"
 #include "render/raster/compute_raster.h"
 #include "render/raster/occlusion.h"
@@ -118,6 +119,13 @@ class FrameRenderer {
     // posts, and of posts that are not drawn, mean nothing). The first `most` of them.
     [[nodiscard]] std::vector<gpu::vec3> recorded(std::size_t most = SIZE_MAX) const;
 
+    // What the device had of the plan of a grid of the last frame: its pages, its rows and its columns of
+    // posts as words, addresses apart (for tests of what a plan leaves to it).
+    struct PlannedWords {
+        std::vector<std::uint32_t> pages, rows, columns;
+    };
+    Result<PlannedWords> read_plan(std::size_t grid);
+
     [[nodiscard]] bool needs_depths() const { return options_.keep_depths || options_.smooth_edges; }
     [[nodiscard]] const Image& picture() const { return picture_; }
     // Gives the picture away; resize() makes another, and nothing may be drawn before.
@@ -160,6 +168,8 @@ class FrameRenderer {
                                                   std::size_t count);
     void record(VkCommandBuffer commands, const Slot& slot);
     void record_upload(VkCommandBuffer commands, std::size_t grids) const;
+    Result<void> prepare_device_plans(const FramePlan& plan);
+    void record_device_plans(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_clear(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_choice(VkCommandBuffer commands, const GridFrame& grid, const GridPlan& plan) const;
     void record_rounds(VkCommandBuffer commands, const FramePlan& plan) const;
@@ -200,6 +210,7 @@ class FrameRenderer {
     std::vector<GridFrame> grids_;      // those of the plan, and as many more as earlier ones had
     std::optional<ComputeRaster> compute_;
     std::optional<Occlusion> occlusion_;
+    std::optional<PlanPass> plan_pass_;  // once a plan leaves anything to it
     AirTables air_;
     SharedShares shared_shares_;
     MeshShadowFrame mesh_shadows_;

@@ -25,14 +25,15 @@ struct DataLayout {
     VkDeviceSize clusters;  // workgroups of their draw, then they
     VkDeviceSize asked;     // ClusterCut::asked
     VkDeviceSize boxes;     // of clusters
+    VkDeviceSize terms;     // of the plan, then the numbers of its sources
     VkDeviceSize size;
 };
 DataLayout layout_of(const GridPlan& plan) {
     const auto aligned = [](VkDeviceSize size) { return (size + 15) / 16 * 16; };
     DataLayout layout{};
     layout.rows = aligned(pages_offset + plan.pages.size() * sizeof(gpu::FramePage));
-    layout.columns = aligned(layout.rows + plan.row_terms.size() * sizeof(gpu::RowTerms));
-    layout.before = aligned(layout.columns + plan.column_terms.size() * sizeof(gpu::ColumnTerms));
+    layout.columns = aligned(layout.rows + plan.row_count() * sizeof(gpu::RowTerms));
+    layout.before = aligned(layout.columns + plan.column_count() * sizeof(gpu::ColumnTerms));
     layout.clusters = aligned(layout.before + plan.pages.size() * sizeof(gpu::uint));
     layout.asked = layout.boxes = layout.clusters;
     if (plan.clusters.on) {
@@ -42,6 +43,9 @@ DataLayout layout_of(const GridPlan& plan) {
     }
     layout.size = layout.boxes;
     if (plan.constants.occlusion != 0) layout.size += plan.clusters.boxes.size() * sizeof(gpu::ClusterBox);
+    layout.terms = layout.size = aligned(layout.size);
+    if (plan.device.on)
+        layout.size += sizeof(gpu::PlanTerms) + plan.device.numbers.size() * sizeof(gpu::uint);
     return layout;
 }
 
@@ -107,7 +111,7 @@ Result<void> GridFrame::reserve(const Gpu& gpu, const GridPlan& plan, std::size_
         constexpr VkBufferUsageFlags usage =
             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
             VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-            VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+            VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
         ORO_CHECK(replace_buffer(gpu, data_, std::max(layout.size, 2 * data_.size), usage, MemoryKind::device,
                                  "frame data"));
         bind_constants(gpu);
@@ -230,6 +234,13 @@ void GridFrame::address(GridPlan& plan) const {
     constants.pages = address_words(data_.address + pages_offset);
     constants.row_terms = address_words(data_.address + layout.rows);
     constants.column_terms = address_words(data_.address + layout.columns);
+    if (plan.device.on) {
+        gpu::PlanTerms& terms = plan.device.terms;
+        terms.pages = constants.pages;
+        terms.rows = constants.row_terms;
+        terms.columns = constants.column_terms;
+        terms.numbers = address_words(data_.address + layout.terms + sizeof(gpu::PlanTerms));
+    }
     if (plan.clusters.on) {
         constants.clusters.drawn = address_words(data_.address + layout.clusters + cluster_groups_bytes);
         constants.cut.asked = address_words(data_.address + layout.asked);
@@ -273,6 +284,14 @@ void GridFrame::fill(const GridPlan& plan) {
     clears_seen_ = plan.constants.occlusion != 0 && !plan.clusters.on;
     std::memcpy(staging_[slot_].mapped, &plan.constants, sizeof(plan.constants));
     copy(pages_offset, plan.pages);
+    plan_terms_ = plan.device.on ? data_.address + layout.terms : 0;
+    planned_parts_ = {{{pages_offset, plan.pages.size() * sizeof(gpu::FramePage)},
+                       {layout.rows, plan.row_count() * sizeof(gpu::RowTerms)},
+                       {layout.columns, plan.column_count() * sizeof(gpu::ColumnTerms)}}};
+    if (plan.device.on) {
+        std::memcpy(staging_[slot_].mapped + layout.terms, &plan.device.terms, sizeof(plan.device.terms));
+        copy(layout.terms + sizeof(gpu::PlanTerms), plan.device.numbers);
+    }
     copy(layout.rows, plan.row_terms);
     copy(layout.columns, plan.column_terms);
     if (plan.constants.occlusion != 0) copy(layout.before, numbers_before(plan));

@@ -51,6 +51,14 @@ class GridFrame {
         return plan.clusters.on ? clusters_before_ > 0 : pages_before_ > 0;
     }
 
+    // Where data() holds the gpu::PlanTerms of a plan that leaves some of it to the device, and its pages,
+    // rows and columns.
+    [[nodiscard]] VkDeviceAddress plan_terms() const { return plan_terms_; }
+    struct DataPart {
+        VkDeviceSize first, size;  // bytes
+    };
+    [[nodiscard]] const std::array<DataPart, 3>& planned_parts() const { return planned_parts_; }
+
     [[nodiscard]] const Buffer& data() const { return data_; }      // begins with the constants
     [[nodiscard]] const Buffer& choice() const { return choice_; }  // see frame_layout.h
     [[nodiscard]] std::size_t page_capacity() const { return page_capacity_; }
@@ -96,6 +104,8 @@ class GridFrame {
     bool clears_seen_{};
     VkDeviceSize size_{};  // that a frame sends
     VkDeviceSize cluster_groups_{};
+    VkDeviceAddress plan_terms_{};
+    std::array<DataPart, 3> planned_parts_{};
 };
 
 }  // namespace oro

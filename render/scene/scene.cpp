@@ -11,6 +11,7 @@
 #include "core/frame/casters.h"
 #include "core/lod/ground_means.h"
 #include "core/seam/mesh_casters.h"
+#include "render/pipelines/plan_pass.h"
 
 namespace oro {
 namespace {
@@ -349,6 +350,23 @@ void Scene::require_fields(const gpu::FrameStyle& style) {
     set_grass((style.materials.on & gpu::materials_with_grass) != 0);
     set_shadow_request(shadow_request(style));
     set_footprint_spacing(means_spacing_px(style));
+}
+
+Result<bool> Scene::plan_on_device(const Gpu& gpu) {
+    constexpr std::uint64_t most_bytes = 64'000'000;
+    if (!PlanPass::can_run(gpu)) return false;
+    for (GridScene& grid : grids_) {
+        if (grid.memory_.sources() != nullptr || grid.clusters_ || grid.pages_->facts().grid.net) continue;
+        const std::uint64_t bytes = PlanSources::bytes_of(*grid.pages_);
+        if (bytes == 0 || bytes > most_bytes) continue;
+        ORO_TRY(grid.plan_sources_,
+                create_buffer(gpu, bytes,
+                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                              MemoryKind::mapped_device, "sources of plans"));
+        const Buffer& sources = grid.plan_sources_;
+        grid.memory_.set_sources(PlanSources(*grid.pages_, {sources.mapped, bytes}, sources.address));
+    }
+    return true;
 }
 
 std::vector<DrapeStore*> Scene::drapes() const {

@@ -98,6 +98,7 @@ class GridScene {
     std::unique_ptr<DrapeStore> drape_;
     Buffer undulation_;
     Buffer mesh_casters_;  // nodes, then triangles; of a seam with meshes
+    Buffer plan_sources_;
     std::uint64_t number_{};  // GridPlan::heights
     PlanMemory memory_;
     VisibilityFeedback seen_;
@@ -146,6 +147,10 @@ class Scene {
     void set_grass(bool on);
     // All of these, as a style asks for them.
     void require_fields(const gpu::FrameStyle& style);
+    // From the next plan on what the device can make of plans by itself is left to it, of each grid that has
+    // neither clusters nor a net, and whose sources take no more than 64 MB of it. The frames are the same.
+    // False where the device has no doubles (PlanPass::can_run()). Errors: the device.
+    Result<bool> plan_on_device(const Gpu& gpu);
     // What a frame draws with the pages and clusters that are on the GPU now.
     Result<FramePlan> plan(const FrameView& view);
     // Of the last plan, all grids together.

@@ -198,7 +198,7 @@ Result<void> set_size(const std::string& text, BenchOptions& options) {
 
 // Words that become options once all are read.
 struct BenchWords {
-    std::string size{"1920x1080"}, heights{"32"}, small{"draw"}, meshlets{"auto"};
+    std::string size{"1920x1080"}, heights{"32"}, small{"draw"}, meshlets{"auto"}, plan{"cpu"};
 };
 
 void add_what_is_drawn(CLI::App& app, BenchOptions& options, BenchWords& words) {
@@ -250,7 +250,7 @@ void add_ways_of_drawing(CLI::App& app, BenchOptions& options, BenchWords& words
         ->check(CLI::IsMember({"draw", "skip"}));
 }
 
-void add_modes(CLI::App& app, BenchOptions& options) {
+void add_modes(CLI::App& app, BenchOptions& options, BenchWords& words) {
     app.add_option("--random-eyes", options.random_eyes,
                    "So many eyes over posts of the region in place of --path: 2 m to 400 km above ground, "
                    "log-uniform, with any heading; tells the median, 95 % and the worst")
@@ -261,6 +261,18 @@ void add_modes(CLI::App& app, BenchOptions& options) {
            "ground to 5 km/s above, drawn as a window draws them; tells times of whole frames, "
            "processor, GPU and waiting apart. With --style: by plain colours and by that style")
         ->check(CLI::Range(1, 10000));
+    app.add_option(
+           "--plan", words.plan,
+           "What makes the tables of plans and the places of their pages: cpu or gpu, which takes one "
+           "with doubles (default: cpu)")
+        ->check(CLI::IsMember({"cpu", "gpu"}));
+    app.add_flag("--compare-plans", options.compare_plans,
+                 "With --moving: tell in how many pixels of all eyes --plan gpu shows another triangle than "
+                 "--plan cpu, in place of times");
+    app.add_option("--frame-rate", options.frame_rate_hz,
+                   "With --moving: frames begun a second, as a window begins them on a display of that rate, "
+                   "where pages have time to come. Without it: as many as there can be")
+        ->check(CLI::Range(1.0, 1000.0));
     app.add_flag(
         "--fingerprint", options.fingerprint,
         "With --moving: tell a checksum of all plans in place of times, each made once all it asks for "
@@ -337,7 +349,7 @@ int main(int argc, char** argv) {
     oro::GrassWords grass;
     oro::add_what_is_drawn(app, options, words);
     oro::add_ways_of_drawing(app, options, words);
-    oro::add_modes(app, options);
+    oro::add_modes(app, options, words);
     oro::add_grass(app, grass);
     try {
         app.parse(argc, argv);
@@ -349,6 +361,7 @@ int main(int argc, char** argv) {
     options.heights = words.heights == "16"       ? oro::HeightStorage::i16
                       : words.heights == "packed" ? oro::HeightStorage::packed
                                                   : oro::HeightStorage::f32;
+    options.plan_on_device = words.plan == "gpu";
     options.leave_out_small = words.small == "skip";
     options.split = words.meshlets == "whole"    ? oro::MeshletSplit::whole
                     : words.meshlets == "halves" ? oro::MeshletSplit::halves

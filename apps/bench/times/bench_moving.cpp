@@ -6,6 +6,7 @@
 #include <ctime>
 #include <deque>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <span>
 #include <string>
 #include <thread>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "apps/bench/times/bench_flights.h"
+#include "apps/bench/times/bench_plans.h"
 #include "apps/bench/times/bench_random.h"
 #include "apps/bench/times/bench_region.h"
 #include "apps/bench/times/bench_times.h"
@@ -29,17 +31,18 @@ using nlohmann::ordered_json;
 
 // Of each frame that counts, seconds.
 struct MovingTimes {
-    std::vector<double> frame;     // from one frame's begin to the next's
-    std::vector<double> planned;   // processor: all of the plan,
-    std::vector<double> pages;     // and of that: pages and their tables,
-    std::vector<double> clusters;  // clusters and theirs,
-    std::vector<double> casters;   // what casts shadows,
-    std::vector<double> growth;    // tiles of trees
-    std::vector<double> loaded;    // processor: what frames have shown, what comes to the GPU
-    std::vector<double> recorded;  // processor: tables to the GPU, commands
-    std::vector<double> waited;    // for the GPU
-    std::vector<double> gpu;       // GPU timestamps
-    std::vector<double> latency;   // from a frame's camera to its picture
+    std::vector<double> frame;      // from one frame's begin to the next's: by the GPU or the processor
+    std::vector<double> processor;  // of that: planned, loaded and recorded, and no wait
+    std::vector<double> planned;    // processor: all of the plan,
+    std::vector<double> pages;      // and of that: pages and their tables,
+    std::vector<double> clusters;   // clusters and theirs,
+    std::vector<double> casters;    // what casts shadows,
+    std::vector<double> growth;     // tiles of trees
+    std::vector<double> loaded;     // processor: what frames have shown, what comes to the GPU
+    std::vector<double> recorded;   // processor: tables to the GPU, commands
+    std::vector<double> waited;     // for the GPU
+    std::vector<double> gpu;        // GPU timestamps
+    std::vector<double> latency;    // from a frame's camera to its picture
     std::size_t frames{}, not_whole{};
     double triangles{};
 };
@@ -53,9 +56,11 @@ class MovingEye {
     Result<void> fly(const RandomFlight& flight) {
         const Camera& first = flight.cameras.front();
         ORO_CHECK(settled_as_window(scene_, first, whole_picture(first), options_));
-        last_ = Clock::now();
-        for (std::size_t i = 0; i < flight.cameras.size(); ++i)
+        const auto begun = last_ = Clock::now();
+        for (std::size_t i = 0; i < flight.cameras.size(); ++i) {
+            if (options_.frame_rate_hz > 0.0) ORO_CHECK(wait_for_turn(begun, i));
             ORO_CHECK(draw(flight.cameras[i], i > frames_in_flight));
+        }
         counts_ = false;
         return take_reports(0);
     }
@@ -65,6 +70,13 @@ class MovingEye {
     }
 
   private:
+    // As a window that has nothing to draw until then: nothing is left under way.
+    Result<void> wait_for_turn(Clock::time_point begun, std::size_t frame) {
+        ORO_CHECK(take_reports(0));
+        const std::chrono::duration<double> turn(static_cast<double>(frame) / options_.frame_rate_hz);
+        std::this_thread::sleep_until(begun + std::chrono::duration_cast<Clock::duration>(turn));
+        return {};
+    }
     void add(std::vector<double>& values, double value_s) {
         if (counts_) values.push_back(value_s);
     }
@@ -78,10 +90,12 @@ class MovingEye {
         add(times_.waited, seconds_since(begun) - loaded_s_);
         auto start = Clock::now();
         if (is_missing_) ORO_CHECK(scene_.advance(NextPlan::anyway));
-        add(times_.loaded, loaded_s_ + seconds_since(start));
+        double processor_s = loaded_s_ + seconds_since(start);
+        add(times_.loaded, processor_s);
         begun_.push_back(start = Clock::now());
         ORO_TRY(FramePlan plan, scene_.plan({camera, whole_picture(camera), options_.tau_px}));
-        add(times_.planned, seconds_since(start));
+        const double planned_s = seconds_since(start);
+        add(times_.planned, planned_s);
         const PlanTimes parts = scene_.times_of_plan();
         add(times_.pages, parts.pages_s);
         add(times_.clusters, parts.clusters_s);
@@ -90,7 +104,10 @@ class MovingEye {
         is_missing_ = !plan.is_settled();
         start = Clock::now();
         ORO_CHECK(renderer_.submit(std::move(plan), options_.style, scene_.drapes()));
-        add(times_.recorded, seconds_since(start));
+        const double recorded_s = seconds_since(start);
+        add(times_.recorded, recorded_s);
+        processor_s += planned_s + recorded_s;
+        add(times_.processor, processor_s);
         add(times_.frame, std::chrono::duration<double>(Clock::now() - last_).count());
         last_ = Clock::now();
         if (!counts) return {};
@@ -176,12 +193,18 @@ struct MovingColumn {
     std::vector<double> MovingTimes::*values;
 };
 constexpr MovingColumn columns[] = {
-    {"frame_ms", &MovingTimes::frame},     {"planned_ms", &MovingTimes::planned},
-    {"pages_ms", &MovingTimes::pages},     {"clusters_ms", &MovingTimes::clusters},
-    {"casters_ms", &MovingTimes::casters}, {"growth_ms", &MovingTimes::growth},
-    {"loaded_ms", &MovingTimes::loaded},   {"recorded_ms", &MovingTimes::recorded},
-    {"waited_ms", &MovingTimes::waited},   {"gpu_ms", &MovingTimes::gpu},
-    {"latency_ms", &MovingTimes::latency}};
+    {"frame_ms", &MovingTimes::frame},       {"processor_ms", &MovingTimes::processor},
+    {"planned_ms", &MovingTimes::planned},   {"pages_ms", &MovingTimes::pages},
+    {"clusters_ms", &MovingTimes::clusters}, {"casters_ms", &MovingTimes::casters},
+    {"growth_ms", &MovingTimes::growth},     {"loaded_ms", &MovingTimes::loaded},
+    {"recorded_ms", &MovingTimes::recorded}, {"waited_ms", &MovingTimes::waited},
+    {"gpu_ms", &MovingTimes::gpu},           {"latency_ms", &MovingTimes::latency}};
+
+// Of all frames that count, one after the other.
+double frames_a_second(const MovingTimes& times) {
+    const double all_s = std::accumulate(times.frame.begin(), times.frame.end(), 0.0);
+    return all_s > 0.0 ? static_cast<double>(times.frame.size()) / all_s : 0.0;
+}
 
 struct MovingRow {
     std::string mesh, pipeline, style;
@@ -195,6 +218,7 @@ ordered_json json_of(const MovingRow& row) {
     json["style"] = row.style;
     json["frames"] = row.times.frames;
     json["frames_not_whole"] = row.times.not_whole;
+    json["frames_a_second"] = frames_a_second(row.times);
     json["triangles"] = row.times.triangles / static_cast<double>(std::max<std::size_t>(1, row.times.frames));
     for (const MovingColumn& column : columns) {
         const Percentiles all = percentiles_of(row.times.*column.values);
@@ -212,12 +236,15 @@ void print_header() {
     std::printf(
         "Milliseconds; of four numbers: median, 95 %%, 99 %% and worst; of three without the worst; else the "
         "median.\n"
-        "planned = pages + clusters + casters + growth; latency: from a frame's camera to its picture.\n\n"
-        "| drawn by | style | whole frame | planned | pages | clusters | casters | growth | loaded | "
+        "A frame is planned while the GPU draws the one before. Whole frame: from one frame's begin to the "
+        "next's;\nprocessor = planned + loaded + recorded, planned = pages + clusters + casters + growth; "
+        "latency: from a\nframe's camera to its picture.\n\n"
+        "| drawn by | style | whole frame | frames a second | processor | planned | pages | clusters | "
+        "casters | growth | loaded | "
         "recorded | "
         "waited "
         "| GPU | latency | frames not whole |\n"
-        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+        "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
 }
 
 void print_row(const MovingRow& row) {
@@ -227,8 +254,9 @@ void print_row(const MovingRow& row) {
         const Percentiles all = percentiles_of(row.times.*column.values);
         const std::string key = column.key;
         if (key == "frame_ms")
-            std::printf(" %.2f / %.2f / %.2f / %.2f |", all.median, all.at_95, all.at_99, all.worst);
-        else if (key == "planned_ms" || key == "gpu_ms" || key == "latency_ms")
+            std::printf(" %.2f / %.2f / %.2f / %.2f | %.0f |", all.median, all.at_95, all.at_99, all.worst,
+                        frames_a_second(row.times));
+        else if (key == "processor_ms" || key == "planned_ms" || key == "gpu_ms" || key == "latency_ms")
             std::printf(" %.2f / %.2f / %.2f |", all.median, all.at_95, all.at_99);
         else
             std::printf(" %.3f |", all.median);
@@ -340,6 +368,9 @@ Result<void> run_moving(const Gpu& gpu, BenchOptions options) {
         return Error{ErrorKind::usage, "--moving", "needs a region file (orograph bake makes one)"};
     ORO_TRY(const std::vector<RasterPath> paths, raster_paths_of(options, gpu.report()));
     ORO_TRY(const std::vector<RandomFlight> flights, flights_of(options));
+    for (const RasterPath path : paths)
+        if (options.compare_plans) ORO_CHECK(compare_plans(gpu, path, flights, options));
+    if (options.compare_plans) return {};
     if (options.fingerprint) return print_fingerprints(gpu, flights, options);
     ordered_json json = ordered_json::object();
     json["device"] = gpu.report().name;
@@ -348,6 +379,7 @@ Result<void> run_moving(const Gpu& gpu, BenchOptions options) {
     json["size_px"] = json_list(options.width_px, options.height_px);
     json["tau_px"] = options.tau_px;
     json["flights"] = options.moving;
+    json["plan"] = options.plan_on_device ? "gpu" : "cpu";
     json["frames_a_flight"] = options.frames;
     json["seed"] = options.seed;
     json["rows"] = ordered_json::array();

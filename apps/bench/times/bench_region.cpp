@@ -35,6 +35,10 @@ Result<Scene> scene_of(const Gpu& gpu, const BenchOptions& options, BenchRegion&
     memory.main = main_bytes(0) / (clusters ? 2 : 1);
     ORO_TRY(Scene scene, Scene::create(gpu, std::move(region.pages), memory, options.heights,
                                        asks_for_means(options.style)));
+    if (options.plan_on_device) {
+        ORO_TRY(const bool can, scene.plan_on_device(gpu));
+        if (!can) return Error{ErrorKind::failed, "--plan gpu", "the device has no doubles (shaderFloat64)"};
+    }
     if (!clusters) return scene;
     ORO_TRY(const HeightField field, field_in_memory(*region.file.region));
     ORO_TRY(std::unique_ptr<RegionClusters> graph,
