@@ -8,7 +8,7 @@
 #include "apps/command_line/refusals.h"
 #include "core/terrain/ground.h"
 #include "geo/places/geodesic.h"
-#include "geo/together/mesh_tops.h"
+#include "geo/together/mesh_roofs.h"
 
 namespace oro {
 
@@ -102,7 +102,7 @@ Result<void> lift_onto_top(const Standing& standing, const Region& region, doubl
     if (!region.meshes) return refused("--stand-on", "top", "needs a mesh: --mesh-file FILE");
     if (standing.altitude_m)
         return refused("--stand-on", "top", either_words("--stand-on top", "--altitude"));
-    const auto top = MeshTops(region, exaggeration).at(point.lat_deg, point.lon_deg);
+    const auto top = MeshRoofs(region, exaggeration).at(point.lat_deg, point.lon_deg);
     const auto ground_m = ground_h_m(grid_at(region, point.lat_deg, point.lon_deg).field, point.lat_deg,
                                      point.lon_deg, exaggeration);
     if (top && ground_m && top->h_m > *ground_m) point.h_m += top->h_m - *ground_m;

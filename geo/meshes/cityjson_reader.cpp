@@ -68,7 +68,7 @@ std::string epsg_of(const std::string& reference) {
 // A geometry of an object, and its level of detail.
 struct CityGeometry {
     JsonValue value;
-    std::string type;
+    std::string kind;  // its member `type`
     std::string lod;
 };
 
@@ -186,7 +186,7 @@ class CityJsonReader {
 
     // That of a template where it is an instance of one.
     [[nodiscard]] Result<CityGeometry> with_level(CityGeometry geometry) const {
-        if (geometry.type != "GeometryInstance") return geometry;
+        if (geometry.kind != "GeometryInstance") return geometry;
         ORO_TRY(const std::size_t number, template_of(geometry.value));
         geometry.lod = templates_[number].lod;
         return geometry;
@@ -220,7 +220,7 @@ class CityJsonReader {
                     return false;
                 }
                 const bool has_surfaces =
-                    depth_of(geometry->type).has_value() || geometry->type == "GeometryInstance";
+                    depth_of(geometry->kind).has_value() || geometry->kind == "GeometryInstance";
                 if (has_surfaces)
                     object.highest_level = std::max(object.highest_level, level_of(geometry->lod));
                 else
@@ -287,7 +287,7 @@ class CityJsonReader {
             levels_.insert(geometry.lod);
             if (level_of(geometry.lod) != level) continue;
             has_level = true;
-            ORO_CHECK(geometry.type == "GeometryInstance" ? instance(geometry) : own_surfaces(geometry));
+            ORO_CHECK(geometry.kind == "GeometryInstance" ? instance(geometry) : own_surfaces(geometry));
         }
         if (!has_level) ++without_level_;
         if (mesh_.features.back().first_triangle == mesh_.triangles.size()) mesh_.features.pop_back();
@@ -297,14 +297,14 @@ class CityJsonReader {
     Result<void> own_surfaces(const CityGeometry& geometry) {
         const auto boundaries = member(geometry.value, "boundaries");
         if (!boundaries) return city_fault(geometry.value, "a geometry has no 'boundaries'");
-        return surfaces(*boundaries, *depth_of(geometry.type), 0, own_vertices_);
+        return surfaces(*boundaries, *depth_of(geometry.kind), 0, own_vertices_);
     }
 
     // A template, moved and turned, with its origin at one vertex.
     Result<void> instance(const CityGeometry& geometry) {
         ORO_TRY(const std::size_t number, template_of(geometry.value));
         const CityGeometry& made = templates_[number];
-        const std::optional<int> depth = depth_of(made.type);
+        const std::optional<int> depth = depth_of(made.kind);
         if (!depth) return {};
         const auto at = member(geometry.value, "boundaries");
         std::optional<std::size_t> vertex;

@@ -172,8 +172,8 @@ Result<void> check_field(const VectorFile& file, const char* option, const std::
     for (const VectorLayer& layer : file.layers) {
         if (layer.field_number(field) >= 0) return {};
         for (const std::string& name : layer.fields) {
-            constexpr std::size_t most_told = 300;
-            if (known.size() < most_told) known += (known.empty() ? "" : ", ") + name;
+            constexpr std::size_t most_listed = 300;
+            if (known.size() < most_listed) known += (known.empty() ? "" : ", ") + name;
         }
     }
     return Error{ErrorKind::usage, std::string(option) + " " + field,

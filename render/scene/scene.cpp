@@ -26,17 +26,28 @@ Result<Buffer> create_undulation(const Gpu& gpu, const UndulationField& field) {
     return buffer;
 }
 
-// Nodes, then triangles: each is of whole words of 4 bytes, and 32 bytes a node keep what follows aligned.
+// Nodes, then triangles: each is of whole words of 4 bytes, and 32 bytes a node keep what follows aligned. On
+// the device: lines read them at random.
 Result<Buffer> create_mesh_casters(const Gpu& gpu, const MeshCasters& casters) {
     const VkDeviceSize nodes = casters.nodes.size() * sizeof(gpu::MeshNode),
                        triangles = casters.triangles.size() * sizeof(gpu::MeshTriangle);
     static_assert(sizeof(gpu::MeshNode) == 32 && sizeof(gpu::MeshTriangle) == 36);
+    ORO_TRY(const Buffer staging, create_buffer(gpu, nodes + triangles, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                                MemoryKind::upload, "meshes on their way"));
+    std::memcpy(staging.mapped, casters.nodes.data(), nodes);
+    std::memcpy(staging.mapped + nodes, casters.triangles.data(), triangles);
     ORO_TRY(Buffer buffer,
             create_buffer(gpu, nodes + triangles,
-                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                          MemoryKind::upload, "meshes that cast shadows"));
-    std::memcpy(buffer.mapped, casters.nodes.data(), nodes);
-    std::memcpy(buffer.mapped + nodes, casters.triangles.data(), triangles);
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                              VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                          MemoryKind::device, "meshes that cast shadows"));
+    ORO_TRY(Commands commands, Commands::create(gpu, "meshes on their way"));
+    ORO_CHECK(commands.run(gpu, [&](VkCommandBuffer recorded) {
+        const VkBufferCopy copy{0, 0, nodes + triangles};
+        vkCmdCopyBuffer(recorded, staging.handle.get(), buffer.handle.get(), 1, &copy);
+        memory_barrier(recorded, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+    }));
     return buffer;
 }
 

@@ -108,12 +108,27 @@ class MeshShadows : public test::ShadowsOfPictures {
                 roofs += here == 6 ? 1U : 0U;
             }
         width_px = camera.width_px, height_px = camera.height_px;
+        const test::Tally tally = tally_of(truth, picture->rgba);
+        std::printf(
+            "sun %3.0f,%2.0f: %llu px, %llu dark, %llu by meshes, %llu on roofs, %llu differ, %llu not at an "
+            "edge\n",
+            azimuth_deg, elevation_deg, static_cast<unsigned long long>(tally.asked),
+            static_cast<unsigned long long>(tally.dark), static_cast<unsigned long long>(met_meshes),
+            static_cast<unsigned long long>(roofs), static_cast<unsigned long long>(tally.differ),
+            static_cast<unsigned long long>(tally.far));
+        all.asked += tally.asked, all.dark += tally.dark, all.differ += tally.differ, all.far += tally.far;
+        by_meshes += met_meshes, on_roofs += roofs;
+    }
+
+    // What is drawn against what is true, but for walls and the picture's rim.
+    [[nodiscard]] test::Tally tally_of(const std::vector<int>& truth,
+                                       const std::vector<std::uint8_t>& rgba) const {
         test::Tally tally;
         for (int y = 2; y + 2 < height_px; ++y)
             for (int x = 2; x + 2 < width_px; ++x) {
                 const auto i = static_cast<std::size_t>(y * width_px + x);
                 if (truth[i] == 0 || truth[i] == 8) continue;
-                const bool is_dark = truth[i] >= 4, drawn_dark = picture->rgba[4 * i] < 188;
+                const bool is_dark = truth[i] >= 4, drawn_dark = rgba[4 * i] < 188;
                 ++tally.asked;
                 tally.dark += is_dark ? 1U : 0U;
                 if (is_dark == drawn_dark) continue;
@@ -124,15 +139,7 @@ class MeshShadows : public test::ShadowsOfPictures {
                         by_an_edge |= truth[static_cast<std::size_t>(j * width_px + k)] != truth[i];
                 tally.far += by_an_edge ? 0U : 1U;
             }
-        std::printf(
-            "sun %3.0f,%2.0f: %llu px, %llu dark, %llu by meshes, %llu on roofs, %llu differ, %llu not at an "
-            "edge\n",
-            azimuth_deg, elevation_deg, static_cast<unsigned long long>(tally.asked),
-            static_cast<unsigned long long>(tally.dark), static_cast<unsigned long long>(met_meshes),
-            static_cast<unsigned long long>(roofs), static_cast<unsigned long long>(tally.differ),
-            static_cast<unsigned long long>(tally.far));
-        all.asked += tally.asked, all.dark += tally.dark, all.differ += tally.differ, all.far += tally.far;
-        by_meshes += met_meshes, on_roofs += roofs;
+        return tally;
     }
 };
 

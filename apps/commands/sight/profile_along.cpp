@@ -5,7 +5,7 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/commands/sight/look_along.h"
-#include "apps/commands/sight/profile_tops.h"
+#include "apps/commands/sight/profile_roofs.h"
 
 namespace oro {
 namespace {
@@ -44,7 +44,7 @@ Result<void> check_length(const ProfileOptions& options, const LineAlong& line) 
 
 Result<void> follow_line(const ProfileOptions& options, const SightGround& ground, Profile& profile) {
     profile.points = profile_points(profile.line, options.step_m, ground.ground());
-    add_tops(ground, options.step_m.has_value(), profile);
+    add_roofs(ground, options.step_m.has_value(), profile);
     profile.sums = sums_of(profile.points, options.climb_threshold_m);
     return ground.region.health();
 }

@@ -9,7 +9,7 @@ namespace oro {
 namespace {
 
 // A comma before each; what a top is on in quotation marks.
-std::string top_fields(const ProfileTop& top) {
+std::string top_fields(const ProfileRoof& top) {
     if (!top.is_there) return ",,,";
     char heights[80];
     std::snprintf(heights, sizeof heights, ",%.3f,%.3f,\"", top.H_m, top.h_m);
@@ -21,9 +21,9 @@ std::string top_fields(const ProfileTop& top) {
 }  // namespace
 
 std::string profile_csv(const Profile& profile) {
-    const bool has_tops = !profile.tops.empty();
+    const bool has_roofs = !profile.roofs.empty();
     std::string text =
-        std::string("distance_m,lat_deg,lon_deg,H_m,h_m") + (has_tops ? ",top_H_m,top_h_m,on\n" : "\n");
+        std::string("distance_m,lat_deg,lon_deg,H_m,h_m") + (has_roofs ? ",top_H_m,top_h_m,on\n" : "\n");
     char line[160];
     for (std::size_t i = 0; i < profile.points.size(); ++i) {
         const ProfilePoint& point = profile.points[i];
@@ -35,7 +35,7 @@ std::string profile_csv(const Profile& profile) {
         } else {
             text += ",";
         }
-        if (has_tops) text += top_fields(profile.tops[i]);
+        if (has_roofs) text += top_fields(profile.roofs[i]);
         text += "\n";
     }
     return text;
@@ -49,10 +49,10 @@ using nlohmann::ordered_json;
 // next begins at -180, or the other way round.
 struct LineParts {
     ordered_json places = ordered_json::array(), distances = ordered_json::array(),
-                 heights = ordered_json::array(), tops = ordered_json::array();
+                 heights = ordered_json::array(), roofs = ordered_json::array();
 
     void begin() {
-        for (ordered_json* const list : {&places, &distances, &heights, &tops})
+        for (ordered_json* const list : {&places, &distances, &heights, &roofs})
             list->push_back(ordered_json::array());
     }
     void add(const ProfilePoint& point, double lon_deg, std::optional<double> top_H_m = {});
@@ -66,7 +66,7 @@ struct LineParts {
     void drop_single_places() {
         for (std::size_t i = places.size(); i-- > 0;) {
             if (places[i].size() > 1) continue;
-            for (ordered_json* const list : {&places, &distances, &heights, &tops}) list->erase(i);
+            for (ordered_json* const list : {&places, &distances, &heights, &roofs}) list->erase(i);
         }
     }
 };
@@ -80,7 +80,7 @@ void LineParts::add(const ProfilePoint& point, double lon_deg, std::optional<dou
     places.back().push_back({rounded(lon_deg, 1e9), rounded(point.lat_deg, 1e9), rounded(point.h_m, 1e3)});
     distances.back().push_back(rounded(point.along_m, 1e4));
     heights.back().push_back(rounded(point.H_m, 1e3));
-    tops.back().push_back(top_H_m ? ordered_json(rounded(*top_H_m, 1e3)) : ordered_json(nullptr));
+    roofs.back().push_back(top_H_m ? ordered_json(rounded(*top_H_m, 1e3)) : ordered_json(nullptr));
 }
 
 }  // namespace
@@ -105,8 +105,8 @@ std::string profile_geojson(const Profile& profile) {
             parts.begin();
         }
         before = &point;
-        const bool has_top = !profile.tops.empty() && profile.tops[i].is_there;
-        parts.add(point, point.lon_deg, has_top ? std::optional(profile.tops[i].H_m) : std::nullopt);
+        const bool has_top = !profile.roofs.empty() && profile.roofs[i].is_there;
+        parts.add(point, point.lon_deg, has_top ? std::optional(profile.roofs[i].H_m) : std::nullopt);
     }
     parts.drop_single_places();
     ordered_json feature = ordered_json::object();
@@ -114,7 +114,7 @@ std::string profile_geojson(const Profile& profile) {
     feature["properties"] = profile_json(profile);
     feature["properties"]["distance_m"] = parts.distances;
     feature["properties"]["H_m"] = parts.heights;
-    if (!profile.tops.empty()) feature["properties"]["top_H_m"] = parts.tops;
+    if (!profile.roofs.empty()) feature["properties"]["top_H_m"] = parts.roofs;
     feature["geometry"]["type"] = "MultiLineString";
     feature["geometry"]["coordinates"] = parts.places;
     return json_text(feature, false) + "\n";

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "apps/commands/sight/profile_roofs.h"
 #include "apps/commands/sight/profile_text.h"
-#include "apps/commands/sight/profile_tops.h"
 #include "apps/report/figures.h"
 
 namespace oro {
@@ -54,7 +54,7 @@ Axes axes_of(const Profile& profile) {
     const auto top = highest_top(profile);
     const double low = profile.points[*profile.sums.lowest].H_m,
                  high = std::max(profile.points[*profile.sums.highest].H_m,
-                                 top ? profile.tops[*top].H_m : profile.points[*profile.sums.highest].H_m);
+                                 top ? profile.roofs[*top].H_m : profile.points[*profile.sums.highest].H_m);
     // Level ground is drawn level, not its last millimetre.
     const double span = std::max(high - low, 10.0), middle = 0.5 * (low + high);
     axes.y.low = middle - 0.64 * span;
@@ -153,17 +153,18 @@ std::string ground_text(const Profile& profile, const Axes& axes) {
     return svg;
 }
 
-// Meshes that stand over the ground: from it to their tops.
-std::string tops_text(const Profile& profile, const Axes& axes) {
+// Meshes that stand over the ground: from it to their roofs.
+std::string roofs_text(const Profile& profile, const Axes& axes) {
     std::string svg;
-    for (std::size_t begin = 0; begin < profile.tops.size();) {
+    for (std::size_t begin = 0; begin < profile.roofs.size();) {
         std::size_t end = begin;
-        while (end < profile.tops.size() && profile.tops[end].is_there == profile.tops[begin].is_there) ++end;
-        if (profile.tops[begin].is_there && end - begin > 1) {
+        while (end < profile.roofs.size() && profile.roofs[end].is_there == profile.roofs[begin].is_there)
+            ++end;
+        if (profile.roofs[begin].is_there && end - begin > 1) {
             std::string path;
             for (std::size_t i = begin; i < end; ++i)
                 path += printed("%s%.2f %.2f", path.empty() ? "M" : "L", axes.x.px(profile.points[i].along_m),
-                                axes.y.px(profile.tops[i].H_m));
+                                axes.y.px(profile.roofs[i].H_m));
             for (std::size_t i = end; i-- > begin;) {
                 if (!profile.points[i].has_ground) continue;
                 path += printed("L%.2f %.2f", axes.x.px(profile.points[i].along_m),
@@ -204,7 +205,7 @@ std::string profile_svg(const Profile& profile) {
         "%.0f\">\n",
         width_px, height_px, width_px, height_px);
     svg += style;
-    if (!profile.tops.empty())
+    if (!profile.roofs.empty())
         svg += "<style>.top{fill:#8a8f98;stroke:#3c4048;stroke-width:1.2;stroke-linejoin:round}</style>\n";
     svg += printed("<rect width=\"%.0f\" height=\"%.0f\" fill=\"#fff\"/>\n", width_px, height_px);
     svg += text_at(
@@ -218,7 +219,7 @@ std::string profile_svg(const Profile& profile) {
                             "drawn %s times as large as distances",
                             profile.sums.climbed_m, profile.sums.went_down_m, profile.sums.climb_threshold_m,
                             about(axes.y.px_per_m() / axes.x.px_per_m()).c_str()));
-    svg += axes_text(axes) + tops_text(profile, axes) + ground_text(profile, axes);
+    svg += axes_text(axes) + roofs_text(profile, axes) + ground_text(profile, axes);
     svg += printed("<path class=\"axis\" d=\"M%.1f %.1fH%.1f\"/>\n", left_px, bottom_px, right_px);
     if (profile.sums.highest) {
         svg += mark_text(profile, axes, *profile.sums.highest, true);

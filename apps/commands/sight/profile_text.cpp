@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "apps/commands/sight/profile_tops.h"
+#include "apps/commands/sight/profile_roofs.h"
 #include "apps/eye/standpoint.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
@@ -60,9 +60,9 @@ std::string profile_text(const Profile& profile) {
     if (const auto top = highest_top(profile)) {
         std::snprintf(text, sizeof text,
                       "Over meshes: %.1f m of the line; highest top H %.2f m, %.3f km along",
-                      over_meshes_m(profile), profile.tops[*top].H_m, profile.points[*top].along_m / 1000.0);
-        lines += text + (", " + profile.tops[*top].on) + "\n";
-    } else if (!profile.tops.empty()) {
+                      over_meshes_m(profile), profile.roofs[*top].H_m, profile.points[*top].along_m / 1000.0);
+        lines += text + (", " + profile.roofs[*top].on) + "\n";
+    } else if (!profile.roofs.empty()) {
         lines += "No mesh under the line\n";
     }
     if (profile.sums.without_data_m > 0.0) {
@@ -86,14 +86,14 @@ ordered_json profile_json(const Profile& profile) {
     json["over_threshold"] = json_object("threshold_m", profile.sums.climb_threshold_m, "ascent_m",
                                          profile.sums.climbed_m, "descent_m", profile.sums.went_down_m);
     json["without_data_m"] = profile.sums.without_data_m;
-    if (profile.tops.empty()) return json;
-    ordered_json& tops = json["tops"] = json_object("over_m", over_meshes_m(profile));
-    tops["highest"] = nullptr;
+    if (profile.roofs.empty()) return json;
+    ordered_json& roofs = json["roofs"] = json_object("over_m", over_meshes_m(profile));
+    roofs["highest"] = nullptr;
     if (const auto top = highest_top(profile)) {
         const ProfilePoint& point = profile.points[*top];
-        tops["highest"] = json_object("distance_m", point.along_m, "lat_deg", point.lat_deg, "lon_deg",
-                                      point.lon_deg, "H_m", profile.tops[*top].H_m, "h_m",
-                                      profile.tops[*top].h_m, "on", profile.tops[*top].on);
+        roofs["highest"] = json_object("distance_m", point.along_m, "lat_deg", point.lat_deg, "lon_deg",
+                                       point.lon_deg, "H_m", profile.roofs[*top].H_m, "h_m",
+                                       profile.roofs[*top].h_m, "on", profile.roofs[*top].on);
     }
     return json;
 }

@@ -17,7 +17,7 @@ struct MeridianCrossing {
 };
 
 // What a plumb line meets first at a point of a profile, of a region with meshes.
-struct ProfileTop {
+struct ProfileRoof {
     bool is_there{};
     double H_m{}, h_m{};
     std::string on;  // the feature of the mesh, or its file
@@ -26,7 +26,7 @@ struct ProfileTop {
 struct Profile {
     LineAlong line;
     std::vector<ProfilePoint> points;
-    std::vector<ProfileTop> tops;             // of each point; empty: the region has no meshes
+    std::vector<ProfileRoof> roofs;           // of each point; empty: the region has no meshes
     std::vector<MeridianCrossing> crossings;  // ascending; of lines that are written as GeoJSON
     ProfileSums sums;
     [[nodiscard]] double length_m() const { return line.distances_m.back(); }

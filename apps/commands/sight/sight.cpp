@@ -36,6 +36,24 @@ Result<void> name_cover(const CoverMap& cover, SightReport& report) {
     return report.obstacle ? name(report.obstacle->point, report.obstacle_cover) : Result<void>();
 }
 
+bool stands_on_top(const SightOptions& options) {
+    return options.view.stand_on.value_or("ground") == "top";
+}
+
+Standing asked_eye(const SightOptions& options) {
+    Standing eye{"--from", options.from, "--above", options.above_m, 2.0, options.altitude_m};
+    eye.on_summit = options.on_summit;
+    eye.on_top = stands_on_top(options);
+    return eye;
+}
+
+Standing asked_target(const SightOptions& options) {
+    Standing target{"--to", options.to,   "--target",          options.target_m,
+                    0.0,    std::nullopt, "geo:LAT,LON,HEIGHT"};
+    target.on_top = stands_on_top(options);
+    return target;
+}
+
 void say_canopy(const SightGround& ground, const SightReport& report, bool quiet) {
     if (!ground.canopy) return;
     for (const std::string& note : ground.canopy->map->notes()) say(quiet, "note: " + note);
@@ -61,13 +79,8 @@ Result<void> run_sight(const SightOptions& options, const RealisationOptions& re
     const std::shared_ptr<const CoverMap>& cover = asked.cover;
     ProgressBar bar(options.quiet);
     ORO_TRY(const auto ground, open_sight_ground(options.region, bar.progress(), asked));
-    Standing standing{"--from", options.from, "--above", options.above_m, 2.0, options.altitude_m};
-    standing.on_summit = options.on_summit;
-    standing.on_top = options.view.stand_on.value_or("ground") == "top";
+    const Standing standing = asked_eye(options), looked_at = asked_target(options);
     ORO_TRY(const Standpoint from, stand_over_ground(standing, *ground));
-    Standing looked_at{"--to", options.to,   "--target",          options.target_m,
-                       0.0,    std::nullopt, "geo:LAT,LON,HEIGHT"};
-    looked_at.on_top = standing.on_top;
     ORO_TRY(const Standpoint target, stand_over_ground(looked_at, *ground));
     const Geodetic& to = target.eye;
     bar.show(1.0, "looking");

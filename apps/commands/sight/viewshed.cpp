@@ -153,9 +153,9 @@ Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptio
     Standpoints standpoints;
     ORO_CHECK(place_eyes(asked_eyes(options), options.target_on.value_or("") == "canopy", *ground, question,
                          standpoints));
-    std::optional<MeshTops> tops;
+    std::optional<MeshRoofs> roofs;
     if (options.target_on == "top")
-        question.tops = &tops.emplace(ground->region, ground->ground().exaggeration());
+        question.roofs = &roofs.emplace(ground->region, ground->ground().exaggeration());
     const RegionGround& hiding = ground->canopy ? *ground->canopy->grids : *ground->grids;
     ORO_TRY(ViewshedReport report,
             viewshed_report(question, hiding, [&](double share) { bar.show(share, "looking around"); }));

@@ -100,9 +100,9 @@ Result<void> look_around(const RegionGround& ground, const ViewshedValues& value
         ViewshedRequest request{
             question.eyes[i], question.air, question.target_m, question.radius_km * 1000.0,
             thread_count(),   stop,         question.footing};
-        if (question.tops != nullptr)
+        if (question.roofs != nullptr)
             request.top_h_m = [&](double lat_deg, double lon_deg) -> std::optional<double> {
-                const auto top = question.tops->at(lat_deg, lon_deg);
+                const auto top = question.roofs->at(lat_deg, lon_deg);
                 return top ? std::optional(top->h_m) : std::nullopt;
             };
         const auto of_all = static_cast<double>(question.eyes.size());

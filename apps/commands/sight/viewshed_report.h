@@ -11,7 +11,7 @@
 #include "core/drape/post_colours.h"
 #include "core/sight/viewshed.h"
 #include "geo/rasters/post_raster.h"
-#include "geo/together/mesh_tops.h"
+#include "geo/together/mesh_roofs.h"
 #include "geo/together/region_ground.h"
 
 namespace oro {
@@ -27,7 +27,7 @@ struct ViewshedQuestion {
     // What targets stand on, where that is not what hides them (ViewshedRequest); outlives the question.
     const TrueGround* footing{nullptr};
     // Tops that targets stand on, where there are some (ViewshedRequest); outlive the question.
-    const MeshTops* tops{nullptr};
+    const MeshRoofs* roofs{nullptr};
 };
 
 struct ViewshedReport {

@@ -126,6 +126,34 @@ TEST_F(Town, ViewsKeepHowTheTownIsRead) {
     EXPECT_EQ(json::parse(view_in(picture_))["meshes"]["lod"], "2");
 }
 
+// Whether a line from 402 m over the annex to a target clears the west edge of the hall's roof at 420 m.
+// Points in ECEF by hand; the line stays within a metre of the edge's latitude.
+bool clears_the_edge(double eye_lon, double target_lon, double target_h_m, double N_m) {
+    using Place = std::array<long double, 3>;
+    constexpr long double rad = 3.14159265358979323846L / 180.0L, lat = 36.605L * rad;
+    const auto place = [](double lon_deg, double h_m) {
+        const long double a = 6378137.0L, f = 1.0L / 298.257223563L, e2 = f * (2.0L - f);
+        const long double lon = lon_deg * rad, n = a / sqrtl(1.0L - e2 * sinl(lat) * sinl(lat));
+        return Place{(n + h_m) * cosl(lat) * cosl(lon), (n + h_m) * cosl(lat) * sinl(lon),
+                     (n * (1.0L - e2) + h_m) * sinl(lat)};
+    };
+    const Place from = place(eye_lon, 402.0 + N_m), to = place(target_lon, target_h_m),
+                foot = place(west_deg, 420.0 + N_m);
+    const auto at = [&](long double share) {
+        return Place{from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1]),
+                     from[2] + share * (to[2] - from[2])};
+    };
+    long double low = 0.0L, high = 1.0L;  // of the line, until it is over the wall's meridian
+    for (int i = 0; i < 80; ++i) {
+        const long double middle = 0.5L * (low + high);
+        const Place there = at(middle);
+        (atan2l(there[1], there[0]) < west_deg * rad ? low : high) = middle;
+    }
+    const Place over = at(low);
+    const auto from_axis = [](const Place& p) { return sqrtl(p[0] * p[0] + p[1] * p[1]); };
+    return (from_axis(over) - from_axis(foot)) * cosl(lat) + (over[2] - foot[2]) * sinl(lat) > 0.0L;
+}
+
 // From the annex's roof over the edge of the hall's roof: the line that just clears it, by a formula of its
 // own. In the plane of the meridian frame at the eye, the edge is at 0.0001 degrees of longitude east of the
 // eye (a parallel's arc) and 20 m higher; light is straight.
@@ -144,46 +172,10 @@ TEST_F(Town, SightPassesARoofsEdgeToACentimetre) {
     EXPECT_NEAR(said["from"]["H_m"].get<double>(), 402.0, 0.001) << "2 m over the annex's roof";
     EXPECT_EQ(said["obstacle"]["feature"]["name"], "big");
     const double N_m = said["from"]["h_m"].get<double>() - said["from"]["H_m"].get<double>();
-    // Independent: points in ECEF by hand, in the plane through the eye, the Earth's normal there and the
-    // target; the edge is where the hall's west wall crosses it.
-    const auto place = [](double lon_deg, double h_m) {
-        const long double a = 6378137.0L, f = 1.0L / 298.257223563L, e2 = f * (2.0L - f),
-                          rad = 3.14159265358979323846L / 180.0L;
-        const long double lat = 36.605L * rad, lon = lon_deg * rad,
-                          n = a / sqrtl(1.0L - e2 * sinl(lat) * sinl(lat));
-        return std::array<long double, 3>{(n + h_m) * cosl(lat) * cosl(lon),
-                                          (n + h_m) * cosl(lat) * sinl(lon),
-                                          (n * (1.0L - e2) + h_m) * sinl(lat)};
-    };
-    // Bisection of the target's height: the line's height over the wall, by the nearest point of the line to
-    // the wall's normal.
-    const auto clears = [&](double target_h_m) {
-        const auto from = place(eye_lon, 402.0 + N_m), to = place(target_lon, target_h_m);
-        long double low = 0.0L, high = 1.0L;  // of the line, until it is over the wall's meridian
-        const auto at = [&](long double share) {
-            return std::array<long double, 3>{from[0] + share * (to[0] - from[0]),
-                                              from[1] + share * (to[1] - from[1]),
-                                              from[2] + share * (to[2] - from[2])};
-        };
-        const long double wall = west_deg * 3.14159265358979323846L / 180.0L;
-        for (int i = 0; i < 80; ++i) {
-            const long double middle = 0.5L * (low + high);
-            const auto there = at(middle);
-            (atan2l(there[1], there[0]) < wall ? low : high) = middle;
-        }
-        const auto over = at(low);
-        const auto foot = place(west_deg, 420.0 + N_m);
-        // The line stays within a metre of the edge's latitude: heights by the distance from the axis and the
-        // equator.
-        const long double rho = sqrtl(over[0] * over[0] + over[1] * over[1]),
-                          rho0 = sqrtl(foot[0] * foot[0] + foot[1] * foot[1]);
-        const long double lat = 36.605L * 3.14159265358979323846L / 180.0L;
-        return (rho - rho0) * cosl(lat) + (over[2] - foot[2]) * sinl(lat) > 0.0L;
-    };
     double low = 0.0, high = 2000.0;
     for (int i = 0; i < 60; ++i) {
         const double middle = 0.5 * (low + high);
-        (clears(middle) ? high : low) = middle;
+        (clears_the_edge(eye_lon, target_lon, middle, N_m) ? high : low) = middle;
     }
     const double ground_h_m = said["to"]["h_m"].get<double>();
     EXPECT_NEAR(said["target_missed_by_m"].get<double>(), high - ground_h_m, 0.01 * 450.0 / 8.9)
@@ -199,9 +191,9 @@ TEST_F(Town, ProfilesHaveASecondLine) {
                       "-q",      "--overwrite"};
     const json said = said_by(joined(words, {city_, "--out", csv, "--json"}));
     // 0.0015 degrees at 36.605 N are 134.2 m (a parallel of 5,126.7 km).
-    EXPECT_NEAR(said["tops"]["over_m"].get<double>(), 134.2, 0.3) << said.dump();
-    EXPECT_NEAR(said["tops"]["highest"]["H_m"].get<double>(), 420.0, 0.01);
-    EXPECT_EQ(said["tops"]["highest"]["on"], "BuildingPart big of h1");
+    EXPECT_NEAR(said["roofs"]["over_m"].get<double>(), 134.2, 0.3) << said.dump();
+    EXPECT_NEAR(said["roofs"]["highest"]["H_m"].get<double>(), 420.0, 0.01);
+    EXPECT_EQ(said["roofs"]["highest"]["on"], "BuildingPart big of h1");
     std::istringstream lines(bytes_of(csv));
     std::string line;
     std::getline(lines, line);
@@ -215,8 +207,8 @@ TEST_F(Town, ProfilesHaveASecondLine) {
     EXPECT_GE(on_small, 2);
     EXPECT_GE(on_big, 2);
     EXPECT_GE(on_ground, 4);
-    // Without meshes nothing is told of tops.
-    EXPECT_FALSE(said_by(joined(words, {"--json"})).contains("tops"));
+    // Without meshes nothing is told of roofs.
+    EXPECT_FALSE(said_by(joined(words, {"--json"})).contains("roofs"));
 }
 
 // What the hall hides from a place on the ground; posts on roofs are seen where targets stand on top.

@@ -10,6 +10,7 @@
 #include <random>
 #include <string>
 #include <type_traits>
+#include <utility>
 
 #include "geo/meshes/placed_mesh.h"
 #include "geo/together/mesh_surface.h"
@@ -30,16 +31,41 @@ Reference reference_of(int epsg) {
     return reference;
 }
 
+struct Box {
+    int epsg;
+    double west, east, south, north;
+};
+
+// An OBJ of triangles of some 100 m, and the places of its corners, which are exact in decimals.
+std::pair<std::string, std::vector<glm::dvec3>> mesh_within(const Box& box, std::mt19937& random) {
+    std::string text;
+    std::vector<glm::dvec3> places;
+    constexpr int triangles = 60;
+    for (int i = 0; i < triangles; ++i) {
+        const double x = std::floor(std::uniform_real_distribution<double>(box.west, box.east)(random)),
+                     y = std::floor(std::uniform_real_distribution<double>(box.south, box.north)(random));
+        for (int corner = 0; corner < 3; ++corner) {
+            const glm::dvec3 at(x + static_cast<double>(random() % 100000) / 1024.0,
+                                y + static_cast<double>(random() % 100000) / 1024.0,
+                                static_cast<double>(random() % 4000000) / 1024.0);
+            places.push_back(at);
+            char line[100];
+            std::snprintf(line, sizeof line, "v %.10f %.10f %.10f\n", at.x, at.y, at.z);
+            text += line;
+        }
+        const int first = 3 * i + 1;
+        text += "f " + std::to_string(first) + " " + std::to_string(first + 1) + " " +
+                std::to_string(first + 2) + "\n";
+    }
+    return {text, places};
+}
+
 // Places all over the area of use of four projected CRSs, up to 4 km high. N is 0.
 TEST(MeshVertex, IsDrawnWithinAMillimetre) {
     const unsigned seed = 5207;
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
     const Reference degrees = reference_of(4326);
-    struct Box {
-        int epsg;
-        double west, east, south, north;
-    };
     double worst_m = 0.0;
     std::size_t asked = 0;
     for (const Box& box :
@@ -49,25 +75,7 @@ TEST(MeshVertex, IsDrawnWithinAMillimetre) {
         OGRCoordinateTransformationH to_degrees =
             OCTNewCoordinateTransformation(projected.get(), degrees.get());
         ASSERT_NE(to_degrees, nullptr);
-        std::string text;
-        std::vector<glm::dvec3> places;
-        constexpr int triangles = 60;
-        for (int i = 0; i < triangles; ++i) {
-            const double x = std::floor(std::uniform_real_distribution<double>(box.west, box.east)(random)),
-                         y = std::floor(std::uniform_real_distribution<double>(box.south, box.north)(random));
-            for (int corner = 0; corner < 3; ++corner) {
-                const glm::dvec3 at(x + static_cast<double>(random() % 100000) / 1024.0,
-                                    y + static_cast<double>(random() % 100000) / 1024.0,
-                                    static_cast<double>(random() % 4000000) / 1024.0);
-                places.push_back(at);
-                char line[100];
-                std::snprintf(line, sizeof line, "v %.10f %.10f %.10f\n", at.x, at.y, at.z);
-                text += line;
-            }
-            const int first = 3 * i + 1;
-            text += "f " + std::to_string(first) + " " + std::to_string(first + 1) + " " +
-                    std::to_string(first + 2) + "\n";
-        }
+        const auto [text, places] = mesh_within(box, random);
         MeshRequest request;
         request.files = {test::written("places.obj", text)};
         request.crs = "EPSG:" + std::to_string(box.epsg);

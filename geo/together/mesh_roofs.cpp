@@ -1,4 +1,4 @@
-#include "geo/together/mesh_tops.h"
+#include "geo/together/mesh_roofs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,7 @@ std::optional<double> along_to(const std::array<glm::dvec3, 3>& at, const glm::d
 
 }  // namespace
 
-MeshTops::MeshTops(const Region& region, double exaggeration) {
+MeshRoofs::MeshRoofs(const Region& region, double exaggeration) {
     if (!region.meshes) return;
     for (std::uint32_t i = 0; i < region.meshes->size(); ++i)
         add_mesh((*region.meshes)[i], region.grids.front().field.undulation, exaggeration, i + 1, pieces_);
@@ -79,7 +79,7 @@ MeshTops::MeshTops(const Region& region, double exaggeration) {
         each_cell(pieces_[i], [&](std::size_t cell) { listed_[next[cell]++] = i; });
 }
 
-std::size_t MeshTops::cell_of(double lat_deg, double lon_deg) const {
+std::size_t MeshRoofs::cell_of(double lat_deg, double lon_deg) const {
     constexpr double slack_deg = 1.0e-5;
     const double east_deg =
         lon_deg - west_deg_ - 360.0 * std::floor((lon_deg - west_deg_ + slack_deg) / 360.0);
@@ -94,7 +94,7 @@ std::size_t MeshTops::cell_of(double lat_deg, double lon_deg) const {
     return cell(north_deg, rows_) * columns_ + cell(east_deg, columns_);
 }
 
-std::vector<double> MeshTops::sides_crossed(const PostPlace& from, const PostPlace& to) const {
+std::vector<double> MeshRoofs::sides_crossed(const PostPlace& from, const PostPlace& to) const {
     std::vector<double> shares;
     if (pieces_.empty()) return shares;
     const double from_east_deg = std::remainder(from.lon_deg - west_deg_, 360.0),
@@ -136,7 +136,7 @@ std::vector<double> MeshTops::sides_crossed(const PostPlace& from, const PostPla
     return shares;
 }
 
-std::optional<MeshTops::Top> MeshTops::at(double lat_deg, double lon_deg) const {
+std::optional<MeshRoofs::Top> MeshRoofs::at(double lat_deg, double lon_deg) const {
     if (pieces_.empty()) return std::nullopt;
     const std::size_t cell = cell_of(lat_deg, lon_deg);
     if (cell >= rows_ * columns_) return std::nullopt;

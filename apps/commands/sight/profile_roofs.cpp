@@ -1,4 +1,4 @@
-#include "apps/commands/sight/profile_tops.h"
+#include "apps/commands/sight/profile_roofs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "apps/report/feature_words.h"
 #include "core/base/one_line.h"
-#include "geo/together/mesh_tops.h"
+#include "geo/together/mesh_roofs.h"
 
 namespace oro {
 namespace {
@@ -21,7 +21,7 @@ ProfilePoint point_between(const SightGround& ground, const ProfilePoint& from, 
         along_m);
 }
 
-std::vector<ProfilePoint> with_sides(const SightGround& ground, const MeshTops& tops,
+std::vector<ProfilePoint> with_sides(const SightGround& ground, const MeshRoofs& roofs,
                                      const std::vector<ProfilePoint>& points) {
     std::vector<ProfilePoint> more;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -29,7 +29,7 @@ std::vector<ProfilePoint> with_sides(const SightGround& ground, const MeshTops& 
         if (i + 1 == points.size()) break;
         const ProfilePoint &from = points[i], &to = points[i + 1];
         for (const double share :
-             tops.sides_crossed({from.lat_deg, from.lon_deg}, {to.lat_deg, to.lon_deg})) {
+             roofs.sides_crossed({from.lat_deg, from.lon_deg}, {to.lat_deg, to.lon_deg})) {
             constexpr double beside_m = 0.5e-3;
             for (const double side_m : {-beside_m, beside_m}) {
                 const double along_m = std::lerp(from.along_m, to.along_m, share) + side_m;
@@ -43,14 +43,14 @@ std::vector<ProfilePoint> with_sides(const SightGround& ground, const MeshTops& 
 
 }  // namespace
 
-void add_tops(const SightGround& ground, bool as_asked, Profile& profile) {
+void add_roofs(const SightGround& ground, bool as_asked, Profile& profile) {
     if (!ground.region.meshes) return;
-    const MeshTops tops(ground.region, ground.ground().exaggeration());
-    if (!as_asked) profile.points = with_sides(ground, tops, profile.points);
-    profile.tops.clear();
+    const MeshRoofs roofs(ground.region, ground.ground().exaggeration());
+    if (!as_asked) profile.points = with_sides(ground, roofs, profile.points);
+    profile.roofs.clear();
     for (const ProfilePoint& point : profile.points) {
-        ProfileTop& top = profile.tops.emplace_back();
-        const auto found = tops.at(point.lat_deg, point.lon_deg);
+        ProfileRoof& top = profile.roofs.emplace_back();
+        const auto found = roofs.at(point.lat_deg, point.lon_deg);
         if (!found || (point.has_ground && found->h_m <= point.h_m)) continue;
         top.is_there = true;
         top.h_m = found->h_m;
@@ -63,16 +63,16 @@ void add_tops(const SightGround& ground, bool as_asked, Profile& profile) {
 
 std::optional<std::size_t> highest_top(const Profile& profile) {
     std::optional<std::size_t> highest;
-    for (std::size_t i = 0; i < profile.tops.size(); ++i)
-        if (profile.tops[i].is_there && (!highest || profile.tops[i].H_m > profile.tops[*highest].H_m))
+    for (std::size_t i = 0; i < profile.roofs.size(); ++i)
+        if (profile.roofs[i].is_there && (!highest || profile.roofs[i].H_m > profile.roofs[*highest].H_m))
             highest = i;
     return highest;
 }
 
 double over_meshes_m(const Profile& profile) {
     double sum_m = 0.0;
-    for (std::size_t i = 1; i < profile.tops.size(); ++i)
-        if (profile.tops[i - 1].is_there && profile.tops[i].is_there)
+    for (std::size_t i = 1; i < profile.roofs.size(); ++i)
+        if (profile.roofs[i - 1].is_there && profile.roofs[i].is_there)
             sum_m += profile.points[i].along_m - profile.points[i - 1].along_m;
     return sum_m;
 }

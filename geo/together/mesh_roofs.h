@@ -11,8 +11,8 @@
 
 namespace oro {
 
-// The tops of a region's meshes. Safe to ask from several threads. It takes some 120 bytes a triangle.
-class MeshTops {
+// The roofs of a region's meshes. Safe to ask from several threads. It takes some 120 bytes a triangle.
+class MeshRoofs {
   public:
     struct Top {
         double h_m{};             // above the ellipsoid, exaggerated as the view is
@@ -21,7 +21,7 @@ class MeshTops {
     };
 
     // Of the region's meshes; none: nothing has a top.
-    MeshTops(const Region& region, double exaggeration);
+    MeshRoofs(const Region& region, double exaggeration);
 
     [[nodiscard]] bool any() const { return !pieces_.empty(); }
     // The highest place of a mesh on the normal of the ellipsoid through a place; nothing where there is

@@ -8,10 +8,10 @@
 
 namespace oro {
 
-// Finds the tops of a profile's points; nothing where the region has no meshes. Unless the points are to be
+// Finds the roofs of a profile's points; nothing where the region has no meshes. Unless the points are to be
 // `as_asked`, it adds points before and behind each side of a triangle that the line passes over, 1 mm apart:
 // between neighbours the top is straight then.
-void add_tops(const SightGround& ground, bool as_asked, Profile& profile);
+void add_roofs(const SightGround& ground, bool as_asked, Profile& profile);
 // Number of the point whose top is highest; nothing where there is none.
 std::optional<std::size_t> highest_top(const Profile& profile);
 // Metres of the line between points that both have a top.
