@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/apps/layer_value.h"
 #include "tests/apps/program.h"
 #include "tests/apps/said_json.h"
 #include "tests/support/test_data.h"
@@ -41,13 +42,6 @@ Words shot_with_layers(const fs::path& picture, const Words& more = {}) {
     return words;
 }
 
-// What gdallocationinfo reads at a pixel.
-double value_at(const fs::path& file, int x, int y) {
-    const auto outcome =
-        run_program({"gdallocationinfo", "-valonly", file.string(), std::to_string(x), std::to_string(y)});
-    return outcome.out.empty() ? -1e9 : std::stod(outcome.out);
-}
-
 TEST(ShotLayers, AreFilesThatGdalReads) {
     const fs::path folder = oro::test::scratch_folder(), picture = folder / "p.png";
     const auto reported = object_said_by(shot_with_layers(picture, {"--json", "--tau", "0"}));
@@ -73,7 +67,7 @@ TEST(ShotLayers, AreFilesThatGdalReads) {
     }
     // The middle of pixel (40, 32), and the sky in the first.
     const auto layer = [&](const char* name, int x, int y) {
-        return value_at(folder / ("p." + std::string(name) + ".tif"), x, y);
+        return oro::test::layer_value(folder / ("p." + std::string(name) + ".tif"), x, y);
     };
     EXPECT_TRUE(std::isnan(layer("latitude", 0, 0)));
     EXPECT_TRUE(std::isnan(layer("shadow", 0, 0)));

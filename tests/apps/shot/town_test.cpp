@@ -8,6 +8,7 @@
 #include <sstream>
 #include <vector>
 
+#include "tests/apps/layer_value.h"
 #include "tests/apps/program.h"
 #include "tests/support/test_data.h"
 
@@ -143,11 +144,11 @@ bool clears_the_edge(double eye_lon, double target_lon, double target_h_m, doubl
         return Place{from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1]),
                      from[2] + share * (to[2] - from[2])};
     };
-    long double low = 0.0L, high = 1.0L;  // of the line, until it is over the wall's meridian
+    long double low = 0.0L, up = 1.0L;  // of the line, until it is over the wall's meridian
     for (int i = 0; i < 80; ++i) {
-        const long double middle = 0.5L * (low + high);
+        const long double middle = 0.5L * (low + up);
         const Place there = at(middle);
-        (atan2l(there[1], there[0]) < west_deg * rad ? low : high) = middle;
+        (atan2l(there[1], there[0]) < west_deg * rad ? low : up) = middle;
     }
     const Place over = at(low);
     const auto from_axis = [](const Place& p) { return sqrtl(p[0] * p[0] + p[1] * p[1]); };
@@ -172,16 +173,16 @@ TEST_F(Town, SightPassesARoofsEdgeToACentimetre) {
     EXPECT_NEAR(said["from"]["H_m"].get<double>(), 402.0, 0.001) << "2 m over the annex's roof";
     EXPECT_EQ(said["obstacle"]["feature"]["name"], "big");
     const double N_m = said["from"]["h_m"].get<double>() - said["from"]["H_m"].get<double>();
-    double low = 0.0, high = 2000.0;
+    double low = 0.0, least = 2000.0;
     for (int i = 0; i < 60; ++i) {
-        const double middle = 0.5 * (low + high);
-        (clears_the_edge(eye_lon, target_lon, middle, N_m) ? high : low) = middle;
+        const double middle = 0.5 * (low + least);
+        (clears_the_edge(eye_lon, target_lon, middle, N_m) ? least : low) = middle;
     }
     const double ground_h_m = said["to"]["h_m"].get<double>();
-    EXPECT_NEAR(said["target_missed_by_m"].get<double>(), high - ground_h_m, 0.01 * 450.0 / 8.9)
+    EXPECT_NEAR(said["target_missed_by_m"].get<double>(), least - ground_h_m, 0.01 * 450.0 / 8.9)
         << "m, a centimetre at the edge";
-    EXPECT_EQ(ask(high - ground_h_m + 0.51)["visible"], true);
-    EXPECT_EQ(ask(high - ground_h_m - 0.51)["visible"], false);
+    EXPECT_EQ(ask(least - ground_h_m + 0.51)["visible"], true);
+    EXPECT_EQ(ask(least - ground_h_m - 0.51)["visible"], false);
 }
 
 // Along the parallel through both: the annex's roof, then the hall's.
@@ -248,18 +249,11 @@ TEST_F(Town, RefusesInOneLine) {
                    {"--stand-on top", "needs a mesh"});
 }
 
-// What gdallocationinfo reads at a pixel.
-double value_at(const fs::path& file, int x, int y) {
-    const Outcome outcome = oro::test::run_program(
-        {"gdallocationinfo", "-valonly", file.string(), std::to_string(x), std::to_string(y)});
-    return outcome.out.empty() || says(outcome.out, "nan") ? -1.0 : std::stod(outcome.out);
-}
-
 // From above: the hall's roof in the sun, and its number.
 TEST_F(Town, LayersKnowFeatures) {
     shot_from({"--above", "300", "--pitch", "-20"}, {city_, "--layers", "--sun", "180,50"});
     const auto layer = [&](const char* name, int x, int y) {
-        return value_at(folder_ / ("town." + std::string(name) + ".tif"), x, y);
+        return oro::test::layer_value(folder_ / ("town." + std::string(name) + ".tif"), x, y);
     };
     int roofs = 0, annex = 0;
     for (int y = 40; y < 80; ++y) {
