@@ -209,9 +209,10 @@ Result<void> Gpu::create_device(const GpuOptions& options) {
     VkPhysicalDeviceFeatures2 features{};
     features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
     features.features.shaderInt64 = report_.compute_raster ? VK_TRUE : VK_FALSE;
-    VkPhysicalDeviceFeatures known{};
-    vkGetPhysicalDeviceFeatures(physical_, &known);
-    features.features.shaderFloat64 = known.shaderFloat64;  // PlanPass
+    VkPhysicalDeviceFeatures2 known{};
+    known.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    vkGetPhysicalDeviceFeatures2(physical_, &known);
+    features.features.shaderFloat64 = known.features.shaderFloat64;  // PlanPass
     features.features.fragmentStoresAndAtomics = report_.fragment_stores ? VK_TRUE : VK_FALSE;
     features.pNext = &vulkan12;
 
