@@ -70,6 +70,10 @@ float out_in_crown(Crown crown, vec3 at) {
 float outside_leaves(Crown crown, vec3 at, float detail, vec2 leaves) {
     float out_share = out_in_crown(crown, at);
     if (detail <= 0.0) return out_share - 0.9;
+    // A tip that is finer than the steps of rays would be in pieces.
+    if (crown.kind == site_needle && at.z > mix(crown.low_m, crown.high_m, 0.95)) return max(out_share, 0.5);
+    // Small trees have small branches.
+    at *= clamp(7.0 / (crown.high_m - crown.low_m), 1.0, 3.0);
     float reach;
     if (crown.kind == site_needle) {
         vec3 branch = vec3(at.xy * 1.1, (at.z + 0.6 * length(at.xy)) * 1.7);
