@@ -515,6 +515,12 @@ set_tests_properties(
   LayersOfPictures.OfRealTerrainAreTheOracles
   Markers.AreWhereTheMeasureSaysTheyAre
   MaterialPictures.HaveTheTablesMeanColour
+  MeadowPictures.AreAsLightAsTheirMeadow
+  MeadowPictures.AreNoGround
+  MeadowPictures.AreTheSameByBothWaysOfDrawing
+  MeadowPictures.LoseNoBladeThatCoversAPixel
+  MeadowPictures.MoveByTheClock
+  MeadowPictures.ShowNoneWhereNoneGrows
   Memory.OfSixtyFourMegabytesIsEnoughForSixtyEightTiles
   ModelPlacement.PostsAreWhereTheModelPutsThem
   OrthoMaps.LieOverTheirSourceInEveryCrs
@@ -785,6 +791,7 @@ set_tests_properties(
   LyingGroups.SpheresThatAreTooSmall
   LyingGroups.SpheresThatHideTheirGroups
   LyingGroups.WithNoLieAreDrawn
+  MeadowReference.HoldsShareLightAndThinning
   MeshForecasts.AreTheSameOfPostsReadPageByPage
   ModelView.TheHorizonHidesNothingThatBentLightShows
   MovedTruth.NorWhereSpiresAloneMove

@@ -31,7 +31,7 @@ struct GrassDrawing {
     int largest_tile_px{PictureOptions{}.largest_tile_px};
 };
 
-class GrassPictures : public test::StyleTest {
+class MeadowPictures : public test::StyleTest {
   protected:
     static constexpr int width_px = 192, height_px = 144;
     static constexpr double meadow_H_m = 2250.0;  // by the rule, the snow line being at 2,990 m
@@ -114,7 +114,7 @@ class GrassPictures : public test::StyleTest {
     }
 };
 
-TEST_F(GrassPictures, ShowBladesOnAMeadow) {
+TEST_F(MeadowPictures, ShowBladesOnAMeadow) {
     const Region region = slope(meadow_H_m, 0.1);
     const Camera eye = eye_over(meadow_H_m, 1.7);
     const auto without = picture(region, eye, natural(region, {.grass = false})),
@@ -126,7 +126,7 @@ TEST_F(GrassPictures, ShowBladesOnAMeadow) {
 }
 
 // Off: as before there was any, to the byte; and on where there is no meadow or no eye near it.
-TEST_F(GrassPictures, ShowNoneWhereNoneGrows) {
+TEST_F(MeadowPictures, ShowNoneWhereNoneGrows) {
     const Region meadow = slope(meadow_H_m, 0.1), snow = slope(3500.0, 0.1), steep = slope(meadow_H_m, 1.8);
     const auto expect_none = [&](const Region& region, const Camera& camera) {
         EXPECT_EQ(picture(region, camera, natural(region, {.grass = false})),
@@ -138,7 +138,7 @@ TEST_F(GrassPictures, ShowNoneWhereNoneGrows) {
 }
 
 // But for rims that another program rounds otherwise.
-TEST_F(GrassPictures, AreTheSameByBothWaysOfDrawing) {
+TEST_F(MeadowPictures, AreTheSameByBothWaysOfDrawing) {
     const Region region = slope(meadow_H_m, 0.1);
     const Camera eye = eye_over(meadow_H_m, 1.7);
     const gpu::FrameStyle style = natural(region);
@@ -150,7 +150,7 @@ TEST_F(GrassPictures, AreTheSameByBothWaysOfDrawing) {
 
 // Grass is as light as the meadow without it, whose edge at 60 m does not show: near, and from where it fades
 // on.
-TEST_F(GrassPictures, AreAsLightAsTheirMeadow) {
+TEST_F(MeadowPictures, AreAsLightAsTheirMeadow) {
     const Region region = slope(meadow_H_m, 0.1);
     for (const SunDirection& sun : {SunDirection{180.0, 50.0}, SunDirection{270.0, 25.0},
                                     SunDirection{0.0, 40.0}, SunDirection{90.0, 60.0}}) {
@@ -173,7 +173,7 @@ TEST_F(GrassPictures, AreAsLightAsTheirMeadow) {
 
 // Wind has the clock's time: a second later blades stand elsewhere, and at the same time the picture is the
 // same.
-TEST_F(GrassPictures, MoveByTheClock) {
+TEST_F(MeadowPictures, MoveByTheClock) {
     const Region region = slope(meadow_H_m, 0.1);
     const Camera eye = eye_over(meadow_H_m, 1.7);
     gpu::FrameStyle still = natural(region), windy = still;
@@ -189,7 +189,7 @@ TEST_F(GrassPictures, MoveByTheClock) {
 
 // Brute force: tiles of a picture leave out what they do not show, and so does ground that hides it; no blade
 // is lost by either that covers a pixel. From random eyes over hills.
-TEST_F(GrassPictures, LoseNoBladeThatCoversAPixel) {
+TEST_F(MeadowPictures, LoseNoBladeThatCoversAPixel) {
     constexpr unsigned seed = 20261128;
     std::mt19937 random(seed);
     const auto number = [&](double low, double high) {
@@ -228,7 +228,7 @@ TEST_F(GrassPictures, LoseNoBladeThatCoversAPixel) {
 }
 
 // Who asks for depths sees the ground, coloured as without grass.
-TEST_F(GrassPictures, AreNoGround) {
+TEST_F(MeadowPictures, AreNoGround) {
     const Region region = slope(meadow_H_m, 0.1);
     Style with{}, without{};
     with.frame = natural(region);
@@ -240,7 +240,7 @@ TEST_F(GrassPictures, AreNoGround) {
     EXPECT_EQ(one->depths, other->depths);
 }
 
-TEST_F(GrassPictures, AreSaidToBeInvented) {
+TEST_F(MeadowPictures, AreSaidToBeInvented) {
     const Region region = slope(meadow_H_m, 0.1);
     View view;
     view.camera = eye_over(meadow_H_m, 1.7);
@@ -255,7 +255,7 @@ TEST_F(GrassPictures, AreSaidToBeInvented) {
     EXPECT_EQ(says(false), 0);
 }
 
-TEST_F(GrassPictures, AreAskedForByAStyle) {
+TEST_F(MeadowPictures, AreAskedForByAStyle) {
     const Region region = slope(meadow_H_m, 0.1);
     const auto read = [&](const std::string& growth) {
         std::string text = style_text({});
