@@ -522,6 +522,12 @@ set_tests_properties(
   LayersOfPictures.OfRealTerrainAreTheOracles
   Markers.AreWhereTheMeasureSaysTheyAre
   MaterialPictures.HaveTheTablesMeanColour
+  MeadowPictures.AreAsLightAsTheirMeadow
+  MeadowPictures.AreNoGround
+  MeadowPictures.AreTheSameByBothWaysOfDrawing
+  MeadowPictures.LoseNoBladeThatCoversAPixel
+  MeadowPictures.MoveByTheClock
+  MeadowPictures.ShowNoneWhereNoneGrows
   Memory.OfSixtyFourMegabytesIsEnoughForSixtyEightTiles
   ModelPlacement.PostsAreWhereTheModelPutsThem
   OrthoMaps.LieOverTheirSourceInEveryCrs
@@ -797,6 +803,7 @@ set_tests_properties(
   LyingGroups.SpheresThatAreTooSmall
   LyingGroups.SpheresThatHideTheirGroups
   LyingGroups.WithNoLieAreDrawn
+  MeadowReference.HoldsShareLightAndThinning
   MeshForecasts.AreTheSameOfPostsReadPageByPage
   ModelView.TheHorizonHidesNothingThatBentLightShows
   MovedTruth.NorWhereSpiresAloneMove

@@ -70,6 +70,10 @@ float out_in_crown(Crown crown, vec3 at) {
 float outside_leaves(Crown crown, vec3 at, float detail, vec2 leaves) {
     float out_share = out_in_crown(crown, at);
     if (detail <= 0.0) return out_share - 0.9;
+    // A tip that is finer than the steps of rays would be in pieces.
+    if (crown.kind == site_needle && at.z > mix(crown.low_m, crown.high_m, 0.97)) return max(out_share, 0.5);
+    // Small trees have small branches.
+    at *= clamp(7.0 / (crown.high_m - crown.low_m), 1.0, 3.0);
     float reach;
     if (crown.kind == site_needle) {
         vec3 branch = vec3(at.xy * 1.1, (at.z + 0.6 * length(at.xy)) * 1.7);
@@ -107,7 +111,7 @@ bool meets_crown(Crown crown, vec3 from, vec3 ray, float pixel_m, float least, o
     if (s < no_hit && detail <= 0.0) best = s;
     if (detail > 0.0 && s < no_hit) s = max(s, least - begin);
     // Along the line through what is convex, until it is among leaves.
-    float step_m = 0.5 * crown.radius_m / length(d), before = 1.0, last = s;
+    float step_m = 0.5 * crown.radius_m / length(d), before = 1.0, last = s, per_m = 1.0 / (crown.high_m - crown.low_m);
     for (int i = 0; s < no_hit && detail > 0.0 && i < crown_steps; ++i) {
         vec3 at = p + s * d;
         float outside = outside_leaves(crown, at, detail, leaves);
@@ -118,7 +122,8 @@ bool meets_crown(Crown crown, vec3 from, vec3 ray, float pixel_m, float least, o
         if (i > 0 && (out_in_crown(crown, at) > 1.001 * crown.shell || at.z < crown.low_m || at.z > crown.high_m)) break;
         before = outside;
         last = s;
-        s += step_m * clamp(outside, 0.12, 0.5);
+        // Towards a cone's tip steps are as small as it is there.
+        s += step_m * clamp(outside, 0.12, 0.5) * (is_needle ? clamp((crown.high_m - at.z) * per_m, 0.04, 1.0) : 1.0);
     }
     if (pixel_m < 0.25) {
         float on_stem = enters_stem(p, d, crown.low_m + 0.3 * (crown.high_m - crown.low_m), 0.011 * crown.high_m);

@@ -71,12 +71,12 @@ float share_of_meadow(SitePlace place, SurfacePoint point, out vec3 colour) {
     return share + (1.0 - known) * shares_by_rule(point).of[material_meadow];
 }
 
-// What the ground sends back, before the air, and its meadow's share.
-vec3 light_of_ground(SitePlace place, SurfacePoint point, out float share) {
+// What the ground sends back, before the air. False where no more of it is meadow than a number of 0 to 1 says.
+bool is_meadow(SitePlace place, SurfacePoint point, float number, out vec3 light_here) {
     vec3 sun = sun_at(point.view), colour;
     find_pixel_materials(point, sun);
-    share = share_of_meadow(place, point, colour);
-    if (share <= 0.0) return vec3(0.0);
+    light_here = vec3(0.0);
+    if (number >= share_of_meadow(place, point, colour)) return false;
     if (opens) {
         point.shaded_page = place.page;
         point.shaded_post = place.post;
@@ -84,8 +84,9 @@ vec3 light_of_ground(SitePlace place, SurfacePoint point, out float share) {
     }
     vec3 normal = steeper(point.normal, FRAME.style.relief);
     GroundLight light = GroundLight(colour, colour * facing(normal, sun), colour * (0.5 + 0.5 * normal.z));
-    if (casts) shown_share = sun_on_site(place, point, 0.0) * light_past_trees(point.view, 0.4);
-    return sent_by(LitPlace(light, point.view, point.h_m, sun, 0.0));
+    if (casts && light.lit != vec3(0.0)) shown_share = sun_on_site(place, point, 0.0) * light_past_trees(point.view, 0.4);
+    light_here = sent_by(LitPlace(light, point.view, point.h_m, sun, 0.0));
+    return true;
 }
 
 // What the drawn triangle rises for a metre east, and north, not exaggerated.
@@ -110,11 +111,9 @@ MeadowClump clump_that_stands(GrowthTile tile, uint number) {
     SurfacePoint point = ground_of(place);
     point.drape_post = place.whole;
     point.drape_part = place.part;
-    float share, slope_here = slope_deg(point);
-    kept *= 1.0 - smoothstep(steep_from_deg, steep_to_deg, slope_here);
-    if (kept <= 0.02) return clump;
-    vec3 light = light_of_ground(place, point, share);
-    if (site_number(hash, 3u) >= share) return clump;
+    kept *= 1.0 - smoothstep(steep_from_deg, steep_to_deg, slope_deg(point));
+    vec3 light;
+    if (kept <= 0.02 || !is_meadow(place, point, site_number(hash, 3u), light)) return clump;
     clump.foot = place.view;
     clump.slope = packHalf2x16(slope);
     clump.red_green = packHalf2x16(light.xy);
