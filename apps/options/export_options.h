@@ -15,6 +15,7 @@ struct ExportOptions {
     std::optional<std::string> zoom;      // LOW:HIGH
     std::optional<double> hole_height_m;  // what places without ground hold
     std::optional<double> max_error_m;    // of a model
+    std::optional<int> detail;            // halvings of the way between posts
     bool overwrite{false};
     bool json{false};
     bool quiet{false};

@@ -43,6 +43,8 @@ Result<void> check_words(const ExportOptions& options) {
     if (options.hole_height_m && !has_zooms) return refused("--hole-height", "", needed);
     if (options.max_error_m && *options.to != "gltf")
         return refused("--max-error", all_digits(*options.max_error_m), "needs --to gltf");
+    if (options.detail && *options.to != "cog")
+        return refused("--detail", std::to_string(*options.detail), "needs --to cog");
     constexpr double most_error_m = 100000.0;
     if (const double error_m = options.max_error_m.value_or(0.0);
         !(error_m >= 0.0 && error_m <= most_error_m))
