@@ -176,6 +176,16 @@ void put_regions(const ShotResult& shot, ordered_json& json) {
         json["apart"].push_back(region_json(*other));
 }
 
+// What the ground carries, and what of it is invented.
+void put_invented(const ShotResult& shot, ordered_json& json) {
+    if (shot.view.cover)
+        json["landcover"] =
+            json_object("table", shot.view.cover->table().name, "title", shot.view.cover->table().title);
+    if (shot.view.canopy) json["canopy"] = canopy_json(*shot.view.canopy, shot.region);
+    if (const RegionGrid* const detail = detail_of(shot.region))
+        json["detail"] = detail_json(*detail->detail);
+}
+
 }  // namespace
 
 ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const Gpu& gpu,
@@ -208,12 +218,7 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     json["destination"] = destination_json(shot.middle);
     json["attribution"] = tags.attribution;
     put_regions(shot, json);
-    if (shot.view.cover)
-        json["landcover"] =
-            json_object("table", shot.view.cover->table().name, "title", shot.view.cover->table().title);
-    if (shot.view.canopy) json["canopy"] = canopy_json(*shot.view.canopy, shot.region);
-    if (const RegionGrid* const detail = detail_of(shot.region))
-        json["detail"] = detail_json(*detail->detail);
+    put_invented(shot, json);
     put_counts(shot, json);
     json["tau_px"] = shot.view.tau_px;
     json["mesh_level"] = nullptr;
