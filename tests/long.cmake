@@ -300,6 +300,10 @@ set_tests_properties(
   ShotDrape.OfSixteenBitsIsWhatItsProfileOrTheOptionSays
   ShotDrape.ThatChangedIsTold
   ShotGraticule.LiesOverTheGroundAndComesBackWithTheView
+  ShotDetail.HasARowInThePlan
+  ShotDetail.IsDrawnAsItIsAndToldInMetres
+  ShotDetail.OfAPictureIsDrawnAgain
+  ShotDetail.OfNoHalvingsIsNone
   ShotLandcover.ColoursThePictureWhichItsViewDrawsAgain
   ShotLandcover.OfARealOneLayersHoldTheClassThatGdalReadsThere
   ShotLayers.AreFilesThatGdalReads

@@ -1,6 +1,7 @@
 #include "apps/accuracy/verification.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "apps/report/json_object.h"
 #include "apps/view/accuracy.h"
 #include "core/base/parallel.h"
+#include "geo/refined/refined_region.h"
 
 namespace oro {
 namespace {
@@ -72,7 +74,38 @@ void measure(Verification& done, const TruePicture& truth) {
     done.slack_px = done.errors.slack_px;
 }
 
+void measure_invented(Verification& done, const View& view, const Region& region) {
+    const RegionGrid *const detail = detail_of(region), *const data = data_under_detail(region);
+    if (detail == nullptr || data == nullptr) return;
+    const auto number = static_cast<std::uint32_t>(detail - region.grids.data());
+    const double px_a_tangent = 0.5 * view.camera.height_px / view.camera.half_fov_tangent().y;
+    InventedGround& found = done.invented.emplace();
+    double sum_m2 = 0.0;
+    for (const DrawnPoint& point : done.picture.points) {
+        if (point.background() || point.grid != number) continue;
+        const std::optional<double> off_m = invented_m(*detail, *data, point.row, point.column);
+        if (!off_m) continue;
+        const double m = view.exaggeration * std::abs(*off_m);
+        ++found.pixels;
+        sum_m2 += m * m;
+        found.largest_m = std::max(found.largest_m, m);
+        found.largest_px = std::max(found.largest_px, m / point.z_m * px_a_tangent);
+    }
+    if (found.pixels > 0) found.rms_m = std::sqrt(sum_m2 / static_cast<double>(found.pixels));
+}
+
 namespace {
+
+// How far the ground that was drawn is from the data's, where it is invented.
+std::string invented_line(const InventedGround& invented) {
+    char line[200];
+    std::snprintf(line, sizeof line,
+                  "Invented between posts: ground of %s is off the data's surface by %.2f m r.m.s., %.2f m "
+                  "at most (%.3g px); the errors above are from the ground with it\n",
+                  counted(invented.pixels, "pixel", "pixels").c_str(), invented.rms_m, invented.largest_m,
+                  invented.largest_px);
+    return line;
+}
 
 std::string allowed_line(const Verification& verification, const View& view) {
     char line[160];
@@ -123,6 +156,7 @@ std::string verification_text(const Verification& verification, const View& view
         text += ">=: at least this. Nothing like it is seen within " + std::to_string(seen_reach_px) +
                 " px (seen), or its place is beside or behind the eye (displacement, surface).\n";
     text += allowed_line(verification, view);
+    if (verification.invented) text += invented_line(*verification.invented);
     if (const std::string beyond = unseen_sentence(unseen); !beyond.empty())
         text += "Where the data end: " + beyond + "\n";
     return text;
@@ -142,6 +176,9 @@ ordered_json verification_json(const Verification& verification) {
     json["largest_px"] = verification.errors.largest_px();
     json["largest_px_at_least"] = verification.errors.largest_px_at_least();
     json["slack_px"] = verification.slack_px;
+    if (const auto& invented = verification.invented)
+        json["invented"] = json_object("pixels", invented->pixels, "rms_m", invented->rms_m, "max_m",
+                                       invented->largest_m, "max_px", invented->largest_px);
     json["drawn_pixels"] = ground.drawn;
     json["pixels_beyond_data"] = ground.beyond_data;
     if (ground.between > 0) json["pixels_between_grids"] = ground.between;

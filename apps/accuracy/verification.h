@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,17 +14,31 @@
 
 namespace oro {
 
+// How far the ground that a picture shows is from the data's surface where it lies between their posts and is
+// invented (--detail), by pixels that show such ground.
+struct InventedGround {
+    std::uint64_t pixels{};
+    double rms_m{};
+    double largest_m{};
+    double largest_px{};  // as the eye sees it
+};
+
 struct Verification {
     DepthPicture picture;
     Skyline true_skyline;
     PictureErrors errors;
-    double slack_px{};  // besides tau: what drawing may round off in this view
+    std::optional<InventedGround> invented{};  // of a view with --detail
+    double slack_px{};                         // besides tau: what drawing may round off in this view
 };
 
 // Draws a view as its picture is drawn, one sample a pixel and with depths, and measures it. Errors: those of
 // the device; a region that cannot be read; a scene that does not fit into --gpu-memory.
 Result<Verification> verify_view(const View& view, const TrueScene& truth, const Gpu& gpu, Scene& scene,
                                  RasterPath path, const gpu::FrameStyle& style);
+
+// Measures the invented ground of a picture that was drawn and measured, of a region with --detail; of others
+// nothing.
+void measure_invented(Verification& done, const View& view, const Region& region);
 
 // The measuring alone, of a picture that is drawn. `truth`: of the same camera.
 void measure(Verification& done, const TruePicture& truth);

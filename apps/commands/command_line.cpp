@@ -319,7 +319,7 @@ void add_trade(CLI::App& app, TradeOptions& options) {
                    "--overlay-fill", "--tau",         "--earth",   "--refraction",     "--air",
                    "--precision",    "--geoid",       "--heights", "--accuracy",       "--tolerance",
                    "--labels",       "--edges",       "--samples", "--show",           "--mesh",
-                   "--mesh-level",   "--graticule"});
+                   "--mesh-level",   "--graticule",   "--detail"});
     add_memory_options(command, options.memory);
     add_quiet(command, options.quiet, "the table and errors");
     set_help(command,
@@ -566,6 +566,10 @@ void add_export(CLI::App& app, ExportOptions& options) {
     written.flag(
         "--no-normals", options.no_normals,
         "Leave normals out of 3D Tiles, a fifth of their size, where the viewer's shader makes its own.");
+    written.whole_number(
+        "--detail", options.detail, 1, most_halvings, "N",
+        "Invent ground between the posts, by N halvings of the way from post to post, 1 to 6, "
+        "as shot --detail does: 2^N posts in place of one each way. Needs cog.");
     written.flag("--overwrite", options.overwrite,
                  "Replace a file that is there, or a folder that holds such tiles and nothing else.");
     add_region_options(command, options.region);

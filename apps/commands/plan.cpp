@@ -8,6 +8,7 @@
 #include "apps/cover/canopy_words.h"
 #include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/region_scene.h"
+#include "apps/eye/standpoint.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
@@ -119,6 +120,7 @@ ordered_json plan_json(const Budget& budget, const View& view, const AccuracyCho
     if (budget.resampling) json["resampling"] = size_json(*budget.resampling);
     // Of views with a canopy alone.
     if (budget.vegetation) json["vegetation"] = size_json(*budget.vegetation);
+    if (budget.invented) json["invented"] = size_json(*budget.invented);
     json["meshes"] = nullptr;
     if (meshes)
         json["meshes"] =
@@ -141,7 +143,8 @@ ordered_json plan_json(const Budget& budget, const View& view, const AccuracyCho
 PlanEye eye_of(const View& view, const Region& region) {
     const Geodetic& eye = view.camera.eye;
     PlanEye place{eye.h_m - region.grids.front().field.undulation.at_m(eye.lat_deg, eye.lon_deg), {}};
-    const auto ground = ground_h_m(region.grids.front().field, eye.lat_deg, eye.lon_deg, view.exaggeration);
+    const auto ground = ground_h_m(grid_at(region, eye.lat_deg, eye.lon_deg).field, eye.lat_deg, eye.lon_deg,
+                                   view.exaggeration);
     const double canopy_m =
         canopy_over_ground_m(region.grids.front(), eye.lat_deg, eye.lon_deg).value_or(0.0);
     if (ground) place.above_ground_m = eye.h_m - *ground + view.exaggeration * canopy_m;

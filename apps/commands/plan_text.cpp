@@ -131,6 +131,13 @@ std::string vegetation_row(const Budget& budget) {
                budget.vegetation, "no --canopy");
 }
 
+// Ground between the posts that the view invents: judged alike.
+std::string invented_row(const Budget& budget) {
+    if (!budget.invented) return {};
+    return row("invented ground", "yes", yes_or_no(budget.invented->worst_px > budget.tolerance_px),
+               budget.invented, "--detail 0");
+}
+
 // What can be drawn of a region that has clusters.
 std::string meshes_text(const std::optional<MeshForecasts>& meshes, const View& view) {
     if (!meshes) return {};
@@ -257,7 +264,7 @@ std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye
         estimates_text(budget) + "\n";
     out += "Switch off one part of the model to see how much error that causes:\n";
     out += headings("part of the model", "needed", "for " + limit, "left out by");
-    out += rows(budget, EffectGroup::model, view) + vegetation_row(budget);
+    out += rows(budget, EffectGroup::model, view) + vegetation_row(budget) + invented_row(budget);
     out += "\nWhat drawing itself rounds off:\n" + headings("error", "within", limit, "");
     out += rows(budget, EffectGroup::drawing, view);
     out += "\nWhat the data do not tell, and no setting can help:\n" + headings("error", "within", limit, "");

@@ -94,7 +94,7 @@ Result<void> leave_settings_out(const ViewOptions& view) {
     if (const char* const option =
             first_given_of(view_option_table(), view,
                            {"--tau", "--earth", "--refraction", "--air", "--precision", "--geoid",
-                            "--heights", "--accuracy", "--tolerance", "--mesh", "--mesh-level"}))
+                            "--heights", "--accuracy", "--tolerance", "--mesh", "--mesh-level", "--detail"}))
         return refused(option, "", "trade chooses this itself: leave it out");
     return {};
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "apps/command_line/refusals.h"
 #include "core/terrain/ground.h"
@@ -43,15 +44,27 @@ double rad_from(const PostGrid& grid, double lat_deg, double lon_deg) {
     return std::acos(std::clamp(glm::dot(there, here), -1.0, 1.0));
 }
 
-const RegionGrid& grid_at(const Region& region, double lat_deg, double lon_deg) {
+namespace {
+
+const RegionGrid& grid_among(const Region& region, double lat_deg, double lon_deg, bool data_alone) {
     const RegionGrid* there = nullptr;
     for (const RegionGrid& grid : region.grids)
-        if ((there == nullptr || grid.rank < there->rank) && grid.field.surface_H_m(lat_deg, lon_deg))
+        if (!(data_alone && grid.detail) && (there == nullptr || grid.rank < there->rank) && grid.field.surface_H_m(lat_deg, lon_deg))
             there = &grid;
     if (there != nullptr) return *there;
     return *std::ranges::min_element(region.grids, {}, [&](const RegionGrid& grid) {
-        return rad_from(grid.field.grid, lat_deg, lon_deg);
+        return grid.detail ? std::numeric_limits<double>::max() : rad_from(grid.field.grid, lat_deg, lon_deg);
     });
+}
+
+}  // namespace
+
+const RegionGrid& grid_at(const Region& region, double lat_deg, double lon_deg) {
+    return grid_among(region, lat_deg, lon_deg, false);
+}
+
+const RegionGrid& data_grid_at(const Region& region, double lat_deg, double lon_deg) {
+    return grid_among(region, lat_deg, lon_deg, true);
 }
 
 const RegionGrid& widest_at(const Region& region, double lat_deg, double lon_deg) {

@@ -56,6 +56,8 @@ Result<Geodetic> standpoint(const Standing& standing, const HeightField& field, 
 
 // The grid that is the ground at a place; the nearest where none has any.
 const RegionGrid& grid_at(const Region& region, double lat_deg, double lon_deg);
+// The same of grids of data alone: not of ground that is invented between their posts.
+const RegionGrid& data_grid_at(const Region& region, double lat_deg, double lon_deg);
 // The one of a region's grids that reaches farthest around a place, of those that it is in.
 const RegionGrid& widest_at(const Region& region, double lat_deg, double lon_deg);
 

@@ -5,11 +5,14 @@
 #include <glm/geometric.hpp>
 
 #include "apps/cover/canopy_words.h"
+#include "apps/detail/detail_words.h"
+#include "apps/eye/standpoint.h"
 #include "apps/legend/legend.h"
 #include "apps/report/figures.h"
 #include "apps/report/region_json.h"
 #include "core/terrain/ground.h"
 #include "geo/canopy/raised_region.h"
+#include "geo/refined/refined_region.h"
 #include "shaders/shared_growth.h"
 
 namespace oro {
@@ -47,7 +50,7 @@ std::string eye_line(const View& view, const Region& region) {
     const double H_m = eye.h_m - region.grids.front().field.undulation.at_m(eye.lat_deg, eye.lon_deg);
     std::string line =
         "Eye: " + place_text(eye.lat_deg, eye.lon_deg) + ", " + height_text(H_m) + " above sea level";
-    const auto ground_m = ground_h_m(region.grids.front().field, eye.lat_deg, eye.lon_deg, view.exaggeration);
+    const auto ground_m = ground_h_m(grid_at(region, eye.lat_deg, eye.lon_deg).field, eye.lat_deg, eye.lon_deg, view.exaggeration);
     const double canopy_m =
         canopy_over_ground_m(region.grids.front(), eye.lat_deg, eye.lon_deg).value_or(0.0);
     if (ground_m && eye.h_m >= *ground_m)
@@ -90,8 +93,10 @@ std::string data_line(const View& view, const Region& region) {
     if (const std::string asked = attribution_of(region); !asked.empty())
         return "Heights: " + one_line(asked);
     std::vector<const SourceReport*> sources;
-    for (const RegionGrid& grid : region.grids)
+    for (const RegionGrid& grid : region.grids) {
+        if (grid.detail) continue;
         for (const SourceReport& source : grid.sources) sources.push_back(&source);
+    }
     std::string names;
     constexpr std::size_t most = 4;
     for (std::size_t i = 0; i < sources.size() && view.tells_paths; ++i) {
@@ -131,6 +136,7 @@ std::vector<std::string> legend_lines(const View& view, const Region& region, co
     lines.push_back(data_line(view, region));
     if (view.cover && style.frame.colour_by == gpu::colour_by_cover) lines.push_back(cover_line(view));
     if (view.canopy) lines.push_back(canopy_words(*view.canopy, region, view.tells_paths));
+    if (const RegionGrid* const detail = detail_of(region)) lines.push_back(detail_words(*detail->detail));
     std::string images;
     for (const std::string& file : view.drape)
         if (view.tells_paths)

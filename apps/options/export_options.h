@@ -16,6 +16,7 @@ struct ExportOptions {
     std::optional<double> hole_height_m;  // what places without ground hold
     std::optional<double> max_error_m;    // of a model, or of the finest tiles
     bool no_normals{false};               // of 3D Tiles
+    std::optional<int> detail;            // halvings of the way between posts
     bool overwrite{false};
     bool json{false};
     bool quiet{false};

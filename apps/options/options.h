@@ -47,6 +47,7 @@ struct ViewOptions : ViewSettings<OnCommandLine> {
     std::vector<std::string> landcover;   // rasters of land cover, each FILE or FILE,TABLE
     std::vector<std::string> canopy;      // rasters of canopy heights, or "class" alone
     std::optional<double> canopy_held;    // share of it that the data hold already
+    std::optional<std::string> detail;    // N or N,KM: ground between the posts
     bool takes_maps{false};               // not an option: whether a view that is a map may be opened
     bool on_summit{false};                // the eye stands on the highest post near --at
     std::optional<std::string> stand_on;  // ground, top: of meshes, too

@@ -9,6 +9,7 @@
 #include "apps/view/model_names.h"
 #include "core/base/parallel.h"
 #include "geo/measures/region_resampling.h"
+#include "geo/refined/refined_region.h"
 #include "geo/together/cut_regions.h"
 
 namespace oro {
@@ -48,6 +49,19 @@ double raised_by_m(const Region& region, const ViewSample& sample) {
             most_m = std::max(most_m, grid.canopy->added_m[static_cast<std::size_t>(row) *
                                                                static_cast<std::size_t>(posts.columns()) +
                                                            static_cast<std::size_t>(column)]);
+    return most_m;
+}
+
+// How far the posts around a sample are from the data's surface, at most: what is invented there.
+double invented_at_m(const Region& region, const ViewSample& sample) {
+    const RegionGrid& grid = region.grids[sample.grid];
+    const RegionGrid* const data = data_under_detail(region);
+    if (!grid.detail || data == nullptr) return 0.0;
+    double most_m = 0.0;
+    for (int row = sample.row; row <= std::min(sample.row + 1, grid.field.grid.rows() - 1); ++row)
+        for (int column = sample.column; column <= std::min(sample.column + 1, grid.field.grid.columns() - 1);
+             ++column)
+            most_m = std::max(most_m, std::abs(invented_m(grid, *data, row, column).value_or(0.0)));
     return most_m;
 }
 
@@ -174,6 +188,9 @@ Result<Budget> plan_view(const View& view, const Region& region, const TrueGroun
     if (region.grids.front().canopy && !budget.empty)
         budget.vegetation = prediction.heights_off_by(
             [&](const ViewSample& sample) { return view.exaggeration * raised_by_m(region, sample); });
+    if (detail_of(region) != nullptr && !budget.empty)
+        budget.invented = prediction.heights_off_by(
+            [&](const ViewSample& sample) { return view.exaggeration * invented_at_m(region, sample); });
     ORO_TRY(budget.total, prediction.total(drawing));
     return budget;
 }

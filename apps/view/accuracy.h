@@ -62,6 +62,8 @@ struct Budget {
     std::optional<EffectSize> resampling;
     // What a picture without the view's canopy would be off by; nothing where it has none.
     std::optional<EffectSize> vegetation;
+    // What the ground that --detail invents moves on the picture; nothing where it has none.
+    std::optional<EffectSize> invented;
     std::optional<EffectKind> dominant;  // the largest in the picture, in pixels
     bool empty{};                        // nothing is in view
     Air air;                             // of the true world

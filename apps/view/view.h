@@ -10,6 +10,7 @@
 
 #include "apps/cover/canopy_choice.h"
 #include "apps/cover/cover_tables.h"
+#include "apps/detail/detail_choice.h"
 #include "apps/fingerprints/fingerprints.h"
 #include "apps/light/sun.h"
 #include "apps/options/options.h"
@@ -81,6 +82,7 @@ struct View : ViewSettings<OfView> {
     std::shared_ptr<const CoverMap> cover;    // what is in them, from open_view on; null: none
     CanopyChoice canopy_choice;               // what stands on the ground, and hides what is behind it
     std::shared_ptr<const CanopyMap> canopy;  // what is known of it, from open_view on; null: none
+    std::optional<DetailChoice> detail;       // ground between the posts that is invented; nothing: none
     VectorChoices vectors;                    // names and lines from files
     std::shared_ptr<const VectorsRead> vectors_read;  // what is in them, from open_view on; null: no files
     // The CRS of a projected graticule, as CrsPlaces::of() takes it, from open_view on.

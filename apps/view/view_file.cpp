@@ -150,6 +150,30 @@ void read_canopy(const nlohmann::json& json, View& view) {
     if (canopy.contains("held")) choice.held = json_number(canopy, "held", 0.0, 1.0);
 }
 
+// Likewise.
+void read_detail(const nlohmann::json& json, View& view) {
+    if (!json.contains("detail")) return;
+    const nlohmann::json& detail = json_field(json, "detail");
+    DetailChoice choice;
+    choice.halvings = static_cast<int>(json_whole(detail, "halvings", 1, most_halvings));
+    if (detail.contains("radius_km"))
+        choice.radius_km = json_number(detail, "radius_km", least_detail_km, most_detail_km);
+    if (detail.contains("lat_deg"))
+        choice.middle = DetailMiddle{number(detail, "lat_deg", limits::lat_deg),
+                                     number(detail, "lon_deg", limits::lon_deg)};
+    view.detail = choice;
+}
+
+ordered_json detail_choice_json(const DetailChoice& choice) {
+    ordered_json json = json_object("halvings", choice.halvings);
+    if (choice.radius_km) json["radius_km"] = *choice.radius_km;
+    if (choice.middle) {
+        json["lat_deg"] = choice.middle->lat_deg;
+        json["lon_deg"] = choice.middle->lon_deg;
+    }
+    return json;
+}
+
 ordered_json canopy_choice_json(const CanopyChoice& choice) {
     ordered_json json = json_object("from", choice.by_class ? "class" : "file");
     if (!choice.by_class) {
@@ -288,6 +312,7 @@ void read_settings(const nlohmann::json& json, View& view) {
     read_drape(json, view);
     read_cover(json, view);
     read_canopy(json, view);
+    read_detail(json, view);
     view.vectors = vectors_from(json);
     read_choice(json, "labels", label_switch_names, view.labels);
     read_air(json, view.model.air);
@@ -344,12 +369,12 @@ namespace {
 
 // The keys of settings in the order that views have had them in since the first. Those that are not listed
 // follow in the order of the table.
-constexpr std::array keys_in_order{
-    "samples",     "exaggeration", "sun",          "visibility_km", "style",    "sea",
-    "rim",         "drape",        "landcover",    "canopy",        "names",    "overlay",
-    "names_field", "shadows",      "sky_openness", "labels",        "show",     "edges",
-    "pipeline",    "mesh",         "mesh_level",   "tau_px",        "accuracy", "earth",
-    "geoid",       "refraction",   "air",          "precision",     "heights"};
+constexpr std::array keys_in_order{"samples",      "exaggeration", "sun",     "visibility_km", "style",
+                                   "sea",          "rim",          "drape",   "landcover",     "canopy",
+                                   "detail",       "names",        "overlay", "names_field",   "shadows",
+                                   "sky_openness", "labels",       "show",    "edges",         "pipeline",
+                                   "mesh",         "mesh_level",   "tau_px",  "accuracy",      "earth",
+                                   "geoid",        "refraction",   "air",     "precision",     "heights"};
 
 void move_field(ordered_json& from, const char* key, ordered_json& to) {
     const auto found = from.find(key);
@@ -369,6 +394,7 @@ ordered_json settings_json(const View& view) {
     if (!view.drape.empty()) json["drape"] = drape_json(view);
     if (!view.cover_choice.files.empty()) json["landcover"] = cover_json(view.cover_choice);
     if (view.canopy_choice.asked()) json["canopy"] = canopy_choice_json(view.canopy_choice);
+    if (view.detail) json["detail"] = detail_choice_json(*view.detail);
     put_vectors(view.vectors, json);
     json["labels"] = name_in(label_switch_names, view.labels);
     json["accuracy"] = view.accuracy;
@@ -433,12 +459,17 @@ bool asks_for_same_region(const View& one, const View& other) {
         view.paths_from_own_file = false;
         return json_text(begun_with_region(view), false);
     };
+    // What is still is of the land cover's classes.
+    const auto is_detailed_alike = [&] {
+        return one.detail == other.detail && (!one.detail || one.cover_choice == other.cover_choice);
+    };
     // Heights of classes are those of the land cover's files and table.
     const auto is_raised_alike = [&] {
         return one.canopy_choice == other.canopy_choice &&
                (!one.canopy_choice.by_class || one.cover_choice == other.cover_choice);
     };
-    return one.has_geoid == other.has_geoid && is_raised_alike() && region_of(one) == region_of(other);
+    return one.has_geoid == other.has_geoid && is_raised_alike() && is_detailed_alike() &&
+           region_of(one) == region_of(other);
 }
 
 Result<View> view_from_json(const std::string& text, const std::string& where) {

@@ -19,6 +19,7 @@
 #include "geo/coordinates/crs_places.h"
 #include "geo/opening/open_region.h"
 #include "geo/opening/source_crs.h"
+#include "geo/refined/refined_region.h"
 #include "geo/together/covered_grids.h"
 
 namespace oro {
@@ -97,6 +98,18 @@ Result<void> raise_by_canopy_of(const View& view, Region& region) {
     for (const std::string& note : view.canopy->notes()) notes.push_back(note);
     for (const std::string& note : notes_of_canopy(region)) notes.push_back(note);
     return {};
+}
+
+// Puts ground between the posts around the place that a view has for that, or around its eye, unless the
+// region has it already.
+Result<void> add_detail_of(View& view, Region& region) {
+    if (!view.detail || detail_of(region) != nullptr) return {};
+    const Geodetic& eye = view.camera.eye;
+    if (!view.detail->middle) view.detail->middle = DetailMiddle{eye.lat_deg, eye.lon_deg};
+    DetailRequest request{view.detail->halvings, view.detail->middle->lat_deg, view.detail->middle->lon_deg,
+                          std::nullopt};
+    if (view.detail->radius_km) request.radius_m = 1000.0 * *view.detail->radius_km;
+    return add_detail(region, request, view.cover);
 }
 
 // Raises the region under an eye that options placed over its ground. Errors: an eye that comes to be in the
@@ -220,7 +233,7 @@ Result<void> find_graticule_crs(View& view, const Region& region) {
 void begin_with_grid_at(const Geodetic& eye, View& view, Region& region) {
     swap_first_grid(view.first_grid, region);
     view.first_grid =
-        static_cast<std::size_t>(&grid_at(region, eye.lat_deg, eye.lon_deg) - region.grids.data());
+        static_cast<std::size_t>(&data_grid_at(region, eye.lat_deg, eye.lon_deg) - region.grids.data());
     swap_first_grid(view.first_grid, region);
 }
 
@@ -264,6 +277,11 @@ Result<void> look_at_region(const ViewOptions& options, View& view, Region& regi
     if (!view.has_geoid) leave_geoid_out(region);
     const Result<void> placed = place_eye(view, options, region);
     begin_with_grid_at(view.camera.eye, view, region);
+    if (view.detail && placed.ok()) {
+        ORO_CHECK(add_detail_of(view, region));
+        // On the ground that there is now.
+        ORO_CHECK(place_eye(view, options, region));
+    }
     if (placed.ok()) aim_sun(view.sun, view.camera.eye);
     // Ground that could not be read is no ground to stand on, but that is not why there is none.
     ORO_CHECK(region.grids.front().field.health());
@@ -307,6 +325,7 @@ Result<void> open_recorded_view(const std::string& where, const ViewOptions& vie
         view.recorded->fingerprints->vectors.clear();
     ORO_CHECK(find_graticule_crs(view, region));
     ORO_CHECK(open_files(view));
+    ORO_CHECK(add_detail_of(view, region));
     return raise_by_canopy_of(view, region);
 }
 

@@ -219,6 +219,11 @@ void add_style_and_images(Rows looks) {
               &ViewOptions::canopy_held,
               "How much of the canopy's height the elevation data hold already, {}: so much is not added. "
               "Needs --canopy.");
+    looks.add({"--detail N", no_trait, "0: none"}, &ViewOptions::detail,
+              "Invent ground between the posts near the eye, by N halvings of the way from post to post, 0 "
+              "to 6: a smooth surface through the posts, and noise of the size that the ground itself has. "
+              "Posts stay where they are; water, ice and built land stay as they are. N,KM says how far "
+              "from the eye (else 5 km). The legend tells how many metres are invented.");
 }
 
 void add_vectors(Rows looks) {

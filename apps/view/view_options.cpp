@@ -103,6 +103,9 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
         ORO_TRY(view.canopy_choice,
                 canopy_choice_from(words, options.canopy_held, !view.cover_choice.files.empty()));
     }
+    if (options.detail) {
+        ORO_TRY(view.detail, detail_choice_from(*options.detail));
+    }
     if (view.show && view.samples > 1)
         return refused("--show", "", "is for pictures of one sample, not together with --samples");
     ORO_CHECK(choose_mesh_level(view, options));

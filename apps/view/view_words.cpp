@@ -124,6 +124,7 @@ ViewOptions look_options_of(const View& view) {
     options.landcover = words_of(view.cover_choice);
     options.canopy = words_of(view.canopy_choice);
     options.canopy_held = view.canopy_choice.held;
+    if (view.detail) options.detail = words_of(*view.detail);
     give_name(view.heights, usual.heights, height_storage_names, options.heights);
     if (view.edges) options.edges = name_in(edge_names, *view.edges);
     if (view.show) options.show = name_in(show_names, *view.show);

@@ -7,7 +7,6 @@
 #include "core/refined/refined_posts.h"
 #include "core/refined/taken_posts.h"
 #include "core/terrain/cell_diagonal.h"
-#include "core/terrain/post_spacing.h"
 
 namespace oro {
 namespace {
@@ -233,7 +232,7 @@ std::vector<BetweenPosts> between_posts(const HeightField& field, const GridPart
     std::vector<BetweenPosts> found(part.count());
     in_parallel(part.rows, thread_count(), [&](int down) {
         const int row = part.first_row + down;
-        const PostSpacing spacing = post_spacing_at(field.grid, row, part.first_column + 0.5 * part.columns);
+        const PostSpacing spacing = spacing_on_row(field.grid, row);
         for (int column = part.first_column; column < part.first_column + part.columns; ++column)
             found[part.number(row, column)] =
                 Around(sums, taken, taken.row_of(row), taken.column_of(column)).found(spacing);

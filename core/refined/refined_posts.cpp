@@ -106,8 +106,8 @@ class AddedNoise {
   public:
     // between: of the posts that were taken. level: from 1.
     AddedNoise(const std::vector<BetweenPosts>& between, const TakenPosts& taken, const WorldNumbers& world,
-               int level)
-        : between_(between), taken_(taken), world_(world), level_(level) {}
+               const PostGrid& grid, int level)
+        : between_(between), taken_(taken), world_(world), grid_(grid), level_(level) {}
 
     void add(Sheet& sheet) const {
         // Middles of cells first: a post half way along a side takes a part of its noise from those beside
@@ -117,14 +117,19 @@ class AddedNoise {
                 sheet.at(2 * i + 1, column) += middle(2 * i + 1, column);
         });
         in_parallel(sheet.rows, thread_count(), [&](int row) {
+            const double ratio = rows_to_columns(row);
             for (int column = row % 2 == 0 ? 1 : 0; column < sheet.columns; column += 2)
-                sheet.at(row, column) += side(sheet, row, column);
+                sheet.at(row, column) += side(sheet, row, column, ratio);
         });
     }
 
   private:
-    // How much of the noise of a cell's middle its sides take.
-    static constexpr double taken_share = 0.35;
+    // How much of the noise of a cell's middle its sides take, where cells are square: more where it is
+    // nearer.
+    static constexpr double taken_share = 0.35, most_taken = 0.5;
+    // A cubic through posts that were made explains less of what is between them than one through the data's:
+    // so much more noise they get. Measured (docs/notes/2026-11-28-detail-between-posts.md).
+    static constexpr double later_noise = 1.15;
 
     [[nodiscard]] double number(int row, int column) const {
         const std::int64_t along = std::int64_t{1} << level_;
@@ -147,7 +152,7 @@ class AddedNoise {
             const BetweenPosts& post =
                 between_[static_cast<std::size_t>(top + i) * static_cast<std::size_t>(taken_.columns()) +
                          static_cast<std::size_t>(left + j)];
-            double m = part(post);
+            double m = level_ > 1 ? later_noise * part(post) : part(post);
             for (int halving = 1; halving < level_; ++halving) m *= static_cast<double>(post.halved);
             return m;
         };
@@ -158,19 +163,26 @@ class AddedNoise {
         return around(row, column, [](const BetweenPosts& post) { return double{post.middle_noise_m}; }) *
                number(row, column);
     }
-    [[nodiscard]] double side(const Sheet& sheet, int row, int column) const {
+    // The spacing of rows over that of columns.
+    [[nodiscard]] double rows_to_columns(int row) const {
+        const PostSpacing spacing = spacing_on_row(grid_, taken_.grid_row(0) + std::ldexp(row, -level_));
+        return spacing.row_m / spacing.column_m;
+    }
+    [[nodiscard]] double side(const Sheet& sheet, int row, int column, double rows_to_columns) const {
         const bool along_row = row % 2 == 0;
         const double whole_m = around(row, column, [&](const BetweenPosts& post) {
             return double{along_row ? post.column_noise_m : post.row_noise_m};
         });
+        const double share =
+            std::min(taken_share * (along_row ? 1.0 / rows_to_columns : rows_to_columns), most_taken);
         double taken_m = 0.0, taken_m2 = 0.0;
         for (const int beside : {-1, 1}) {
             const int r = along_row ? row + beside : row, c = along_row ? column : column + beside;
             if (r < 0 || c < 0 || r >= sheet.rows || c >= sheet.columns) continue;
             const double deviation_m =
                 around(r, c, [](const BetweenPosts& post) { return double{post.middle_noise_m}; });
-            taken_m += taken_share * deviation_m * number(r, c);
-            taken_m2 += taken_share * taken_share * deviation_m * deviation_m;
+            taken_m += share * deviation_m * number(r, c);
+            taken_m2 += share * share * deviation_m * deviation_m;
         }
         // Sides of cells that are far from square may get too much.
         const double whole_m2 = whole_m * whole_m;
@@ -181,6 +193,7 @@ class AddedNoise {
     const std::vector<BetweenPosts>& between_;
     const TakenPosts& taken_;
     const WorldNumbers& world_;
+    const PostGrid& grid_;
     int level_;
 };
 
@@ -379,7 +392,7 @@ Sheet invented_surface(const HeightField& field, const TakenPosts& taken, int ha
     Sheet sheet = without_voids(taken);
     for (int level = 1; level <= halvings; ++level) {
         sheet = doubled(sheet);
-        AddedNoise(between, taken, world, level).add(sheet);
+        AddedNoise(between, taken, world, field.grid, level).add(sheet);
     }
     return sheet;
 }

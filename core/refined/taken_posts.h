@@ -11,8 +11,15 @@
 #include "core/terrain/cell_diagonal.h"
 #include "core/terrain/grid_part.h"
 #include "core/terrain/post_grid.h"
+#include "core/terrain/post_spacing.h"
 
 namespace oro {
+
+// How far posts are apart on a row, fractional; on a net in the row's middle. It follows from the grid and
+// the row alone, so that it is the same for whichever part it is asked of.
+inline PostSpacing spacing_on_row(const PostGrid& grid, double row) {
+    return post_spacing_at(grid, row, 0.5 * (grid.columns() - 1));
+}
 
 // Those of a part and so many around it, as far as the grid has any. Rows and columns are numbered from the
 // first that is taken.

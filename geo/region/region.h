@@ -11,6 +11,7 @@
 #include "core/baked/region_file.h"
 #include "core/base/result.h"
 #include "core/cluster_file/cluster_file.h"
+#include "core/terrain/grid_part.h"
 #include "core/terrain/post_grid.h"
 #include "geo/sources/region_request.h"
 #include "geo/sources/source_report.h"
@@ -47,6 +48,22 @@ struct GridCanopy {
     std::uint64_t unknown{};  // over which no canopy is known
 };
 
+// Ground between the posts of data that is invented: what a grid is that lies over a part of another one, of
+// the data, and has more posts there (geo/refined).
+struct GridDetail {
+    int halvings{};      // of the way from a post of the data to the next: 2^halvings posts in place of one
+    double radius_km{};  // how far it reaches from its middle
+    double lat_deg{};    // its middle, WGS84
+    double lon_deg{};
+    GridPart part{};  // the posts of the data that it lies between
+    int data_rank{};  // the rank of the grid that has them
+    double rms_m{};   // by which posts that are not the data's are off the data's surface
+    double largest_m{};
+    std::uint64_t posts{};  // that are not the data's
+    std::uint64_t still{};  // of these on the data's surface: on water, ice and built land, along its rim
+    bool by_cover{};        // water, ice and built land are those of a land cover
+};
+
 // One grid of a region: the height field that some sources make together.
 struct RegionGrid {
     HeightField field;
@@ -81,6 +98,7 @@ struct RegionGrid {
     int rank{};
     std::optional<Feathered> feathered;
     std::optional<GridCanopy> canopy;  // nothing: the field is the ground as its sources have it
+    std::optional<GridDetail> detail;  // nothing: its posts are the data's
 };
 
 struct PlacedMesh;

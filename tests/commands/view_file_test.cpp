@@ -30,6 +30,7 @@ oro::View unusual_view() {
     view.drape_values = oro::ImageValues::codes;
     view.cover_choice = {{"cover.tif"}, "worldcover"};
     view.canopy_choice = {{"trees.tif", "more.tif"}, false, 0.25};
+    view.detail = oro::DetailChoice{3, 2.5, oro::DetailMiddle{-16.125, 179.875}};
     view.sea = oro::Sea::low;
     view.rim = oro::Rim::none;
     view.labels = true;
@@ -59,6 +60,7 @@ TEST(ViewFile, EveryFieldComesBack) {
         EXPECT_EQ(read->drape_values, oro::ImageValues::codes);
         EXPECT_EQ(read->cover_choice, view.cover_choice);
         EXPECT_EQ(read->canopy_choice, view.canopy_choice);
+        EXPECT_EQ(read->detail, view.detail);
         EXPECT_EQ(read->sea, oro::Sea::low);
         EXPECT_EQ(read->rim, oro::Rim::none);
         EXPECT_EQ(read->edges, oro::Edges::steps);
@@ -85,7 +87,7 @@ TEST(ViewFile, KeysStandAsTheyAlwaysDid) {
         keys,
         "orograph_view sources bbox height_unit source_crs source_vertical fill_voids strict_datum eye "
         "heading_deg pitch_deg roll_deg fov_deg size_px samples exaggeration sun visibility_km style sea "
-        "rim drape landcover canopy names overlay names_field shadows sky_openness labels show edges "
+        "rim drape landcover canopy detail names overlay names_field shadows sky_openness labels show edges "
         "pipeline mesh "
         "mesh_level tau_px accuracy earth geoid refraction air precision heights graticule time_utc_s time ");
 }

@@ -46,6 +46,8 @@ Result<void> check_words(const ExportOptions& options) {
         return refused("--max-error", all_digits(*options.max_error_m), "needs --to gltf or 3dtiles");
     if (options.no_normals && *options.to != "3dtiles")
         return refused("--no-normals", "", "needs --to 3dtiles");
+    if (options.detail && *options.to != "cog")
+        return refused("--detail", std::to_string(*options.detail), "needs --to cog");
     constexpr double most_error_m = 100000.0;
     if (const double error_m = options.max_error_m.value_or(0.0);
         !(error_m >= 0.0 && error_m <= most_error_m))

@@ -4,12 +4,14 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/commands/export/exported_region.h"
+#include "apps/detail/detail_words.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/region_json.h"
 #include "core/base/parallel.h"
 #include "geo/rasters/cloud_raster.h"
+#include "geo/refined/refined_region.h"
 
 namespace oro {
 namespace {
@@ -38,6 +40,7 @@ Result<PostRaster> heights_of(const Region& region) {
     raster.tags = {{"VERTICAL_DATUM", heights_words(region)},
                    {"SOURCE_VERTICAL_DATUM", source_heights_words(region)},
                    {"SOFTWARE", "orograph " OROGRAPH_VERSION}};
+    if (grid.detail) raster.tags.emplace_back("INVENTED", detail_words(*grid.detail));
     if (const std::string attribution = attribution_of(region); !attribution.empty())
         raster.tags.emplace_back("ATTRIBUTION", attribution);
     return raster;
@@ -67,6 +70,8 @@ void tell_cog(const ExportOptions& options, const Region& region, const PostRast
                     grouped(static_cast<std::uint64_t>(raster.part.rows)).c_str(), type,
                     grouped(written.bytes).c_str());
         std::printf("Heights: %s\n", heights_words(region).c_str());
+        if (const auto& detail = region.grids.front().detail)
+            std::printf("%s\n", detail_words(*detail).c_str());
         if (voids > 0) std::printf("Without a height: %s\n", counted(voids, "post", "posts").c_str());
         return;
     }
@@ -75,14 +80,12 @@ void tell_cog(const ExportOptions& options, const Region& region, const PostRast
                     raster.part.rows, "type", type, "no_value", raster.no_value, "voids", voids, "bytes",
                     written.bytes, "heights", heights_words(region));
     json["attribution"] = attribution_of(region);
+    if (const auto& detail = region.grids.front().detail) json["detail"] = detail_json(*detail);
     json["notes"] = all_notes(region);
     std::printf("%s\n", json_text(json, true).c_str());
 }
 
-}  // namespace
-
-Result<void> export_cog(const ExportOptions& options, const Region& region, ProgressBar& bar) {
-    ORO_CHECK(check_grid(region));
+Result<void> write_cog(const ExportOptions& options, const Region& region, ProgressBar& bar) {
     bar.show(1.0, "writing");
     ORO_TRY(const PostRaster raster, heights_of(region));
     ORO_TRY(const CloudRasterWritten written,
@@ -91,6 +94,22 @@ Result<void> export_cog(const ExportOptions& options, const Region& region, Prog
     say_notes(region, options.quiet);
     tell_cog(options, region, raster, written);
     return {};
+}
+
+}  // namespace
+
+Result<void> export_cog(const ExportOptions& options, const Region& region, ProgressBar& bar) {
+    ORO_CHECK(check_grid(region));
+    if (options.detail) {
+        bar.show(0.5, "ground between posts");
+        Region dense;
+        ORO_TRY(RegionGrid grid, whole_with_detail(region.grids.front(), *options.detail));
+        grid.notes = region.grids.front().notes;
+        dense.grids.push_back(std::move(grid));
+        ORO_CHECK(region.health());
+        return write_cog(options, dense, bar);
+    }
+    return write_cog(options, region, bar);
 }
 
 }  // namespace oro

@@ -33,7 +33,7 @@ View FilmFrames::view_of(const CameraKey& key, std::int64_t time_utc_s) const {
 
 // Lets the grid stand first that stands first for an eye there.
 void FilmFrames::look_from(const Geodetic& eye) {
-    if (&grid_at(region_, eye.lat_deg, eye.lon_deg) == &region_.grids.front()) return;
+    if (&data_grid_at(region_, eye.lat_deg, eye.lon_deg) == &region_.grids.front()) return;
     scene_.reset();
     ground_.reset();
     begin_with_grid_at(eye, view_, region_);

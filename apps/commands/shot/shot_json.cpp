@@ -3,6 +3,7 @@
 #include <span>
 
 #include "apps/cover/canopy_words.h"
+#include "apps/detail/detail_words.h"
 #include "apps/layers/picture_layers.h"
 #include "apps/report/feature_words.h"
 #include "apps/report/json_object.h"
@@ -11,6 +12,7 @@
 #include "apps/report/summit_words.h"
 #include "apps/view/model_names.h"
 #include "apps/view/truth.h"
+#include "geo/refined/refined_region.h"
 #include "render/device/device_report.h"
 #include "shaders/shared_growth.h"
 
@@ -167,12 +169,26 @@ void put_layers(const LayersReport& layers, const View& view, const ShotTimes& t
 
 // All sources, the region, and those that lie apart from it.
 void put_regions(const ShotResult& shot, ordered_json& json) {
-    json["sources"] = ordered_json::array();
+    // Ground between posts has the sources of its data.
+    std::vector<const RegionGrid*> grids;
     for (const RegionGrid& grid : shot.region.grids)
-        for (ordered_json& source : sources_json(grid.sources)) json["sources"].push_back(std::move(source));
-    json["region"] = region_json(shot.region.grids.front());
-    for (const RegionGrid& other : std::span(shot.region.grids).subspan(1))
-        json["apart"].push_back(region_json(other));
+        if (!grid.detail) grids.push_back(&grid);
+    json["sources"] = ordered_json::array();
+    for (const RegionGrid* const grid : grids)
+        for (ordered_json& source : sources_json(grid->sources)) json["sources"].push_back(std::move(source));
+    json["region"] = region_json(*grids.front());
+    for (const RegionGrid* const other : std::span(grids).subspan(1))
+        json["apart"].push_back(region_json(*other));
+}
+
+// What the ground carries, and what of it is invented.
+void put_invented(const ShotResult& shot, ordered_json& json) {
+    if (shot.view.cover)
+        json["landcover"] =
+            json_object("table", shot.view.cover->table().name, "title", shot.view.cover->table().title);
+    if (shot.view.canopy) json["canopy"] = canopy_json(*shot.view.canopy, shot.region);
+    if (const RegionGrid* const detail = detail_of(shot.region))
+        json["detail"] = detail_json(*detail->detail);
 }
 
 }  // namespace
@@ -207,10 +223,7 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
     json["destination"] = destination_json(shot.middle);
     json["attribution"] = tags.attribution;
     put_regions(shot, json);
-    if (shot.view.cover)
-        json["landcover"] =
-            json_object("table", shot.view.cover->table().name, "title", shot.view.cover->table().title);
-    if (shot.view.canopy) json["canopy"] = canopy_json(*shot.view.canopy, shot.region);
+    put_invented(shot, json);
     put_counts(shot, json);
     json["tau_px"] = shot.view.tau_px;
     json["mesh_level"] = nullptr;
