@@ -84,6 +84,7 @@ set_tests_properties(
   DeviceChoice.TimesCountValidBitsAlone
   Environment.ChangesNothingThatAFileMeans
   Environment.DoctorPrintsNoControlCharacters
+  FetchFile.GivesUpOnAServerThatDrips
   FilesFarApart.AreDrawnAgainAsTheyWere
   FilesFarApart.AreEachDrawnAsAlone
   FilesFarApart.AreListedAsRegionsOfTheirOwn
@@ -145,6 +146,8 @@ set_tests_properties(
   Help.HasTheSameHeadingsInTheSameOrder
   Help.HidesWhatDoesNothing
   Help.ListsFirstWhatMostPeopleNeed
+  HorizonCommand.LooksBeyondItsBox
+  HorizonCommand.WhatIsWrongIsSaidInOneLine
   HostileInput.AReaderThatHasReadEnough
   HostileInput.AnInterruptedPictureLeavesNothing
   HostileInput.ClosedStandardError
@@ -194,6 +197,11 @@ set_tests_properties(
   NetBake.AViewOfTheFilesIsDrawnFromTheBakedRegion
   NetBake.PicturesAreThoseOfItsSources
   NetBake.SightLinesAndViewshedsAreThoseOfItsSources
+  NetworkOutputs.AreTakenBackWhereOthersFail
+  NetworkOutputs.BatchesGoOnWhereTheyWereStopped
+  NetworkOutputs.PicturesTakeTheirCompanionsAlong
+  NetworkOutputs.RegionsAreBakedThere
+  NetworkOutputs.ServersMayBeBusyOrRefuse
   OnSummit.AWallBeforeWhoStandsOnAFlankIsSaid
   OnSummit.IsSaidInWords
   OnSummit.MovesTheEyeOfEachCommandThatStands
@@ -317,9 +325,9 @@ set_tests_properties(
   SunOfAShot.OtherStylesKeepTheirOwn
   TextInput.NestedCacheIsWrittenAnew
   TextInput.PipesDevicesAndEndlessFilesAreRefused
-  TradeCommand.HoldsMadeGroundAgainstItsRule
   TradeCommand.AViewOfTheSkyHasNoErrorsToTell
   TradeCommand.CallsPartsOfTheModelAsPlanDoes
+  TradeCommand.HoldsMadeGroundAgainstItsRule
   TradeCommand.MakesItsFolder
   TradeCommand.RefusesWhatItTriesItself
   TradeCommand.ReplacesOnlyWhenTold
@@ -342,8 +350,6 @@ set_tests_properties(
   Verify.ReplacesOnlyWhenTold
   Verify.TheErrorPictureHasALegend
   Verify.WhatAModelLeavesOutIsMeasured
-  HorizonCommand.LooksBeyondItsBox
-  HorizonCommand.WhatIsWrongIsSaidInOneLine
   ViewshedCommand.IsAGeoTiffThatSaysWhatSightSays
   ViewshedCommand.OfAProjectedFileLiesOnItsOwnPosts
   ViewshedCommand.TellsThatACircleLeavesTheData

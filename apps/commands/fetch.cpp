@@ -21,6 +21,7 @@
 #include "apps/report/progress_bar.h"
 #include "core/base/open_file.h"
 #include "geo/fetch/fetch_tiles.h"
+#include "geo/files/network_paths.h"
 #include "geo/files/whole_file.h"
 
 namespace oro {
@@ -71,6 +72,7 @@ Result<std::vector<TileName>> tiles_named(const FetchOptions& options, const Til
 }
 
 Result<void> make_folder(const std::string& folder) {
+    ORO_CHECK(check_on_this_machine(folder));
     std::error_code fault;
     std::filesystem::create_directories(folder, fault);
     if (!fault && std::filesystem::is_directory(folder, fault)) return {};
