@@ -84,6 +84,7 @@ set_tests_properties(
   DeviceChoice.TimesCountValidBitsAlone
   Environment.ChangesNothingThatAFileMeans
   Environment.DoctorPrintsNoControlCharacters
+  FetchFile.GivesUpOnAServerThatDrips
   FilesFarApart.AreDrawnAgainAsTheyWere
   FilesFarApart.AreEachDrawnAsAlone
   FilesFarApart.AreListedAsRegionsOfTheirOwn
@@ -198,6 +199,11 @@ set_tests_properties(
   NetBake.AViewOfTheFilesIsDrawnFromTheBakedRegion
   NetBake.PicturesAreThoseOfItsSources
   NetBake.SightLinesAndViewshedsAreThoseOfItsSources
+  NetworkOutputs.AreTakenBackWhereOthersFail
+  NetworkOutputs.BatchesGoOnWhereTheyWereStopped
+  NetworkOutputs.PicturesTakeTheirCompanionsAlong
+  NetworkOutputs.RegionsAreBakedThere
+  NetworkOutputs.ServersMayBeBusyOrRefuse
   OnSummit.AWallBeforeWhoStandsOnAFlankIsSaid
   OnSummit.IsSaidInWords
   OnSummit.MovesTheEyeOfEachCommandThatStands

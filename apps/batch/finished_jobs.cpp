@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -21,6 +22,8 @@
 #include "apps/report/json_object.h"
 #include "core/base/checksum.h"
 #include "core/base/open_file.h"
+#include "geo/files/network_files.h"
+#include "geo/files/network_paths.h"
 
 namespace oro {
 namespace {
@@ -48,7 +51,7 @@ std::uint64_t checksum_of(const std::string& text, std::uint64_t seed) {
 
 Result<WrittenByJob> checked_file(const std::string& path) {
     ORO_TRY(const OpenFile file, OpenFile::open(path, OpenFile::Use::read_own));
-    WrittenByJob written{path, 0, 0};
+    WrittenByJob written{path, 0, 0, {}};
     ORO_TRY(written.bytes, file.size());
     RunningChecksum sum;
     std::vector<std::byte> some(std::size_t{1} << 18);
@@ -71,7 +74,7 @@ Result<WrittenByJob> checked_folder(const std::string& path) {
         if (entry->is_regular_file(ignored)) names.insert(entry->path().lexically_relative(path).string());
     }
     if (failed) return Error{ErrorKind::failed, path, "cannot be listed: " + failed.message()};
-    WrittenByJob written{path, 0, 0};
+    WrittenByJob written{path, 0, 0, {}};
     for (const std::string& name : names) {
         ORO_TRY(const WrittenByJob one, checked_file((fs::path(path) / name).string()));
         written.bytes += one.bytes;
@@ -85,7 +88,18 @@ bool is_folder(const std::string& path) {
     return fs::is_directory(path, ignored);
 }
 
+// Nothing of a file is read from a network to find out whether it is what it was.
+Result<std::optional<WrittenByJob>> file_on_network(const std::string& path) {
+    ORO_TRY(const std::optional<NetworkFile> there, network_file(path));
+    if (!there) return std::optional<WrittenByJob>{};
+    return std::optional(WrittenByJob{path, there->bytes, 0, there->version});
+}
+
 bool is_as_written(const WrittenByJob& written) {
+    if (is_network_path(written.path)) {
+        const auto now = file_on_network(written.path);
+        return now.ok() && *now && (*now)->bytes == written.bytes && (*now)->version == written.version;
+    }
     struct stat found {};
     if (stat(written.path.c_str(), &found) != 0) return false;
     if (S_ISREG(found.st_mode) && static_cast<std::uint64_t>(found.st_size) != written.bytes) return false;
@@ -126,6 +140,11 @@ std::uint64_t fingerprint_of_job(const BatchJob& job) {
 Result<std::vector<WrittenByJob>> written_by_job(const BatchJob& job, const std::vector<std::string>& files) {
     std::vector<WrittenByJob> all;
     for (const std::string& file : files) {
+        if (is_network_path(file)) {
+            ORO_TRY(std::optional<WrittenByJob> one, file_on_network(file));
+            if (one) all.push_back(std::move(*one));
+            continue;
+        }
         std::error_code ignored;
         if (!fs::is_regular_file(file, ignored)) continue;
         ORO_TRY(WrittenByJob one, checked_file(file));
@@ -232,10 +251,17 @@ void FinishedJobs::take_line(const std::string& line) {
             return;
         }
         Record job{{}, number_in(record, "inputs")};
-        for (const json& file : record.at("written"))
-            job.written.push_back({path_from(file, "path"),
-                                   static_cast<std::uint64_t>(json_whole(file, "bytes", 0, INT64_MAX)),
-                                   number_in(file, "xxh64")});
+        for (const json& file : record.at("written")) {
+            WrittenByJob one{path_from(file, "path"),
+                             static_cast<std::uint64_t>(json_whole(file, "bytes", 0, INT64_MAX)),
+                             0,
+                             {}};
+            if (file.contains("version"))
+                one.version = json_string(file, "version");
+            else
+                one.checksum = number_in(file, "xxh64");
+            job.written.push_back(std::move(one));
+        }
         jobs_[number_in(record, "job")] = std::move(job);
     } catch (const JsonFault&) {
     } catch (const json::exception&) {
@@ -276,9 +302,14 @@ Result<void> FinishedJobs::add(const BatchJob& job, const std::vector<WrittenByJ
         inputs_[inputs] = read;
     }
     nlohmann::ordered_json files = nlohmann::ordered_json::array();
-    for (const WrittenByJob& file : written)
-        files.push_back(json_object("path", path_json(file.path), "bytes", file.bytes, "xxh64",
-                                    hexadecimal(file.checksum)));
+    for (const WrittenByJob& file : written) {
+        nlohmann::ordered_json one = json_object("path", path_json(file.path), "bytes", file.bytes);
+        if (file.version.empty())
+            one["xxh64"] = hexadecimal(file.checksum);
+        else
+            one["version"] = file.version;
+        files.push_back(std::move(one));
+    }
     ORO_CHECK(append(json_object("job", hexadecimal(fingerprint_of_job(job)), "line", job.line, "inputs",
                                  hexadecimal(inputs), "written", files)
                          .dump()));

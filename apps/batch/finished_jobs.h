@@ -24,6 +24,7 @@ struct WrittenByJob {
     std::string path;
     std::uint64_t bytes{};
     std::uint64_t checksum{};  // XXH64; of a folder that of the names and checksums of its files
+    std::string version;       // of a file on a network, in place of the checksum: as its server tells it
 };
 
 // Of what a job has written: of `files` (files_written_of_job()) those that are there, and of the folders

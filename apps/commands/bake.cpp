@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 
+#include "apps/baking/bake_place.h"
 #include "apps/baking/cluster_bake.h"
 #include "apps/baking/shared_bake.h"
 #include "apps/command_line/refusals.h"
@@ -27,6 +28,7 @@
 #include "core/baked/region_file.h"
 #include "core/base/checksum.h"
 #include "core/base/elapsed.h"
+#include "core/base/files_of_job.h"
 #include "core/base/files_read.h"
 #include "core/base/parallel.h"
 #include "geo/files/letter_case.h"
@@ -249,8 +251,9 @@ std::vector<std::string> files_of_part(const BakingOptions& options, const Regio
 }
 
 // A part of the work, into files beside the one that will be baked.
-Result<void> bake_part_of_region(const BakePartOptions& options, const Region& region, const Shard& shard,
-                                 double read_s, ProgressBar& bar) {
+Result<void> bake_part_of_region(const BakePartOptions& options, const BakePlace& place, const Region& region,
+                                 const Shard& shard, double read_s, ProgressBar& bar) {
+    ORO_CHECK(place.fetch_parts(std::to_string(shard.number) + "of" + std::to_string(shard.count)));
     const auto building = Clock::now();
     SharedBakeReport report;
     const std::vector<RegionGrid>& grids = region.grids;
@@ -261,7 +264,9 @@ Result<void> bake_part_of_region(const BakePartOptions& options, const Region& r
             grids[i].field, how, part_of(shard), options.mesh == "clusters",
             [&](double share, const char* what) { bar.show(share, what); }, report));
     }
+    ORO_CHECK(place.send_parts());
     bar.clear();
+    for (std::string& file : report.files) file = place.shown(file);
     for (const std::string& file : report.files)
         say(options.quiet, (report.rows > 0 ? "wrote " : "is there already: ") + file);
     if (!options.json) return {};
@@ -287,17 +292,14 @@ Result<void> end_reading(const BakingOptions& options, const Region& region, con
     return {};
 }
 
-}  // namespace
-
-Result<void> run_bake(const BakePartOptions& options) {
-    ORO_CHECK(
-        check_without_meshes(options.region, "lies on terrain that is read: a .oro file holds no meshes"));
+// options.out is on this machine, and place.path().
+Result<void> bake_at(const BakePlace& place, const BakePartOptions& options) {
     ORO_TRY(const Shard shard, parse_shard(options.shard));
     ORO_TRY(const RegionRequest request, region_request(options.region));
     ORO_CHECK(check_out(options));
     ProgressBar bar(options.quiet);
     BakeResult baked;
-    baked.file = options.out;
+    baked.file = place.shown(options.out);
     const auto reading = Clock::now();
     ORO_TRY(Region region, open_region(request, bar.progress()));
     if (options.mesh == "clusters") ORO_CHECK(check_clusters(region));
@@ -306,7 +308,8 @@ Result<void> run_bake(const BakePartOptions& options) {
     baked.read_s = seconds_since(reading);
     bar.clear();
     say_notes(region, options.quiet);
-    if (!options.shard.empty()) return bake_part_of_region(options, region, shard, baked.read_s, bar);
+    if (!options.shard.empty()) return bake_part_of_region(options, place, region, shard, baked.read_s, bar);
+    if (options.join) ORO_CHECK(place.fetch_parts());
     baked.notes = all_notes(region);
     const auto building = Clock::now();
     ORO_TRY(baked.report, bake_all(region, options, bar, baked.clusters));
@@ -318,8 +321,25 @@ Result<void> run_bake(const BakePartOptions& options) {
     baked.bytes = fs::file_size(options.out, fault);
     if (fault)
         return Error{ErrorKind::failed, options.out, "cannot be asked for its size: " + fault.message()};
+    ORO_CHECK(place.send_baked());
+    note_file_written(baked.file);
     tell(options, baked);
     return {};
+}
+
+}  // namespace
+
+Result<void> run_bake(const BakePartOptions& options) {
+    ORO_CHECK(
+        check_without_meshes(options.region, "lies on terrain that is read: a .oro file holds no meshes"));
+    ORO_TRY(const BakePlace place, BakePlace::of(options.out, options.overwrite));
+    BakePartOptions there = options;
+    there.out = place.path();
+    // On its way to a network: what is here is of a bake that was broken off.
+    there.overwrite = options.overwrite || place.path() != options.out;
+    const Result<void> baked = bake_at(place, there);
+    if (baked.ok()) return baked;
+    return Error{baked.error().kind, place.shown(baked.error().where), baked.error().what};
 }
 
 }  // namespace oro

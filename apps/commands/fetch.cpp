@@ -8,6 +8,7 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
+#include "apps/fetch/fetch_progress.h"
 #include "apps/fetch/places_fetching.h"
 #include "apps/fetch/public_sources.h"
 #include "apps/fetch/source_key.h"
@@ -19,8 +20,10 @@
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
+#include "core/base/elapsed.h"
 #include "core/base/open_file.h"
 #include "geo/fetch/fetch_tiles.h"
+#include "geo/files/network_paths.h"
 #include "geo/files/whole_file.h"
 
 namespace oro {
@@ -71,6 +74,7 @@ Result<std::vector<TileName>> tiles_named(const FetchOptions& options, const Til
 }
 
 Result<void> make_folder(const std::string& folder) {
+    ORO_CHECK(check_on_this_machine(folder));
     std::error_code fault;
     std::filesystem::create_directories(folder, fault);
     if (!fault && std::filesystem::is_directory(folder, fault)) return {};
@@ -87,12 +91,6 @@ std::size_t count_of(const std::vector<FetchedTile>& tiles, TileState state) {
     std::size_t count = 0;
     for (const FetchedTile& tile : tiles) count += tile.state == state ? 1 : 0;
     return count;
-}
-
-std::string megabytes_text(std::uint64_t bytes) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.1f MB", static_cast<double>(bytes) / 1.0e6);
-    return text.data();
 }
 
 std::string tile_line(const FetchedTile& tile, const TileLayout& layout) {
@@ -205,12 +203,12 @@ Result<void> fetch_tiles_of(const TileLayout& layout, const FetchOptions& option
     ProgressBar bar(options.quiet);
     std::size_t done = 0;
     std::uint64_t bytes = 0;
-    const std::string of_all = " of " + std::to_string(request.tiles.size()) + " tiles, ";
+    const auto start = Clock::now();
     const std::vector<FetchedTile> tiles = fetch_tiles(request, [&](const FetchedTile& tile) {
         ++done;
         bytes += tile.state == TileState::fetched ? tile.bytes : 0;
         bar.show(static_cast<double>(done) / static_cast<double>(request.tiles.size()),
-                 std::to_string(done) + of_all + megabytes_text(bytes));
+                 fetch_progress_words({done, request.tiles.size(), bytes, seconds_since(start)}));
     });
     bar.clear();
     for (const FetchedTile& tile : tiles)

@@ -21,11 +21,13 @@ constexpr const char* commands_of_places[] = {"shot", "panorama", "view",     "p
                                               "film", "profile",  "viewshed", "horizon", "export"};
 constexpr const char* commands_of_paths[] = {"bake", "info", "trade"};
 
+constexpr const char* network_words =
+    "Let PATHs and files to write lie on a network, by GDAL's names: /vsicurl/https://..., /vsis3/... "
+    "Without "
+    "this no file that is read reaches a network.";
+
 void add_network(CLI::App& command, FetchingOptions& options) {
-    OptionGroup(command, "Elevation data")
-        .flag("--network", options.network,
-              "Let PATHs lie on a network, by GDAL's names: /vsicurl/https://..., /vsis3/... Without this no "
-              "file that is read reaches a network.");
+    OptionGroup(command, "Elevation data").flag("--network", options.network, network_words);
     list_later(command, {"--network"});
 }
 
@@ -101,9 +103,11 @@ void add_fetching(CLI::App& app, FetchingOptions& options) {
         add_network(command, options);
     }
     for (const char* const name : commands_of_paths) add_network(*app.get_subcommand(name), options);
+    OptionGroup(*app.get_subcommand("batch"), "The list").flag("--network", options.network, network_words);
 }
 
 Result<void> take_fetching(CLI::App& app, CommandLine& line) {
+    tell_how_to_allow_network_paths("--network lets it be reached");
     if (line.fetching.network) allow_network_paths();
     if (line.fetching.source.empty()) return {};
     if (!(line.fetching.km > 0.0 && line.fetching.km <= most_fetch_km))

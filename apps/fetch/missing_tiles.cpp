@@ -6,11 +6,13 @@
 #include <cstdio>
 
 #include "apps/command_line/refusals.h"
+#include "apps/fetch/fetch_progress.h"
 #include "apps/fetch/public_sources.h"
 #include "apps/fetch/source_key.h"
 #include "apps/fetch/tile_cache.h"
 #include "apps/report/progress_bar.h"
 #include "apps/view/view.h"
+#include "core/base/elapsed.h"
 #include "geo/fetch/fetch_tiles.h"
 #include "geo/listing/file_listing.h"
 #include "geo/places/place.h"
@@ -138,10 +140,14 @@ Result<std::vector<FetchedTile>> fetched_into_cache(const TileLayout& layout,
     }
     ProgressBar bar(quiet);
     std::size_t done = 0;
-    const std::vector<FetchedTile> fetched = fetch_tiles(request, [&](const FetchedTile&) {
+    std::uint64_t bytes = 0;
+    const auto start = Clock::now();
+    const std::vector<FetchedTile> fetched = fetch_tiles(request, [&](const FetchedTile& tile) {
         ++done;
-        bar.show(static_cast<double>(done) / static_cast<double>(tiles.size()),
-                 std::to_string(done) + " of " + std::to_string(tiles.size()) + " tiles of " + layout.name);
+        bytes += tile.state == TileState::fetched ? tile.bytes : 0;
+        bar.show(
+            static_cast<double>(done) / static_cast<double>(tiles.size()),
+            layout.name + ": " + fetch_progress_words({done, tiles.size(), bytes, seconds_since(start)}));
     });
     bar.clear();
     for (const FetchedTile& tile : fetched)

@@ -4,6 +4,8 @@
 
 #include "core/base/file_there.h"
 #include "core/base/files_read.h"
+#include "geo/files/network_files.h"
+#include "geo/files/network_paths.h"
 #include "geo/files/whole_file.h"
 
 namespace oro {
@@ -50,28 +52,49 @@ FilesToSpare files_of_view(const std::string& view_file) {
     return view;
 }
 
+namespace {
+
+Error there_already(const std::string& file) {
+    return {ErrorKind::failed, file, "is there already (--overwrite replaces it)"};
+}
+
+// With `overwrite` nobody asks a server whether it has the file.
+Result<void> check_may_write_to_network(const std::string& file, bool overwrite) {
+    ORO_CHECK(check_network_target(file, true));
+    if (overwrite) return {};
+    ORO_TRY(const std::optional<NetworkFile> there, network_file(file));
+    if (there) return there_already(file);
+    return {};
+}
+
+}  // namespace
+
 Result<void> check_may_write(const std::string& file, bool overwrite) {
+    if (is_network_path(file)) return check_may_write_to_network(file, overwrite);
     ORO_TRY(const bool there, is_there(file));
     std::error_code ignored;
-    if (there && !overwrite && !fs::is_directory(file, ignored))
-        return Error{ErrorKind::failed, file, "is there already (--overwrite replaces it)"};
+    if (there && !overwrite && !fs::is_directory(file, ignored)) return there_already(file);
     if (const auto trial = WholeFile::create(file, overwrite); !trial.ok()) return trial.error();
     return {};
 }
 
 Result<void> spare_inputs(const std::vector<std::string>& written, const std::vector<FilesToSpare>& inputs) {
     for (const std::string& file : written) {
+        const bool is_on_network = is_network_path(file);
         ORO_TRY(const bool there, is_there(file));
-        if (!there) continue;
+        if (!there && !is_on_network) continue;
         for (const FilesToSpare& some : inputs) {
             for (const std::string& input : some.files) {
-                ORO_TRY(const bool same, is_same_file(file, input));
+                bool same = is_on_network && file == input;
+                if (!is_on_network) {
+                    ORO_TRY(same, is_same_file(file, input));
+                }
                 if (same)
                     return Error{ErrorKind::usage, "--out",
                                  "would replace " + input + ", " + some.what_they_are};
             }
         }
-        ORO_CHECK(check_not_read(file));
+        if (!is_on_network) ORO_CHECK(check_not_read(file));
     }
     return {};
 }

@@ -99,13 +99,16 @@ void set_options() {
     CPLSetConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "TRUE");
     // A VRT may carry programs.
     CPLSetConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
-    // Where a network is let in: what is public, and no waiting for ever.
-    for (const auto& [name, value] :
-         {std::pair{"AWS_NO_SIGN_REQUEST", "YES"}, std::pair{"GS_NO_SIGN_REQUEST", "YES"},
-          std::pair{"AZURE_NO_SIGN_REQUEST", "YES"}, std::pair{"GDAL_HTTP_CONNECTTIMEOUT", "20"},
-          std::pair{"GDAL_HTTP_LOW_SPEED_TIME", "30"}, std::pair{"GDAL_HTTP_LOW_SPEED_LIMIT", "1000"},
-          std::pair{"GDAL_HTTP_MAX_RETRY", "4"}, std::pair{"GDAL_HTTP_RETRY_DELAY", "1"}})
-        if (are_network_paths_allowed()) CPLSetConfigOption(name, value);
+    // Where a network is let in: no waiting for ever, and what the user's environment says of it.
+    if (are_network_paths_allowed()) {
+        for (const auto& [name, value] :
+             {std::pair{"GDAL_HTTP_CONNECTTIMEOUT", "20"}, std::pair{"GDAL_HTTP_LOW_SPEED_TIME", "30"},
+              std::pair{"GDAL_HTTP_LOW_SPEED_LIMIT", "1000"}, std::pair{"GDAL_HTTP_MAX_RETRY", "4"},
+              std::pair{"GDAL_HTTP_RETRY_DELAY", "1"}})
+            CPLSetConfigOption(name, value);
+        for (const auto& [name, value] : network_options_of_environment())
+            CPLSetConfigOption(name.c_str(), value.c_str());
+    }
     OSRSetPROJEnableNetwork(0);
     // GDAL from 3.10 on lets libtiff write some failures to standard error: what cannot be read is told by
     // us.
@@ -176,8 +179,8 @@ void CPL_STDCALL GdalMessages::take(CPLErr severity, CPLErrorNum number, const c
     note_gdal_message(severity == CE_Fatal, number == CPLE_OutOfMemory);
     if (message == nullptr) return;
     auto& messages = *static_cast<GdalMessages*>(CPLGetErrorHandlerUserData());
-    if (severity >= CE_Failure) messages.text_ = words_of(message);
-    if (severity == CE_Warning && messages.warning_.empty()) messages.warning_ = message;
+    if (severity >= CE_Failure) messages.text_ = without_keys(words_of(message));
+    if (severity == CE_Warning && messages.warning_.empty()) messages.warning_ = without_keys(message);
 }
 
 std::string GdalMessages::last(const std::string& otherwise) const {

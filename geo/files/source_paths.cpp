@@ -72,8 +72,7 @@ class Search {
             return {};
         }
         if (is_network_path(path)) {
-            if (!are_network_paths_allowed())
-                return Error{ErrorKind::usage, path, "lies on a network; --network lets it be read"};
+            if (!are_network_paths_allowed()) return network_path_refused(path);
             found_.push_back(described(path, path, last_part(path), true));
             return {};
         }

@@ -6,6 +6,8 @@
 
 #include <cassert>
 #include <cerrno>
+#include <cstdlib>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,8 @@
 #include "core/base/files_of_job.h"
 #include "core/base/files_read.h"
 #include "core/base/open_file.h"
+#include "geo/files/network_files.h"
+#include "geo/files/network_paths.h"
 
 namespace oro {
 namespace {
@@ -27,15 +31,29 @@ std::string folder_of(const std::string& path) {
     return slash == 0 ? "/" : path.substr(0, slash);
 }
 
+std::string temporary_folder() {
+    const char* const named = std::getenv("TMPDIR");
+    return named != nullptr && *named != '\0' ? named : "/tmp";
+}
+
 }  // namespace
+
+bool WholeFile::is_on_network() const {
+    return is_network_path(path_);
+}
 
 Result<WholeFile> WholeFile::create(const std::string& path, bool overwrite, Temporary kind) {
     ignore_size_limit_signal();
     WholeFile file;
     file.path_ = path;
     file.overwrite_ = overwrite;
-    ORO_TRY(const unsigned old_mode, check_target(file.path_, overwrite));
-    const std::string folder = folder_of(file.path_);
+    unsigned old_mode = 0;
+    if (file.is_on_network()) {
+        ORO_CHECK(check_network_target(path, overwrite));
+    } else {
+        ORO_TRY(old_mode, check_target(file.path_, overwrite));
+    }
+    const std::string folder = file.is_on_network() ? temporary_folder() : folder_of(file.path_);
     if (const int why = file.temporary_.make(folder, kind); why != 0) {
         // A folder of the kernel's (/proc) is there, and says so of each new file.
         const bool no_folder = why == ENOENT && access(folder.c_str(), F_OK) != 0;
@@ -129,8 +147,34 @@ void WholeFile::give_back(TemporaryFile& before, bool was_there) {
     if (given) before.forget_name();
 }
 
+Result<void> WholeFile::send(TemporaryFile& before, bool keeps, bool& was_there) {
+    // What appeared there since create() is somebody else's.
+    ORO_CHECK(check_network_target(path_, overwrite_));
+    if (keeps) {
+        ORO_TRY(const std::optional<NetworkFile> there, network_file(path_));
+        was_there = there.has_value();
+        if (was_there) {
+            if (const int why = before.make(temporary_folder(), Temporary::nameless); why != 0)
+                return fault(path_, "cannot be kept: " + system_reason(why));
+            ORO_CHECK(download_file(path_, before.descriptor()));
+        }
+    }
+    return upload_file(temporary_.descriptor(), path_);
+}
+
+void WholeFile::take_back(const TemporaryFile& before, bool was_there) {
+    (void)(was_there ? upload_file(before.descriptor(), path_) : remove_network_file(path_));
+}
+
 Result<void> commit_together(std::span<WholeFile* const> files) {
+    struct Taken {
+        WholeFile* file;
+        bool was_there;
+        TemporaryFile before;  // what had the name, by a second one; of a network, a copy
+    };
+    std::vector<Taken> sent;
     const auto failed = [&](const Error& error) {
+        for (const Taken& other : sent) other.file->take_back(other.before, other.was_there);
         for (WholeFile* file : files) file->abandon();
         return error;
     };
@@ -140,14 +184,22 @@ Result<void> commit_together(std::span<WholeFile* const> files) {
     }
     // The last moment at which what was read can be held against what is written.
     if (const auto whole = check_files_unchanged(); !whole.ok()) return failed(whole.error());
+    // What takes long comes first: a signal may end the program then.
+    for (WholeFile* file : files) {
+        if (!file->is_on_network()) continue;
+        Taken now{file, false, {}};
+        const bool is_last = sent.size() + 1 == files.size();
+        if (const auto there = file->send(now.before, !is_last, now.was_there); !there.ok())
+            return failed(there.error());
+        sent.push_back(std::move(now));
+    }
     const NamesHeld held;
-    struct Taken {
-        WholeFile* file;
-        bool was_there;
-        TemporaryFile before;  // what had the name, by a second one
-    };
     std::vector<Taken> taken;
     for (WholeFile* file : files) {
+        if (file->is_on_network()) {
+            file->abandon();
+            continue;
+        }
         Taken now{file, access(file->path_.c_str(), F_OK) == 0, {}};
         if (now.was_there && taken.size() + 1 < files.size()) (void)now.before.keep(file->path_);
         if (const int why = file->take_name(); why != 0) {

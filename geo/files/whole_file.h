@@ -17,9 +17,12 @@ namespace oro {
 //     ORO_CHECK(file.write(bytes.data(), bytes.size()));
 //     ORO_CHECK(file.commit());
 // Destroyed without commit, it is removed and whatever had the name before is untouched.
+// A path on a network (network_paths.h) has its file in the machine's folder for temporary files until
+// commit(), which copies it there.
 class WholeFile {
   public:
-    // Errors: unwritable folder, a folder of that name, an existing file when overwrite is false.
+    // Errors: unwritable folder, a folder of that name, an existing file when overwrite is false; a path on a
+    // network where those are not allowed, or that does not answer.
     static Result<WholeFile> create(const std::string& path, bool overwrite,
                                     Temporary kind = Temporary::nameless);
     WholeFile(WholeFile&& other) noexcept;
@@ -48,6 +51,10 @@ class WholeFile {
     // What is left of commit() when all is on the disk. 0, or the system's error number.
     int take_name();
     void give_back(TemporaryFile& before, bool was_there);
+    // Copies a file of a path on a network there. `before` takes what had the path, where it shall be kept.
+    Result<void> send(TemporaryFile& before, bool keeps, bool& was_there);
+    void take_back(const TemporaryFile& before, bool was_there);
+    [[nodiscard]] bool is_on_network() const;
 
     std::FILE* stream_{nullptr};
     std::string path_;
@@ -57,8 +64,9 @@ class WholeFile {
 
 // commit() of files that belong together: all have their names after it, or none has: what had them before
 // has them again. Only a power cut between two renamings, which take no time, leaves some; the last file is
-// the one that matters. Errors, beside those of writing: a file that the program has read would be replaced
-// (usage), or one that it has read was changed meanwhile (core/base/files_read.h).
+// the one that matters. Files on a network are copied there first, and taken back where a later one fails.
+// Errors, beside those of writing: a file that the program has read would be replaced (usage), or one that it
+// has read was changed meanwhile (core/base/files_read.h).
 Result<void> commit_together(std::span<WholeFile* const> files);
 inline Result<void> commit_together(std::initializer_list<WholeFile*> files) {
     return commit_together(std::span<WholeFile* const>(files.begin(), files.size()));

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/files_read.h"
+#include "geo/files/network_paths.h"
 #include "geo/files/unfinished_folders.h"
 
 namespace oro {
@@ -42,6 +43,7 @@ int put_on_disk(const std::string& folder) {
 }  // namespace
 
 Result<WholeFolder> WholeFolder::create(const std::string& path, bool overwrite) {
+    ORO_CHECK(check_on_this_machine(path));
     WholeFolder folder;
     folder.path_ = real_path(path);
     folder.overwrite_ = overwrite;

@@ -7,13 +7,14 @@
 
 namespace oro {
 
-// A folder under a temporary name beside its real one, which it takes on commit(). Files are written into path().
-// Destroyed without commit, it is removed with all that it holds, and whatever had the name before is
+// A folder under a temporary name beside its real one, which it takes on commit(). Files are written into
+// path(). Destroyed without commit, it is removed with all that it holds, and whatever had the name before is
 // untouched. A program that is killed outright leaves it, by a name that begins with ".orograph-".
 class WholeFolder {
   public:
     // An empty folder of the real name counts as none. Errors (failed): a file of that name; a folder that
-    // holds something, when overwrite is false; a folder around it that cannot be written.
+    // holds something, when overwrite is false; a folder around it that cannot be written; a path
+    // on a network (usage).
     static Result<WholeFolder> create(const std::string& path, bool overwrite);
     WholeFolder(WholeFolder&& other) noexcept;
     WholeFolder& operator=(WholeFolder&&) = delete;

@@ -208,7 +208,7 @@ TEST_F(FetchMissing, PathsOnANetworkAreOptIn) {
     settle(server);
     const std::string path = "/vsicurl/" + server.address() + "/jacksboro.tif";
     expect_refusal(run({"info", path}), oro::test::usage,
-                   {path + ": lies on a network; --network lets it be read"});
+                   {path + ": lies on a network; --network lets it be reached"});
     EXPECT_TRUE(server.requests().empty());
     const Outcome near =
         run({"profile", oro::test::bundled(), "--along", "36.5,-84.3;36.6,-84.2", "--json", "-q"});

@@ -462,6 +462,19 @@ TEST(LibraryCalls, AThousandBadOnesEndWithErrors) {
     EXPECT_EQ(oro_close(region), ORO_USAGE);
 }
 
+// It has no command line whose options could be named.
+TEST(LibraryCalls, PathsOnANetworkAreRefusedInItsOwnWords) {
+    for (const char* const path : {"/vsicurl/http://127.0.0.1:9/a.tif", "/vsis3/bucket/a.tif"}) {
+        oro_region region = 0;
+        EXPECT_EQ(oro_open(&path, 1, nullptr, nullptr, nullptr, &region), ORO_USAGE) << path;
+        const std::string text = oro_error_text();
+        EXPECT_NE(text.find("lies on a network, and only files of this machine are opened"),
+                  std::string::npos)
+            << text;
+        EXPECT_EQ(text.find("--"), std::string::npos) << text;
+    }
+}
+
 TEST(LibraryCalls, SeveralThreadsHaveErrorsOfTheirOwn) {
     const unsigned seed = std::random_device{}();
     std::printf("seed %u\n", seed);

@@ -30,6 +30,7 @@ LoopbackRequest request_from(const std::string& head) {
     std::string line;
     std::getline(lines, line);
     const std::size_t begin = line.find(' ');
+    request.method = line.substr(0, begin);
     if (begin != std::string::npos)
         request.path = line.substr(begin + 1, line.find(' ', begin + 1) - begin - 1);
     while (std::getline(lines, line)) {
@@ -49,6 +50,20 @@ bool send_all(int connection, const std::string& bytes) {
         sent += static_cast<std::size_t>(count);
     }
     return true;
+}
+
+// What a client wants to send it may wait with until it is told to.
+std::string body_from(int connection, const LoopbackRequest& request) {
+    const auto length = request.headers.find("content-length");
+    if (length == request.headers.end()) return {};
+    if (request.headers.contains("expect")) send_all(connection, "HTTP/1.1 100 Continue\r\n\r\n");
+    std::string body(std::strtoull(length->second.c_str(), nullptr, 10), '\0');
+    for (std::size_t at = 0; at < body.size();) {
+        const ssize_t count = recv(connection, body.data() + at, body.size() - at, 0);
+        if (count <= 0) return body.substr(0, at);
+        at += static_cast<std::size_t>(count);
+    }
+    return body;
 }
 
 }  // namespace
@@ -94,6 +109,7 @@ void LoopbackServer::accept_all() {
 
 void LoopbackServer::serve(int connection) {
     LoopbackRequest request = request_from(head_from(connection));
+    request.body = body_from(connection, request);
     {
         const std::lock_guard lock(mutex_);
         request.number = static_cast<int>(

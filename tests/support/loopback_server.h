@@ -13,8 +13,10 @@
 namespace oro::test {
 
 struct LoopbackRequest {
+    std::string method;                          // "GET"
     std::string path;                            // "/N46/N46E008.hgt.gz"
     std::map<std::string, std::string> headers;  // names in lower case
+    std::string body;                            // as long as Content-Length says
     int number{};                                // of this path: 0, 1, ...
 };
 

@@ -11,6 +11,7 @@
 #include "apps/commands/run_command.h"
 #include "apps/output/captured_output.h"
 #include "apps/output/overwrite_guard.h"
+#include "geo/files/network_paths.h"
 #include "geo/files/whole_file.h"
 
 namespace oro {
@@ -56,6 +57,9 @@ Result<std::unique_ptr<JobLine>> line_of(const BatchJob& job, const JobSettings&
         !says(job.words, {"--overwrite"}))
         made->words.emplace_back("--overwrite");
     ORO_CHECK(parse(*made));
+    // GDAL has been started without a network by now.
+    if (made->line.fetching.network && !are_network_paths_allowed())
+        return refused("--network", "", "must be given to batch itself");
     const auto parsed = made->app.get_subcommands();
     if (parsed.size() != 1 || parsed.front()->get_name() != job.command)
         return refused("args", "", "names another command");

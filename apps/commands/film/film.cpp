@@ -33,6 +33,7 @@
 #include "core/base/file_there.h"
 #include "core/base/files_read.h"
 #include "geo/files/letter_case.h"
+#include "geo/files/network_paths.h"
 
 namespace oro {
 namespace {
@@ -340,6 +341,7 @@ Result<void> film_it(const FilmOptions& options, const FilmFiles& files, const C
 
 Result<void> run_film(const FilmOptions& options) {
     ORO_CHECK(check_words(options));
+    ORO_CHECK(check_on_this_machine(options.out));
     ORO_TRY(const FilmFiles files, film_files(options));
     ORO_TRY(const WrittenPath written, read_path(options));
     ProgressBar bar(options.quiet);
