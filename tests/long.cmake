@@ -221,8 +221,8 @@ set_tests_properties(
   Panorama.RefusesWhatCannotBe
   Panorama.SaysTheSameInAllFormats
   PanoramaPeaks.AreWhereGeographicLibHasThemAndNamedWhereTheyAreSeen
-  Paths/PlanOnDeviceLong.HasTheIdsOfTheProcessorsAt500Eyes/compute
-  Paths/PlanOnDeviceLong.HasTheIdsOfTheProcessorsAt500Eyes/mesh
+  Paths/PlanOnDeviceLong.HasTheIdsOfTheProcessorsAt700Eyes/compute
+  Paths/PlanOnDeviceLong.HasTheIdsOfTheProcessorsAt700Eyes/mesh
   Pipeline.APictureMeasuresNothingWhereAProcessorDraws
   Pipeline.IsMeasuredOnceAndRemembered
   Pipeline.NeedsNoCache

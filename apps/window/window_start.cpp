@@ -61,6 +61,11 @@ Result<Scene> scene_with_images(const Gpu& gpu, const Region& region, const Regi
             scene_of_region(gpu, region, cuts, std::move(pages),
                             {view.exaggeration, memory_of_pages(view, choice.memory), view.heights,
                              choice.keeps_means, choice.clusters, view.mesh_level}));
+    // A moving eye is planned anew each frame. Where a processor draws it makes the tables all the same.
+    if (gpu.report().kind != VK_PHYSICAL_DEVICE_TYPE_CPU) {
+        const Result<bool> on_device = whole.scene.plan_on_device(gpu);
+        if (!on_device.ok()) return on_device.error();
+    }
     ORO_CHECK(lay_images(view, choice.memory, gpu, whole.scene, choice.quiet));
     return std::move(whole.scene);
 }

@@ -12,9 +12,10 @@
 #include <optional>
 #include <set>
 #include <type_traits>
-#include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include "core/cache/handle_table.h"
 
 namespace oro {
 
@@ -47,7 +48,7 @@ struct CacheTable {
 };
 template <HashedKey Key, class Handle>
 struct CacheTable<Key, Handle> {
-    using Type = std::unordered_map<Key, Handle>;
+    using Type = HandleTable<Key>;
 };
 
 // A cache is a bin allocator: items lie in bins (buffers of a budget) one behind the other, each as long as
@@ -129,8 +130,12 @@ class GpuCache {
         if constexpr (std::is_integral_v<Key>) {
             return key < table_.size() ? table_[key] : none;
         } else {
-            const auto found = table_.find(key);
-            return found == table_.end() ? none : found->second;
+            if constexpr (std::is_same_v<decltype(table_), HandleTable<Key>>) {
+                return table_.find(key);
+            } else {
+                const auto found = table_.find(key);
+                return found == table_.end() ? none : found->second;
+            }
         }
     }
     [[nodiscard]] const Slot& at(Handle handle) const { return slots_[handle]; }
@@ -241,7 +246,10 @@ class GpuCache {
         } else if (handle == none) {
             table_.erase(key);
         } else {
-            table_[key] = handle;
+            if constexpr (std::is_same_v<decltype(table_), HandleTable<Key>>)
+                table_.set(key, handle);
+            else
+                table_[key] = handle;
         }
     }
     Handle new_slot() {

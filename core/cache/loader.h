@@ -50,7 +50,7 @@ class Loader {
     // What is under way is waited for; nothing else is begun.
     ~Loader() {
         for (std::jthread& thread : threads_) thread.request_stop();
-        changed_.notify_all();
+        can_begin_.notify_all();
     }
 
     // What is needed now, most needed first, in the place of all requests before: those are cancelled, and an
@@ -68,23 +68,24 @@ class Loader {
             start_threads(threads_, std::exchange(threads_to_start_, 0),
                           [this](const std::stop_token& stop) { work(stop); });
         std::ranges::stable_sort(requests, {}, &Request::priority);
-        const std::scoped_lock lock(mutex_);
+        std::unique_lock lock(mutex_);
         std::erase_if(states_, [](const auto& one) { return one.second == State::taken; });
         if (drops_ready) drop_all_but(requests);
         std::erase_if(requests, [&](const Request& one) { return states_.contains(one.key); });
         requests_.assign(std::make_move_iterator(requests.begin()), std::make_move_iterator(requests.end()));
-        changed_.notify_all();
+        if (requests_.empty()) changed_.notify_all();
+        wake(lock);
     }
     // More requests of one priority, after others of it. Those that are under way, ready or taken since
     // request() are not loaded again. For any thread.
     void add(std::span<const Key> keys, int priority) {
-        const std::scoped_lock lock(mutex_);
+        std::unique_lock lock(mutex_);
         std::vector<Request> added;
         for (const Key& key : keys)
             if (!states_.contains(key)) added.push_back({key, priority});
         requests_.insert(std::ranges::upper_bound(requests_, priority, {}, &Request::priority), added.begin(),
                          added.end());
-        changed_.notify_all();
+        wake(lock);
     }
 
     // What is ready, in the order in which it became so; with `wait` at least one item, unless nothing is
@@ -106,7 +107,7 @@ class Loader {
         }
         ready_.clear();
         ready_weight_ = 0;
-        changed_.notify_all();
+        wake(lock);
         return items;
     }
 
@@ -130,10 +131,27 @@ class Loader {
             return true;
         });
     }
+    [[nodiscard]] bool can_begin() const {
+        return !requests_.empty() && under_way_ + ready_weight_ < capacity_;
+    }
     void work(const std::stop_token& stop) {
         std::unique_lock lock(mutex_);
-        const auto can_begin = [&] { return !requests_.empty() && under_way_ + ready_weight_ < capacity_; };
-        while (changed_.wait(lock, stop, can_begin) && !stop.stop_requested()) load_next(lock);
+        for (;;) {
+            ++waiting_;
+            const bool begins = can_begin_.wait(lock, stop, [&] { return can_begin(); });
+            --waiting_;
+            if (!begins || stop.stop_requested()) return;
+            load_next(lock);
+        }
+    }
+    // As many threads that wait as there is something to begin for, once the lock is open: a thread that is
+    // woken asks for it, and so does who takes what is ready.
+    void wake(std::unique_lock<std::mutex>& lock) {
+        const std::size_t room =
+            can_begin() ? std::min(requests_.size(), capacity_ - (under_way_ + ready_weight_)) : 0;
+        const std::size_t count = std::min(room, waiting_);
+        lock.unlock();
+        for (std::size_t i = 0; i < count; ++i) can_begin_.notify_one();
     }
     // Loads what is requested first; there is something. The lock is open meanwhile.
     void load_next(std::unique_lock<std::mutex>& lock) {
@@ -173,11 +191,13 @@ class Loader {
     int threads_to_start_;
     std::size_t capacity_;
     std::mutex mutex_;
-    std::condition_variable_any changed_;
-    std::deque<Request> requests_;  // by priority
+    std::condition_variable_any can_begin_;  // for threads that load
+    std::condition_variable_any changed_;    // for who waits for what is ready
+    std::deque<Request> requests_;           // by priority
     std::map<Key, State> states_;
     std::vector<Ready> ready_;
     std::size_t under_way_{}, ready_weight_{};
+    std::size_t waiting_{};  // threads that have nothing to load
     std::optional<Error> failed_;
     std::exception_ptr thrown_;
     std::vector<std::jthread> threads_;  // last: they end before what they use

@@ -64,7 +64,7 @@ Result<void> CasterChoice::want_around(const GridPlan& plan) {
                  column <= std::min(layout.columns - 1, page.column + 1); ++column) {
                 ORO_TRY(KeptPage* const neighbour,
                         memory_.around(*kept, row - page.row, column - page.column));
-                if (!stamp(neighbour->asked_by) || neighbour->record.reach_m < 0.0) continue;
+                if (!stamp(neighbour->asked_by) || neighbour->reach_m < 0.0) continue;
                 wanted_.push_back({neighbour, address_of(*neighbour)});
             }
     }
@@ -74,7 +74,7 @@ Result<void> CasterChoice::want_around(const GridPlan& plan) {
 Result<void> CasterChoice::want(const CastMap& map, KeptPage& page) {
     stamp(page.asked_by);
     const PageRecord& record = page.record;
-    if (record.reach_m < 0.0) return {};
+    if (page.reach_m < 0.0) return {};
     const PageIndex& index = page.index();
     wanted_.push_back({&page, address_of(page)});
     const std::int64_t posts = std::int64_t{gpu::page_quads} << std::max(0, index.level - 1);

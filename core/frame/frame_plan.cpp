@@ -34,8 +34,7 @@ class PageChoice {
           view_from_ecef_(camera.view_from_ecef()),
           eye_ecef_(camera.eye_ecef()),
           planes_(frustum_planes_view(projection_of_tile(camera, tile))),
-          horizon_(model.horizon(pages_.facts().shape.occluder)),
-          levels_(static_cast<std::size_t>(pages_.levels())) {
+          horizon_(model.horizon(pages_.facts().shape.occluder)) {
         for (Plane& plane : planes_) plane.w += model.rounding_m();
     }
 
@@ -46,8 +45,7 @@ class PageChoice {
     void list_pages(FrameTables& tables, PlanSources* sources, GridPlan& plan) const;
 
   private:
-    using WantedLevel = std::vector<KeptPage*>;
-    WantedLevel& level(int number) { return levels_[static_cast<std::size_t>(number)]; }
+    std::vector<KeptPage*>& level(int number) { return memory_.wanted[static_cast<std::size_t>(number)]; }
     // Null where it is null or this choice does not want it.
     [[nodiscard]] KeptPage* wanted(KeptPage* page) const {
         return page != nullptr && page->wanted.turn == turn_ ? page : nullptr;
@@ -80,7 +78,6 @@ class PageChoice {
     Ecef eye_ecef_;
     std::array<Plane, 5> planes_;
     SeenHorizon horizon_;
-    std::vector<WantedLevel> levels_;
     std::size_t beyond_frustum_{};
     std::size_t beyond_horizon_{};
 };
@@ -99,8 +96,8 @@ bool PageChoice::hidden(const PageRecord& page, const ViewSphere& seen) {
 
 void PageChoice::want(KeptPage& page) {
     const PageRecord& record = page.record;
-    if (record.reach_m < 0.0) return;
-    ViewSphere seen = model_.culls_nodes() ? model_.seen_at(page.centre_ecef_m, record.reach_m).sphere
+    if (page.reach_m < 0.0) return;
+    ViewSphere seen = model_.culls_nodes() ? model_.seen_at(page.centre_ecef_m, page.reach_m).sphere
                                            : model_.seen_page(pages_.facts().grid, record);
     // What closes gaps reaches out by pixels.
     if (pages_.is_seam()) seen.radius_m += gap_reach_m(glm::length(seen.centre_m) + seen.radius_m);
@@ -189,12 +186,17 @@ void PageChoice::apply_occlusion_feedback(const IsHidden& is_hidden) {
 }
 
 void PageChoice::number_pages(GridPlan& plan) {
-    std::vector<KeptPage*>& open = memory_.planned;
+    // With its distance, so that sorting asks no page but where two are as far.
+    struct Near {
+        double distance_m;
+        KeptPage* page;
+    };
+    std::vector<Near> open;
     std::vector<const KeptPage*> missing;
-    for (const WantedLevel& of_level : levels_) {
+    for (const std::vector<KeptPage*>& of_level : memory_.wanted) {
         plan.pages_wanted += of_level.size();
         for (KeptPage* const page : of_level) {
-            if (page->wanted.open) open.push_back(page);
+            if (page->wanted.open) open.push_back({page->wanted.distance_m, page});
             if (page->wanted.address == 0)
                 missing.push_back(page);
             else if (!page->wanted.shows || !page->wanted.open)
@@ -211,7 +213,10 @@ void PageChoice::number_pages(GridPlan& plan) {
     std::ranges::sort(plan.hidden, {}, key_of);
     // Near pages first: what they hide fails the depth test before it is shaded. Ties by number: one order
     // for one input.
-    std::sort(open.begin(), open.end(), is_nearer);
+    std::sort(open.begin(), open.end(), [&](const Near& a, const Near& b) {
+        return a.distance_m != b.distance_m ? a.distance_m < b.distance_m
+                                            : key_of(a.page->index()) < key_of(b.page->index());
+    });
     // What shows first, of that what others wait for, then what is near.
     std::sort(missing.begin(), missing.end(), [&](const KeptPage* a, const KeptPage* b) {
         if (a->wanted.shows != b->wanted.shows) return a->wanted.shows;
@@ -219,7 +224,9 @@ void PageChoice::number_pages(GridPlan& plan) {
         return is_nearer(a, b);
     });
     plan.page_indices.reserve(open.size());
-    for (KeptPage* const page : open) {
+    memory_.planned.reserve(open.size());
+    for (const auto& [distance_m, page] : open) {
+        memory_.planned.push_back(page);
         page->wanted.number = static_cast<std::uint32_t>(plan.page_indices.size());
         plan.page_indices.push_back(page->index());
     }

@@ -1,7 +1,6 @@
 #include "core/frame/model_view.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -77,11 +76,6 @@ ViewSphere ModelView::seen(const PageSummary& page, const glm::dvec3& in_page_m,
 ModelView::SeenAt ModelView::seen_at(const PageSummary& page, const glm::dvec3& in_page_m,
                                      double radius_m) const {
     return bent_at({straight_m(page, in_page_m), radius_m});
-}
-
-ModelView::SeenAt ModelView::seen_at(const glm::dvec3& ecef_m, double radius_m) const {
-    assert(model_.earth == Earth::ellipsoid);
-    return bent_at({view_from_ecef_ * (ecef_m - eye_ecef_.m), radius_m});
 }
 
 bool ModelView::may_stand(const PageRecord& page) const {

@@ -57,7 +57,10 @@ class ModelView {
     };
     [[nodiscard]] SeenAt seen_at(const PageSummary& page, const glm::dvec3& in_page_m, double radius_m) const;
     // On the ellipsoid, of a sphere around a place in ECEF.
-    [[nodiscard]] SeenAt seen_at(const glm::dvec3& ecef_m, double radius_m) const;
+    [[nodiscard]] SeenAt seen_at(const glm::dvec3& ecef_m, double radius_m) const {
+        const ViewSphere straight{view_from_ecef_ * (ecef_m - eye_ecef_.m), radius_m};
+        return curvature_per_m() == 0.0 ? SeenAt{straight, 0.0, 1.0} : bent_at(straight);
+    }
     // Where the triangles of a page and of all below it are seen.
     [[nodiscard]] ViewSphere seen_page(const PostGrid& grid, const PageRecord& page) const;
     // A frustum's plane (view coordinates) for the spheres of a page's nodes where they are before light

@@ -29,6 +29,8 @@ PlanMemory::PlanMemory(const RegionPages& pages)
 
 std::uint64_t PlanMemory::begin_frame() {
     planned.clear();
+    wanted.resize(levels_.size());
+    for (std::vector<KeptPage*>& level : wanted) level.clear();
     if (size_ >= records_most) {
         for (Level& level : levels_) level = {};
         size_ = 0;
@@ -45,6 +47,8 @@ KeptPage* PlanMemory::find(const PageIndex& index) {
 
 void PlanMemory::link(KeptPage& page) const {
     const PageSummary& summary = page.record.summary;
+    page.place = summary.index;
+    page.reach_m = page.record.reach_m;
     const auto ecef_m = [&](const glm::dvec3& in_page_m) {
         return summary.origin_ecef.m + summary.ecef_from_page * in_page_m;
     };
@@ -80,32 +84,20 @@ Result<KeptPage*> PlanMemory::page_of(const GridPlan& plan, std::size_t number) 
     return page(index);
 }
 
-KeptPage* PlanMemory::parent(KeptPage& page) {
+KeptPage* PlanMemory::find_parent(KeptPage& page) {
     const PageIndex& index = page.index();
-    if (page.parent == nullptr) page.parent = find({index.row / 2, index.column / 2, index.level + 1});
+    page.parent = find({index.row / 2, index.column / 2, index.level + 1});
     return page.parent;
 }
 
-KeptPage* PlanMemory::beside(KeptPage& page, std::size_t side) {
+KeptPage* PlanMemory::find_beside(KeptPage& page, std::size_t side) {
     if ((page.has_beside >> side & 1U) == 0) return nullptr;
-    if (page.beside[side] == nullptr)
-        page.beside[side] =
-            find(*beyond_rim(page.index(), layout(page.index().level), pages_->wraps_longitude(), side));
+    page.beside[side] =
+        find(*beyond_rim(page.index(), layout(page.index().level), pages_->wraps_longitude(), side));
     return page.beside[side];
 }
 
-Result<KeptPage*> PlanMemory::around(KeptPage& page, int down, int right) {
-    if (down == 0 && right == 0) return &page;
-    const int place = 3 * (down + 1) + right + 1;
-    KeptPage*& known = page.around[static_cast<std::size_t>(place < 4 ? place : place - 1)];
-    if (known != nullptr) return known;
-    const PageIndex& index = page.index();
-    ORO_TRY(known, this->page({index.row + down, index.column + right, index.level}));
-    return known;
-}
-
-Result<KeptPage*> PlanMemory::child(KeptPage& page, std::size_t quarter) {
-    if (page.children[quarter] != nullptr) return page.children[quarter];
+Result<KeptPage*> PlanMemory::find_child(KeptPage& page, std::size_t quarter) {
     const PageIndex& index = page.index();
     const int number = static_cast<int>(quarter);
     ORO_TRY(page.children[quarter],

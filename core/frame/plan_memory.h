@@ -23,7 +23,8 @@
 namespace oro {
 
 // A page that frames have asked for, and what of it is the same for every eye.
-struct KeptPage {
+// What is asked of most pages comes first: it lies in two lines of a processor's cache.
+struct alignas(64) KeptPage {
     // What the last choice that wanted it has made of it.
     struct Wanted {
         std::uint64_t turn{};  // number of that choice
@@ -37,10 +38,8 @@ struct KeptPage {
     Wanted wanted;
     // The last choices of casters that asked for it, that listed it, and that found it missing.
     std::uint64_t asked_by{}, listed_by{}, lacked_by{};
-    PageRecord record;
-    // Middles of the spheres of record, ECEF: of summary.centre_m, and of each quarter.
-    glm::dvec3 centre_ecef_m;
-    std::array<glm::dvec3, 4> quarter_ecef_m;
+    PageIndex place;  // of record, and so is reach_m
+    double reach_m{-1.0};
     // Pages of the next finer level, where they were asked for: north-west, north-east, south-west,
     // south-east. Which of them there are is a bit each.
     std::array<KeptPage*, 4> children{};
@@ -50,9 +49,13 @@ struct KeptPage {
     KeptPage* parent{};
     std::array<KeptPage*, 4> beside{};
     std::uint32_t has_beside{};
+    PageRecord record;
+    // Middles of the spheres of record, ECEF: of summary.centre_m, and of each quarter.
+    glm::dvec3 centre_ecef_m;
+    std::array<glm::dvec3, 4> quarter_ecef_m;
     // Those around it on its own level, row by row; null: nobody has found them, or there are none.
     std::array<KeptPage*, 8> around{};
-    [[nodiscard]] const PageIndex& index() const { return record.summary.index; }
+    [[nodiscard]] const PageIndex& index() const { return place; }
 };
 
 // Records, angles of rows and columns, and cells of casters are the same for every frame. For one thread at a
@@ -74,16 +77,33 @@ class PlanMemory {
     [[nodiscard]] KeptPage* find(const PageIndex& index);
     // Of a page the one above it, and those beside that: as KeptPage has them, found anew where that is not
     // known. Null: nobody has asked for it.
-    [[nodiscard]] KeptPage* parent(KeptPage& page);
-    [[nodiscard]] KeptPage* beside(KeptPage& page, std::size_t side);
+    [[nodiscard]] KeptPage* parent(KeptPage& page) {
+        return page.parent != nullptr ? page.parent : find_parent(page);
+    }
+    [[nodiscard]] KeptPage* beside(KeptPage& page, std::size_t side) {
+        return page.beside[side] != nullptr ? page.beside[side] : find_beside(page, side);
+    }
     // Of a page's level the one so many rows below it and columns to the right, each -1 to 1; it is one of
     // the layout. Errors: as page().
-    Result<KeptPage*> around(KeptPage& page, int down, int right);
+    Result<KeptPage*> around(KeptPage& page, int down, int right) {
+        const int place = 3 * (down + 1) + right + 1;
+        if (place == 4) return &page;
+        KeptPage*& known = page.around[static_cast<std::size_t>(place < 4 ? place : place - 1)];
+        if (known != nullptr) return known;
+        const PageIndex& index = page.index();
+        ORO_TRY(known, this->page({index.row + down, index.column + right, index.level}));
+        return known;
+    }
     // One of the finer pages of a page that has it. Errors: as RegionPages::record().
-    Result<KeptPage*> child(KeptPage& page, std::size_t quarter);
+    Result<KeptPage*> child(KeptPage& page, std::size_t quarter) {
+        if (page.children[quarter] != nullptr) return page.children[quarter];
+        return find_child(page, quarter);
+    }
 
     // The pages of the last plan, in its order.
     std::vector<KeptPage*> planned;
+    // Of each level, those that a choice wants: for it alone, which finds them empty.
+    std::vector<std::vector<KeptPage*>> wanted;
     // A page of a plan by its number there; quick for the last plan. Errors: as page().
     Result<KeptPage*> page_of(const GridPlan& plan, std::size_t number);
 
@@ -108,6 +128,9 @@ class PlanMemory {
         std::vector<std::unique_ptr<KeptPage>> pages;
     };
     void link(KeptPage& page) const;
+    KeptPage* find_parent(KeptPage& page);
+    KeptPage* find_beside(KeptPage& page, std::size_t side);
+    Result<KeptPage*> find_child(KeptPage& page, std::size_t quarter);
 
     const RegionPages* pages_;
     KeptAngles angles_;

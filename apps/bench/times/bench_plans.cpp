@@ -1,5 +1,6 @@
 #include "apps/bench/times/bench_plans.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <utility>
@@ -26,13 +27,22 @@ Result<PlannedSide> side_of(const Gpu& gpu, RasterPath path, BenchOptions option
     return PlannedSide{std::move(scene), std::move(renderer)};
 }
 
-Result<std::vector<std::uint32_t>> ids_of(PlannedSide& side, const Camera& camera,
-                                          const BenchOptions& options) {
+// What pixels show.
+struct ShownPixels {
+    std::vector<std::uint32_t> ids;
+    std::vector<std::uint8_t> rgba;
+};
+
+Result<ShownPixels> pixels_of(PlannedSide& side, const Camera& camera, const BenchOptions& options) {
     const Tile tile{0, 0, camera.width_px, camera.height_px, {0.5, 0.5}};
     ORO_TRY(FramePlan plan, settled_as_window(side.scene, camera, tile, options));
     ORO_CHECK(side.renderer.draw(std::move(plan), options.style, 0, 1, side.scene.drapes()));
-    return side.renderer.read_ids(static_cast<std::uint32_t>(camera.width_px),
-                                  static_cast<std::uint32_t>(camera.height_px));
+    const auto width_px = static_cast<std::uint32_t>(camera.width_px);
+    const auto height_px = static_cast<std::uint32_t>(camera.height_px);
+    ShownPixels pixels;
+    ORO_TRY(pixels.ids, side.renderer.read_ids(width_px, height_px));
+    ORO_TRY(pixels.rgba, side.renderer.read_picture(width_px, height_px));
+    return pixels;
 }
 
 }  // namespace
@@ -41,19 +51,26 @@ Result<void> compare_plans(const Gpu& gpu, RasterPath path, std::span<const Rand
                            const BenchOptions& options) {
     ORO_TRY(PlannedSide processor, side_of(gpu, path, options, false));
     ORO_TRY(PlannedSide device, side_of(gpu, path, options, true));
-    std::uint64_t eyes = 0, pixels = 0, differ = 0;
+    std::uint64_t eyes = 0, pixels = 0, differ = 0, colours_differ = 0;
     for (const RandomFlight& flight : flights)
         for (const Camera& camera : flight.cameras) {
-            ORO_TRY(const std::vector<std::uint32_t> expected, ids_of(processor, camera, options));
-            ORO_TRY(const std::vector<std::uint32_t> ids, ids_of(device, camera, options));
+            ORO_TRY(const ShownPixels expected, pixels_of(processor, camera, options));
+            ORO_TRY(const ShownPixels shown, pixels_of(device, camera, options));
             ++eyes;
-            pixels += ids.size();
-            for (std::size_t i = 0; i < ids.size(); ++i) differ += ids[i] != expected[i] ? 1 : 0;
+            pixels += shown.ids.size();
+            for (std::size_t i = 0; i < shown.ids.size(); ++i) {
+                differ += shown.ids[i] != expected.ids[i] ? 1 : 0;
+                const bool same =
+                    std::equal(&shown.rgba[4 * i], &shown.rgba[4 * i] + 4, &expected.rgba[4 * i]);
+                colours_differ += same ? 0 : 1;
+            }
         }
-    std::printf("%s: %llu eyes in motion, seed %llu: %llu of %llu pixels show another triangle\n",
-                name_of(path).c_str(), static_cast<unsigned long long>(eyes),
-                static_cast<unsigned long long>(options.seed), static_cast<unsigned long long>(differ),
-                static_cast<unsigned long long>(pixels));
+    std::printf(
+        "%s: %llu eyes in motion, seed %llu: of %llu pixels %llu show another triangle, %llu another "
+        "colour\n",
+        name_of(path).c_str(), static_cast<unsigned long long>(eyes),
+        static_cast<unsigned long long>(options.seed), static_cast<unsigned long long>(pixels),
+        static_cast<unsigned long long>(differ), static_cast<unsigned long long>(colours_differ));
     return {};
 }
 

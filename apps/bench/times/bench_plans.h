@@ -11,7 +11,7 @@
 namespace oro {
 
 // Draws all eyes of flights by both, by one way of drawing, once all that they want is there, and prints how
-// many pixels show another triangle. Errors: the device, the file; a device without doubles.
+// many pixels show another triangle and another colour. Errors: the device, the file; a device without doubles.
 Result<void> compare_plans(const Gpu& gpu, RasterPath path, std::span<const RandomFlight> flights,
                            const BenchOptions& options);
 
