@@ -138,6 +138,9 @@ set_tests_properties(
   GridsUnderImages.LieOnTheSamePlaces
   GroundModel.IsWithinItsErrorAndWithoutGaps
   ExportCommand.A3dTilesetHasTheProvenErrors
+  ExportCommand.A3dTilesetIsColouredByAnImage
+  ExportCommand.A3dTilesetIsMadeInParts
+  GroundTileset.OfPartsHasTheBytesOfOneGo
   GroundTileset.ErrorHoldsAtEveryPlace
   GroundTileset.ErrorHoldsOnANetAndBesideVoids
   GroundTileset.IsTheSameForAnyNumberOfThreads

@@ -563,6 +563,20 @@ void add_export(CLI::App& app, ExportOptions& options) {
         "How far a model, or the finest 3D Tiles, may be from the ground, 0 to 100000: the larger, "
         "the fewer triangles. Default: 0 (every sample) of a model, a fifth of the way between "
         "samples of 3D Tiles. Needs gltf or 3dtiles.");
+    written
+        .option(
+            "--drape", options.drape, "FILE",
+            "Colour 3D Tiles by an image with a CRS: an orthophoto, a satellite scene or a map. Several lie "
+            "one over the other, the last on top.")
+        .allow_extra_args(false);
+    written
+        .option("--landcover", options.landcover, "FILE",
+                "Colour 3D Tiles by land cover: a raster of classes, as in shot --landcover.")
+        .allow_extra_args(false);
+    written.option(
+        "--shard", options.shard, "PART",
+        "Make a part of the 3D Tiles, NUMBER/COUNT as in 2/4, and keep it in FOLDER.tiles. Without "
+        "it the tiles that are there are taken, and those that are missing are made.");
     written.flag(
         "--no-normals", options.no_normals,
         "Leave normals out of 3D Tiles, a fifth of their size, where the viewer's shader makes its own.");

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/options/options.h"
 
@@ -17,6 +18,9 @@ struct ExportOptions {
     std::optional<double> max_error_m;    // of a model, or of the finest tiles
     bool no_normals{false};               // of 3D Tiles
     std::optional<int> detail;            // halvings of the way between posts
+    std::vector<std::string> drape;       // images that colour 3D Tiles
+    std::vector<std::string> landcover;   // rasters of classes that colour 3D Tiles
+    std::string shard;                    // "", or "2/4": makes that part of 3D Tiles alone
     bool overwrite{false};
     bool json{false};
     bool quiet{false};

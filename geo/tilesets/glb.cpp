@@ -10,6 +10,8 @@
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
+#include "geo/tilesets/source_table.h"
+
 namespace oro {
 namespace {
 
@@ -17,10 +19,11 @@ static_assert(std::endian::native == std::endian::little, "glTF is little endian
 using Json = nlohmann::ordered_json;
 
 // glTF's names for what buffers hold.
-constexpr int component_byte = 5120, component_short = 5122, component_unsigned_short = 5123,
-              component_unsigned_int = 5125, component_float = 5126;
+constexpr int component_byte = 5120, component_unsigned_byte = 5121, component_short = 5122,
+              component_unsigned_short = 5123, component_unsigned_int = 5125, component_float = 5126;
 constexpr int array_buffer = 34962, element_array_buffer = 34963;
-constexpr std::size_t float_bytes = 12, short_bytes = 8, normal_bytes = 4;  // the last two: three and padding
+constexpr std::size_t float_bytes = 12, short_bytes = 8, normal_bytes = 4,
+                      fact_bytes = 4;  // but for floats with padding
 constexpr int normal_bits = 8;
 constexpr const char* compression = "EXT_meshopt_compression";
 
@@ -48,10 +51,12 @@ struct View {
     const char* filter{};  // null for none
     int target{};
     int component{};
+    const char* attribute{};  // null: triangles
+    const char* type{"VEC3"};
 };
 struct Views {
     std::vector<std::uint8_t> bytes;
-    std::vector<View> views;  // positions, normals if there are any, triangles
+    std::vector<View> views;  // positions first, triangles last
 };
 
 // The mesh's triangles as graphics cards like them, and its vertices in the order of their use.
@@ -103,11 +108,13 @@ void add_view(Views& views, View view, std::vector<std::uint8_t> bytes) {
 
 // Vertices in their new order.
 template <class Vertex>
-void add_vertices(Views& views, const std::vector<Vertex>& vertices, const char* filter, int component) {
+void add_vertices(Views& views, const std::vector<Vertex>& vertices, const char* attribute,
+                  const char* filter, int component, const char* type = "VEC3") {
     const std::size_t count = vertices.size(), stride = sizeof(Vertex);
     std::vector<std::uint8_t> bytes(meshopt_encodeVertexBufferBound(count, stride));
     bytes.resize(meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), vertices.data(), count, stride));
-    add_view(views, {0, 0, count, stride, "ATTRIBUTES", filter, array_buffer, component}, std::move(bytes));
+    add_view(views, {0, 0, count, stride, "ATTRIBUTES", filter, array_buffer, component, attribute, type},
+             std::move(bytes));
 }
 
 void add_positions(Views& views, const GroundMesh& mesh, const OrderedMesh& order) {
@@ -119,7 +126,7 @@ void add_positions(Views& views, const GroundMesh& mesh, const OrderedMesh& orde
             shorts[order.numbers[i]] = {static_cast<std::int16_t>(at.x), static_cast<std::int16_t>(at.y),
                                         static_cast<std::int16_t>(at.z), 0};
         }
-        add_vertices(views, shorts, nullptr, component_short);
+        add_vertices(views, shorts, "POSITION", nullptr, component_short);
         return;
     }
     std::vector<std::array<std::uint32_t, float_bytes / 4>> floats(count);
@@ -127,7 +134,7 @@ void add_positions(Views& views, const GroundMesh& mesh, const OrderedMesh& orde
         const glm::ivec3& at = mesh.positions[i];
         floats[order.numbers[i]] = {exponential(at.x), exponential(at.y), exponential(at.z)};
     }
-    add_vertices(views, floats, "EXPONENTIAL", component_float);
+    add_vertices(views, floats, "POSITION", "EXPONENTIAL", component_float);
 }
 
 void add_normals(Views& views, const GroundMesh& mesh, const OrderedMesh& order) {
@@ -138,10 +145,27 @@ void add_normals(Views& views, const GroundMesh& mesh, const OrderedMesh& order)
         normals[order.numbers[i]] = {mesh.normals[i].x, mesh.normals[i].y, mesh.normals[i].z, 0.0F};
     std::vector<std::array<std::int8_t, normal_bytes>> octahedral(count);
     meshopt_encodeFilterOct(octahedral.data(), count, normal_bytes, normal_bits, normals.front().data());
-    add_vertices(views, octahedral, "OCTAHEDRAL", component_byte);
+    add_vertices(views, octahedral, "NORMAL", "OCTAHEDRAL", component_byte);
 }
 
-Views views_of(const GroundMesh& mesh, const OrderedMesh& order) {
+void add_facts(Views& views, const VertexFacts& facts, const OrderedMesh& order) {
+    using Bytes = std::array<std::uint8_t, fact_bytes>;
+    if (!facts.colours.empty()) {
+        std::vector<Bytes> colours(facts.colours.size());
+        for (std::size_t i = 0; i < colours.size(); ++i)
+            for (std::size_t part = 0; part < 3; ++part)
+                colours[order.numbers[i]][part] = static_cast<std::uint8_t>(
+                    std::lround(255.0 * std::clamp(facts.colours[i][part], 0.0, 1.0)));
+        add_vertices(views, colours, "COLOR_0", nullptr, component_unsigned_byte);
+    }
+    if (!facts.sources.empty()) {
+        std::vector<Bytes> sources(facts.sources.size());
+        for (std::size_t i = 0; i < sources.size(); ++i) sources[order.numbers[i]][0] = facts.sources[i];
+        add_vertices(views, sources, "_FEATURE_ID_0", nullptr, component_unsigned_byte, "SCALAR");
+    }
+}
+
+Views views_of(const GroundMesh& mesh, const VertexFacts& facts, const OrderedMesh& order) {
     [[maybe_unused]] static const bool chosen = (choose_codes(), true);
     assert(chosen);
     constexpr std::size_t most_of_short = 65535;  // 65535 itself is no vertex
@@ -149,14 +173,16 @@ Views views_of(const GroundMesh& mesh, const OrderedMesh& order) {
     Views views;
     add_positions(views, mesh, order);
     add_normals(views, mesh, order);
+    add_facts(views, facts, order);
     std::vector<std::uint8_t> triangles(meshopt_encodeIndexBufferBound(order.indices.size(), count));
     triangles.resize(meshopt_encodeIndexBuffer(triangles.data(), triangles.size(), order.indices.data(),
                                                order.indices.size()));
     const bool shorts = count <= most_of_short;
-    add_view(views,
-             {0, 0, order.indices.size(), shorts ? std::size_t{2} : std::size_t{4}, "TRIANGLES", nullptr,
-              element_array_buffer, shorts ? component_unsigned_short : component_unsigned_int},
-             std::move(triangles));
+    add_view(
+        views,
+        {0, 0, order.indices.size(), shorts ? std::size_t{2} : std::size_t{4}, "TRIANGLES", nullptr,
+         element_array_buffer, shorts ? component_unsigned_short : component_unsigned_int, nullptr, "SCALAR"},
+        std::move(triangles));
     return views;
 }
 
@@ -216,12 +242,12 @@ Json accessors_json(const GroundMesh& mesh, const Views& views) {
     Json list = Json::array();
     for (const View& view : views.views) {
         const int number = static_cast<int>(list.size());
-        const bool triangles = view.target == element_array_buffer;
-        Json accessor = accessor_json(number, view.component, view.count, triangles ? "SCALAR" : "VEC3");
+        Json accessor = accessor_json(number, view.component, view.count, view.type);
+        const std::string attribute = view.attribute == nullptr ? "" : view.attribute;
         if (number == 0) {
             accessor["min"] = vector_json(low);
             accessor["max"] = vector_json(high);
-        } else if (!triangles) {
+        } else if (attribute == "NORMAL" || attribute == "COLOR_0") {
             accessor["normalized"] = true;
         }
         list.push_back(std::move(accessor));
@@ -229,10 +255,10 @@ Json accessors_json(const GroundMesh& mesh, const Views& views) {
     return list;
 }
 
-Json material_json(const GlbLook& look) {
+Json material_json(const GlbLook& look, bool has_colours) {
     Json pbr = Json::object();
     Json colour = Json::array();
-    for (const double part : look.colour) colour.push_back(part);
+    for (const double part : look.colour) colour.push_back(has_colours ? 1.0 : part);
     colour.push_back(1.0);
     pbr["baseColorFactor"] = std::move(colour);
     pbr["metallicFactor"] = 0.0;
@@ -248,13 +274,20 @@ Json list_of(Json one) {
     return list;
 }
 
-Json mesh_json(const GroundMesh& mesh) {
+Json mesh_json(const GroundMesh& mesh, const GlbLook& look, const Views& views) {
     Json attributes = Json::object();
-    attributes["POSITION"] = 0;
-    if (!mesh.normals.empty()) attributes["NORMAL"] = 1;
     Json primitive = Json::object();
+    for (std::size_t i = 0; i + 1 < views.views.size(); ++i) {
+        attributes[views.views[i].attribute] = i;
+        if (std::string(views.views[i].attribute) != "_FEATURE_ID_0") continue;
+        Json features = Json::object();
+        features["featureCount"] = look.sources.size();
+        features["attribute"] = 0;
+        features["propertyTable"] = 0;
+        primitive["extensions"]["EXT_mesh_features"]["featureIds"] = list_of(std::move(features));
+    }
     primitive["attributes"] = std::move(attributes);
-    primitive["indices"] = mesh.normals.empty() ? 1 : 2;
+    primitive["indices"] = views.views.size() - 1;
     primitive["material"] = 0;
     Json json = Json::object();
     json["primitives"] = list_of(std::move(primitive));
@@ -262,7 +295,7 @@ Json mesh_json(const GroundMesh& mesh) {
     return json;
 }
 
-Json gltf_json(const GroundMesh& mesh, const GlbLook& look, const Views& views) {
+Json gltf_json(const GroundMesh& mesh, const VertexFacts& facts, const GlbLook& look, Views& views) {
     Json json = Json::object();
     json["asset"]["version"] = "2.0";
     json["asset"]["generator"] = look.generator;
@@ -277,14 +310,21 @@ Json gltf_json(const GroundMesh& mesh, const GlbLook& look, const Views& views) 
     node["mesh"] = 0;
     node["matrix"] = matrix_json(mesh);
     json["nodes"] = list_of(std::move(node));
-    json["meshes"] = list_of(mesh_json(mesh));
-    json["materials"] = list_of(material_json(look));
+    json["meshes"] = list_of(mesh_json(mesh, look, views));
+    json["materials"] = list_of(material_json(look, !facts.colours.empty()));
     json["accessors"] = accessors_json(mesh, views);
     json["bufferViews"] = Json::array();
     std::size_t fallback_bytes = 0;
     for (const View& view : views.views) {
         json["bufferViews"].push_back(view_json(view, fallback_bytes));
         fallback_bytes = (fallback_bytes + view.count * view.stride + 3) / 4 * 4;
+    }
+    if (!facts.sources.empty()) {
+        json["extensionsUsed"].push_back("EXT_mesh_features");
+        json["extensionsUsed"].push_back("EXT_structural_metadata");
+        json["extensions"]["EXT_structural_metadata"] =
+            source_table_json(look.sources, views.bytes, json["bufferViews"]);
+        pad(views.bytes, 0);
     }
     Json buffer = Json::object();
     buffer["byteLength"] = views.bytes.size();
@@ -298,10 +338,10 @@ Json gltf_json(const GroundMesh& mesh, const GlbLook& look, const Views& views) 
 
 }  // namespace
 
-std::vector<std::uint8_t> glb_bytes(const GroundMesh& mesh, const GlbLook& look) {
-    Views views = views_of(mesh, ordered(mesh));
+std::vector<std::uint8_t> glb_bytes(const GroundMesh& mesh, const VertexFacts& facts, const GlbLook& look) {
+    Views views = views_of(mesh, facts, ordered(mesh));
     const std::string text =
-        gltf_json(mesh, look, views).dump(-1, ' ', false, Json::error_handler_t::replace);
+        gltf_json(mesh, facts, look, views).dump(-1, ' ', false, Json::error_handler_t::replace);
     return glb_around(text, std::move(views.bytes));
 }
 

@@ -10,9 +10,26 @@
 
 namespace oro {
 
+// One of the sources that the ground comes from, as metadata tell it.
+struct GroundSource {
+    std::string name;         // of its file
+    std::string attribution;  // "" when unknown
+    std::string heights;      // what it says that its heights refer to
+    double spacing_m{};       // from post to post
+    // What nine heights in ten are off, at most, as its makers state it; negative when unknown.
+    double vertical_le90_m{-1.0};
+};
+
+// What is known of the vertices of a mesh, one by one; either may be empty.
+struct VertexFacts {
+    std::vector<std::array<double, 3>> colours;  // linear light, 0 .. 1
+    std::vector<std::uint8_t> sources;           // numbers among those of GlbLook
+};
+
 struct GlbLook {
-    std::array<double, 3> colour{};  // of the ground, linear light, 0 .. 1
-    std::string attribution;         // what viewers show as asset.copyright; "" for none
+    std::array<double, 3> colour{};  // of the ground where vertices have none, linear light, 0 .. 1
+    std::vector<GroundSource> sources;
+    std::string attribution;  // what viewers show as asset.copyright; "" for none
     std::string generator;
 };
 
@@ -23,7 +40,7 @@ struct GlbLook {
 // (KHR_mesh_quantization), else as float32. Normals, if there are any, have 8 bits, and are 1/100 off at
 // most. Triangles come in another order. mesh.extras.groundTriangles: how many of them, the first ones, are
 // ground; the others are walls. Source: Khronos, glTF 2.0 specification; OGC 22-025r4, 3D Tiles 1.1.
-std::vector<std::uint8_t> glb_bytes(const GroundMesh& mesh, const GlbLook& look);
+std::vector<std::uint8_t> glb_bytes(const GroundMesh& mesh, const VertexFacts& facts, const GlbLook& look);
 // The bytes of a .glb around a text of JSON and its one buffer.
 std::vector<std::uint8_t> glb_around(const std::string& json, std::vector<std::uint8_t> buffer);
 

@@ -28,6 +28,7 @@ class MeshBuilder {
     struct Vertex {
         double row, column;
         glm::dvec3 ecef_m, up;
+        double lat_deg, lon_deg;
         glm::vec3 normal;                                           // ECEF
         std::array<std::uint32_t, 4> feet{none, none, none, none};  // of the walls along the four edges
     };
@@ -108,7 +109,7 @@ MeshBuilder::Vertex MeshBuilder::placed(const ClippedCorner& corner, const Verte
     const auto normal = [&](int number) {
         return normals_.empty() ? glm::vec3(0.0F) : normals_[triangle[static_cast<std::size_t>(number)]];
     };
-    Vertex vertex{corner.row, corner.column, {}, {}, {}};
+    Vertex vertex{corner.row, corner.column, {}, {}, 0.0, 0.0, {}};
     if (corner.line == ClippedCorner::inner) {
         const auto area = [&](const std::array<double, 2>& a, const std::array<double, 2>& b,
                               const std::array<double, 2>& c) {
@@ -131,6 +132,8 @@ MeshBuilder::Vertex MeshBuilder::placed(const ClippedCorner& corner, const Verte
         vertex.normal = glm::mix(normal(corner.a), normal(corner.b), static_cast<float>(corner.share));
     }
     const Geodetic at = geodetic_from_ecef({vertex.ecef_m});
+    vertex.lat_deg = at.lat_deg;
+    vertex.lon_deg = at.lon_deg;
     const SineCosine lat = sine_cosine_deg(at.lat_deg), lon = sine_cosine_deg(at.lon_deg);
     vertex.up = {lat.cosine * lon.cosine, lat.cosine * lon.sine, lat.sine};
     if (const float length = glm::length(vertex.normal); length > 0.0F)
@@ -145,6 +148,7 @@ std::uint32_t MeshBuilder::add_vertex(const Vertex& vertex) {
     mesh_.positions.emplace_back(glm::round(local_m / mesh_.step_m));
     if (!normals_.empty())
         mesh_.normals.emplace_back(glm::transpose(mesh_.ecef_from_mesh) * glm::dvec3(vertex.normal));
+    mesh_.places.push_back({vertex.row, vertex.column, vertex.lat_deg, vertex.lon_deg});
     vertices_.push_back(vertex);
     return static_cast<std::uint32_t>(vertices_.size() - 1);
 }

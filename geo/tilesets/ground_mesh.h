@@ -19,6 +19,12 @@ struct TileBox {
     double lowest_h_m{}, highest_h_m{};
 };
 
+// Where a vertex lies on the map. A foot of a wall has the place of the vertex above it.
+struct VertexPlace {
+    double row{}, column{};  // among the posts of the grid
+    double lat_deg{}, lon_deg{};
+};
+
 // Triangles are anticlockwise, seen from above or, of walls, from outside.
 struct GroundMesh {
     glm::dvec3 centre_m{0.0};  // ECEF
@@ -30,6 +36,7 @@ struct GroundMesh {
     // Unit, along the same axes, of the ground around the vertex; a wall has those of its edge. Empty where
     // none are wanted.
     std::vector<glm::vec3> normals;
+    std::vector<VertexPlace> places;
     std::vector<std::uint32_t> indices;  // three a triangle: those of the ground, then those of walls
     std::size_t ground_triangles{};
     TileBox box;  // holds all triangles, walls included

@@ -15,6 +15,7 @@
 #include "geo/tilesets/ground_mesh.h"
 #include "geo/tilesets/level_cut.h"
 #include "geo/tilesets/post_place.h"
+#include "geo/tilesets/source_table.h"
 #include "geo/tilesets/tile_bounds.h"
 
 namespace oro {
@@ -22,10 +23,11 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// What is kept of a page when its file is written.
+// What is known of a tile when its file is written.
 struct WrittenTile {
     bool has_content{};
     std::uint64_t triangles{}, bytes{};
+    double error_m{};
     std::optional<TileBox> box;  // of all that is below it, too
 };
 
@@ -95,24 +97,114 @@ LevelAim aim_of(const ClusteredGround& ground, const TilesetLayout& layout, int 
     return aim;
 }
 
+// The tiles of a request, made from the ground or taken from those that are kept.
+class TileMaker {
+  public:
+    TileMaker(const PostGrid& grid, const TilesetRequest& request)
+        : request_(request), layout_(grid.rows(), grid.columns(), request.tile_quads) {}
+
+    [[nodiscard]] const TilesetLayout& layout() const { return layout_; }
+    // Whether a tile is one of the request's part.
+    [[nodiscard]] bool is_own(std::size_t number) const {
+        return number % static_cast<std::size_t>(request_.parts) == static_cast<std::size_t>(request_.part);
+    }
+    // Gets the ground, unless all tiles of the part are kept.
+    Result<void> begin(const GroundSourceOfTiles& ground);
+    // Before tiles of a level are asked for.
+    void begin_level(int level);
+    // From several threads.
+    [[nodiscard]] Result<KeptTile> tile(const TileIndex& tile) const;
+
+  private:
+    [[nodiscard]] bool all_kept() const;
+    [[nodiscard]] Result<KeptTile> made(const TileIndex& tile) const;
+
+    const TilesetRequest& request_;
+    TilesetLayout layout_;
+    std::unique_ptr<ClusteredGround> ground_;
+    std::vector<LevelCut> cuts_;
+    std::optional<TileBounds> bounds_;
+    std::vector<glm::vec3> normals_;  // of the level
+};
+
+bool TileMaker::all_kept() const {
+    if (request_.kept == nullptr) return false;
+    for (int level = 0; level < layout_.levels(); ++level)
+        for (std::size_t number = 0; number < layout_.count(level); ++number)
+            if (is_own(number) && !request_.kept->has(layout_.tile(number, level))) return false;
+    return true;
+}
+
+Result<void> TileMaker::begin(const GroundSourceOfTiles& ground) {
+    if (all_kept()) return {};
+    ORO_TRY(ground_, ground());
+    cuts_.resize(static_cast<std::size_t>(layout_.levels()));
+    in_parallel(layout_.levels(), request_.threads, [&](int level) {
+        const LevelAim aim = aim_of(*ground_, layout_, level, request_.finest_error_m);
+        cuts_[static_cast<std::size_t>(level)] = level_cut(*ground_, layout_, level, aim.cut_m, aim.step_m);
+    });
+    bounds_ = TileBounds::of(*ground_, layout_, cuts_);
+    return {};
+}
+
+void TileMaker::begin_level(int level) {
+    if (ground_ && request_.normals) normals_ = normals_of(*ground_, cuts_[static_cast<std::size_t>(level)]);
+}
+
+Result<KeptTile> TileMaker::made(const TileIndex& tile) const {
+    KeptTile made;
+    if (!bounds_->drawn(tile)) return made;
+    const GroundMesh mesh = ground_mesh(*ground_, layout_, cuts_[static_cast<std::size_t>(tile.level)], tile,
+                                        bounds_->walls(tile), normals_);
+    VertexFacts facts;
+    if (request_.facts) {
+        ORO_TRY(facts, request_.facts(tile.level, mesh.places));
+    }
+    made = {true, mesh.ground_triangles, bounds_->error_m(tile), mesh.box,
+            glb_bytes(mesh, facts, request_.look)};
+    return made;
+}
+
+Result<KeptTile> TileMaker::tile(const TileIndex& tile) const {
+    if (request_.kept == nullptr) return made(tile);
+    ORO_TRY(std::optional<KeptTile> kept, request_.kept->read(tile));
+    if (kept) return std::move(*kept);
+    ORO_TRY(KeptTile one, made(tile));
+    ORO_CHECK(request_.kept->write(tile, one));
+    return one;
+}
+
+// Calls work(number) for each tile of a level on several threads, in parts, so that progress is report
+// between them. Errors: the first that a call has.
+template <class Work, class Report>
+Result<void> each_tile(std::size_t count, int threads, const Work& work, const Report& report) {
+    std::mutex mutex;
+    Result<void> fault;
+    const std::size_t at_once = std::size_t{16} * static_cast<std::size_t>(threads);
+    for (std::size_t first = 0; first < count && fault.ok(); first += at_once) {
+        const std::size_t now = std::min(at_once, count - first);
+        in_parallel(static_cast<int>(now), threads, [&](int i) {
+            const Result<void> one = work(first + static_cast<std::size_t>(i));
+            const std::scoped_lock lock(mutex);
+            if (!one.ok() && fault.ok()) fault = one.error();
+        });
+        report(now);
+    }
+    return fault;
+}
+
 // Writes the tiles, the finest first, and then the file that tells of them.
 class TilesetWriter {
   public:
-    TilesetWriter(const std::string& folder, const ClusteredGround& ground, const TilesetRequest& request)
-        : folder_(folder),
-          ground_(ground),
-          request_(request),
-          layout_(ground.grid().rows(), ground.grid().columns(), request.tile_quads),
-          cuts_(cuts()),
-          bounds_(TileBounds::of(ground, layout_, cuts_)) {}
+    TilesetWriter(const std::string& folder, TileMaker& maker, const TilesetRequest& request)
+        : folder_(folder), maker_(maker), request_(request), layout_(maker.layout()) {}
 
     Result<void> write_tiles(const TilesetProgress& progress);
     Result<TilesetWritten> write_json();
 
   private:
-    [[nodiscard]] std::vector<LevelCut> cuts() const;
     Result<void> make_folders(int level) const;
-    Result<WrittenTile> write_tile(const TileIndex& tile, std::span<const glm::vec3> normals) const;
+    Result<void> write_tile(const TileIndex& tile, WrittenTile& written) const;
     void join_boxes(int level);
     [[nodiscard]] const WrittenTile& at(const TileIndex& tile) const {
         return written_[static_cast<std::size_t>(tile.level)][layout_.number(tile)];
@@ -123,23 +215,12 @@ class TilesetWriter {
     [[nodiscard]] TilesetLevel summed_up(int level) const;
 
     const std::string& folder_;
-    const ClusteredGround& ground_;
+    TileMaker& maker_;
     const TilesetRequest& request_;
-    TilesetLayout layout_;
-    std::vector<LevelCut> cuts_;
-    TileBounds bounds_;
+    const TilesetLayout& layout_;
     std::vector<std::vector<WrittenTile>> written_;  // by level
     double tileset_error_m_{};
 };
-
-std::vector<LevelCut> TilesetWriter::cuts() const {
-    std::vector<LevelCut> cuts(static_cast<std::size_t>(layout_.levels()));
-    in_parallel(layout_.levels(), request_.threads, [&](int level) {
-        const LevelAim aim = aim_of(ground_, layout_, level, request_.finest_error_m);
-        cuts[static_cast<std::size_t>(level)] = level_cut(ground_, layout_, level, aim.cut_m, aim.step_m);
-    });
-    return cuts;
-}
 
 std::vector<TileIndex> TilesetWriter::below(const TileIndex& tile) const {
     std::vector<TileIndex> tiles;
@@ -162,15 +243,12 @@ Result<void> TilesetWriter::make_folders(int level) const {
     return {};
 }
 
-Result<WrittenTile> TilesetWriter::write_tile(const TileIndex& tile,
-                                              std::span<const glm::vec3> normals) const {
-    WrittenTile written;
-    if (!bounds_.drawn(tile)) return written;
-    const GroundMesh mesh = ground_mesh(ground_, layout_, cuts_[static_cast<std::size_t>(tile.level)], tile,
-                                        bounds_.walls(tile), normals);
-    const std::vector<std::uint8_t> glb = glb_bytes(mesh, request_.look);
-    ORO_CHECK(write_plain_file(folder_ + "/" + tile_name(tile), glb));
-    return WrittenTile{true, mesh.ground_triangles, glb.size(), mesh.box};
+Result<void> TilesetWriter::write_tile(const TileIndex& tile, WrittenTile& written) const {
+    ORO_TRY(const KeptTile one, maker_.tile(tile));
+    if (!one.has_content) return {};
+    ORO_CHECK(write_plain_file(folder_ + "/" + tile_name(tile), one.glb));
+    written = {true, one.triangles, one.glb.size(), one.error_m, one.box};
+    return {};
 }
 
 void TilesetWriter::join_boxes(int level) {
@@ -187,28 +265,14 @@ Result<void> TilesetWriter::write_tiles(const TilesetProgress& progress) {
     for (int level = 0; level < layout_.levels(); ++level) {
         ORO_CHECK(make_folders(level));
         std::vector<WrittenTile>& written = written_.emplace_back(layout_.count(level));
-        std::vector<glm::vec3> normals;
-        if (request_.normals) normals = normals_of(ground_, cuts_[static_cast<std::size_t>(level)]);
-        std::mutex mutex;
-        Result<void> fault;
-        // In parts, so that progress is told between them.
-        const std::size_t at_once = std::size_t{16} * static_cast<std::size_t>(request_.threads);
-        for (std::size_t first = 0; first < written.size() && fault.ok(); first += at_once) {
-            const std::size_t count = std::min(at_once, written.size() - first);
-            in_parallel(static_cast<int>(count), request_.threads, [&](int i) {
-                const std::size_t number = first + static_cast<std::size_t>(i);
-                const Result<WrittenTile> one = write_tile(layout_.tile(number, level), normals);
-                if (one.ok()) {
-                    written[number] = one.value();
-                    return;
-                }
-                const std::scoped_lock lock(mutex);
-                if (fault.ok()) fault = one.error();
-            });
-            done += static_cast<double>(count);
-            if (progress) progress(done / all);
-        }
-        ORO_CHECK(fault);
+        maker_.begin_level(level);
+        ORO_CHECK(each_tile(
+            written.size(), request_.threads,
+            [&](std::size_t number) { return write_tile(layout_.tile(number, level), written[number]); },
+            [&](std::size_t now) {
+                done += static_cast<double>(now);
+                if (progress) progress(done / all);
+            }));
         join_boxes(level);
         std::error_code ignored;
         // Those without a tile; of folders that hold something rmdir does nothing.
@@ -234,7 +298,7 @@ Json region_json_of(const TileBox& box) {
 Json TilesetWriter::tile_json(const TileIndex& tile) const {
     Json json = Json::object();
     json["boundingVolume"]["region"] = region_json_of(*at(tile).box);
-    json["geometricError"] = bounds_.error_m(tile);
+    json["geometricError"] = at(tile).error_m;
     if (tile.level == layout_.levels() - 1) json["refine"] = "REPLACE";
     json["content"]["uri"] = tile_name(tile);
     Json children = Json::array();
@@ -243,12 +307,26 @@ Json TilesetWriter::tile_json(const TileIndex& tile) const {
     return json;
 }
 
-// Each of them a string of one class. Source: OGC 22-025r4, 3D Metadata Specification.
+// Each of them a string of one class, and the sources one by one: their names, whose they are, and how
+// accurate. Source: OGC 22-025r4, 3D Metadata Specification.
 Json TilesetWriter::metadata_json() const {
     Json properties = Json::object(), values = Json::object();
     for (const auto& [name, text] : request_.metadata) {
         properties[name]["type"] = "STRING";
         values[name] = text;
+    }
+    Json names = Json::array(), accuracies = Json::array();
+    for (const GroundSource& source : request_.look.sources) {
+        names.push_back(source.name);
+        accuracies.push_back(source.vertical_le90_m);
+    }
+    if (!names.empty()) {
+        properties["sources"]["type"] = "STRING";
+        properties["sourcesVerticalLe90"] = source_class_json()["properties"]["vertical_le90_m"];
+        for (const char* const name : {"sources", "sourcesVerticalLe90"}) properties[name]["array"] = true;
+        properties["sourcesVerticalLe90"].erase("noData");
+        values["sources"] = std::move(names);
+        values["sourcesVerticalLe90"] = std::move(accuracies);
     }
     Json json = Json::object();
     json["schema"]["id"] = "orograph_ground";
@@ -268,7 +346,7 @@ TilesetLevel TilesetWriter::summed_up(int level) const {
         ++sum.tiles;
         sum.triangles += one.triangles;
         sum.bytes += one.bytes;
-        sum.largest_error_m = std::max(sum.largest_error_m, bounds_.error_m(tile));
+        sum.largest_error_m = std::max(sum.largest_error_m, one.error_m);
     }
     return sum;
 }
@@ -283,7 +361,7 @@ Result<TilesetWritten> TilesetWriter::write_json() {
     for (const TilesetLevel& level : written.levels)
         tileset_error_m_ = std::max(tileset_error_m_, level.largest_error_m);
     written.geometric_error_m = tileset_error_m_;
-    written.root_error_m = bounds_.error_m(root);
+    written.root_error_m = at(root).error_m;
     Json json = Json::object();
     json["asset"]["version"] = "1.1";
     json["asset"]["generator"] = request_.look.generator;
@@ -307,11 +385,40 @@ std::uint64_t tileset_tiles(const PostGrid& grid) {
     return TilesetLayout(grid.rows(), grid.columns()).all();
 }
 
-Result<TilesetWritten> write_tileset(const std::string& folder, const ClusteredGround& ground,
-                                     const TilesetRequest& request, const TilesetProgress& progress) {
-    TilesetWriter writer(folder, ground, request);
+Result<TilesetWritten> write_tileset(const std::string& folder, const PostGrid& grid,
+                                     const GroundSourceOfTiles& ground, const TilesetRequest& request,
+                                     const TilesetProgress& progress) {
+    TileMaker maker(grid, request);
+    ORO_CHECK(maker.begin(ground));
+    TilesetWriter writer(folder, maker, request);
     ORO_CHECK(writer.write_tiles(progress));
     return writer.write_json();
+}
+
+Result<std::uint64_t> make_tiles(const PostGrid& grid, const GroundSourceOfTiles& ground,
+                                 const TilesetRequest& request, const TilesetProgress& progress) {
+    TileMaker maker(grid, request);
+    ORO_CHECK(maker.begin(ground));
+    const TilesetLayout& layout = maker.layout();
+    std::uint64_t own = 0;
+    double done = 0.0;
+    for (int level = 0; level < layout.levels(); ++level) {
+        maker.begin_level(level);
+        for (std::size_t number = 0; number < layout.count(level); ++number)
+            own += maker.is_own(number) ? 1 : 0;
+        ORO_CHECK(each_tile(
+            layout.count(level), request.threads,
+            [&](std::size_t number) -> Result<void> {
+                if (!maker.is_own(number)) return {};
+                ORO_TRY(const KeptTile one, maker.tile(layout.tile(number, level)));
+                return {};
+            },
+            [&](std::size_t now) {
+                done += static_cast<double>(now);
+                if (progress) progress(done / static_cast<double>(layout.all()));
+            }));
+    }
+    return own;
 }
 
 }  // namespace oro

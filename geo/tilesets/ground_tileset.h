@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "core/base/result.h"
 #include "geo/tilesets/clustered_ground.h"
 #include "geo/tilesets/glb.h"
+#include "geo/tilesets/kept_tiles.h"
 #include "geo/tilesets/tileset_layout.h"
 
 namespace oro {
@@ -19,10 +22,16 @@ struct TilesetRequest {
     GlbLook look;
     // What the tileset says of itself, a name and its text each (tileset.json, metadata).
     std::vector<std::pair<std::string, std::string>> metadata;
+    // What is known of vertices of tiles of a level; none: nothing. Asked from several threads.
+    std::function<Result<VertexFacts>(int level, std::span<const VertexPlace> places)> facts;
     // What tiles of level 0 may be off, metres; 0: they have every post.
     double finest_error_m{};
     bool normals{true};
     int tile_quads{TilesetLayout::usual_quads};  // along the sides of a tile of level 0
+    // Where tiles that are done are kept, and taken from; null: nowhere. It stays where it is.
+    const KeptTiles* kept{};
+    // Of several parts that share `kept` this one, 0 .. parts - 1: the others' tiles are not made.
+    int part{}, parts{1};
     int threads{1};
 };
 
@@ -51,11 +60,20 @@ double usual_finest_error_m(const PostGrid& grid);
 // Told how much is done, 0 .. 1, from the calling thread.
 using TilesetProgress = std::function<void(double share)>;
 
+// Gives the ground with its clusters, which takes long: asked once, and not at all where all tiles are kept.
+using GroundSourceOfTiles = std::function<Result<std::unique_ptr<ClusteredGround>>()>;
+
 // Writes FOLDER/LEVEL/ROW/COLUMN.glb of every tile that has ground, and FOLDER/tileset.json. A tile's
 // geometricError is the bound of TileBounds: nothing of the surface is farther than it from what the tile
-// has in its place. The folder is there and empty. Same bytes for any number of threads. Errors: what cannot
-// be written; no triangle (no_data).
-Result<TilesetWritten> write_tileset(const std::string& folder, const ClusteredGround& ground,
-                                     const TilesetRequest& request, const TilesetProgress& progress);
+// has in its place. The folder is there and empty. Same bytes for any number of threads, and wherever tiles
+// that are kept were made. Errors: what cannot be written; no triangle (no_data); those of `ground`.
+Result<TilesetWritten> write_tileset(const std::string& folder, const PostGrid& grid,
+                                     const GroundSourceOfTiles& ground, const TilesetRequest& request,
+                                     const TilesetProgress& progress);
+
+// Makes the tiles of one part that are not kept yet, and keeps them: how many there are now of the part.
+// request.kept is there. Errors: as write_tileset().
+Result<std::uint64_t> make_tiles(const PostGrid& grid, const GroundSourceOfTiles& ground,
+                                 const TilesetRequest& request, const TilesetProgress& progress);
 
 }  // namespace oro

@@ -111,6 +111,59 @@ TEST(ExportCommand, A3dTilesetHasTheProvenErrors) {
     EXPECT_EQ(bytes, said["bytes"].get<std::uintmax_t>());
 }
 
+// An image of one colour over all the ground: every file has colours of vertices, and is larger for them.
+TEST(ExportCommand, A3dTilesetIsColouredByAnImage) {
+    const fs::path folder = oro::test::scratch_folder(), image = folder / "red.tif";
+    const auto made = run_program(
+        {"gdal_create", "-q",      "-of",   "GTiff", "-outsize", "50",   "40",          "-bands", "3",
+         "-burn",       "255",     "-burn", "0",     "-burn",    "0",    "-ot",         "Byte",   "-a_srs",
+         "EPSG:4326",   "-a_ullr", "-84.5", "36.8",  "-84.0",    "36.4", image.string()});
+    if (made.exit_code == 127) GTEST_SKIP() << "needs gdal_create";
+    const Words part{"--bbox=-84.4,36.5,-84.3,36.6", "--json"};
+    const auto plain = object_said_by(export_words("3dtiles", folder / "plain", part));
+    const auto red = object_said_by(
+        export_words("3dtiles", folder / "red", oro::test::joined(part, {"--drape", image.string()})));
+    EXPECT_EQ(red["tiles"], plain["tiles"]);
+    const std::string with = bytes_of(folder / "red" / "0" / "0" / "0.glb"),
+                      without = bytes_of(folder / "plain" / "0" / "0" / "0.glb");
+    EXPECT_NE(with.find("COLOR_0"), std::string::npos);
+    EXPECT_EQ(without.find("COLOR_0"), std::string::npos);
+    EXPECT_NE(without.find("\"class\":\"source\""), std::string::npos);
+    EXPECT_NE(without.find("jacksboro.tif"), std::string::npos);
+    // All vertices have one colour, which takes next to nothing.
+    EXPECT_LT(with.size(), without.size() + 2000);
+    expect_refusal(run_orograph(export_words("cog", folder / "t.tif", {"--drape", image.string()})),
+                   oro::test::usage, {"needs --to 3dtiles"});
+    expect_refusal(run_orograph(export_words("3dtiles", folder / "t", {"--drape", "none.tif"})),
+                   oro::test::failed, {"none.tif"});
+}
+
+// Parts by themselves, and then all: the files of one go, and nothing else is left.
+TEST(ExportCommand, A3dTilesetIsMadeInParts) {
+    const fs::path folder = oro::test::scratch_folder();
+    const Words part{"--bbox=-84.4,36.5,-84.3,36.6", "--json"};
+    const auto whole = object_said_by(export_words("3dtiles", folder / "whole", part));
+    const fs::path out = folder / "parts";
+    for (const char* const shard : {"1/2", "2/2"}) {
+        const auto said =
+            object_said_by(export_words("3dtiles", out, oro::test::joined(part, {"--shard", shard})));
+        EXPECT_EQ(said["parts"], 2);
+        EXPECT_FALSE(fs::exists(out));
+    }
+    expect_refusal(
+        run_orograph(export_words("3dtiles", out, {"--bbox=-84.4,36.5,-84.3,36.6", "--no-normals"})),
+        oro::test::failed, {"parts.tiles: holds tiles of other data, options"});
+    const auto joined = object_said_by(export_words("3dtiles", out, part));
+    EXPECT_EQ(joined["bytes"], whole["bytes"]);
+    for (const char* const file : {"tileset.json", "0/0/0.glb"})
+        EXPECT_TRUE(bytes_of(out / file) == bytes_of(folder / "whole" / file));
+    EXPECT_EQ(names_in(folder), (Words{"parts", "whole"}));
+    expect_refusal(run_orograph(export_words("gltf", folder / "t.glb", {"--shard", "1/2"})), oro::test::usage,
+                   {"--shard 1/2: needs --to 3dtiles"});
+    expect_refusal(run_orograph(export_words("3dtiles", folder / "t", {"--shard", "3/2"})), oro::test::usage,
+                   {"--shard 3/2"});
+}
+
 TEST(ExportCommand, TerrainOfAGlobeTellsWhatIsThere) {
     const fs::path out = oro::test::scratch_folder() / "globe";
     const auto said = object_said_by(export_words("quantized-mesh", out, {"--json", "--zoom", "0:10"}));

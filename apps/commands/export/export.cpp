@@ -5,6 +5,7 @@
 #include "apps/commands/commands.h"
 #include "apps/commands/export/exported_region.h"
 #include "apps/options/region_option_table.h"
+#include "apps/options/shard.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/different_words.h"
 #include "apps/report/figures.h"
@@ -48,6 +49,16 @@ Result<void> check_words(const ExportOptions& options) {
         return refused("--no-normals", "", "needs --to 3dtiles");
     if (options.detail && *options.to != "cog")
         return refused("--detail", std::to_string(*options.detail), "needs --to cog");
+    if (!options.shard.empty() && *options.to != "3dtiles")
+        return refused("--shard", options.shard, "needs --to 3dtiles");
+    if (const Result<Shard> shard = parse_shard(options.shard); !shard.ok()) return shard.error();
+    if (!options.drape.empty() && *options.to != "3dtiles")
+        return refused("--drape", options.drape.front(), "needs --to 3dtiles");
+    if (!options.landcover.empty() && *options.to != "3dtiles")
+        return refused("--landcover", options.landcover.front(), "needs --to 3dtiles");
+    if (!options.landcover.empty() && !options.drape.empty())
+        return refused("--landcover", options.landcover.front(),
+                       "colours the ground, and so does --drape: give one");
     constexpr double most_error_m = 100000.0;
     if (const double error_m = options.max_error_m.value_or(0.0);
         !(error_m >= 0.0 && error_m <= most_error_m))

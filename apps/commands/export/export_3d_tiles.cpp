@@ -6,6 +6,8 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/commands/export/exported_region.h"
+#include "apps/commands/export/vertex_facts.h"
+#include "apps/options/shard.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
@@ -17,9 +19,13 @@
 namespace oro {
 namespace {
 
-TilesetRequest request_of(const ExportOptions& options, const Region& region) {
+TilesetRequest request_of(const ExportOptions& options, const Region& region, const ExportedFacts& facts) {
     TilesetRequest request;
     request.look = look_of(region);
+    request.look.sources = facts.sources();
+    request.facts = [&facts](int level, std::span<const VertexPlace> places) {
+        return facts.at(level, places);
+    };
     request.metadata = {
         {"heights", heights_words(region)},
         {"sourceHeights", source_heights_words(region)},
@@ -65,6 +71,34 @@ void tell_tileset(const ExportOptions& options, const Region& region, const Tile
                     level.tiles > 0 ? figure(level.largest_error_m).c_str() : "n/a");
 }
 
+// All that the bytes of tiles depend on, the program's version among it.
+std::string key_of(const RegionGrid& grid, const TilesetRequest& request, const ExportedFacts& facts) {
+    nlohmann::ordered_json sources = nlohmann::ordered_json::array();
+    for (const GroundSource& source : facts.sources())
+        sources.push_back(json_object("name", source.name, "attribution", source.attribution, "heights",
+                                      source.heights, "spacing_m", source.spacing_m));
+    const auto key = json_object(
+        "generator", request.look.generator, "posts", grid.posts_hash, "geoid", grid.geoid_fingerprint,
+        "rows", grid.field.grid.rows(), "columns", grid.field.grid.columns(), "north_deg",
+        grid.field.grid.north_deg(), "west_deg", grid.field.grid.west_deg(), "clusters",
+        grid.clusters ? "baked" : "built", "max_error_m", request.finest_error_m, "normals", request.normals,
+        "attribution", request.look.attribution, "sources", sources, "colours", facts.key());
+    return json_text(key, true) + "\n";
+}
+
+void tell_part(const ExportOptions& options, const std::string& folder, const Shard& shard,
+               std::uint64_t tiles) {
+    if (options.json) {
+        const auto json = json_object("folder", folder, "format", "3dtiles", "part", shard.number, "parts",
+                                      shard.count, "tiles", tiles);
+        std::printf("%s\n", json_text(json, true).c_str());
+        return;
+    }
+    std::printf("Kept in %s: %s, part %lld of %lld\n", folder.c_str(),
+                counted(tiles, "tile", "tiles").c_str(), static_cast<long long>(shard.number),
+                static_cast<long long>(shard.count));
+}
+
 }  // namespace
 
 Result<void> export_3d_tiles(const ExportOptions& options, const Region& region, ProgressBar& bar) {
@@ -74,18 +108,39 @@ Result<void> export_3d_tiles(const ExportOptions& options, const Region& region,
         return refused("--to", "3dtiles",
                        grouped(posts) + " posts are more than " + grouped(most_tileset_posts) +
                            ": give a part of the data with --bbox");
-    bar.show(0.0, "building clusters");
-    ORO_TRY(const std::unique_ptr<ClusteredGround> ground,
-            ClusteredGround::of(grid.field, grid.clusters.get(), thread_count()));
-    ORO_CHECK(region.health());
+    ORO_TRY(const std::unique_ptr<ExportedFacts> facts,
+            ExportedFacts::of(options, region, 0, look_of(region).colour));
+    TilesetRequest asked = request_of(options, region, *facts);
+    const std::string kept_folder = options.out + ".tiles";
+    ORO_TRY(const Shard shard, parse_shard(options.shard));
+    const GroundSourceOfTiles ground = [&]() -> Result<std::unique_ptr<ClusteredGround>> {
+        bar.show(0.0, "building clusters");
+        ORO_TRY(std::unique_ptr<ClusteredGround> built,
+                ClusteredGround::of(grid.field, grid.clusters.get(), thread_count()));
+        ORO_CHECK(region.health());
+        return built;
+    };
+    const TilesetProgress progress = [&](double share) { bar.show(share, "writing tiles"); };
+    if (!options.shard.empty()) {
+        ORO_TRY(const KeptTiles kept, KeptTiles::open(kept_folder, key_of(grid, asked, *facts)));
+        asked.kept = &kept;
+        asked.part = static_cast<int>(shard.number - 1);
+        asked.parts = static_cast<int>(shard.count);
+        ORO_TRY(const std::uint64_t tiles, make_tiles(grid.field.grid, ground, asked, progress));
+        bar.clear();
+        tell_part(options, kept_folder, shard, tiles);
+        return {};
+    }
     ORO_TRY(WholeFolder folder, WholeFolder::create(options.out, options.overwrite));
+    ORO_TRY(const KeptTiles kept, KeptTiles::open(kept_folder, key_of(grid, asked, *facts)));
+    asked.kept = &kept;
     ORO_TRY(const TilesetWritten written,
-            write_tileset(folder.path(), *ground, request_of(options, region),
-                          [&](double share) { bar.show(share, "writing tiles"); }));
-    ORO_CHECK(region.health());
+            write_tileset(folder.path(), grid.field.grid, ground, asked, progress));
     ORO_CHECK(folder.commit());
+    kept.remove();
     bar.clear();
     say_notes(region, options.quiet);
+    for (const std::string& note : facts->notes()) say(options.quiet, "note: " + note);
     tell_tileset(options, region, written);
     return {};
 }

@@ -124,7 +124,7 @@ TEST(GroundModel, IsWithinItsErrorAndWithoutGaps) {
         const auto model = ground_model(*pages, largest_m);
         ASSERT_TRUE(model.ok()) << model.error().line();
         EXPECT_LE(model->error_m, largest_m + 0.1);
-        const ReadModel read = read_model(model_glb_bytes(*model, {{0.5, 0.5, 0.5}, "", "test"}));
+        const ReadModel read = read_model(model_glb_bytes(*model, {{0.5, 0.5, 0.5}, {}, "", "test"}));
         EXPECT_LT(read.triangles.size(), triangles_before);
         triangles_before = read.triangles.size();
         const HeldModel sum = held(field, read, 20000);

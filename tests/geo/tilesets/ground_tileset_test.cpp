@@ -28,15 +28,27 @@ constexpr unsigned tiles_seed = 20261128;
 struct Exported {
     explicit Exported(HeightField made, double finest_error_m = 5.0, int threads = 2)
         : field(std::move(made)), surface(field, 1.0, 2), folder(test::scratch_folder()) {
-        const auto ground = ClusteredGround::of(field, nullptr, threads);
-        EXPECT_TRUE(ground.ok());
         TilesetRequest request;
         request.finest_error_m = finest_error_m;
         request.tile_quads = 64;
-        request.look = {{0.5, 0.4, 0.3}, "nobody", "test"};
+        request.look = {{0.5, 0.4, 0.3},
+                        {{"a.hgt", "nobody", "EGM96", 92.5, 16.0}, {"b.tif", "", "", 1.0, -1.0}},
+                        "nobody",
+                        "test"};
+        // West and east, of different colours.
+        request.facts = [](int, std::span<const VertexPlace> places) {
+            VertexFacts facts;
+            for (const VertexPlace& place : places) {
+                const bool east = place.column >= 100.0;
+                facts.sources.push_back(east ? 1 : 0);
+                facts.colours.push_back({east ? 1.0 : 0.25, 0.5, 0.0});
+            }
+            return Result<VertexFacts>(facts);
+        };
         request.metadata = {{"heights", "made \"up\""}};
         request.threads = threads;
-        auto done = write_tileset(folder, *ground.value(), request, {});
+        auto done = write_tileset(folder, field.grid,
+                                  [&] { return ClusteredGround::of(field, nullptr, threads); }, request, {});
         EXPECT_TRUE(done.ok()) << done.error().line();
         if (!done.ok()) return;
         written = done.value();
@@ -408,11 +420,92 @@ TEST(GroundTileset, NormalsAreThoseOfTheGround) {
     }
 }
 
+// Each vertex has its colour, and names its source in the table.
+TEST(GroundTileset, VerticesTellTheirColoursAndSources) {
+    const Exported exported(test::rough_field(47.0, 8.0, 100, 190));
+    std::array<int, 2> found{};
+    for (const ReadTile& tile : exported.tiles) {
+        ASSERT_EQ(tile.sources.size(), tile.posts_m.size());
+        ASSERT_EQ(tile.colours.size(), tile.posts_m.size());
+        ASSERT_EQ(tile.source_names, (std::vector<std::string>{"a.hgt", "b.tif"}));
+        ASSERT_EQ(tile.source_le90_m, (std::vector<float>{16.0F, -1.0F}));
+        for (std::size_t i = 0; i < tile.posts_m.size(); ++i) {
+            const Geodetic at = geodetic_from_ecef({tile.posts_m[i]});
+            const double column = exported.field.grid.post_at(at.lat_deg, at.lon_deg).column;
+            if (std::abs(column - 100.0) < 2.0) continue;
+            const bool east = column > 100.0;
+            ++found[east ? 1 : 0];
+            EXPECT_EQ(tile.sources[i], east ? 1 : 0);
+            EXPECT_NEAR(tile.colours[i].x, east ? 1.0 : 0.25, 1.0 / 255.0);
+            EXPECT_NEAR(tile.colours[i].y, 0.5, 1.0 / 255.0);
+        }
+    }
+    EXPECT_GT(found[0], 100);
+    EXPECT_GT(found[1], 100);
+    const auto json = nlohmann::json::parse(test::all_bytes(exported.folder / "tileset.json"));
+    EXPECT_EQ(json["metadata"]["properties"]["sources"], (std::vector<std::string>{"a.hgt", "b.tif"}));
+    EXPECT_EQ(json["metadata"]["properties"]["sourcesVerticalLe90"][0], 16.0);
+    EXPECT_EQ(json["schema"]["classes"]["ground"]["properties"]["sources"]["array"], true);
+}
+
+// Three parts that are made by themselves, one of them twice, and a tileset of them: the bytes of one go, and
+// the ground is not asked for again.
+TEST(GroundTileset, OfPartsHasTheBytesOfOneGo) {
+    const HeightField field = test::rough_field(47.0, 8.0, 150, 170);
+    const fs::path scratch = test::scratch_folder();
+    int asked = 0;
+    const GroundSourceOfTiles ground = [&] {
+        ++asked;
+        return ClusteredGround::of(field, nullptr, 2);
+    };
+    TilesetRequest request;
+    request.tile_quads = 64;
+    request.finest_error_m = 5.0;
+    fs::create_directory(scratch / "whole");
+    ASSERT_TRUE(write_tileset(scratch / "whole", field.grid, ground, request, {}).ok());
+    const auto kept = KeptTiles::open(scratch / "kept", "key");
+    ASSERT_TRUE(kept.ok());
+    request.kept = &kept.value();
+    request.parts = 3;
+    std::uint64_t tiles = 0;
+    for (const int part : {2, 0, 2, 1}) {
+        request.part = part;
+        const auto made = make_tiles(field.grid, ground, request, {});
+        ASSERT_TRUE(made.ok()) << made.error().line();
+        if (part != 2 || tiles == 0) tiles += made.value();
+    }
+    EXPECT_EQ(tiles, 9U + 4U + 1U);
+    EXPECT_EQ(asked, 1 + 3);
+    request.part = 0;
+    request.parts = 1;
+    fs::create_directory(scratch / "joined");
+    ASSERT_TRUE(write_tileset(scratch / "joined", field.grid, ground, request, {}).ok());
+    EXPECT_EQ(asked, 1 + 3);
+    std::size_t files = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(scratch / "whole")) {
+        if (!entry.is_regular_file()) continue;
+        ++files;
+        EXPECT_TRUE(test::all_bytes(entry.path()) ==
+                    test::all_bytes(scratch / "joined" / fs::relative(entry.path(), scratch / "whole")));
+    }
+    EXPECT_EQ(files, 9U + 4U + 1U + 1U);
+    EXPECT_FALSE(KeptTiles::open(scratch / "kept", "another").ok());
+    // A tile that was cut is no tile.
+    fs::resize_file(scratch / "kept" / "0-1-1.tile", 500);
+    fs::create_directory(scratch / "again");
+    const auto cut = write_tileset(scratch / "again", field.grid, ground, request, {});
+    ASSERT_FALSE(cut.ok());
+    EXPECT_NE(cut.error().line().find("0-1-1.tile"), std::string::npos);
+    fs::copy_file(scratch / "whole" / "tileset.json", scratch / "kept" / "mine.json");
+    kept->remove();
+    EXPECT_TRUE(fs::exists(scratch / "kept" / "mine.json"));
+    EXPECT_FALSE(fs::exists(scratch / "kept" / "0-0-0.tile"));
+}
+
 TEST(GroundTileset, AFullDiskIsTold) {
     const HeightField field = test::rough_field(47.0, 8.0, 60, 60);
-    const auto ground = ClusteredGround::of(field, nullptr, 1);
-    ASSERT_TRUE(ground.ok());
-    const auto done = write_tileset("/dev/full", *ground.value(), {}, {});
+    const auto done = write_tileset("/dev/full", field.grid,
+                                    [&] { return ClusteredGround::of(field, nullptr, 1); }, {}, {});
     ASSERT_FALSE(done.ok());
     EXPECT_EQ(done.error().kind, ErrorKind::failed);
 }

@@ -29,6 +29,10 @@ struct ReadTile {
     std::vector<int> children;
     // Of the content: ECEF, and the triangles, the first ones of which are ground.
     std::vector<glm::dvec3> posts_m, normals;
+    std::vector<glm::dvec3> colours;        // 0 .. 1, linear
+    std::vector<int> sources;               // of each vertex, its row of the table of sources
+    std::vector<std::string> source_names;  // of the table
+    std::vector<float> source_le90_m;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::size_t ground_triangles{};
 };
@@ -82,9 +86,10 @@ inline std::vector<glm::dvec3> vectors_of(const nlohmann::json& gltf, const std:
     const std::string bytes = view_bytes(gltf, bin, number);
     EXPECT_EQ(of["type"], "VEC3");
     const int component = of["componentType"];
-    EXPECT_TRUE(component == 5120 || component == 5122 || component == 5126) << component;
-    EXPECT_EQ(of.value("normalized", false), component == 5120);
-    const std::size_t part = component == 5120 ? 1 : component == 5122 ? 2 : 4;
+    EXPECT_TRUE(component == 5120 || component == 5121 || component == 5122 || component == 5126)
+        << component;
+    EXPECT_EQ(of.value("normalized", false), component <= 5121);
+    const std::size_t part = component <= 5121 ? 1 : component == 5122 ? 2 : 4;
     const auto stride = gltf["bufferViews"][number]["byteStride"].get<std::size_t>(),
                count = of["count"].get<std::size_t>();
     EXPECT_EQ(count * stride, bytes.size());
@@ -94,6 +99,7 @@ inline std::vector<glm::dvec3> vectors_of(const nlohmann::json& gltf, const std:
         for (std::size_t j = 0; j < 3; ++j) {
             const std::size_t at = i * stride + j * part;
             parts[j] = component == 5120   ? std::max(-1.0, value_at<std::int8_t>(bytes, at) / 127.0)
+                       : component == 5121 ? value_at<std::uint8_t>(bytes, at) / 255.0
                        : component == 5122 ? value_at<std::int16_t>(bytes, at)
                                            : static_cast<double>(value_at<float>(bytes, at));
         }
@@ -109,6 +115,42 @@ inline std::vector<glm::dvec3> vectors_of(const nlohmann::json& gltf, const std:
 // From glTF's y up to the z up of 3D Tiles (OGC 22-025r4, "glTF transforms"): (x, y, z) is (x, -z, y).
 inline glm::dvec3 z_up(const glm::dvec3& y_up) {
     return {y_up.x, -y_up.z, y_up.y};
+}
+
+// A view of a property table, which is not compressed.
+inline std::string plain_view_bytes(const nlohmann::json& gltf, const std::string& bin, std::size_t number) {
+    const auto& view = gltf["bufferViews"][number];
+    EXPECT_EQ(view["buffer"], 0);
+    EXPECT_EQ(view["byteOffset"].get<std::size_t>() % 8, 0U);
+    EXPECT_LE(view["byteOffset"].get<std::size_t>() + view["byteLength"].get<std::size_t>(), bin.size());
+    return bin.substr(view["byteOffset"], view["byteLength"]);
+}
+
+// Source: Cesium, EXT_mesh_features and EXT_structural_metadata.
+inline void read_sources(const nlohmann::json& gltf, const std::string& bin, const nlohmann::json& primitive,
+                         ReadTile& tile) {
+    const auto& features = primitive["extensions"]["EXT_mesh_features"]["featureIds"][0];
+    EXPECT_EQ(features["attribute"], 0);
+    const auto& accessor = gltf["accessors"][primitive["attributes"]["_FEATURE_ID_0"].get<std::size_t>()];
+    EXPECT_EQ(accessor["type"], "SCALAR");
+    EXPECT_EQ(accessor["componentType"], 5121);
+    const std::string ids = view_bytes(gltf, bin, accessor["bufferView"]);
+    for (std::size_t i = 0; i < accessor["count"].get<std::size_t>(); ++i)
+        tile.sources.push_back(static_cast<unsigned char>(ids[4 * i]));
+    const auto& metadata = gltf["extensions"]["EXT_structural_metadata"];
+    const auto& table = metadata["propertyTables"][features["propertyTable"].get<std::size_t>()];
+    EXPECT_TRUE(metadata["schema"]["classes"].contains(table["class"].get<std::string>()));
+    EXPECT_EQ(table["count"], features["featureCount"]);
+    const auto& name = table["properties"]["name"];
+    const std::string text = plain_view_bytes(gltf, bin, name["values"]),
+                      ends = plain_view_bytes(gltf, bin, name["stringOffsets"]),
+                      le90 = plain_view_bytes(gltf, bin, table["properties"]["vertical_le90_m"]["values"]);
+    for (std::size_t i = 0; i < table["count"].get<std::size_t>(); ++i) {
+        const auto begin = value_at<std::uint32_t>(ends, 4 * i),
+                   end = value_at<std::uint32_t>(ends, 4 * i + 4);
+        tile.source_names.push_back(text.substr(begin, end - begin));
+        tile.source_le90_m.push_back(value_at<float>(le90, 4 * i));
+    }
 }
 
 inline void read_glb(const std::string& bytes, ReadTile& tile) {
@@ -134,6 +176,9 @@ inline void read_glb(const std::string& bytes, ReadTile& tile) {
     if (primitive["attributes"].contains("NORMAL"))
         for (const glm::dvec3& normal : vectors_of(gltf, bin, primitive["attributes"]["NORMAL"]))
             tile.normals.push_back(glm::normalize(z_up(glm::dmat3(matrix) * normal)));
+    if (primitive["attributes"].contains("COLOR_0"))
+        tile.colours = vectors_of(gltf, bin, primitive["attributes"]["COLOR_0"]);
+    if (primitive["attributes"].contains("_FEATURE_ID_0")) read_sources(gltf, bin, primitive, tile);
     const auto& indices = gltf["accessors"][primitive["indices"].get<std::size_t>()];
     const bool shorts = indices["componentType"] == 5123;
     EXPECT_EQ(shorts, tile.posts_m.size() <= 65535U);
