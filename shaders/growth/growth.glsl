@@ -81,8 +81,6 @@ struct Crown {
     uint kind;
     uint hash;
 };
-// 1 where bunches of leaves are larger than pixels, 0 where they are not.
-float detail_at(float pixel_m) { return clamp(1.5 - 1.15 * pixel_m, 0.0, 1.0); }
 float pixel_m_at(vec3 view) { return -view.z / FRAME.pixels_per_tangent; }
 const float shell_of_leaves = 1.25;
 Crown crown_at(vec3 view, uint hash, uint stands) {
@@ -98,8 +96,8 @@ Crown crown_at(vec3 view, uint hash, uint stands) {
     bool alone = (stands & site_in_forest) == 0u;
     crown.low_m = (alone ? 0.4 : 1.0) * tree.crown_m * FRAME.exaggeration;
     crown.high_m = tree.height_m * FRAME.exaggeration;
-    // Leaves reach out of a smooth crown here and there; far away it is smooth.
-    crown.shell = detail_at(pixel_m_at(view)) > 0.0 ? shell_of_leaves : 1.0;
+    // Leaves reach out of a smooth crown here and there. Near the eye alone: it costs rays that meet nothing.
+    crown.shell = 1.0 + (shell_of_leaves - 1.0) * clamp(1.6 - 11.0 * pixel_m_at(view), 0.0, 1.0);
     crown.radius_m = (alone ? 1.25 : 1.0) * tree.radius_m * crown.shell;
     if ((stands & 3u) != site_needle) {
         float beyond_m = 0.5 * (crown.shell - 1.0) * (crown.high_m - crown.low_m);
