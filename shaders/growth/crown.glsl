@@ -71,7 +71,7 @@ float outside_leaves(Crown crown, vec3 at, float detail, vec2 leaves) {
     float out_share = out_in_crown(crown, at);
     if (detail <= 0.0) return out_share - 0.9;
     // A tip that is finer than the steps of rays would be in pieces.
-    if (crown.kind == site_needle && at.z > mix(crown.low_m, crown.high_m, 0.97)) return max(out_share, 0.5);
+    if (crown.kind == site_needle && crown.shell > 1.0 && at.z > mix(crown.low_m, crown.high_m, 0.97)) return max(out_share, 0.5);
     // Small trees have small branches.
     at *= clamp(7.0 / (crown.high_m - crown.low_m), 1.0, 3.0);
     float reach;
@@ -93,10 +93,11 @@ vec3 normal_of_crown(Crown crown, vec3 at, float detail, vec2 leaves) {
     return dot(change, change) > 0.0 ? normalize(change) : vec3(0.0, 0.0, 1.0);
 }
 
+float detail_at(float pixel_m) { return clamp(1.5 - 1.15 * pixel_m, 0.0, 1.0); }
 // Of leaves, and of what of them is seen from near.
 vec2 leaves_at(float pixel_m) { return clamp(vec2(1.4, 1.5) - vec2(18.0, 60.0) * pixel_m, 0.0, 1.0); }
 
-const int crown_steps = 22;
+const int crown_steps = 16, near_crown_steps = 22;
 // A line from a place along a ray, both in view coordinates, from a depth on. pixel_m: what a pixel covers at the tree.
 bool meets_crown(Crown crown, vec3 from, vec3 ray, float pixel_m, float least, out CrownHit hit) {
     vec3 middle = crown.foot + 0.5 * crown.high_m * crown.axes[2] - from;
@@ -104,7 +105,8 @@ bool meets_crown(Crown crown, vec3 from, vec3 ray, float pixel_m, float least, o
     vec3 p = (ray * begin + (from - crown.foot)) * crown.axes, d = ray * crown.axes;
     float detail = detail_at(pixel_m), size = detail > 0.0 ? 1.0 : 0.9, best = no_hit;
     vec2 leaves = leaves_at(pixel_m);
-    bool is_needle = crown.kind == site_needle;
+    bool is_needle = crown.kind == site_needle, is_near = crown.shell > 1.0;
+    int steps = is_near ? near_crown_steps : crown_steps;
     float s = is_needle ? enters_cone(p, d, crown.low_m, crown.high_m, crown.radius_m * size) : enters_ellipsoid(p, d, crown.low_m, crown.high_m, crown.radius_m);
     hit.is_stem = false;
     hit.inside = 0.0;
@@ -112,7 +114,7 @@ bool meets_crown(Crown crown, vec3 from, vec3 ray, float pixel_m, float least, o
     if (detail > 0.0 && s < no_hit) s = max(s, least - begin);
     // Along the line through what is convex, until it is among leaves.
     float step_m = 0.5 * crown.radius_m / length(d), before = 1.0, last = s, per_m = 1.0 / (crown.high_m - crown.low_m);
-    for (int i = 0; s < no_hit && detail > 0.0 && i < crown_steps; ++i) {
+    for (int i = 0; s < no_hit && detail > 0.0 && i < steps; ++i) {
         vec3 at = p + s * d;
         float outside = outside_leaves(crown, at, detail, leaves);
         if (outside < 0.0) {
@@ -123,7 +125,7 @@ bool meets_crown(Crown crown, vec3 from, vec3 ray, float pixel_m, float least, o
         before = outside;
         last = s;
         // Towards a cone's tip steps are as small as it is there.
-        s += step_m * clamp(outside, 0.12, 0.5) * (is_needle ? clamp((crown.high_m - at.z) * per_m, 0.04, 1.0) : 1.0);
+        s += step_m * clamp(outside, 0.12, 0.5) * (is_needle && is_near ? clamp((crown.high_m - at.z) * per_m, 0.04, 1.0) : 1.0);
     }
     if (pixel_m < 0.25) {
         float on_stem = enters_stem(p, d, crown.low_m + 0.3 * (crown.high_m - crown.low_m), 0.011 * crown.high_m);

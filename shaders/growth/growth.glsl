@@ -81,8 +81,6 @@ struct Crown {
     uint kind;
     uint hash;
 };
-// 1 where bunches of leaves are larger than pixels, 0 where they are not.
-float detail_at(float pixel_m) { return clamp(1.5 - 1.15 * pixel_m, 0.0, 1.0); }
 float pixel_m_at(vec3 view) { return -view.z / FRAME.pixels_per_tangent; }
 const float shell_of_leaves = 1.25;
 Crown crown_at(vec3 view, uint hash, uint stands) {
@@ -98,8 +96,8 @@ Crown crown_at(vec3 view, uint hash, uint stands) {
     bool alone = (stands & site_in_forest) == 0u;
     crown.low_m = (alone ? 0.4 : 1.0) * tree.crown_m * FRAME.exaggeration;
     crown.high_m = tree.height_m * FRAME.exaggeration;
-    // Leaves reach out of a smooth crown here and there; far away it is smooth.
-    crown.shell = detail_at(pixel_m_at(view)) > 0.0 ? shell_of_leaves : 1.0;
+    // Leaves reach out of a smooth crown here and there. Near the eye alone: it costs rays that meet nothing.
+    crown.shell = 1.0 + (shell_of_leaves - 1.0) * clamp(1.6 - 11.0 * pixel_m_at(view), 0.0, 1.0);
     crown.radius_m = (alone ? 1.25 : 1.0) * tree.radius_m * crown.shell;
     if ((stands & 3u) != site_needle) {
         float beyond_m = 0.5 * (crown.shell - 1.0) * (crown.high_m - crown.low_m);
@@ -124,6 +122,15 @@ bool crown_of_site(uint tile_number, uint site, out Crown crown) {
     return true;
 }
 
+// Whether all within a radius of the line between two places lies behind the eye or beyond one side of the picture.
+bool is_beside_picture(vec3 foot, vec3 top, float radius_m) {
+    if (max(-foot.z, -top.z) + radius_m < 0.3) return true;
+    vec2 scale = abs(FRAME.projection_scale), reach = radius_m * sqrt(scale * scale + (1.0 + abs(FRAME.projection_shift)) * (1.0 + abs(FRAME.projection_shift)));
+    vec2 one = FRAME.projection_scale * foot.xy - FRAME.projection_shift * foot.z, other = FRAME.projection_scale * top.xy - FRAME.projection_shift * top.z;
+    // w is -z: beyond a side where the coordinate across is larger than it.
+    return any(greaterThan(min(one + foot.z, other + top.z), reach)) || any(greaterThan(min(foot.z - one, top.z - other), reach));
+}
+
 // The pixels of the picture that may show what is within a radius of the line between two places: an empty box where there are none.
 // From the balls around both.
 ivec4 pixels_around(vec3 foot, vec3 top, float radius_m) {
@@ -131,8 +138,7 @@ ivec4 pixels_around(vec3 foot, vec3 top, float radius_m) {
     for (int i = 0; i < 2; ++i) {
         vec3 at = i == 0 ? foot : top;
         float w = -at.z, near_m = w - radius_m;
-        // Around the eye: anywhere; behind it: nowhere.
-        if (near_m < 0.5) return max(-foot.z, -top.z) + radius_m < 0.5 ? ivec4(0, 0, -1, -1) : ivec4(0, 0, FRAME.width_px - 1u, FRAME.height_px - 1u);
+        if (near_m < 0.5) return is_beside_picture(foot, top, radius_m) ? ivec4(0, 0, -1, -1) : ivec4(0, 0, FRAME.width_px - 1u, FRAME.height_px - 1u);
         vec2 middle = at.xy / w, reach = radius_m * (1.0 + abs(middle)) / near_m;
         low = min(low, (middle - reach) * FRAME.projection_scale);
         high = max(high, (middle + reach) * FRAME.projection_scale);

@@ -165,7 +165,7 @@ TEST_F(MeadowPictures, AreAsLightAsTheirMeadow) {
                         sun.azimuth_deg, sun.elevation_deg, pitch_deg, with[0], with[1], with[2], without[0],
                         without[1], without[2]);
             for (std::size_t c = 0; c < 3; ++c)
-                EXPECT_NEAR(with[c], without[c], 8.0)
+                EXPECT_NEAR(with[c], without[c], 5.0)
                     << "channel " << c << ", sun " << sun.azimuth_deg << ", " << sun.elevation_deg;
         }
     }
