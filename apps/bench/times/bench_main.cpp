@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/bench/times/bench_grass.h"
+#include "apps/bench/times/bench_made.h"
 #include "apps/bench/times/bench_moving.h"
 #include "apps/bench/times/bench_random.h"
 #include "apps/bench/times/bench_region.h"
@@ -323,6 +324,11 @@ void add_grass(CLI::App& app, GrassWords& words) {
     app.add_flag("--wind", words.options.wind, "Of that field: blades lean in wind")->needs(grass);
 }
 
+Result<void> run_made(const BenchOptions& options, int side) {
+    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
+    return print_made(*gpu, {side, options.frames, options.json});
+}
+
 Result<void> run_grass(const CLI::App& app, const BenchOptions& options, GrassBenchOptions grass) {
 #ifndef NDEBUG
     return Error{ErrorKind::failed, "orograph-bench",
@@ -351,6 +357,12 @@ int main(int argc, char** argv) {
     oro::add_ways_of_drawing(app, options, words);
     oro::add_modes(app, options, words);
     oro::add_grass(app, grass);
+    int made_side = 0;
+    app.add_option(
+           "--made", made_side,
+           "Make so many by so many posts of each kind of made terrain on the GPU, 3163 for some 10^7, "
+           "hold them to the processor's bits, and time a page. Takes --frames and --json, too")
+        ->check(CLI::Range(1100, 16000));
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -368,7 +380,10 @@ int main(int argc, char** argv) {
                                                  : oro::MeshletSplit::by_device;
     oro::Result<void> done = oro::set_size(words.size, options);
     if (done.ok()) done = oro::read_style(options);
-    if (done.ok()) done = grass.grass ? oro::run_grass(app, options, grass.options) : oro::run_bench(options);
+    if (done.ok())
+        done = grass.grass     ? oro::run_grass(app, options, grass.options)
+               : made_side > 0 ? oro::run_made(options, made_side)
+                               : oro::run_bench(options);
     if (done.ok()) return 0;
     std::fprintf(stderr, "orograph-bench: %s\n", done.error().line().c_str());
     return static_cast<int>(done.error().kind);

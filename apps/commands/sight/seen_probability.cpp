@@ -28,12 +28,7 @@ constexpr double srtm_le90_m = 16.0;
 Result<HeightErrors> errors_of(const RealisationOptions& options, const RegionGrid& grid) {
     double spacing_m = 0.0;
     for (const SourceReport& source : grid.sources) spacing_m = std::max(spacing_m, source.spacing_m);
-    const bool srtm = !grid.sources.empty() && std::ranges::none_of(grid.sources, [](const auto& source) {
-        return source.format == SourceFormat::raster;
-    });
-    const std::optional<double> le90_m = options.le90_m ? options.le90_m
-                                         : srtm         ? std::optional(srtm_le90_m)
-                                                        : std::nullopt;
+    const std::optional<double> le90_m = options.le90_m ? options.le90_m : stated_le90_m(grid.sources);
     if (!le90_m)
         return refused(
             "--realisations", std::to_string(*options.count),
@@ -124,11 +119,11 @@ void sum_up(const ViewshedReport& report, const std::vector<std::uint32_t>& seen
     }
 }
 
-Result<void> check_ground(const RealisationOptions& options, const SightGround& ground) {
+Result<void> check_ground(const RealisationOptions& options, const Region& region, bool has_canopy) {
     const std::string count = std::to_string(*options.count);
-    if (ground.canopy) return refused("--realisations", count, "takes no canopy");
-    if (ground.region.meshes) return refused("--realisations", count, "takes no meshes");
-    if (ground.ground().grids() > 1)
+    if (has_canopy) return refused("--realisations", count, "takes no canopy");
+    if (region.meshes) return refused("--realisations", count, "takes no meshes");
+    if (region.grids.size() > 1)
         return refused("--realisations", count,
                        "takes data of one grid, not of several that lie over each other");
     return {};
@@ -157,10 +152,12 @@ Result<RealisedHeights> realised_part(const RealisationOptions& options, const R
 
 // Calls look(seed) once for each realisation, of seeds that follow from the asked one.
 template <class Look>
-void look_in_each(const Simulations& made, const ViewshedProgress& progress, const Look& look) {
+void look_in_each(const Simulations& made, const ViewshedProgress& progress, const Look& look,
+                  const std::stop_token& stop = {}) {
     std::atomic<int> done{0};
     std::mutex telling;
     in_parallel(made.realisations, thread_count(), [&](int i) {
+        if (stop.stop_requested()) return;
         look(static_cast<std::uint32_t>(made.seed) * 100003U + static_cast<std::uint32_t>(i));
         const int now = ++done;
         const std::lock_guard lock(telling);
@@ -243,17 +240,35 @@ Result<void> check_realisations(const RealisationOptions& options) {
 Result<SeenProbability> seen_probability(const RealisationOptions& options, const ViewshedReport& report,
                                          const SightGround& ground, const std::vector<Standing>& eyes,
                                          const ViewshedProgress& progress) {
-    ORO_CHECK(check_ground(options, ground));
-    const RegionGrid& grid = ground.grids->grid(report.grid);
+    ORO_CHECK(check_ground(options, ground.region, ground.canopy != nullptr));
+    std::vector<std::optional<double>> above_m;
+    for (std::size_t i = 0; i < report.question.eyes.size(); ++i)
+        above_m.push_back(keeps_height(eyes[i]) ? std::nullopt : ground.above_m(report.question.eyes[i]));
+    return seen_probability(options, report, ground.region, *ground.grids, above_m, progress, {});
+}
+
+std::optional<double> stated_le90_m(std::span<const SourceReport> sources) {
+    const bool srtm = !sources.empty() && std::ranges::none_of(sources, [](const SourceReport& source) {
+        return source.format == SourceFormat::raster;
+    });
+    return srtm ? std::optional(srtm_le90_m) : std::nullopt;
+}
+
+Result<SeenProbability> seen_probability(const RealisationOptions& options, const ViewshedReport& report,
+                                         const Region& region, const RegionGround& ground,
+                                         const std::vector<std::optional<double>>& above_m,
+                                         const ViewshedProgress& progress, const std::stop_token& stop) {
+    ORO_CHECK(check_ground(options, region, region.grids.front().canopy.has_value()));
+    const RegionGrid& grid = ground.grid(report.grid);
     SeenProbability found;
     const auto looking = Clock::now();
     const GridPart part = part_of(report, grid.field.grid);
     ORO_TRY(const RealisedHeights realised, realised_part(options, grid, part, found.made));
-    std::vector<std::optional<double>> above_m;
-    for (std::size_t i = 0; i < report.question.eyes.size(); ++i)
-        above_m.push_back(keeps_height(eyes[i]) ? std::nullopt : ground.above_m(report.question.eyes[i]));
     Counting counting(report, realised, part, above_m);
-    look_in_each(found.made, progress, [&](std::uint32_t seed) { counting.add(seed); });
+    look_in_each(
+        found.made, progress, [&](std::uint32_t seed) { counting.add(seed); }, stop);
+    if (stop.stop_requested())
+        return Error{ErrorKind::failed, "realisations", "nobody waits for them any more"};
     sum_up(report, counting.seen(), found);
     found.made.looking_s = seconds_since(looking);
     return found;
@@ -268,7 +283,7 @@ bool keeps_height(const Standing& standing) {
 Result<SightProbability> sight_probability(const RealisationOptions& options, const SightEnds& ends,
                                            const Air& air, const SightGround& ground,
                                            const ViewshedProgress& progress) {
-    ORO_CHECK(check_ground(options, ground));
+    ORO_CHECK(check_ground(options, ground.region, ground.canopy != nullptr));
     const RegionGrid& grid = ground.grids->grid(0);
     SightProbability found;
     const auto looking = Clock::now();

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -52,6 +54,17 @@ Result<void> check_realisations(const RealisationOptions& options);
 Result<SeenProbability> seen_probability(const RealisationOptions& options, const ViewshedReport& report,
                                          const SightGround& ground, const std::vector<Standing>& eyes,
                                          const ViewshedProgress& progress);
+
+// The same over a region whose full resolution `ground` is. above_m: of each of the report's eyes how high
+// over the ground of each realisation it stands; nothing: it stays where it is. Asked to stop, it ends soon,
+// with an error that nobody need be told.
+Result<SeenProbability> seen_probability(const RealisationOptions& options, const ViewshedReport& report,
+                                         const Region& region, const RegionGround& ground,
+                                         const std::vector<std::optional<double>>& above_m,
+                                         const ViewshedProgress& progress, const std::stop_token& stop);
+// How far off 90 % of the heights of a grid are at most, as its sources are known to promise; nothing where
+// they say nothing.
+std::optional<double> stated_le90_m(std::span<const SourceReport> sources);
 
 // The ends of a line of sight, and how they were said.
 struct SightEnds {

@@ -9,10 +9,33 @@ ImU32 colour_of(const StripColour& colour) {
     return IM_COL32(colour[0], colour[1], colour[2], 255);
 }
 
+// What lies over the ground by probability, where it does: the same steps as its panel's scale has.
+void build_probability_legend(const Viewer& viewer) {
+    const auto& found = viewer.looking.found;
+    const bool is_shown = found && !found->probable.empty() && viewer.looking.is_shown &&
+                          !viewer.leaves_tints_out && !(viewer.comparing.found && viewer.comparing.is_shown);
+    if (!is_shown || viewer.view.show) return;
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    begin_area("##probability", {display.x - scaled_px(10.0F), display.y - scaled_px(40.0F)}, {1.0F, 1.0F});
+    ImGui::TextUnformatted("Probability of being seen");
+    const float side = scaled_px(13.0F);
+    for (const double share : {1.0, 0.75, 0.5, 0.25, 0.0}) {
+        const ImVec2 at = ImGui::GetCursorScreenPos();
+        const auto [rgb, alpha] = colour_of_probability(share);
+        ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + side, at.y + side},
+                                                  IM_COL32(rgb[0], rgb[1], rgb[2], 255));
+        ImGui::Dummy({side, side});
+        ImGui::SameLine();
+        ImGui::Text("%g", share);
+    }
+    ImGui::End();
+}
+
 }  // namespace
 
 // On the paper of the legends of pictures: its colours mean what they are only beside the same paper.
 void build_legend(Viewer& viewer) {
+    build_probability_legend(viewer);
     if (!viewer.view.show || viewer.legend.names.empty()) return;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::PushStyleColor(ImGuiCol_WindowBg, colour_of(legend_paper));

@@ -74,7 +74,7 @@ TEST_F(ShotDetail, OfAPictureIsDrawnAgain) {
     EXPECT_TRUE(bytes_of(path("p.png")) == bytes_of(path("again.png")));
     const Outcome compared = run_orograph({"compare", path("p.png")});
     EXPECT_EQ(compared.exit_code, 0) << compared.err;
-    EXPECT_TRUE(says(compared.out, "Invented between posts: ")) << compared.out;
+    EXPECT_TRUE(says(compared.err, "Invented between posts: ")) << compared.err;
 }
 
 // What is off changes nothing, and takes a recorded one away.

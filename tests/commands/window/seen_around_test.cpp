@@ -62,6 +62,82 @@ TEST(SeenAround, IsWhatTheCommandPrintsAndWrites) {
     }
 }
 
+// With probabilities, too: the same seed, the same file.
+TEST(SeenAround, WithErrorsOfHeightsIsWhatTheCommandWrites) {
+    const fs::path folder = test::scratch_folder();
+    const auto opened = open_sight_ground(bundled_region(), [](double, const std::string&) {});
+    ASSERT_TRUE(opened.ok()) << opened.error().line();
+    const auto cuts = cut_regions((*opened)->region);
+    ASSERT_TRUE(cuts.ok());
+    SeenAroundChoice choice{{36.512345678, -84.212345678}, 12.5, 1.75, 2.0, true};
+    choice.is_probable = true;
+    choice.realisations = 6;
+    // Nothing is known of the errors of these data.
+    EXPECT_FALSE(seen_around(choice, standard_air, (*opened)->region, *cuts, {}, {}).ok());
+    choice.le90_m = 10.0;
+    double last_share = 0.0;
+    const auto around = seen_around(choice, standard_air, (*opened)->region, *cuts,
+                                    [&](double share) { last_share = share; }, {});
+    ASSERT_TRUE(around.ok()) << around.error().line();
+    EXPECT_NEAR(last_share, 1.0, 1.0e-12);
+    ViewshedOptions options;
+    options.region = bundled_region();
+    options.at = {"36.512345678,-84.212345678"};
+    options.above_m = choice.above_m;
+    options.target_m = choice.target_m;
+    options.radius_km = choice.radius_km;
+    options.out = (folder / "command.tif").string();
+    options.quiet = true;
+    RealisationOptions realisations;
+    realisations.count = 6;
+    realisations.le90_m = 10.0;
+    testing::internal::CaptureStdout();
+    const Result<void> ran = run_viewshed(options, realisations);
+    const std::string printed = testing::internal::GetCapturedStdout();
+    ASSERT_TRUE(ran.ok()) << ran.error().line();
+    EXPECT_NE(printed.find(around->probable), std::string::npos) << printed << around->probable;
+    ASSERT_TRUE(write_post_raster((folder / "own.tif").string(), false, around->raster).ok());
+    EXPECT_TRUE(bytes_in(folder / "own.tif") == bytes_in(options.out)) << "the two files differ";
+    // The tint is by the last band.
+    const std::vector<float>& share = around->raster.bands.back().values;
+    for (std::size_t i = 0; i < share.size(); ++i) {
+        if (share[i] == Viewshed::unknown) {
+            ASSERT_EQ(around->colours->rgba[i], 0U);
+            continue;
+        }
+        const ProbabilityColour one = colour_of_probability(double{share[i]});
+        ASSERT_EQ(around->colours->rgba[i], texel_of(one.rgb[0], one.rgb[1], one.rgb[2], one.alpha));
+    }
+}
+
+TEST(SeenAround, WithErrorsOfHeightsEndsSoonWhenAsked) {
+    const auto opened = open_sight_ground(bundled_region(), [](double, const std::string&) {});
+    ASSERT_TRUE(opened.ok()) << opened.error().line();
+    const auto cuts = cut_regions((*opened)->region);
+    ASSERT_TRUE(cuts.ok());
+    SeenAroundChoice choice{{36.5, -84.2}, 2.0, 0.0, 2.0, true};
+    choice.is_probable = true;
+    choice.realisations = most_realisations;
+    choice.le90_m = 10.0;
+    std::stop_source stop;
+    int calls = 0;
+    const auto around = seen_around(
+        choice, standard_air, (*opened)->region, *cuts,
+        [&](double share) {
+            if (share > 2.0 / most_realisations && ++calls == 3) stop.request_stop();
+        },
+        stop.get_token());
+    EXPECT_FALSE(around.ok());
+    EXPECT_LT(calls, 100);
+}
+
+TEST(SeenAround, ColoursOfProbabilityEndAtThoseOfWhatIsHiddenAndSeen) {
+    EXPECT_EQ(colour_of_probability(0.0).rgb, (std::array<std::uint8_t, 3>{16, 22, 44}));
+    EXPECT_EQ(colour_of_probability(1.0).rgb, (std::array<std::uint8_t, 3>{255, 176, 32}));
+    for (double share = 0.05; share <= 1.0; share += 0.05)
+        EXPECT_GT(colour_of_probability(share).rgb[0], colour_of_probability(share - 0.05).rgb[0]);
+}
+
 TEST(SeenAround, HasColoursWhereItsFileHasValues) {
     const auto opened = open_sight_ground(bundled_region(), [](double, const std::string&) {});
     ASSERT_TRUE(opened.ok()) << opened.error().line();
