@@ -27,9 +27,11 @@ void look_around(Viewer& viewer) {
     const SeenAroundChoice choice = *looking.choice;
     const Air air = air_around(choice, viewer.view.model.air);
     looking.work = std::make_unique<BackgroundWork<SeenAround>>(
-        [choice, air, &region = std::as_const(viewer.region), &cuts = std::as_const(viewer.cuts)](
-            const auto& tell_share, const std::stop_token& stop) {
-            return seen_around(choice, air, region, cuts, tell_share, stop);
+        [choice, air,
+         cover = SightCover{viewer.view.cover, viewer.view.canopy, viewer.view.canopy_choice.held},
+         &region = std::as_const(viewer.region),
+         &cuts = std::as_const(viewer.cuts)](const auto& tell_share, const std::stop_token& stop) {
+            return seen_around(choice, air, region, cuts, cover, tell_share, stop);
         });
 }
 

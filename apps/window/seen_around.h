@@ -8,6 +8,7 @@
 #include <stop_token>
 #include <string>
 
+#include "apps/commands/sight/sight_ground.h"
 #include "apps/commands/sight/viewshed_report.h"
 #include "geo/places/geodesic.h"
 #include "geo/region/region.h"
@@ -50,10 +51,13 @@ std::string at_text(const LatLon& place);
 // Through which air it is looked: the view's, or standard air where that bends no light and is to.
 Air air_around(const SeenAroundChoice& choice, const Air& of_view);
 
-// Looks around over a region, whatever its exaggeration in the view. From any thread; the region and its cuts
-// stay as they are meanwhile. Errors: no ground to stand on (no_data); those of viewshed_report().
+// Looks around over a region, whatever its exaggeration in the view. Of one that is raised by a canopy, the
+// eye and the targets stand on its ground, and the canopy hides; `cover` is what raised it. From any thread;
+// the region and its cuts stay as they are meanwhile. Errors: no ground to stand on (no_data); an eye in the
+// canopy; probabilities with a canopy, of which there are none; those of viewshed_report().
 Result<SeenAround> seen_around(const SeenAroundChoice& choice, const Air& air, const Region& region,
-                               const RegionCuts& cuts, const std::function<void(double share)>& tell_share,
+                               const RegionCuts& cuts, const SightCover& cover,
+                               const std::function<void(double share)>& tell_share,
                                const std::stop_token& stop);
 
 }  // namespace oro

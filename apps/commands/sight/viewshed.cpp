@@ -39,13 +39,6 @@ Result<void> check_words(const ViewshedOptions& options) {
     return check_may_write(options.out, options.overwrite);
 }
 
-// What the file says of the canopy, and of what targets stand on.
-void add_canopy_tags(const ViewshedOptions& options, const SightGround& ground, PostRaster& raster) {
-    if (!ground.canopy) return;
-    raster.tags.emplace_back("CANOPY", canopy_words(*ground.canopy->map, ground.canopy->region));
-    raster.tags.emplace_back("TARGETS_STAND_ON", options.target_on.value_or("ground"));
-}
-
 void say_canopy_notes(const SightGround& ground, bool quiet) {
     if (!ground.canopy) return;
     for (const std::string& note : ground.canopy->map->notes()) say(quiet, "note: " + note);
@@ -167,7 +160,7 @@ Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptio
     }
     bar.show(1.0, "writing");
     PostRaster raster = raster_of(report, *ground->grids);
-    add_canopy_tags(options, *ground, raster);
+    add_canopy_tags(*ground, options.target_on.value_or("ground"), raster);
     if (probability) add_probability(*probability, raster);
     ORO_CHECK(write_post_raster(options.out, options.overwrite, raster));
     bar.clear();

@@ -82,4 +82,10 @@ Result<void> place_eyes(const std::vector<Standing>& eyes, bool targets_on_canop
     return {};
 }
 
+void add_canopy_tags(const SightGround& ground, const std::string& targets_stand_on, PostRaster& raster) {
+    if (!ground.canopy) return;
+    raster.tags.emplace_back("CANOPY", canopy_words(*ground.canopy->map, ground.canopy->region));
+    raster.tags.emplace_back("TARGETS_STAND_ON", targets_stand_on);
+}
+
 }  // namespace oro

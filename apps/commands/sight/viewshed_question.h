@@ -31,4 +31,8 @@ std::vector<Standing> asked_eyes(const ViewshedOptions& options);
 Result<void> place_eyes(const std::vector<Standing>& eyes, bool targets_on_canopy, const SightGround& ground,
                         ViewshedQuestion& question, Standpoints& standpoints);
 
+// What the file of a viewshed says of the canopy, and of what targets stand on: "ground", "canopy". Nothing
+// where nothing grows.
+void add_canopy_tags(const SightGround& ground, const std::string& targets_stand_on, PostRaster& raster);
+
 }  // namespace oro

@@ -39,7 +39,7 @@ TEST(SeenAround, IsWhatTheCommandPrintsAndWrites) {
     for (const bool bends : {true, false}) {
         SeenAroundChoice choice{{36.512345678, -84.212345678}, 12.5, 1.75, 6.0, bends};
         const Air air = air_around(choice, Air{});
-        const auto around = seen_around(choice, air, region, *cuts, {}, {});
+        const auto around = seen_around(choice, air, region, *cuts, {}, {}, {});
         ASSERT_TRUE(around.ok()) << around.error().line();
         ViewshedOptions options;
         options.region = bundled_region();
@@ -62,6 +62,55 @@ TEST(SeenAround, IsWhatTheCommandPrintsAndWrites) {
     }
 }
 
+// With a canopy the eye and the targets stand on the ground, and the canopy hides, as for the command.
+TEST(SeenAround, WithACanopyIsWhatTheCommandWrites) {
+    const fs::path folder = test::scratch_folder();
+    // 200 x 200 pixels of 0.002 degrees, trees in squares of three.
+    const std::string trees = (folder / "trees.asc").string();
+    std::ofstream grid(trees);
+    grid << "ncols 200\nnrows 200\nxllcorner -84.4\nyllcorner 36.3\ncellsize 0.002\n";
+    for (int row = 0; row < 200; ++row)
+        for (int column = 0; column < 200; ++column)
+            grid << ((row / 3 + column / 3) % 2 == 0 ? 12.5 + (row * 7 + column) % 9 : 0.0)
+                 << (column < 199 ? ' ' : '\n');
+    grid.close();
+    std::ofstream(folder / "trees.prj")
+        << R"(GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137,298.257223563]],)"
+           R"(PRIMEM["Greenwich",0],UNIT["Degree",0.017453292519943295]])";
+    ViewshedOptions options;
+    options.region = bundled_region();
+    options.at = {"36.512345678,-84.212345678"};
+    options.above_m = 40.0;
+    options.target_m = 1.75;
+    options.radius_km = 5.0;
+    options.view.canopy = {trees};
+    options.out = (folder / "command.tif").string();
+    options.quiet = true;
+    testing::internal::CaptureStdout();
+    const Result<void> ran = run_viewshed(options, {});
+    const std::string printed = testing::internal::GetCapturedStdout();
+    ASSERT_TRUE(ran.ok()) << ran.error().line();
+    const auto cover = open_sight_cover(options.view);
+    ASSERT_TRUE(cover.ok()) << cover.error().line();
+    const auto opened = open_sight_ground(
+        bundled_region(), [](double, const std::string&) {}, *cover);
+    ASSERT_TRUE(opened.ok()) << opened.error().line();
+    const Region& raised = (*opened)->canopy->region;
+    const auto cuts = cut_regions(raised);
+    ASSERT_TRUE(cuts.ok());
+    SeenAroundChoice choice{{36.512345678, -84.212345678}, 40.0, 1.75, 5.0, true};
+    const auto around = seen_around(choice, standard_air, raised, *cuts, *cover, {}, {});
+    ASSERT_TRUE(around.ok()) << around.error().line();
+    EXPECT_NE(printed.find(around->seen + "\nFrom: " + around->from), std::string::npos) << printed;
+    ASSERT_TRUE(write_post_raster((folder / "own.tif").string(), false, around->raster).ok());
+    EXPECT_TRUE(bytes_in(folder / "own.tif") == bytes_in(options.out)) << "the two files differ";
+    // Under the trees nobody sees anything.
+    choice.above_m = 2.0;
+    const auto under = seen_around(choice, standard_air, raised, *cuts, *cover, {}, {});
+    ASSERT_FALSE(under.ok());
+    EXPECT_NE(under.error().line().find("stands in the canopy"), std::string::npos) << under.error().line();
+}
+
 // With probabilities, too: the same seed, the same file.
 TEST(SeenAround, WithErrorsOfHeightsIsWhatTheCommandWrites) {
     const fs::path folder = test::scratch_folder();
@@ -73,10 +122,10 @@ TEST(SeenAround, WithErrorsOfHeightsIsWhatTheCommandWrites) {
     choice.is_probable = true;
     choice.realisations = 6;
     // Nothing is known of the errors of these data.
-    EXPECT_FALSE(seen_around(choice, standard_air, (*opened)->region, *cuts, {}, {}).ok());
+    EXPECT_FALSE(seen_around(choice, standard_air, (*opened)->region, *cuts, {}, {}, {}).ok());
     choice.le90_m = 10.0;
     double last_share = 0.0;
-    const auto around = seen_around(choice, standard_air, (*opened)->region, *cuts,
+    const auto around = seen_around(choice, standard_air, (*opened)->region, *cuts, {},
                                     [&](double share) { last_share = share; }, {});
     ASSERT_TRUE(around.ok()) << around.error().line();
     EXPECT_NEAR(last_share, 1.0, 1.0e-12);
@@ -122,7 +171,7 @@ TEST(SeenAround, WithErrorsOfHeightsEndsSoonWhenAsked) {
     std::stop_source stop;
     int calls = 0;
     const auto around = seen_around(
-        choice, standard_air, (*opened)->region, *cuts,
+        choice, standard_air, (*opened)->region, *cuts, {},
         [&](double share) {
             if (share > 2.0 / most_realisations && ++calls == 3) stop.request_stop();
         },
@@ -145,7 +194,7 @@ TEST(SeenAround, HasColoursWhereItsFileHasValues) {
     ASSERT_TRUE(cuts.ok());
     double last_share = 0.0;
     const auto around = seen_around({{36.5, -84.2}, 2.0, 0.0, 3.0, true}, standard_air, (*opened)->region,
-                                    *cuts, [&](double share) { last_share = share; }, {});
+                                    *cuts, {}, [&](double share) { last_share = share; }, {});
     ASSERT_TRUE(around.ok()) << around.error().line();
     EXPECT_EQ(last_share, 1.0);
     const std::vector<float>& seen = around->raster.bands.front().values;
@@ -174,10 +223,10 @@ TEST(SeenAround, StopsWhenItIsAsked) {
     std::stop_source stop;
     stop.request_stop();
     const auto around = seen_around({{36.5, -84.2}, 2.0, 0.0, 20.0, true}, standard_air, (*opened)->region,
-                                    *cuts, {}, stop.get_token());
+                                    *cuts, {}, {}, stop.get_token());
     EXPECT_FALSE(around.ok());
     const auto nowhere =
-        seen_around({{0.0, 0.0}, 2.0, 0.0, 20.0, true}, standard_air, (*opened)->region, *cuts, {}, {});
+        seen_around({{0.0, 0.0}, 2.0, 0.0, 20.0, true}, standard_air, (*opened)->region, *cuts, {}, {}, {});
     ASSERT_FALSE(nowhere.ok());
     EXPECT_EQ(nowhere.error().kind, ErrorKind::no_data);
 }
