@@ -18,6 +18,7 @@
 #include "geo/files/letter_case.h"
 #include "geo/pictures/picture.h"
 #include "geo/pixels/picture_difference.h"
+#include "geo/refined/refined_region.h"
 
 namespace oro {
 namespace {
@@ -33,7 +34,18 @@ std::string angle_words(double deg, int decimals, char positive, char negative) 
     return text;
 }
 
-// "Finsteraarhorn, 46.53722° N, 8.12611° E, 4276 m above sea level"; over a canopy it is told, too.
+// "; ground between posts invented within 3 km"; "" where none is.
+std::string detail_words_of(const Region& region) {
+    const RegionGrid* const refined = detail_of(region);
+    if (refined == nullptr) return "";
+    char text[80];
+    std::snprintf(text, sizeof text, "; ground between posts invented within %.3g km",
+                  refined->detail->radius_km);
+    return text;
+}
+
+// "Finsteraarhorn, 46.53722° N, 8.12611° E, 4276 m above sea level"; a canopy, and ground that is invented
+// between posts, are told, too.
 std::string eye_words(const View& view, const Region& region, const std::string& standpoint) {
     const Geodetic& eye = view.camera.eye;
     const double H_m = eye.h_m - region.grids.front().field.undulation.at_m(eye.lat_deg, eye.lon_deg);
@@ -43,7 +55,8 @@ std::string eye_words(const View& view, const Region& region, const std::string&
            angle_words(eye.lon_deg, 5, 'E', 'W') + height +
            (!view.canopy                 ? ""
             : view.canopy->is_invented() ? "; canopy invented by class"
-                                         : "; with canopy");
+                                         : "; with canopy") +
+           detail_words_of(region);
 }
 
 std::string source_words(const Region& region) {

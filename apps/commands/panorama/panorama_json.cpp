@@ -1,11 +1,13 @@
 #include "apps/commands/panorama/panorama_json.h"
 
 #include "apps/cover/canopy_words.h"
+#include "apps/detail/detail_words.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/region_json.h"
 #include "apps/report/summit_words.h"
 #include "apps/view/model_names.h"
+#include "geo/refined/refined_region.h"
 
 namespace oro {
 namespace {
@@ -76,6 +78,8 @@ ordered_json panorama_json(const PanoramaReport& report, const std::string& file
     json["time"] = time_text(view.time_utc_s);
     json["attribution"] = attribution_of(report.region);
     if (view.canopy) json["canopy"] = canopy_json(*view.canopy, report.region);
+    if (const RegionGrid* const refined = detail_of(report.region))
+        json["detail"] = detail_json(*refined->detail);
     json["models"] = models_json(view);
     json["light"] = light_json(view.model.air, view.camera.eye.h_m);
     json["tau_px"] = view.tau_px;

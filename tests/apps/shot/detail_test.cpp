@@ -13,6 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 using oro::test::bytes_of;
 using oro::test::expect_refusal;
+using oro::test::joined;
 using oro::test::no_data;
 using oro::test::object_said_by;
 using oro::test::one_object;
@@ -116,6 +117,22 @@ TEST_F(ShotDetail, OfTooMuchIsRefusedInOneLine) {
     expect_refusal(run_orograph({"export", oro::test::bundled(), "--to", "gltf", "--out", path("a.glb"),
                                  "--detail", "2"}),
                    usage, {"--detail 2: needs --to cog"});
+    expect_refusal(run_orograph({"shot", oro::test::bundled(), "--ortho", "--out", path("map.png"),
+                                 "--detail", "2", "--quiet"}),
+                   usage, {"--detail", "not together with --ortho"});
+}
+
+// A panorama has it, too, and tells of it.
+TEST_F(ShotDetail, IsInPanoramas) {
+    const Words words{
+        "panorama", oro::test::bundled(), "--at", "36.5,-84.25", "--above", "20", "--width", "400", "--quiet",
+        "--json"};
+    const auto without = object_said_by(joined(words, {"--out", path("without.png")}));
+    const auto with = object_said_by(joined(words, {"--detail", "2,1", "--out", path("with.png")}));
+    EXPECT_FALSE(without.contains("detail"));
+    EXPECT_EQ(with["detail"]["invented"], true);
+    EXPECT_EQ(with["detail"]["radius_km"], 1.0);
+    EXPECT_NE(with["view"]["fingerprints"]["pixels"], without["view"]["fingerprints"]["pixels"]);
 }
 
 // A denser GeoTIFF: its posts are those of the data where the data have any, as GDAL reads both.
