@@ -95,4 +95,16 @@ MeshCasters mesh_casters_of(const std::vector<SeamPiece>& pieces) {
     return casters;
 }
 
+std::vector<glm::dvec3> corners_of(const MeshCasters& casters) {
+    std::vector<glm::dvec3> corners;
+    corners.reserve(3 * casters.triangles.size());
+    for (const gpu::MeshTriangle& triangle : casters.triangles) {
+        const glm::dvec3 corner = casters.origin_m + glm::dvec3(triangle.corner);
+        corners.push_back(corner);
+        corners.push_back(corner + glm::dvec3(triangle.one));
+        corners.push_back(corner + glm::dvec3(triangle.other));
+    }
+    return corners;
+}
+
 }  // namespace oro

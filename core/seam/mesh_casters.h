@@ -20,4 +20,7 @@ struct MeshCasters {
 // Takes some 0.5 us a triangle on one thread.
 MeshCasters mesh_casters_of(const std::vector<SeamPiece>& pieces);
 
+// The corners of these triangles, three by three, ECEF metres.
+std::vector<glm::dvec3> corners_of(const MeshCasters& casters);
+
 }  // namespace oro

@@ -161,7 +161,7 @@ Result<void> GridScene::add_growth(const FrameView& view, GridPlan& plan) {
         ranges.push_back({page->record.summary.lowest_h_m, page->record.summary.highest_h_m});
     }
     const auto ground = [&](std::size_t page) { return ranges[page]; };
-    const GrowthView from{view.camera, view.tile, view.tau_px};
+    const GrowthView from{view.camera, view.tile, view.tau_px, cleared_.get()};
     if (has_trees_) plan.growth = plan_growth(pages_->facts().grid, plan.page_indices, ground, from);
     if (has_grass_) plan.meadow = plan_meadow(pages_->facts().grid, plan.page_indices, ground, from);
     return {};
@@ -349,7 +349,15 @@ void Scene::set_footprint_spacing(double spacing_px) {
 
 // What lies between grids is as wide as a gap: no tree stands there.
 void Scene::set_trees(bool on) {
-    for (GridScene& grid : grids_) grid.has_trees_ = on && !grid.pages_->is_seam();
+    // No trees stand in a town, or on a survey.
+    std::shared_ptr<const ClearedTiles> cleared;
+    for (const GridScene& grid : grids_)
+        if (const MeshCasters* const meshes = grid.pages_->mesh_casters(); on && meshes != nullptr)
+            cleared = std::make_shared<const ClearedTiles>(corners_of(*meshes));
+    for (GridScene& grid : grids_) {
+        grid.has_trees_ = on && !grid.pages_->is_seam();
+        grid.cleared_ = cleared;
+    }
 }
 
 void Scene::set_grass(bool on) {

@@ -97,7 +97,8 @@ class GridScene {
     PageStore store_;
     std::unique_ptr<DrapeStore> drape_;
     Buffer undulation_;
-    Buffer mesh_casters_;  // nodes, then triangles; of a seam with meshes
+    std::shared_ptr<const ClearedTiles> cleared_;  // where no trees are planted; null: nowhere
+    Buffer mesh_casters_;                          // nodes, then triangles; of a seam with meshes
     Buffer plan_sources_;
     std::uint64_t number_{};  // GridPlan::heights
     PlanMemory memory_;
