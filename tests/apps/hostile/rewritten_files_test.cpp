@@ -21,10 +21,11 @@ Outcome run_while_written(const fs::path& file, const Words& words) {
     const std::string session = R"(
         file=$1; shift
         cp "$file" "$file.copy"
-        (while :; do dd if="$file.copy" of="$file" conv=notrunc bs=64k 2>/dev/null; done) & writer=$!
+        (while :; do dd if="$file.copy" of="$file" conv=notrunc bs=64k 2>/dev/null; : >"$file.begun"; done) & writer=$!
+        until [ -e "$file.begun" ]; do sleep 0.01; done
         "$@"; code=$?
         kill $writer 2>/dev/null; wait $writer 2>/dev/null
-        rm -f "$file.copy"
+        rm -f "$file.copy" "$file.begun"
         exit $code)";
     Words all{"bash", "-c", session, "bash", file, OROGRAPH_PROGRAM};
     all.insert(all.end(), words.begin(), words.end());
