@@ -49,10 +49,8 @@ void add_row(std::uint32_t row, const PlaceBox& box, std::vector<std::uint64_t>&
 
 ClearedTiles::ClearedTiles(std::span<const glm::dvec3> corners) {
     assert(corners.size() % 3 == 0);
-    const double tile_deg = site_tile_south_deg(1) - site_tile_south_deg(0);
-    const auto row_at = [&](double lat_deg) {
-        return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor((lat_deg + 90.0) / tile_deg)), 0,
-                                        gpu::site_tile_rows - 1);
+    const auto row_at = [](double lat_deg) {
+        return std::clamp<std::int64_t>(site_tile_row_at(lat_deg), 0, gpu::site_tile_rows - 1);
     };
     for (std::size_t i = 0; i < corners.size(); i += 3) {
         const PlaceBox box = box_of(corners.subspan(i, 3));

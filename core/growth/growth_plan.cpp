@@ -175,12 +175,9 @@ std::vector<NearTile> tiles_around(const Geodetic& eye, double reach_m, const Ti
     if (cosine < 0.05) return near;
     const double tile_deg = site_tile_south_deg(1) - site_tile_south_deg(0),
                  reach_deg = reach_m / m_per_deg * 1.01;
-    const auto row_at = [&](double lat_deg) {
-        return static_cast<std::int64_t>(std::floor((lat_deg + 90.0) / tile_deg));
-    };
-    const std::int64_t first = std::max<std::int64_t>(row_at(eye.lat_deg - reach_deg), 0);
+    const std::int64_t first = std::max<std::int64_t>(site_tile_row_at(eye.lat_deg - reach_deg), 0);
     const std::int64_t last =
-        std::min<std::int64_t>(row_at(eye.lat_deg + reach_deg), gpu::site_tile_rows - 1);
+        std::min<std::int64_t>(site_tile_row_at(eye.lat_deg + reach_deg), gpu::site_tile_rows - 1);
     for (std::int64_t row = first; row <= last; ++row) {
         const auto tile_row = static_cast<std::uint32_t>(row);
         const std::int64_t count = site_tile_columns(tile_row);

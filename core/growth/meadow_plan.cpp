@@ -48,11 +48,9 @@ std::vector<MeadowParent> parents_around(const PostGrid& grid, const Geodetic& e
     std::vector<MeadowParent> parents;
     const double cosine = std::cos(eye.lat_deg * std::numbers::pi / 180.0);
     if (cosine < 0.05) return parents;
-    const double rise_deg = site_tile_south_deg(1) - site_tile_south_deg(0), reach_deg = reach_m / m_per_deg;
-    const auto row_at = [&](double lat_deg) {
-        return static_cast<std::int64_t>(std::floor((lat_deg + 90.0) / rise_deg));
-    };
-    for (std::int64_t row = row_at(eye.lat_deg - reach_deg); row <= row_at(eye.lat_deg + reach_deg); ++row) {
+    const double reach_deg = reach_m / m_per_deg;
+    for (std::int64_t row = site_tile_row_at(eye.lat_deg - reach_deg);
+         row <= site_tile_row_at(eye.lat_deg + reach_deg); ++row) {
         const auto tile_row = static_cast<std::uint32_t>(row);
         const std::int64_t count = site_tile_columns(tile_row);
         const double per_deg = static_cast<double>(count) / 360.0, middle = (eye.lon_deg + 180.0) * per_deg;

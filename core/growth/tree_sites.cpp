@@ -30,6 +30,11 @@ double site_tile_south_deg(std::uint32_t tile_row) {
     return -90.0 + static_cast<double>(tile_row) * tile_deg;
 }
 
+std::int64_t site_tile_row_at(double lat_deg) {
+    const double rise_deg = site_tile_south_deg(1) - site_tile_south_deg(0);
+    return static_cast<std::int64_t>(std::floor((lat_deg + 90.0) / rise_deg));
+}
+
 std::uint32_t site_tile_columns(std::uint32_t tile_row) {
     const double lat_rad = (site_tile_south_deg(tile_row) + 0.5 * tile_deg) * std::numbers::pi / 180.0;
     constexpr double equator_m = 2.0 * std::numbers::pi * 6378137.0;

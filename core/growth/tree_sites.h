@@ -14,6 +14,8 @@ std::uint32_t site_tile_columns(std::uint32_t tile_row);
 
 // Latitude of the southern edge of a row of tiles, degrees.
 double site_tile_south_deg(std::uint32_t tile_row);
+// The row of tiles that a latitude lies in; below 0 or beyond the last one past a pole.
+std::int64_t site_tile_row_at(double lat_deg);
 // Longitude of the western edge of a tile, degrees from -180.
 double site_tile_west_deg(std::uint32_t tile_row, std::uint32_t tile_column);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/lowbias32.h"
+
 namespace oro {
 namespace {
 
@@ -68,14 +70,6 @@ std::int32_t rounded(Fixed60 value, int bits) {
     return static_cast<std::int32_t>((value + (std::int64_t{1} << (bits - 1))) >> bits);
 }
 
-std::uint32_t mixed(std::uint32_t h) {
-    h ^= h >> 16U;
-    h *= 0x7feb352dU;
-    h ^= h >> 15U;
-    h *= 0x846ca68bU;
-    return h ^ (h >> 16U);
-}
-
 void set_octaves(const MadeTerrain& terrain, gpu::MadeRule& rule) {
     rule.octaves = std::min(terrain.octaves, gpu::made_octaves_most);
     // The sum of an endless row of octaves is 1: more octaves add to what fewer have made.
@@ -139,11 +133,11 @@ MadeColumn made_column(std::int64_t post, std::int64_t posts_per_deg) {
 gpu::MadeOctave made_octave(std::uint32_t seed, std::uint32_t number, std::uint32_t shift) {
     gpu::MadeOctave octave{};
     octave.shift = shift;
-    const std::uint32_t own = mixed(seed * 0x9e3779b1U + mixed(number + 1));
+    const std::uint32_t own = lowbias32(seed * 0x9e3779b1U + lowbias32(number + 1));
     octave.seed = own;
-    octave.off_x = mixed(own + 1) >> 3U;
-    octave.off_y = mixed(own + 2) >> 3U;
-    octave.off_z = mixed(own + 3) >> 3U;
+    octave.off_x = lowbias32(own + 1) >> 3U;
+    octave.off_y = lowbias32(own + 2) >> 3U;
+    octave.off_z = lowbias32(own + 3) >> 3U;
     octave.flip_x = number % 4 == 1 ? -1 : 1;
     octave.flip_y = number % 4 == 2 ? -1 : 1;
     octave.flip_z = number % 4 == 3 ? -1 : 1;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "core/base/lowbias32.h"
 #include "core/base/wide.h"
 #include "core/earth/ellipsoid.h"
 
@@ -34,12 +35,7 @@ std::vector<NoiseBand> ground_noise(double cell_m, double exponent, int narrower
 }
 
 std::uint32_t seed_of(std::uint32_t seed, std::uint32_t what) {
-    std::uint32_t h = seed * 2U + what + 0x51ed270bU;
-    h ^= h >> 16U;
-    h *= 0x7feb352dU;
-    h ^= h >> 15U;
-    h *= 0x846ca68bU;
-    return h ^ (h >> 16U);
+    return lowbias32(seed * 2U + what + 0x51ed270bU);
 }
 
 // Adds the products of weights and values to a run of sums, weight by weight in their order.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/lowbias32.h"
 #include "core/base/parallel.h"
 #include "core/refined/taken_posts.h"
 #include "core/terrain/cell_diagonal.h"
@@ -34,24 +35,15 @@ WorldNumbers world_numbers(const PostGrid& grid) {
     return numbers;
 }
 
-// Source: C. Wellons, hash-prospector, lowbias32 (public domain).
-std::uint32_t mixed(std::uint32_t h) {
-    h ^= h >> 16U;
-    h *= 0x7feb352dU;
-    h ^= h >> 15U;
-    h *= 0x846ca68bU;
-    return h ^ (h >> 16U);
-}
-
 // A number of mean 0 and variance 1, at most 3.47, nearly normal: the sum of four even ones of 16 bits each.
 double noise_of(std::int64_t row, std::int64_t column, int level) {
     const auto folded = [](std::int64_t number) {
         const auto bits = static_cast<std::uint64_t>(number);
-        return static_cast<std::uint32_t>(bits) ^ mixed(static_cast<std::uint32_t>(bits >> 32U));
+        return static_cast<std::uint32_t>(bits) ^ lowbias32(static_cast<std::uint32_t>(bits >> 32U));
     };
-    const std::uint32_t place = mixed(folded(row) * 0x9e3779b1U + static_cast<std::uint32_t>(level));
-    const std::uint32_t first = mixed(place ^ (folded(column) * 0x85ebca77U)),
-                        second = mixed(first ^ place ^ 0xc2b2ae3dU);
+    const std::uint32_t place = lowbias32(folded(row) * 0x9e3779b1U + static_cast<std::uint32_t>(level));
+    const std::uint32_t first = lowbias32(place ^ (folded(column) * 0x85ebca77U)),
+                        second = lowbias32(first ^ place ^ 0xc2b2ae3dU);
     const auto sum =
         static_cast<double>((first & 0xffffU) + (first >> 16U) + (second & 0xffffU) + (second >> 16U));
     constexpr double mean = 2.0 * 65535.0, deviation = 37837.227;  // sqrt(4 / 12 (65536^2 - 1))
