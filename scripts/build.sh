@@ -23,7 +23,11 @@ build_release() {
     if [ -t 1 ]; then "${build[@]}" && return
     elif "${build[@]}" >"$log" 2>&1; then return
     fi
-    [ $together = OFF ] || { cp "$log" "$log.joined"; say "the build failed ($log.joined): once more, each file by itself"; }
+    [ $together = OFF ] || {
+      cp "$log" "$log.joined"
+      grep -E -m 12 'FAILED|error|Killed|No space' "$log" >&2 || true
+      say "the build failed ($log.joined): once more, each file by itself"
+    }
   done
   if [ -t 1 ]; then say "the build failed"; exit 1; fi
   grep -v '^\[' "$log" | tail -n 60 >&2

@@ -1,6 +1,7 @@
 // Numbers as they lie in files: least significant byte first, on every machine.
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -46,9 +47,9 @@ class NumberWriter {
     static constexpr bool writes = true;
     template <class T>
     void operator()(const T& number) {
-        const std::size_t at = bytes.size();
-        bytes.resize(at + sizeof(T));
-        to_little_endian(number, &bytes[at]);
+        std::array<std::byte, sizeof(T)> lying;
+        to_little_endian(number, lying.data());
+        bytes.insert(bytes.end(), lying.begin(), lying.end());
     }
     std::vector<std::byte> bytes;
 };

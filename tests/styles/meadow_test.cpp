@@ -142,9 +142,9 @@ TEST_F(MeadowPictures, AreTheSameByBothWaysOfDrawing) {
     const Region region = slope(meadow_H_m, 0.1);
     const Camera eye = eye_over(meadow_H_m, 1.7);
     const gpu::FrameStyle style = natural(region);
-    for (const int samples : {1, 3})
-        EXPECT_LE(unlike_px(picture(region, eye, style, {.path = RasterPath::mesh, .samples = samples}),
-                            picture(region, eye, style, {.path = RasterPath::compute, .samples = samples})),
+    for (const int count : {1, 3})
+        EXPECT_LE(unlike_px(picture(region, eye, style, {.path = RasterPath::mesh, .samples = count}),
+                            picture(region, eye, style, {.path = RasterPath::compute, .samples = count})),
                   8U + width_px * height_px / 2000U);
 }
 
