@@ -37,12 +37,19 @@ prepare_bare() {
   fi
   # Every Debian has it; without it files on their way have names, which a failed call may leave behind.
   mountpoint -q "$folder/proc" || mount -t proc proc "$folder/proc"
+  # And pseudo-terminals, by which the QGIS plugin reads the program's progress.
+  mkdir -p "$folder/dev/pts"
+  mountpoint -q "$folder/dev/pts" || mount -t devpts -o newinstance,ptmxmode=0666,mode=0620 devpts "$folder/dev/pts"
+  [ -e "$folder/dev/ptmx" ] || ln -s pts/ptmx "$folder/dev/ptmx"
   apt-config dump | grep -E '^Acquire::(http|https|Check|Proxy)' >"$folder/etc/apt/apt.conf.d/99machine" || true
   cp /etc/resolv.conf "$folder/etc/resolv.conf"
 }
 
 clear_up_bare() {
-  if mountpoint -q "$folder/proc"; then umount "$folder/proc"; fi
+  local place
+  for place in dev/pts proc; do
+    if mountpoint -q "$folder/$place"; then umount "$folder/$place"; fi
+  done
   if [ -n "$is_own" ]; then rm -rf --one-file-system "$folder"; fi
 }
 
