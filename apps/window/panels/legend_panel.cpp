@@ -9,12 +9,12 @@ ImU32 colour_of(const StripColour& colour) {
     return IM_COL32(colour[0], colour[1], colour[2], 255);
 }
 
-// What lies over the ground by probability, where it does: the same steps as its panel's scale has.
+// What lies over the ground by probability, where it does and the panel with its scale is closed.
 void build_probability_legend(const Viewer& viewer) {
     const auto& found = viewer.looking.found;
     const bool is_shown = found && !found->probable.empty() && viewer.looking.is_shown &&
                           !viewer.leaves_tints_out && !(viewer.comparing.found && viewer.comparing.is_shown);
-    if (!is_shown || viewer.view.show) return;
+    if (!is_shown || viewer.view.show || viewer.panels.viewshed) return;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     begin_area("##probability", {display.x - scaled_px(10.0F), display.y - scaled_px(40.0F)}, {1.0F, 1.0F});
     ImGui::TextUnformatted("Probability of being seen");
