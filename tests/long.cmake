@@ -152,6 +152,7 @@ set_tests_properties(
   Help.HidesWhatDoesNothing
   Help.ListsFirstWhatMostPeopleNeed
   HorizonCommand.LooksBeyondItsBox
+  HorizonCommand.StoppedItLeavesBothFilesOrNone
   HorizonCommand.WhatIsWrongIsSaidInOneLine
   HostileInput.AReaderThatHasReadEnough
   HostileInput.AnInterruptedPictureLeavesNothing
@@ -203,6 +204,7 @@ set_tests_properties(
   NetBake.PicturesAreThoseOfItsSources
   NetBake.SightLinesAndViewshedsAreThoseOfItsSources
   NetworkOutputs.AreTakenBackWhereOthersFail
+  NetworkOutputs.BothFilesOfAHorizonOrNone
   NetworkOutputs.BatchesGoOnWhereTheyWereStopped
   NetworkOutputs.PicturesTakeTheirCompanionsAlong
   NetworkOutputs.RegionsAreBakedThere
@@ -415,6 +417,7 @@ set_tests_properties(
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/BakeAgain
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Info
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Export
+  Commands/FailedSystemCalls.AllOfAKindFromOneOn/Horizon
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Profile
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Shot
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/ShotOfBaked
@@ -423,6 +426,7 @@ set_tests_properties(
   Commands/FailedSystemCalls.OfAll/BakeAgain
   Commands/FailedSystemCalls.OfAll/Info
   Commands/FailedSystemCalls.OfAll/Export
+  Commands/FailedSystemCalls.OfAll/Horizon
   Commands/FailedSystemCalls.OfAll/Profile
   Commands/FailedSystemCalls.OfAll/Shot
   Commands/FailedSystemCalls.OfAll/ShotOfBaked
@@ -431,6 +435,7 @@ set_tests_properties(
   Commands/FailedSystemCalls.OfTheProgram/BakeAgain
   Commands/FailedSystemCalls.OfTheProgram/Info
   Commands/FailedSystemCalls.OfTheProgram/Export
+  Commands/FailedSystemCalls.OfTheProgram/Horizon
   Commands/FailedSystemCalls.OfTheProgram/Profile
   Commands/FailedSystemCalls.OfTheProgram/Shot
   Commands/FailedSystemCalls.OfTheProgram/ShotOfBaked
@@ -439,6 +444,7 @@ set_tests_properties(
   Commands/FailedSystemCalls.OfWriting/BakeAgain
   Commands/FailedSystemCalls.OfWriting/Info
   Commands/FailedSystemCalls.OfWriting/Export
+  Commands/FailedSystemCalls.OfWriting/Horizon
   Commands/FailedSystemCalls.OfWriting/Profile
   Commands/FailedSystemCalls.OfWriting/Shot
   Commands/FailedSystemCalls.OfWriting/ShotOfBaked
@@ -885,7 +891,6 @@ set_tests_properties(
   VerticalDatum.HeightsInFeetOfThreeAxesAreConvertedOnce
   PostHorizons.AreThoseOfSightLinesOverHillsThePoleAndNets
   RealHorizons.AreThoseOfSightLines
-  RealHorizons.SkyViewIsThatOfSightLines
   RealHorizons.TakesSecondsForThousandsOfPosts
   Viewshed.IsTheLookoutsOverHills
   Viewshed.IsTheLookoutsOverTheAntimeridianAndNearThePole

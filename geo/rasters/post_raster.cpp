@@ -7,18 +7,26 @@
 #include <cstdio>
 
 #include "geo/files/raster_library.h"
-#include "geo/files/whole_file.h"
 #include "geo/rasters/post_raster_place.h"
 
 namespace oro {
 namespace {
 
-Result<void> fill(GDALDatasetH dataset, const PostRaster& raster, const GdalMessages& messages,
-                  const std::string& path) {
-    const auto failed = [&] {
-        return Error{ErrorKind::failed, path, "cannot be written: " + messages.last("GDAL says no more")};
-    };
-    if (!place_posts(dataset, raster)) return failed();
+// GDAL says that it cannot write, and not why (a full disk, a limit): the system says it of a few bytes more,
+// at the end of the file that will not be kept.
+Error fault_of_writing(WholeFile& file, const std::string& path, const std::string& words) {
+    const std::string more(std::size_t{1} << 16U, '\0');
+    if (std::fseek(file.stream(), 0, SEEK_END) == 0) {
+        if (Result<void> written = file.write(more.data(), more.size()); !written.ok())
+            return written.error();
+        if (Result<void> settled = file.settle(); !settled.ok()) return settled.error();
+    }
+    return Error{ErrorKind::failed, path, "cannot be written: " + words};
+}
+
+// False: GDAL has said why not, as far as it says it.
+bool fill(GDALDatasetH dataset, const PostRaster& raster) {
+    if (!place_posts(dataset, raster)) return false;
     for (std::size_t i = 0; i < raster.bands.size(); ++i) {
         const GDALRasterBandH band = GDALGetRasterBand(dataset, static_cast<int>(i) + 1);
         GDALSetDescription(band, raster.bands[i].name.c_str());
@@ -30,10 +38,10 @@ Result<void> fill(GDALDatasetH dataset, const PostRaster& raster, const GdalMess
         auto* const values = const_cast<float*>(raster.bands[i].values.data());
         if (GDALRasterIO(band, GF_Write, 0, 0, raster.part.columns, raster.part.rows, values,
                          raster.part.columns, raster.part.rows, GDT_Float32, 0, 0) != CE_None)
-            return failed();
+            return false;
     }
     GDALFlushCache(dataset);
-    return messages.last("").empty() ? Result<void>() : failed();
+    return true;
 }
 
 }  // namespace
@@ -61,7 +69,7 @@ bool place_posts(void* dataset, const PostRaster& raster) {
     return true;
 }
 
-Result<void> write_post_raster(const std::string& path, bool overwrite, const PostRaster& raster) {
+Result<WholeFile> written_post_raster(const std::string& path, bool overwrite, const PostRaster& raster) {
     start_gdal();
     ORO_TRY(WholeFile file, WholeFile::create(path, overwrite));
     // By its descriptor: it has no name yet.
@@ -80,10 +88,15 @@ Result<void> write_post_raster(const std::string& path, bool overwrite, const Po
                                options.List()));
     if (!dataset)
         return Error{ErrorKind::failed, path, "cannot be written: " + messages.last("GDAL says no more")};
-    ORO_CHECK(fill(dataset.get(), raster, messages, path));
+    const bool filled = fill(dataset.get(), raster);
     dataset.reset();
-    if (const std::string fault = messages.last(""); !fault.empty())
-        return Error{ErrorKind::failed, path, "cannot be written: " + fault};
+    if (const std::string fault = messages.last(""); !filled || !fault.empty())
+        return fault_of_writing(file, path, fault.empty() ? "GDAL says no more" : fault);
+    return file;
+}
+
+Result<void> write_post_raster(const std::string& path, bool overwrite, const PostRaster& raster) {
+    ORO_TRY(WholeFile file, written_post_raster(path, overwrite, raster));
     return file.commit();
 }
 

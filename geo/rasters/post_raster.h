@@ -11,6 +11,7 @@
 #include "core/base/result.h"
 #include "core/terrain/grid_part.h"
 #include "core/terrain/post_grid.h"
+#include "geo/files/whole_file.h"
 #include "geo/region/region.h"
 
 namespace oro {
@@ -33,8 +34,11 @@ struct PostRaster {
 std::array<double, 6> transform_of_posts(const PostGrid& grid, const std::optional<PostsCrs>& crs,
                                          const GridPart& part);
 
-// Written whole or not at all: Float32, compressed (DEFLATE), in EPSG:4326 or the posts' CRS; each post is
-// the middle of a cell. Errors: those of WholeFile; what GDAL cannot write (a full disk).
+// The file has all of the raster, and gets its name by commit(), or with others by commit_together():
+// Float32, compressed (DEFLATE), in EPSG:4326 or the posts' CRS; each post is the middle of a cell. Errors:
+// those of WholeFile; what GDAL cannot write (a full disk).
+Result<WholeFile> written_post_raster(const std::string& path, bool overwrite, const PostRaster& raster);
+// The same, whole or not at all. Errors: the same.
 Result<void> write_post_raster(const std::string& path, bool overwrite, const PostRaster& raster);
 
 }  // namespace oro

@@ -240,6 +240,42 @@ TEST_F(NetworkOutputs, AreTakenBackWhereOthersFail) {
     EXPECT_EQ(puts, 3);
 }
 
+// The two files of a horizon, too: where the second is refused the first goes back, or is what it was.
+TEST_F(NetworkOutputs, BothFilesOfAHorizonOrNone) {
+    const Words words{"horizon",
+                      oro::test::bundled(),
+                      "-q",
+                      "--network",
+                      "--overwrite",
+                      "--radius",
+                      "1",
+                      "--directions",
+                      "4",
+                      "--bbox",
+                      "-84.26,36.55,-84.25,36.56",
+                      "--out",
+                      "/vsis3/bucket/h.tif"};
+    for (const bool there : {false, true}) {
+        if (there) {
+            store_.put("bucket/h.horizon.tif", "was there");
+            store_.put("bucket/h.sky-view.tif", "was there, too");
+        }
+        int puts = 0;
+        store_.fail([&](const LoopbackRequest& request) -> std::optional<std::string> {
+            if (request.method != "PUT" || puts++ != 1) return std::nullopt;
+            return s3_fault("403 Forbidden", "AccessDenied", "Access Denied");
+        });
+        expect_refusal(run(words), oro::test::failed, {"cannot be written: "});
+        EXPECT_GE(puts, 2);
+        if (there) {
+            EXPECT_EQ(store_.objects().at("bucket/h.horizon.tif"), "was there");
+            EXPECT_EQ(store_.objects().at("bucket/h.sky-view.tif"), "was there, too");
+        } else {
+            EXPECT_TRUE(store_.objects().empty());
+        }
+    }
+}
+
 // Where nothing says who the user is, nothing is signed; a file of keys says it, too.
 TEST_F(NetworkOutputs, KeysComeFromTheEnvironmentOrTheirFile) {
     const Words words = joined(viewshed_to("/vsis3/bucket/shed.tif"), {"--network", "-q"});

@@ -117,6 +117,16 @@ Command viewshed_of_tiles() {
     return {"viewshed tile.tif", words, {{"tile.tif", tile()}}, {{"s.tif", there_before}}, false};
 }
 
+Command horizon_of_tiles() {
+    const std::vector<std::string> words{"horizon", "tile.tif", "-q",  "--overwrite", "--directions",
+                                         "4",       "--radius", "0.6", "--out",       "h.tif"};
+    return {"horizon tile.tif",
+            words,
+            {{"tile.tif", tile()}},
+            {{"h.horizon.tif", there_before}, {"h.sky-view.tif", "another of before"}},
+            false};
+}
+
 Command profile_of_tiles() {
     const std::vector<std::string> words{
         "profile", "tile.tif", "-q",    "--overwrite", "--along", "36.72,-84.41; 36.73,-84.40",

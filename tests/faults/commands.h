@@ -6,8 +6,8 @@
 namespace oro::test {
 
 // info of a GeoTIFF and of a baked region; bake; shot of both, with a picture there already or none; what is
-// seen from a place, a line's profile, and heights as
-// a Cloud Optimized GeoTIFF, with a file there already.
+// seen from a place, horizons (two files), a line's profile, and heights as a Cloud Optimized GeoTIFF, with
+// files there already.
 Command info_of_tiles();
 Command info_of_baked();
 Command bake_new();
@@ -15,6 +15,7 @@ Command bake_again();
 Command shot_of_tiles();
 Command shot_of_baked();
 Command viewshed_of_tiles();
+Command horizon_of_tiles();
 Command profile_of_tiles();
 Command export_of_tiles();
 Command shot_with_labels();  // one, of four figures at most

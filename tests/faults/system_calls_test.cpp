@@ -81,14 +81,15 @@ TEST(FailedQuestions, LetNoInputBeReplaced) {
 
 std::string name_of(const testing::TestParamInfo<Command (*)()>& info) {
     const std::vector<std::string> names{"Info",        "InfoOfBaked", "Bake",    "BakeAgain", "Shot",
-                                         "ShotOfBaked", "Viewshed",    "Profile", "Export"};
+                                         "ShotOfBaked", "Viewshed",    "Profile", "Export",    "Horizon"};
     return names[info.index];
 }
 INSTANTIATE_TEST_SUITE_P(Commands, FailedSystemCalls,
                          testing::Values(oro::test::info_of_tiles, oro::test::info_of_baked,
                                          oro::test::bake_new, oro::test::bake_again, oro::test::shot_of_tiles,
                                          oro::test::shot_of_baked, oro::test::viewshed_of_tiles,
-                                         oro::test::profile_of_tiles, oro::test::export_of_tiles),
+                                         oro::test::profile_of_tiles, oro::test::export_of_tiles,
+                                         oro::test::horizon_of_tiles),
                          name_of);
 
 }  // namespace

@@ -119,6 +119,7 @@ PostRaster raster_for(const RegionGrid& grid, const PostHorizonsRequest& request
     return raster;
 }
 
+// Both, or none.
 Result<void> write_rasters(const HorizonOptions& options, const HorizonFiles& files, const RegionGrid& grid,
                            const PostHorizonsRequest& request, PostHorizons& found) {
     PostRaster horizon = raster_for(grid, request);
@@ -126,10 +127,12 @@ Result<void> write_rasters(const HorizonOptions& options, const HorizonFiles& fi
         horizon.bands.push_back(
             {"horizon's elevation in azimuth " + azimuth_words(k, request.directions) + ", degrees",
              std::move(found.elevation_deg[static_cast<std::size_t>(k)])});
-    ORO_CHECK(write_post_raster(files.horizon, options.overwrite, horizon));
+    ORO_TRY(WholeFile horizon_file, written_post_raster(files.horizon, options.overwrite, horizon));
+    horizon.bands.clear();
     PostRaster sky = raster_for(grid, request);
     sky.bands.push_back({"sky-view factor of a level plane, weighted by cosine", std::move(found.sky_view)});
-    return write_post_raster(files.sky_view, options.overwrite, sky);
+    ORO_TRY(WholeFile sky_file, written_post_raster(files.sky_view, options.overwrite, sky));
+    return commit_together({&sky_file, &horizon_file});
 }
 
 void tell_horizons(const HorizonOptions& options, const HorizonFiles& files, const RegionGrid& grid,

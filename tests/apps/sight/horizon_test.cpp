@@ -1,7 +1,10 @@
 // orograph horizon as people and programs use it.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -126,6 +129,72 @@ TEST(HorizonCommand, TellsThatTheRadiusLeavesTheData) {
     };
     EXPECT_EQ(said("3").find("beyond the data"), std::string::npos);
     EXPECT_NE(said("60").find("the radius reaches beyond the data"), std::string::npos);
+}
+
+// A disk with room for the first file alone: both are what they were before, or absent.
+TEST(HorizonCommand, BothFilesAreWrittenOrNone) {
+    const fs::path whole = oro::test::scratch_folder();
+    const Words words = oro::test::joined(
+        {"horizon", bundled(), "-q", "--radius", "1", "--directions", "4", "--out"}, small_box);
+    const auto to = [&](const fs::path& out) {
+        Words all = words;
+        all.insert(all.begin() + 8, out.string());
+        return all;
+    };
+    ASSERT_EQ(run_orograph(to(whole / "h.tif")).exit_code, 0);
+    constexpr std::uintmax_t page = 4096;
+    const std::uintmax_t first_pages = (fs::file_size(whole / "h.horizon.tif") + page - 1) / page;
+    const std::string session = R"(
+        disk=$1 kept=$2 size=$3 there=$4; shift 4
+        mount -t tmpfs -o size="$size" none "$disk" 2>/dev/null || exit 99
+        if [ "$there" = 1 ]; then printf old >"$disk/h.horizon.tif"; printf 'old, too' >"$disk/h.sky-view.tif"; fi
+        "$@" --overwrite; code=$?
+        cp -a "$disk/." "$kept"
+        exit $code)";
+    for (const bool there : {false, true}) {
+        const fs::path disk = oro::test::scratch_folder(), kept = oro::test::scratch_folder();
+        Words all{"unshare", "--mount"};
+        if (geteuid() != 0) all.emplace_back("--map-root-user");
+        for (const std::string& word : Words{"sh", "-c", session, "sh", disk, kept,
+                                             std::to_string((first_pages + (there ? 2 : 0)) * page),
+                                             there ? "1" : "0", OROGRAPH_PROGRAM})
+            all.push_back(word);
+        const auto outcome = run_program(oro::test::joined(all, to(disk / "h.tif")));
+        if (outcome.exit_code == 99 || outcome.err.rfind("unshare:", 0) == 0)
+            GTEST_SKIP() << "needs to mount a small file system";
+        expect_refusal(outcome, oro::test::failed, {"h.sky-view.tif: cannot be written", "No space left"});
+        EXPECT_EQ(oro::test::names_in(kept), there ? (Words{"h.horizon.tif", "h.sky-view.tif"}) : Words{});
+        if (!there) continue;
+        EXPECT_EQ(bytes_of(kept / "h.horizon.tif"), "old");
+        EXPECT_EQ(bytes_of(kept / "h.sky-view.tif"), "old, too");
+    }
+}
+
+// Stopped at any moment, in each way: both files are there, or none and nothing else.
+TEST(HorizonCommand, StoppedItLeavesBothFilesOrNone) {
+    int stopped = 0;
+    for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+        for (const double after_s : {0.02, 0.1, 0.2, 0.3, 0.4}) {
+            const fs::path folder = oro::test::scratch_folder();
+            oro::test::Circumstances circumstances;
+            circumstances.signal = signal;
+            circumstances.signal_after_s = after_s;
+            const auto outcome =
+                run_orograph(oro::test::joined({"horizon", bundled(), "-q", "--radius", "8", "--directions",
+                                                "72", "--out", (folder / "h.tif").string()},
+                                               small_box),
+                             circumstances);
+            const Words names = oro::test::names_in(folder);
+            if (outcome.exit_code == 0) {
+                EXPECT_EQ(names, (Words{"h.horizon.tif", "h.sky-view.tif"}));
+                continue;
+            }
+            ++stopped;
+            EXPECT_EQ(outcome.exit_code, 128 + signal) << outcome.err;
+            EXPECT_TRUE(names.empty()) << names.front();
+        }
+    }
+    EXPECT_GT(stopped, 2);
 }
 
 TEST(HorizonCommand, WhatIsWrongIsSaidInOneLine) {
