@@ -549,6 +549,14 @@ void add_export(CLI::App& app, ExportOptions& options) {
                    "for globes, or one glTF model.");
     written.option("--out", options.out, "PATH",
                    "What to write: a file of cog (.tif) or gltf (.glb), a folder of the others.");
+    written.choice("--layer", options.layer, {"H", "slope", "canopy"},
+                   "What the GeoTIFF has at each sample: heights above sea level (default), the slope of the "
+                   "ground in degrees by Horn's formula, or the heights of --canopy. Needs cog.");
+    written
+        .option("--canopy", options.canopy, "FILE",
+                "What --layer canopy takes: rasters of canopy heights in metres, or class: heights of the "
+                "classes of --landcover, which are invented.")
+        .allow_extra_args(false);
     written.option("--zoom", options.zoom, "RANGE",
                    "Write these zooms of a web map, LOW:HIGH of 0 to 22, as in 5:12, or of a globe, 0:HIGH. "
                    "Default: up to the "
@@ -571,11 +579,12 @@ void add_export(CLI::App& app, ExportOptions& options) {
         .allow_extra_args(false);
     written
         .option("--landcover", options.landcover, "FILE",
-                "Colour 3D Tiles by land cover: a raster of classes, as in shot --landcover.")
+                "Colour 3D Tiles by land cover: a raster of classes, as in shot --landcover. Also for "
+                "--canopy class.")
         .allow_extra_args(false);
     written.option(
         "--shard", options.shard, "PART",
-        "Make a part of the 3D Tiles, NUMBER/COUNT as in 2/4, and keep it in FOLDER.tiles. Without "
+        "Make a part of the tiles, NUMBER/COUNT as in 2/4, and keep it in FOLDER.tiles. Without "
         "it the tiles that are there are taken, and those that are missing are made.");
     written.flag(
         "--no-normals", options.no_normals,

@@ -53,9 +53,10 @@ std::optional<double> horn_slope_deg(const HeightField& field, double row, doubl
     Rise rise;
     double whole = 0.0;
     for (int i = 0; i < 4; ++i) {
+        const double share = (i / 2 == 0 ? 1.0 - down : down) * (i % 2 == 0 ? 1.0 - right : right);
+        if (share <= 0.0) continue;
         const auto corner = rise_at_post(field, first_row + i / 2, first_column + i % 2);
         if (!corner) continue;
-        const double share = (i / 2 == 0 ? 1.0 - down : down) * (i % 2 == 0 ? 1.0 - right : right);
         rise.east += share * corner->east;
         rise.north += share * corner->north;
         whole += share;

@@ -11,6 +11,7 @@
 #include "core/base/parallel.h"
 #include "core/terrain/drawn_heights.h"
 #include "core/terrain/triangle_heights.h"
+#include "geo/canopy/canopy_of_posts.h"
 #include "geo/files/letter_case.h"
 #include "geo/sources/known_products.h"
 
@@ -33,37 +34,6 @@ Result<void> load_into_memory(RegionGrid& grid) {
     return {};
 }
 
-// The places of a row's posts, WGS84 degrees.
-void places_of_row(const PostGrid& grid, int row, std::vector<double>& lat_deg,
-                   std::vector<double>& lon_deg) {
-    for (int column = 0; column < grid.columns(); ++column) {
-        const auto i = static_cast<std::size_t>(column);
-        if (grid.net) {
-            const PostPlace place = grid.net->place_at(row, column);
-            lat_deg[i] = place.lat_deg;
-            lon_deg[i] = place.lon_deg;
-        } else {
-            lat_deg[i] = row_lat_deg(grid, row);
-            lon_deg[i] = grid.lon.at_deg(column);
-        }
-    }
-}
-
-// How far the posts of a row are from each other, and from those of the next row, in its middle.
-CellSize cell_of_row(const PostGrid& grid, int row) {
-    if (!grid.net) return {grid.lat.spacing_deg(), grid.lon.spacing_deg()};
-    const double column = 0.5 * (grid.columns() - 1);
-    const PostPlace north = grid.net->place_at(row - 0.5, column),
-                    south = grid.net->place_at(row + 0.5, column);
-    const PostPlace west = grid.net->place_at(row, column - 0.5),
-                    east = grid.net->place_at(row, column + 0.5);
-    const auto turn_deg = [](double from_deg, double to_deg) {
-        return std::abs(std::remainder(to_deg - from_deg, 360.0));
-    };
-    return {std::max(std::abs(north.lat_deg - south.lat_deg), std::abs(east.lat_deg - west.lat_deg)),
-            std::max(turn_deg(west.lon_deg, east.lon_deg), turn_deg(north.lon_deg, south.lon_deg))};
-}
-
 struct RowCounts {
     float highest_m{};
     std::uint64_t raised{}, unknown{}, known{};
@@ -71,10 +41,8 @@ struct RowCounts {
 
 Result<RowCounts> raise_row(RegionGrid& grid, int row, const CanopyMap& canopy) {
     const auto columns = static_cast<std::size_t>(grid.field.grid.columns());
-    std::vector<double> lat_deg(columns), lon_deg(columns);
     std::vector<float> canopy_m(columns);
-    places_of_row(grid.field.grid, row, lat_deg, lon_deg);
-    ORO_CHECK(canopy.heights_around(lat_deg, lon_deg, cell_of_row(grid.field.grid, row), canopy_m));
+    ORO_CHECK(canopy_of_row(grid.field.grid, row, canopy, canopy_m));
     const float not_held = static_cast<float>(1.0 - grid.canopy->held_share);
     RowCounts counts;
     for (std::size_t i = 0; i < columns; ++i) {

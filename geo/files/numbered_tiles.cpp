@@ -16,7 +16,7 @@ bool is_number(const std::string& name) {
 }  // namespace
 
 Result<void> check_holds_tiles_alone(const std::string& folder, const std::string& extension,
-                                     const std::string& index) {
+                                     const std::string& index, const std::string& also) {
     std::error_code failed;
     for (fs::recursive_directory_iterator entry(folder, failed), end; !failed && entry != end;
          entry.increment(failed)) {
@@ -24,7 +24,7 @@ Result<void> check_holds_tiles_alone(const std::string& folder, const std::strin
         std::error_code unknown;
         const bool is_folder = entry->symlink_status(unknown).type() == fs::file_type::directory;
         const bool is_ours = entry.depth() < 2 && is_folder
-                                 ? is_number(name.string())
+                                 ? is_number(name.string()) || (entry.depth() == 0 && name == also)
                                  : !is_folder && (entry.depth() == 2 ? name.extension() == extension &&
                                                                            is_number(name.stem().string())
                                                                      : entry.depth() == 0 && name == index);

@@ -1,4 +1,5 @@
-// Folders of tiles, A/B/C.EXTENSION with numbers for A, B and C, and one file that tells of them.
+// Folders of tiles, A/B/C.EXTENSION with numbers for A, B and C, and one file that tells of them. One word
+// may stand for A, too.
 #pragma once
 
 #include <string>
@@ -8,8 +9,9 @@
 namespace oro {
 
 // Whether a folder that is there holds nothing but tiles with that extension (".png") and a file `index`
-// ("tiles.json"), so that it may be replaced. Errors (failed): a file or folder that is neither, by name.
+// ("tiles.json"), so that it may be replaced; `also`: the word for A, "" for none. Errors (failed): a file or
+// folder that is neither, by name.
 Result<void> check_holds_tiles_alone(const std::string& folder, const std::string& extension,
-                                     const std::string& index);
+                                     const std::string& index, const std::string& also = "");
 
 }  // namespace oro

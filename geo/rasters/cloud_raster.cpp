@@ -63,7 +63,8 @@ Dataset source_of(const PostRaster& raster, std::vector<std::int16_t>& whole) {
 }  // namespace
 
 bool are_whole_numbers(const PostRaster& raster) {
-    return raster.no_value == no_whole && std::ranges::all_of(raster.bands.front().values, [](float value) {
+    return !raster.fractions && raster.no_value == no_whole &&
+           std::ranges::all_of(raster.bands.front().values, [](float value) {
                return value == no_whole ||
                       (value >= lowest_whole && value <= highest_whole && value == std::trunc(value));
            });
@@ -83,7 +84,7 @@ Result<CloudRasterWritten> write_cloud_raster(const std::string& path, bool over
     if (!source || !place_posts(source.get(), raster)) return failed();
     const GDALRasterBandH band = GDALGetRasterBand(source.get(), 1);
     GDALSetDescription(band, raster.bands.front().name.c_str());
-    GDALSetRasterUnitType(band, "metre");
+    GDALSetRasterUnitType(band, raster.bands.front().unit);
     GDALSetRasterNoDataValue(band, static_cast<double>(raster.no_value));
     const FileInMemory made;
     Dataset copy(GDALCreateCopy(cog_driver(), made.path.c_str(), source.get(), TRUE,

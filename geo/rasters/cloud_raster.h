@@ -16,7 +16,7 @@ struct CloudRasterWritten {
 };
 
 // Whether values can be kept as Int16 without a change: whole numbers of -32767 to 32767, or no_value, which
-// must be -32768 then. Of one band.
+// must be -32768 then, of a kind that has no fractions. Of one band.
 bool are_whole_numbers(const PostRaster& raster);
 
 // Written whole or not at all, by GDAL's COG driver, on up to `threads` threads: Int16 where

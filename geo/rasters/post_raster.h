@@ -20,12 +20,14 @@ struct PostRaster {
     struct Band {
         std::string name;
         std::vector<float> values;  // row by row, from the north-west
+        const char* unit{"metre"};  // of a Cloud Optimized GeoTIFF
     };
     PostGrid grid;
     std::optional<PostsCrs> crs;  // where its posts lie in it; of a grid on a net
     GridPart part;                // that it has; longitudes may run past 180
     std::vector<Band> bands;
     float no_value{};
+    bool fractions{};  // values are of a kind that has fractions, also where none happens to have any
     std::vector<std::pair<std::string, std::string>> tags;  // of the file, for people: names in capitals
 };
 

@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
 
+#include "geo/tilesets/feature_table.h"
 #include "geo/tilesets/source_table.h"
 
 namespace oro {
@@ -163,6 +164,11 @@ void add_facts(Views& views, const VertexFacts& facts, const OrderedMesh& order)
         for (std::size_t i = 0; i < sources.size(); ++i) sources[order.numbers[i]][0] = facts.sources[i];
         add_vertices(views, sources, "_FEATURE_ID_0", nullptr, component_unsigned_byte, "SCALAR");
     }
+    if (!facts.features.empty()) {
+        std::vector<std::array<std::uint16_t, fact_bytes / 2>> features(facts.features.size());
+        for (std::size_t i = 0; i < features.size(); ++i) features[order.numbers[i]][0] = facts.features[i];
+        add_vertices(views, features, "_FEATURE_ID_0", nullptr, component_unsigned_short, "SCALAR");
+    }
 }
 
 Views views_of(const GroundMesh& mesh, const VertexFacts& facts, const OrderedMesh& order) {
@@ -265,6 +271,7 @@ Json material_json(const GlbLook& look, bool has_colours) {
     pbr["roughnessFactor"] = 1.0;
     Json material = Json::object();
     material["pbrMetallicRoughness"] = std::move(pbr);
+    if (look.two_sided) material["doubleSided"] = true;
     return material;
 }
 
@@ -281,7 +288,7 @@ Json mesh_json(const GroundMesh& mesh, const GlbLook& look, const Views& views) 
         attributes[views.views[i].attribute] = i;
         if (std::string(views.views[i].attribute) != "_FEATURE_ID_0") continue;
         Json features = Json::object();
-        features["featureCount"] = look.sources.size();
+        features["featureCount"] = look.features.empty() ? look.sources.size() : look.features.size();
         features["attribute"] = 0;
         features["propertyTable"] = 0;
         primitive["extensions"]["EXT_mesh_features"]["featureIds"] = list_of(std::move(features));
@@ -291,7 +298,7 @@ Json mesh_json(const GroundMesh& mesh, const GlbLook& look, const Views& views) 
     primitive["material"] = 0;
     Json json = Json::object();
     json["primitives"] = list_of(std::move(primitive));
-    json["extras"]["groundTriangles"] = mesh.ground_triangles;
+    if (look.features.empty()) json["extras"]["groundTriangles"] = mesh.ground_triangles;
     return json;
 }
 
@@ -319,11 +326,12 @@ Json gltf_json(const GroundMesh& mesh, const VertexFacts& facts, const GlbLook& 
         json["bufferViews"].push_back(view_json(view, fallback_bytes));
         fallback_bytes = (fallback_bytes + view.count * view.stride + 3) / 4 * 4;
     }
-    if (!facts.sources.empty()) {
+    if (!facts.sources.empty() || !facts.features.empty()) {
         json["extensionsUsed"].push_back("EXT_mesh_features");
         json["extensionsUsed"].push_back("EXT_structural_metadata");
         json["extensions"]["EXT_structural_metadata"] =
-            source_table_json(look.sources, views.bytes, json["bufferViews"]);
+            facts.features.empty() ? source_table_json(look.sources, views.bytes, json["bufferViews"])
+                                   : feature_table_json(look.features, views.bytes, json["bufferViews"]);
         pad(views.bytes, 0);
     }
     Json buffer = Json::object();

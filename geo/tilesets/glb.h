@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geo/tilesets/ground_mesh.h"
@@ -20,10 +21,18 @@ struct GroundSource {
     double vertical_le90_m{-1.0};
 };
 
-// What is known of the vertices of a mesh, one by one; either may be empty.
+// A thing of a mesh on the ground, a building say, as metadata tell it.
+struct GlbFeature {
+    std::string name, type, part_of;  // "" where there is none
+    std::string file;                 // name of the file that it comes from
+    std::vector<std::pair<std::string, std::string>> attributes;
+};
+
+// What is known of the vertices of a mesh, one by one; each may be empty. Not both sources and features.
 struct VertexFacts {
     std::vector<std::array<double, 3>> colours;  // linear light, 0 .. 1
     std::vector<std::uint8_t> sources;           // numbers among those of GlbLook
+    std::vector<std::uint16_t> features;         // ... likewise
 };
 
 struct GlbLook {
@@ -31,6 +40,8 @@ struct GlbLook {
     std::vector<GroundSource> sources;
     std::string attribution;  // what viewers show as asset.copyright; "" for none
     std::string generator;
+    std::vector<GlbFeature> features{};  // of a mesh on the ground, of which nothing is ground
+    bool two_sided{};                    // triangles are seen from behind, too
 };
 
 // The bytes of a .glb of a mesh that has a triangle: one node, which takes whole steps along the mesh's axes

@@ -14,6 +14,7 @@
 #include "geo/files/plain_file.h"
 #include "geo/tilesets/ground_mesh.h"
 #include "geo/tilesets/level_cut.h"
+#include "geo/tilesets/mesh_tiles.h"
 #include "geo/tilesets/post_place.h"
 #include "geo/tilesets/source_table.h"
 #include "geo/tilesets/tile_bounds.h"
@@ -200,6 +201,7 @@ class TilesetWriter {
         : folder_(folder), maker_(maker), request_(request), layout_(maker.layout()) {}
 
     Result<void> write_tiles(const TilesetProgress& progress);
+    Result<void> write_meshes();
     Result<TilesetWritten> write_json();
 
   private:
@@ -211,6 +213,8 @@ class TilesetWriter {
     }
     [[nodiscard]] std::vector<TileIndex> below(const TileIndex& tile) const;
     [[nodiscard]] Json tile_json(const TileIndex& tile) const;
+    [[nodiscard]] Json mesh_tile_json(const MeshTile& tile) const;
+    [[nodiscard]] Json root_json(const TileIndex& root, const TilesetWritten& written) const;
     [[nodiscard]] Json metadata_json() const;
     [[nodiscard]] TilesetLevel summed_up(int level) const;
 
@@ -219,6 +223,7 @@ class TilesetWriter {
     const TilesetRequest& request_;
     const TilesetLayout& layout_;
     std::vector<std::vector<WrittenTile>> written_;  // by level
+    std::vector<MeshTile> mesh_tiles_;               // the first is the root of the others
     double tileset_error_m_{};
 };
 
@@ -307,6 +312,47 @@ Json TilesetWriter::tile_json(const TileIndex& tile) const {
     return json;
 }
 
+Json TilesetWriter::mesh_tile_json(const MeshTile& tile) const {
+    Json json = Json::object();
+    json["boundingVolume"]["region"] = region_json_of(tile.box);
+    json["geometricError"] = tile.error_m;
+    if (!tile.name.empty()) json["content"]["uri"] = tile.name;
+    Json children = Json::array();
+    for (const std::size_t child : tile.children) children.push_back(mesh_tile_json(mesh_tiles_[child]));
+    if (!children.empty()) json["children"] = std::move(children);
+    return json;
+}
+
+// The ground alone, or beside it the meshes, which add to it.
+Json TilesetWriter::root_json(const TileIndex& root, const TilesetWritten& written) const {
+    if (mesh_tiles_.empty()) return tile_json(root);
+    Json json = Json::object();
+    json["boundingVolume"]["region"] = region_json_of(written.box);
+    json["geometricError"] = written.geometric_error_m;
+    json["refine"] = "ADD";
+    json["children"] = Json::array();
+    json["children"].push_back(tile_json(root));
+    Json meshes = mesh_tile_json(mesh_tiles_.front());
+    meshes["refine"] = "ADD";
+    json["children"].push_back(std::move(meshes));
+    return json;
+}
+
+Result<void> TilesetWriter::write_meshes() {
+    if (!request_.meshes) return {};
+    MeshTilesRequest asked;
+    asked.look = request_.look;
+    asked.look.colour = request_.meshes->colour;
+    asked.normals = request_.normals;
+    asked.most_triangles = request_.meshes->most_triangles;
+    asked.threads = request_.threads;
+    const UndulationField without;
+    ORO_TRY(mesh_tiles_,
+            write_mesh_tiles(folder_, *request_.meshes->meshes,
+                             request_.undulation == nullptr ? without : *request_.undulation, asked));
+    return {};
+}
+
 // Each of them a string of one class, and the sources one by one: their names, whose they are, and how
 // accurate. Source: OGC 22-025r4, 3D Metadata Specification.
 Json TilesetWriter::metadata_json() const {
@@ -357,7 +403,14 @@ Result<TilesetWritten> TilesetWriter::write_json() {
     TilesetWritten written;
     for (int level = root.level; level >= 0; --level) written.levels.push_back(summed_up(level));
     written.box = *at(root).box;
-    tileset_error_m_ = size_m(written.box);
+    for (const MeshTile& tile : mesh_tiles_) {
+        written.meshes.tiles += tile.name.empty() ? 0 : 1;
+        written.meshes.triangles += tile.triangles;
+        written.meshes.bytes += tile.bytes;
+        written.meshes.largest_error_m = std::max(written.meshes.largest_error_m, tile.error_m);
+    }
+    if (!mesh_tiles_.empty()) written.box = joined(written.box, mesh_tiles_.front().box);
+    tileset_error_m_ = std::max(size_m(written.box), written.meshes.largest_error_m);
     for (const TilesetLevel& level : written.levels)
         tileset_error_m_ = std::max(tileset_error_m_, level.largest_error_m);
     written.geometric_error_m = tileset_error_m_;
@@ -367,7 +420,7 @@ Result<TilesetWritten> TilesetWriter::write_json() {
     json["asset"]["generator"] = request_.look.generator;
     if (!request_.metadata.empty()) json.update(metadata_json());
     json["geometricError"] = tileset_error_m_;
-    json["root"] = tile_json(root);
+    json["root"] = root_json(root, written);
     const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
     ORO_CHECK(write_plain_file(folder_ + "/tileset.json",
                                {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}));
@@ -392,6 +445,7 @@ Result<TilesetWritten> write_tileset(const std::string& folder, const PostGrid& 
     ORO_CHECK(maker.begin(ground));
     TilesetWriter writer(folder, maker, request);
     ORO_CHECK(writer.write_tiles(progress));
+    ORO_CHECK(writer.write_meshes());
     return writer.write_json();
 }
 

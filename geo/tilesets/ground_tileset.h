@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/base/result.h"
+#include "geo/meshes/placed_mesh.h"
 #include "geo/tilesets/clustered_ground.h"
 #include "geo/tilesets/glb.h"
 #include "geo/tilesets/kept_tiles.h"
@@ -18,8 +20,17 @@
 
 namespace oro {
 
+// Meshes that lie on the ground.
+struct TilesetMeshes {
+    std::shared_ptr<const std::vector<PlacedMesh>> meshes;
+    std::array<double, 3> colour{};     // linear light, 0 .. 1
+    std::size_t most_triangles{16384};  // of a tile
+};
+
 struct TilesetRequest {
     GlbLook look;
+    std::optional<TilesetMeshes> meshes;
+    const UndulationField* undulation{};  // of the meshes; null or empty: 0. It stays where it is.
     // What the tileset says of itself, a name and its text each (tileset.json, metadata).
     std::vector<std::pair<std::string, std::string>> metadata;
     // What is known of vertices of tiles of a level; none: nothing. Asked from several threads.
@@ -45,6 +56,7 @@ struct TilesetLevel {
 struct TilesetWritten {
     std::vector<TilesetLevel> levels;  // the coarsest first
     TileBox box;
+    TilesetLevel meshes;         // of all tiles of meshes; largest_error_m is that of what is missing
     double geometric_error_m{};  // of the tileset: what is missing when none of it is drawn
     double root_error_m{};
 };
@@ -66,7 +78,8 @@ using GroundSourceOfTiles = std::function<Result<std::unique_ptr<ClusteredGround
 // Writes FOLDER/LEVEL/ROW/COLUMN.glb of every tile that has ground, and FOLDER/tileset.json. A tile's
 // geometricError is the bound of TileBounds: nothing of the surface is farther than it from what the tile
 // has in its place. The folder is there and empty. Same bytes for any number of threads, and wherever tiles
-// that are kept were made. Errors: what cannot be written; no triangle (no_data); those of `ground`.
+// that are kept were made. With meshes the root has the ground and the tiles of MeshTile side by side.
+// Errors: what cannot be written; no triangle (no_data); those of `ground`.
 Result<TilesetWritten> write_tileset(const std::string& folder, const PostGrid& grid,
                                      const GroundSourceOfTiles& ground, const TilesetRequest& request,
                                      const TilesetProgress& progress);

@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
+#include "geo/files/kept_parts.h"
 #include "geo/tilesets/ground_mesh.h"
 #include "geo/tilesets/tileset_layout.h"
 
@@ -22,27 +24,23 @@ struct KeptTile {
     std::vector<std::uint8_t> glb;
 };
 
-// A file a tile, LEVEL-ROW-COLUMN.tile, each there whole or not at all. May be used from several threads, and
-// by several processes at once.
+// A file a tile, LEVEL-ROW-COLUMN.tile (KeptParts). May be used from several threads, and by several
+// processes at once.
 class KeptTiles {
   public:
-    // Makes the folder, or goes on with one that is there. key: a text that names all that the tiles' bytes
-    // depend on. Errors (failed): a folder of another key, or one that holds something else; what the system
-    // says.
+    // Errors: those of KeptParts::open().
     static Result<KeptTiles> open(const std::string& folder, const std::string& key);
 
     // Nothing where the tile is not there. Errors (failed): a file that is none of these.
     [[nodiscard]] Result<std::optional<KeptTile>> read(const TileIndex& tile) const;
     [[nodiscard]] bool has(const TileIndex& tile) const;
     [[nodiscard]] Result<void> write(const TileIndex& tile, const KeptTile& kept) const;
-    // Removes the tiles and the folder; of a folder that holds something else that stays.
-    void remove() const;
+    void remove() const { parts_.remove(); }
 
   private:
-    explicit KeptTiles(std::string folder) : folder_(std::move(folder)) {}
-    [[nodiscard]] std::string path_of(const TileIndex& tile) const;
+    explicit KeptTiles(KeptParts parts) : parts_(std::move(parts)) {}
 
-    std::string folder_;
+    KeptParts parts_;
 };
 
 }  // namespace oro

@@ -1,8 +1,8 @@
 #include "geo/tilesets/source_table.h"
 
-#include <array>
-#include <cstring>
 #include <string>
+
+#include "geo/tilesets/property_columns.h"
 
 namespace oro {
 namespace {
@@ -19,63 +19,16 @@ Json property_json(const char* type, const char* component, const char* descript
     return property;
 }
 
-template <class Value>
-void append_value(std::vector<std::uint8_t>& bytes, Value value) {
-    std::array<std::uint8_t, sizeof(Value)> raw;
-    std::memcpy(raw.data(), &value, sizeof(Value));
-    bytes.insert(bytes.end(), raw.begin(), raw.end());
+std::vector<std::string> texts_of(std::span<const GroundSource> sources, std::string GroundSource::*text) {
+    std::vector<std::string> texts;
+    for (const GroundSource& source : sources) texts.push_back(source.*text);
+    return texts;
 }
 
-// Begins a view where 8 bytes begin, which suits any type.
-class ViewBegun {
-  public:
-    ViewBegun(std::vector<std::uint8_t>& bytes, Json& views) : bytes_(bytes), views_(views) {
-        constexpr std::size_t aligned = 8;
-        while (bytes.size() % aligned != 0) bytes.push_back(0);
-        at_ = bytes.size();
-    }
-    // Ends it; its number.
-    std::size_t end() {
-        Json view = Json::object();
-        view["buffer"] = 0;
-        view["byteOffset"] = at_;
-        view["byteLength"] = bytes_.size() - at_;
-        views_.push_back(std::move(view));
-        return views_.size() - 1;
-    }
-
-  private:
-    std::vector<std::uint8_t>& bytes_;
-    Json& views_;
-    std::size_t at_{};
-};
-
-Json texts_json(std::span<const GroundSource> sources, std::string GroundSource::*text,
-                std::vector<std::uint8_t>& bytes, Json& views) {
-    ViewBegun values(bytes, views);
-    // An empty view is none.
-    std::vector<std::uint32_t> ends{0};
-    for (const GroundSource& source : sources) {
-        const std::string& one = source.*text;
-        bytes.insert(bytes.end(), one.begin(), one.end());
-        ends.push_back(ends.back() + static_cast<std::uint32_t>(one.size()));
-    }
-    if (ends.back() == 0) bytes.push_back(0);
-    Json json = Json::object();
-    json["values"] = values.end();
-    ViewBegun offsets(bytes, views);
-    for (const std::uint32_t end : ends) append_value(bytes, end);
-    json["stringOffsets"] = offsets.end();
-    return json;
-}
-
-Json numbers_json(std::span<const GroundSource> sources, double GroundSource::*number,
-                  std::vector<std::uint8_t>& bytes, Json& views) {
-    ViewBegun values(bytes, views);
-    for (const GroundSource& source : sources) append_value(bytes, static_cast<float>(source.*number));
-    Json json = Json::object();
-    json["values"] = values.end();
-    return json;
+std::vector<float> numbers_of(std::span<const GroundSource> sources, double GroundSource::*number) {
+    std::vector<float> numbers;
+    for (const GroundSource& source : sources) numbers.push_back(static_cast<float>(source.*number));
+    return numbers;
 }
 
 }  // namespace
@@ -97,11 +50,12 @@ Json source_class_json() {
 
 Json source_table_json(std::span<const GroundSource> sources, std::vector<std::uint8_t>& bytes, Json& views) {
     Json properties = Json::object();
-    properties["name"] = texts_json(sources, &GroundSource::name, bytes, views);
-    properties["attribution"] = texts_json(sources, &GroundSource::attribution, bytes, views);
-    properties["heights"] = texts_json(sources, &GroundSource::heights, bytes, views);
-    properties["spacing_m"] = numbers_json(sources, &GroundSource::spacing_m, bytes, views);
-    properties["vertical_le90_m"] = numbers_json(sources, &GroundSource::vertical_le90_m, bytes, views);
+    properties["name"] = texts_column(texts_of(sources, &GroundSource::name), bytes, views);
+    properties["attribution"] = texts_column(texts_of(sources, &GroundSource::attribution), bytes, views);
+    properties["heights"] = texts_column(texts_of(sources, &GroundSource::heights), bytes, views);
+    properties["spacing_m"] = numbers_column(numbers_of(sources, &GroundSource::spacing_m), bytes, views);
+    properties["vertical_le90_m"] =
+        numbers_column(numbers_of(sources, &GroundSource::vertical_le90_m), bytes, views);
     Json table = Json::object();
     table["class"] = "source";
     table["count"] = sources.size();

@@ -30,12 +30,12 @@ std::vector<SeamCorner> drawn_vertices(const PlacedMesh& mesh, const UndulationF
 }
 
 // Normals as long as twice a triangle's area, upwards.
-std::vector<glm::dvec3> area_normals(const PlacedMesh& mesh, const std::vector<SeamCorner>& corners) {
+std::vector<glm::dvec3> area_normals(const PlacedMesh& mesh, std::span<const glm::dvec3> vertices_m) {
     std::vector<glm::dvec3> normals;
     normals.reserve(mesh.triangles.size());
     for (const SourceTriangle& triangle : mesh.triangles) {
-        const glm::dvec3 &a = corners[triangle[0]].at.m, &b = corners[triangle[1]].at.m,
-                         &c = corners[triangle[2]].at.m;
+        const glm::dvec3 &a = vertices_m[triangle[0]], &b = vertices_m[triangle[1]],
+                         &c = vertices_m[triangle[2]];
         const glm::dvec3 normal = glm::cross(b - a, c - a);
         normals.push_back(glm::dot(normal, a) < 0.0 ? -normal : normal);
     }
@@ -80,7 +80,10 @@ glm::dvec3 normal_at(const TrianglesAround& around, const std::vector<glm::dvec3
 
 void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration, Seam& seam) {
     const std::vector<SeamCorner> corners = drawn_vertices(mesh, undulation, exaggeration);
-    const std::vector<glm::dvec3> normals = area_normals(mesh, corners);
+    std::vector<glm::dvec3> vertices_m;
+    vertices_m.reserve(corners.size());
+    for (const SeamCorner& corner : corners) vertices_m.push_back(corner.at.m);
+    const std::vector<glm::dvec3> normals = area_normals(mesh, vertices_m);
     const TrianglesAround around(mesh);
     for (std::size_t number = 0; number < mesh.triangles.size(); ++number) {
         if (normals[number] == glm::dvec3(0.0)) continue;
@@ -106,6 +109,19 @@ void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double 
         piece.feature = mesh.feature_of.empty() ? 0 : mesh.feature_of[k] + 1;
         pieces.push_back(piece);
     }
+}
+
+std::vector<std::array<glm::vec3, 3>> corner_normals(const PlacedMesh& mesh,
+                                                     std::span<const glm::dvec3> vertices_m) {
+    const std::vector<glm::dvec3> normals = area_normals(mesh, vertices_m);
+    const TrianglesAround around(mesh);
+    std::vector<std::array<glm::vec3, 3>> corners(mesh.triangles.size());
+    for (std::size_t number = 0; number < mesh.triangles.size(); ++number) {
+        if (normals[number] == glm::dvec3(0.0)) continue;
+        for (std::size_t i = 0; i < 3; ++i)
+            corners[number][i] = normal_at(around, normals, mesh.triangles[number][i], number);
+    }
+    return corners;
 }
 
 }  // namespace oro

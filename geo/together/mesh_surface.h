@@ -1,6 +1,9 @@
 // Meshes of a region as what is drawn between its grids, and as pieces of its true ground.
 #pragma once
 
+#include <array>
+#include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "core/seam/seam.h"
@@ -15,6 +18,11 @@ inline constexpr double crease_deg = 30.0;
 // Adds a mesh's triangles to what is drawn beside the grids. undulation: N of the region; empty: 0. Normals
 // face upwards; at a vertex of more than 64 triangles each has its own.
 void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration, Seam& seam);
+
+// Normals at the three corners of each triangle, unit, along the axes that the vertices have (ECEF): upwards,
+// smooth where triangles meet within the crease's angle. Zero of triangles without an area.
+std::vector<std::array<glm::vec3, 3>> corner_normals(const PlacedMesh& mesh,
+                                                     std::span<const glm::dvec3> vertices_m);
 
 // The same triangles as sight lines meet them. Corners are those of the lattice of 2^-11 m that is drawn,
 // within 0.43 mm of the mesh.

@@ -109,6 +109,33 @@ std::vector<GeographicTile> tiles_to_try(const TrueGround& ground, int zoom) {
     return geographic_tiles(zoom, grids_under(ground));
 }
 
+// Of a tile without ground nothing is made but where it is wanted even so.
+KeptWebTile quantized_tile(const TrueGround& ground, const GeographicTile& tile,
+                           const QuantizedTilesRequest& request, bool without_ground_too) {
+    const CornerHeights heights = corner_heights(ground, tile, request.hole_H_m);
+    KeptWebTile made;
+    made.has_ground = heights.holes < heights.h_m.size();
+    made.holes = heights.holes;
+    if (!made.has_ground && !without_ground_too) return made;
+    made.steps = height_steps_of(heights.h_m);
+    made.bytes = quantized_mesh_bytes(tile, heights.h_m);
+    return made;
+}
+
+// The one that is kept, or made now and kept.
+Result<KeptWebTile> tile_of(const TrueGround& ground, const GeographicTile& tile,
+                            const QuantizedTilesRequest& request) {
+    const KeptWebTiles* const kept = request.share.kept;
+    if (kept == nullptr) return quantized_tile(ground, tile, request, false);
+    ORO_TRY(std::optional<KeptWebTile> known, kept->read(tile.zoom, tile.x, tile.y));
+    if (known) return std::move(*known);
+    KeptWebTile one = quantized_tile(ground, tile, request, false);
+    // Of posts that cannot be read nothing is kept.
+    ORO_CHECK(ground.health());
+    ORO_CHECK(kept->write(tile.zoom, tile.x, tile.y, one));
+    return one;
+}
+
 // Writes the tiles of one zoom after another, the finest first.
 class QuantizedTilesWriter {
   public:
@@ -145,17 +172,21 @@ bool QuantizedTilesWriter::has_child(const GeographicTile& tile) const {
 }
 
 void QuantizedTilesWriter::write_tile_of(const GeographicTile& tile) {
-    const CornerHeights heights = corner_heights(ground_, tile, request_.hole_H_m);
-    const bool has_ground = heights.holes < heights.h_m.size();
-    if (!has_ground && tile.zoom > 0 && !has_child(tile)) return;
-    const std::vector<std::uint8_t> bytes = quantized_mesh_bytes(tile, heights.h_m);
-    const Result<void> done =
-        write_plain_file(column_folder(folder_, tile) + "/" + std::to_string(tile.y) + ".terrain", bytes);
+    Result<KeptWebTile> kept = tile_of(ground_, tile, request_);
+    const bool has_ground = kept.ok() && kept->has_ground;
+    if (kept.ok() && !has_ground && tile.zoom > 0 && !has_child(tile)) return;
+    Result<void> done;
+    if (!kept.ok()) done = kept.error();
+    if (kept.ok() && !has_ground) kept = quantized_tile(ground_, tile, request_, true);
+    if (kept.ok())
+        done = write_plain_file(column_folder(folder_, tile) + "/" + std::to_string(tile.y) + ".terrain",
+                                kept->bytes);
     const std::scoped_lock lock(mutex_);
-    written_.tiles.push_back({tile, height_steps_of(heights.h_m), has_ground});
-    written_.bytes += bytes.size();
-    written_.hole_corners += has_ground ? heights.holes : 0;
     if (!done.ok() && fault_.ok()) fault_ = done;
+    if (!kept.ok()) return;
+    written_.tiles.push_back({tile, kept->steps, has_ground});
+    written_.bytes += kept->bytes.size();
+    written_.hole_corners += has_ground ? kept->holes : 0;
 }
 
 Result<void> QuantizedTilesWriter::write_zoom(int zoom) {
@@ -224,6 +255,30 @@ Result<QuantizedTiles> write_quantized_tiles(const std::string& folder, const Tr
     if (std::ranges::none_of(written.tiles, &QuantizedTile::has_ground))
         return Error{ErrorKind::no_data, "--to quantized-mesh", "no corner of these tiles has ground"};
     return written;
+}
+
+Result<std::uint64_t> keep_quantized_tiles(const TrueGround& ground, const QuantizedTilesRequest& request,
+                                           const TilesProgress& progress) {
+    std::vector<GeographicTile> own;
+    std::size_t number = 0;
+    for (int zoom = 0; zoom <= request.highest_zoom; ++zoom)
+        for (const GeographicTile& tile : tiles_to_try(ground, zoom))
+            if (request.share.holds(number++)) own.push_back(tile);
+    std::mutex mutex;
+    Result<void> fault;
+    const std::size_t at_once = std::size_t{32} * static_cast<std::size_t>(request.threads);
+    for (std::size_t first = 0; first < own.size() && fault.ok(); first += at_once) {
+        const std::size_t now = std::min(at_once, own.size() - first);
+        in_parallel(static_cast<int>(now), request.threads, [&](int i) {
+            const auto one = tile_of(ground, own[first + static_cast<std::size_t>(i)], request);
+            const std::scoped_lock lock(mutex);
+            if (!one.ok() && fault.ok()) fault = one.error();
+        });
+        if (progress) progress(static_cast<double>(first + now) / static_cast<double>(own.size()));
+    }
+    ORO_CHECK(fault);
+    ORO_CHECK(ground.health());
+    return std::uint64_t{own.size()};
 }
 
 Result<std::vector<ZoomError>> quantized_tiles_error(const TrueGround& ground, const QuantizedTiles& tiles,

@@ -62,11 +62,59 @@ TilePixels pixels_of(const TrueGround& ground, const MercatorTile& tile, double 
     return pixels;
 }
 
-Result<void> write_tile(const std::string& folder, const MercatorTile& tile, const TilePixels& pixels,
-                        std::atomic<std::uint64_t>& bytes) {
-    ORO_TRY(const std::vector<std::uint8_t> png, png_bytes(pixels.rgb, mercator_tile_px, mercator_tile_px));
-    bytes += png.size();
-    return write_plain_file(folder_of(folder, tile) + "/" + std::to_string(tile.y) + ".png", png);
+Result<KeptWebTile> made_tile(const TrueGround& ground, const MercatorTile& tile, double hole_H_m) {
+    const TilePixels pixels = pixels_of(ground, tile, hole_H_m);
+    KeptWebTile made;
+    made.has_ground = pixels.holes < pixels.rgb.size() / 3;
+    made.holes = pixels.holes;
+    if (!made.has_ground) return made;
+    ORO_TRY(made.bytes, png_bytes(pixels.rgb, mercator_tile_px, mercator_tile_px));
+    return made;
+}
+
+// The one that is kept, or made now and kept.
+Result<KeptWebTile> tile_of(const TrueGround& ground, const MercatorTile& tile,
+                            const TerrainTilesRequest& request) {
+    const KeptWebTiles* const kept = request.share.kept;
+    if (kept == nullptr) return made_tile(ground, tile, request.hole_H_m);
+    ORO_TRY(std::optional<KeptWebTile> known, kept->read(tile.zoom, tile.x, tile.y));
+    if (known) return std::move(*known);
+    ORO_TRY(KeptWebTile one, made_tile(ground, tile, request.hole_H_m));
+    // Of posts that cannot be read nothing is kept.
+    ORO_CHECK(ground.health());
+    ORO_CHECK(kept->write(tile.zoom, tile.x, tile.y, one));
+    return one;
+}
+
+// Calls work(number) for each tile on several threads, in parts, so that progress is told between them.
+// Errors: the first that a call has; posts that cannot be read.
+template <class Work>
+Result<void> each_tile_of(const TrueGround& ground, std::size_t count, int threads,
+                          const TilesProgress& progress, const Work& work) {
+    std::mutex mutex;
+    Result<void> fault;
+    const std::size_t at_once = std::size_t{32} * static_cast<std::size_t>(threads);
+    for (std::size_t first = 0; first < count && fault.ok(); first += at_once) {
+        const std::size_t now = std::min(at_once, count - first);
+        in_parallel(static_cast<int>(now), threads, [&](int i) {
+            const Result<void> done = work(first + static_cast<std::size_t>(i));
+            if (done.ok()) return;
+            const std::scoped_lock lock(mutex);
+            if (fault.ok()) fault = done;
+        });
+        if (progress) progress(static_cast<double>(first + now) / static_cast<double>(count));
+    }
+    ORO_CHECK(fault);
+    return ground.health();
+}
+
+std::vector<MercatorTile> tiles_of(const TrueGround& ground, const ZoomRange& zooms) {
+    std::vector<MercatorTile> tiles;
+    for (int zoom = zooms.low; zoom <= zooms.high; ++zoom) {
+        const auto more = mercator_tiles(zoom, grids_of(ground));
+        tiles.insert(tiles.end(), more.begin(), more.end());
+    }
+    return tiles;
 }
 
 // One tile of each column of each zoom, of sorted ones: a column has a folder.
@@ -156,38 +204,37 @@ std::optional<double> ground_H_m(const TrueGround& ground, double lat_deg, doubl
 Result<TerrainTilesWritten> write_terrain_tiles(const std::string& folder, const TrueGround& ground,
                                                 const TerrainTilesRequest& request,
                                                 const TilesProgress& progress) {
-    std::vector<MercatorTile> tiles;
-    for (int zoom = request.zooms.low; zoom <= request.zooms.high; ++zoom) {
-        const auto more = mercator_tiles(zoom, grids_of(ground));
-        tiles.insert(tiles.end(), more.begin(), more.end());
-    }
+    const std::vector<MercatorTile> tiles = tiles_of(ground, request.zooms);
     const std::vector<MercatorTile> columns = columns_of(tiles);
     ORO_CHECK(make_folders(folder, columns));
     std::atomic<std::uint64_t> written{0}, bytes{0}, holes{0};
-    std::mutex mutex;
-    Result<void> fault;
-    const auto write = [&](const MercatorTile& tile) {
-        const TilePixels pixels = pixels_of(ground, tile, request.hole_H_m);
-        if (pixels.holes == pixels.rgb.size() / 3) return;
-        const Result<void> done = write_tile(folder, tile, pixels, bytes);
-        ++written;
-        holes += pixels.holes;
-        if (done.ok()) return;
-        const std::scoped_lock lock(mutex);
-        if (fault.ok()) fault = done;
-    };
-    // In parts, so that progress is told between them.
-    const std::size_t at_once = std::size_t{32} * static_cast<std::size_t>(request.threads);
-    for (std::size_t first = 0; first < tiles.size() && fault.ok(); first += at_once) {
-        const std::size_t count = std::min(at_once, tiles.size() - first);
-        in_parallel(static_cast<int>(count), request.threads,
-                    [&](int i) { write(tiles[first + static_cast<std::size_t>(i)]); });
-        if (progress) progress(static_cast<double>(first + count) / static_cast<double>(tiles.size()));
-    }
-    ORO_CHECK(fault);
-    ORO_CHECK(ground.health());
+    ORO_CHECK(each_tile_of(
+        ground, tiles.size(), request.threads, progress, [&](std::size_t number) -> Result<void> {
+            const MercatorTile& tile = tiles[number];
+            ORO_TRY(const KeptWebTile one, tile_of(ground, tile, request));
+            if (!one.has_ground) return {};
+            ++written;
+            holes += one.holes;
+            bytes += one.bytes.size();
+            return write_plain_file(folder_of(folder, tile) + "/" + std::to_string(tile.y) + ".png",
+                                    one.bytes);
+        }));
     remove_empty_folders(folder, columns);
     return TerrainTilesWritten{written, bytes, holes};
+}
+
+Result<std::uint64_t> keep_terrain_tiles(const TrueGround& ground, const TerrainTilesRequest& request,
+                                         const TilesProgress& progress) {
+    const std::vector<MercatorTile> tiles = tiles_of(ground, request.zooms);
+    std::atomic<std::uint64_t> own{0};
+    ORO_CHECK(each_tile_of(ground, tiles.size(), request.threads, progress,
+                           [&](std::size_t number) -> Result<void> {
+                               if (!request.share.holds(number)) return {};
+                               ++own;
+                               ORO_TRY(const KeptWebTile one, tile_of(ground, tiles[number], request));
+                               return {};
+                           }));
+    return own.load();
 }
 
 Result<std::vector<ZoomError>> terrain_tiles_error(const TrueGround& ground, const ZoomRange& zooms,

@@ -10,6 +10,7 @@
 
 #include "core/base/result.h"
 #include "core/truth/true_ground.h"
+#include "geo/web_maps/kept_web_tiles.h"
 #include "geo/web_maps/mercator_tiles.h"
 
 namespace oro {
@@ -27,6 +28,7 @@ struct TerrainTilesRequest {
     ZoomRange zooms;
     double hole_H_m{};  // what pixels without ground hold
     int threads{1};
+    WebTilesPart share{};  // whose `kept` stays where it is
 };
 struct TerrainTilesWritten {
     std::uint64_t tiles{}, bytes{};
@@ -37,10 +39,16 @@ using TilesProgress = std::function<void(double share)>;
 
 // Writes FOLDER/z/x/y.png of every tile that has ground at the centre of a pixel: each pixel has H of the
 // ground at its centre, asked of the surface and not resampled. The folder is there and empty. Same bytes for
-// any number of threads. Errors: what cannot be written, posts that cannot be read.
+// any number of threads, and wherever tiles that are kept were made. Errors: what cannot be written, posts
+// that cannot be read.
 Result<TerrainTilesWritten> write_terrain_tiles(const std::string& folder, const TrueGround& ground,
                                                 const TerrainTilesRequest& request,
                                                 const TilesProgress& progress);
+
+// Makes the tiles of one part that are not kept yet, and keeps them: how many there are now of the part,
+// those without ground among them. request.share.kept is there. Errors: as write_terrain_tiles().
+Result<std::uint64_t> keep_terrain_tiles(const TrueGround& ground, const TerrainTilesRequest& request,
+                                         const TilesProgress& progress);
 
 // How far a zoom's heights, as they are encoded and bilinear between the centres of pixels, are from the
 // ground, at random places.

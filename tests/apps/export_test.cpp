@@ -159,7 +159,7 @@ TEST(ExportCommand, A3dTilesetIsMadeInParts) {
         EXPECT_TRUE(bytes_of(out / file) == bytes_of(folder / "whole" / file));
     EXPECT_EQ(names_in(folder), (Words{"parts", "whole"}));
     expect_refusal(run_orograph(export_words("gltf", folder / "t.glb", {"--shard", "1/2"})), oro::test::usage,
-                   {"--shard 1/2: needs --to 3dtiles"});
+                   {"--shard 1/2: needs --to 3dtiles, quantized-mesh or terrain-rgb"});
     expect_refusal(run_orograph(export_words("3dtiles", folder / "t", {"--shard", "3/2"})), oro::test::usage,
                    {"--shard 3/2"});
 }

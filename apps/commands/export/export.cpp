@@ -4,6 +4,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/export/exported_region.h"
+#include "apps/commands/export/post_layer.h"
 #include "apps/options/region_option_table.h"
 #include "apps/options/shard.h"
 #include "apps/output/overwrite_guard.h"
@@ -49,13 +50,14 @@ Result<void> check_words(const ExportOptions& options) {
         return refused("--no-normals", "", "needs --to 3dtiles");
     if (options.detail && *options.to != "cog")
         return refused("--detail", std::to_string(*options.detail), "needs --to cog");
-    if (!options.shard.empty() && *options.to != "3dtiles")
-        return refused("--shard", options.shard, "needs --to 3dtiles");
+    if (!options.shard.empty() && (*options.to == "cog" || *options.to == "gltf"))
+        return refused("--shard", options.shard, "needs --to 3dtiles, quantized-mesh or terrain-rgb");
     if (const Result<Shard> shard = parse_shard(options.shard); !shard.ok()) return shard.error();
     if (!options.drape.empty() && *options.to != "3dtiles")
         return refused("--drape", options.drape.front(), "needs --to 3dtiles");
-    if (!options.landcover.empty() && *options.to != "3dtiles")
-        return refused("--landcover", options.landcover.front(), "needs --to 3dtiles");
+    ORO_CHECK(check_layer_words(options));
+    if (!options.landcover.empty() && *options.to != "3dtiles" && options.canopy.empty())
+        return refused("--landcover", options.landcover.front(), "needs --to 3dtiles, or --canopy class");
     if (!options.landcover.empty() && !options.drape.empty())
         return refused("--landcover", options.landcover.front(),
                        "colours the ground, and so does --drape: give one");
@@ -77,7 +79,7 @@ Result<void> check_folder(const std::string& out, bool overwrite, const std::str
                           const std::string& index) {
     std::error_code ignored;
     if (overwrite && std::filesystem::is_directory(out, ignored))
-        ORO_CHECK(check_holds_tiles_alone(out, extension, index));
+        ORO_CHECK(check_holds_tiles_alone(out, extension, index, extension == ".glb" ? "meshes" : ""));
     // Whether it can be written at all.
     ORO_TRY(const WholeFolder trial, WholeFolder::create(out, overwrite));
     return {};
@@ -98,13 +100,16 @@ std::string source_heights_words(const Region& region) {
 
 Result<void> run_export(const ExportOptions& options) {
     ORO_CHECK(check_words(options));
-    ORO_CHECK(check_without_meshes(options.region, "does not go into exports, which are of terrain alone"));
+    if (*options.to != "3dtiles")
+        ORO_CHECK(check_without_meshes(options.region, "goes into 3D Tiles alone (--to 3dtiles)"));
     ORO_TRY(const RegionRequest request, region_request(options.region));
+    ORO_TRY(const PostLayer layer, open_post_layer(options));
     ProgressBar bar(options.quiet);
     ORO_TRY(Region region, open_region(request, bar.progress()));
     leave_covered_grids_out(region);
     ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, region)}));
-    if (*options.to == "cog") return export_cog(options, region, bar);
+    if (layer.canopy) ORO_CHECK(spare_inputs({options.out}, {{layer.files(), "which the canopy is in"}}));
+    if (*options.to == "cog") return export_cog(options, region, layer, bar);
     if (*options.to == "gltf") return export_gltf(options, region, bar);
     if (*options.to == "3dtiles") return export_3d_tiles(options, region, bar);
     if (*options.to == "quantized-mesh") return export_quantized_mesh(options, region, bar);

@@ -1,6 +1,7 @@
 // The levels of a grid as 3D Tiles, each with its proven error.
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,24 @@
 #include "apps/report/json_text.h"
 #include "apps/report/region_json.h"
 #include "core/base/parallel.h"
+#include "core/base/srgb.h"
 #include "geo/files/whole_folder.h"
 #include "geo/tilesets/ground_tileset.h"
 
 namespace oro {
 namespace {
+
+// Of meshes, sRGB.
+constexpr double mesh_grey = 0.72;
+
+// "zurich.city.json: EPSG:2056 CH1903+ / LV95, heights above sea level (EGM96)"
+std::string meshes_words(const std::vector<PlacedMesh>& meshes) {
+    std::string words;
+    for (const PlacedMesh& mesh : meshes)
+        words += (words.empty() ? "" : "; ") + std::filesystem::path(mesh.path).filename().string() + ": " +
+                 mesh.crs + ", heights above " + mesh.heights;
+    return words;
+}
 
 TilesetRequest request_of(const ExportOptions& options, const Region& region, const ExportedFacts& facts) {
     TilesetRequest request;
@@ -32,6 +46,13 @@ TilesetRequest request_of(const ExportOptions& options, const Region& region, co
         {"attribution", request.look.attribution},
         {"geometricError",
          "metres; no point of the surface of all posts is farther from what a tile has for it"}};
+    if (region.meshes) {
+        TilesetMeshes meshes{region.meshes, {}};
+        for (double& part : meshes.colour) part = light_of_srgb(mesh_grey);
+        request.meshes = std::move(meshes);
+        request.undulation = &region.grids.front().field.undulation;
+        request.metadata.emplace_back("meshes", meshes_words(*region.meshes));
+    }
     request.finest_error_m =
         options.max_error_m.value_or(usual_finest_error_m(region.grids.front().field.grid));
     request.normals = !options.no_normals;
@@ -53,11 +74,18 @@ void tell_tileset(const ExportOptions& options, const Region& region, const Tile
         tiles += level.tiles;
         bytes += level.bytes;
     }
+    tiles += written.meshes.tiles;
+    bytes += written.meshes.bytes;
     if (options.json) {
-        auto json = json_object("folder", options.out, "format", "3dtiles", "tiles", tiles, "bytes", bytes,
-                                "geometric_error_m", written.geometric_error_m, "heights",
-                                heights_words(region), "attribution", attribution_of(region), "levels",
-                                levels_json(written), "notes", all_notes(region));
+        auto json =
+            json_object("folder", options.out, "format", "3dtiles", "tiles", tiles, "bytes", bytes,
+                        "geometric_error_m", written.geometric_error_m, "heights", heights_words(region),
+                        "attribution", attribution_of(region), "levels", levels_json(written));
+        if (region.meshes)
+            json["meshes"] =
+                json_object("tiles", written.meshes.tiles, "triangles", written.meshes.triangles, "bytes",
+                            written.meshes.bytes, "largest_missing_m", written.meshes.largest_error_m);
+        json["notes"] = all_notes(region);
         std::printf("%s\n", json_text(json, true).c_str());
         return;
     }
@@ -69,6 +97,11 @@ void tell_tileset(const ExportOptions& options, const Region& region, const Tile
         std::printf("  %5d  %6s  %10s  %8s\n", level.level, grouped(level.tiles).c_str(),
                     grouped(level.triangles).c_str(),
                     level.tiles > 0 ? figure(level.largest_error_m).c_str() : "n/a");
+    if (region.meshes)
+        std::printf("Meshes: %s in %s, %s bytes; of their things none larger than %s m is missing\n",
+                    counted(written.meshes.triangles, "triangle", "triangles").c_str(),
+                    counted(written.meshes.tiles, "tile", "tiles").c_str(),
+                    grouped(written.meshes.bytes).c_str(), figure(written.meshes.largest_error_m).c_str());
 }
 
 // All that the bytes of tiles depend on, the program's version among it.
@@ -84,19 +117,6 @@ std::string key_of(const RegionGrid& grid, const TilesetRequest& request, const 
         grid.clusters ? "baked" : "built", "max_error_m", request.finest_error_m, "normals", request.normals,
         "attribution", request.look.attribution, "sources", sources, "colours", facts.key());
     return json_text(key, true) + "\n";
-}
-
-void tell_part(const ExportOptions& options, const std::string& folder, const Shard& shard,
-               std::uint64_t tiles) {
-    if (options.json) {
-        const auto json = json_object("folder", folder, "format", "3dtiles", "part", shard.number, "parts",
-                                      shard.count, "tiles", tiles);
-        std::printf("%s\n", json_text(json, true).c_str());
-        return;
-    }
-    std::printf("Kept in %s: %s, part %lld of %lld\n", folder.c_str(),
-                counted(tiles, "tile", "tiles").c_str(), static_cast<long long>(shard.number),
-                static_cast<long long>(shard.count));
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
-// H on a region's own posts, as a Cloud Optimized GeoTIFF.
+// H, slope or canopy on a region's own posts, as a Cloud Optimized GeoTIFF.
 #include <algorithm>
 #include <cstdio>
 
 #include "apps/command_line/refusals.h"
 #include "apps/commands/export/exported_region.h"
+#include "apps/commands/export/post_layer.h"
 #include "apps/detail/detail_words.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
@@ -18,28 +19,13 @@ namespace {
 
 // Of a file: at some 12 bytes each they take 12 GB.
 constexpr double most_posts_of_cog = 1.0e9;
-constexpr float no_height_of_cog = -32768.0F;
 
-Result<PostRaster> heights_of(const Region& region) {
+Result<PostRaster> tagged_raster(const Region& region, const PostLayer& layer) {
     const RegionGrid& grid = region.grids.front();
-    PostRaster raster;
-    raster.grid = grid.field.grid;
-    raster.crs = grid.posts_crs;
-    raster.part = {0, raster.grid.rows(), 0, raster.grid.columns()};
-    raster.no_value = no_height_of_cog;
-    PostRaster::Band band{"H, metres above the geoid", {}};
-    band.values.reserve(raster.part.count());
-    for (int row = 0; row < raster.part.rows; ++row) {
-        for (int column = 0; column < raster.part.columns; ++column) {
-            const float H_m = grid.field.H_at_post_m(row, column);
-            band.values.push_back(is_void(H_m) ? no_height_of_cog : H_m);
-        }
-    }
-    ORO_CHECK(region.health());
-    raster.bands.push_back(std::move(band));
-    raster.tags = {{"VERTICAL_DATUM", heights_words(region)},
-                   {"SOURCE_VERTICAL_DATUM", source_heights_words(region)},
-                   {"SOFTWARE", "orograph " OROGRAPH_VERSION}};
+    ORO_TRY(PostRaster raster, raster_of_layer(region, layer));
+    raster.tags.emplace_back("VERTICAL_DATUM", heights_words(region));
+    raster.tags.emplace_back("SOURCE_VERTICAL_DATUM", source_heights_words(region));
+    raster.tags.emplace_back("SOFTWARE", "orograph " OROGRAPH_VERSION);
     if (grid.detail) raster.tags.emplace_back("INVENTED", detail_words(*grid.detail));
     if (const std::string attribution = attribution_of(region); !attribution.empty())
         raster.tags.emplace_back("ATTRIBUTION", attribution);
@@ -59,8 +45,8 @@ Result<void> check_grid(const Region& region) {
     return {};
 }
 
-void tell_cog(const ExportOptions& options, const Region& region, const PostRaster& raster,
-              const CloudRasterWritten& written) {
+void tell_cog(const ExportOptions& options, const Region& region, const PostLayer& layer,
+              const PostRaster& raster, const CloudRasterWritten& written) {
     const auto& values = raster.bands.front().values;
     const auto voids = static_cast<std::uint64_t>(std::ranges::count(values, raster.no_value));
     const char* const type = written.whole_numbers ? "int16" : "float32";
@@ -69,36 +55,45 @@ void tell_cog(const ExportOptions& options, const Region& region, const PostRast
                     grouped(static_cast<std::uint64_t>(raster.part.columns)).c_str(),
                     grouped(static_cast<std::uint64_t>(raster.part.rows)).c_str(), type,
                     grouped(written.bytes).c_str());
+        if (layer.name != "H") std::printf("Layer: %s\n", raster.bands.front().name.c_str());
         std::printf("Heights: %s\n", heights_words(region).c_str());
         if (const auto& detail = region.grids.front().detail)
             std::printf("%s\n", detail_words(*detail).c_str());
-        if (voids > 0) std::printf("Without a height: %s\n", counted(voids, "post", "posts").c_str());
+        if (voids > 0)
+            std::printf("Without a %s: %s\n", layer.name == "H" ? "height" : "value",
+                        counted(voids, "post", "posts").c_str());
         return;
     }
     nlohmann::ordered_json json =
-        json_object("file", options.out, "format", "cog", "columns", raster.part.columns, "rows",
-                    raster.part.rows, "type", type, "no_value", raster.no_value, "voids", voids, "bytes",
-                    written.bytes, "heights", heights_words(region));
+        json_object("file", options.out, "format", "cog", "layer", layer.name, "columns", raster.part.columns,
+                    "rows", raster.part.rows, "type", type, "no_value", raster.no_value, "voids", voids,
+                    "bytes", written.bytes, "heights", heights_words(region));
     json["attribution"] = attribution_of(region);
     if (const auto& detail = region.grids.front().detail) json["detail"] = detail_json(*detail);
     json["notes"] = all_notes(region);
+    if (layer.canopy)
+        for (const std::string& note : layer.canopy->notes()) json["notes"].push_back(note);
     std::printf("%s\n", json_text(json, true).c_str());
 }
 
-Result<void> write_cog(const ExportOptions& options, const Region& region, ProgressBar& bar) {
+Result<void> write_cog(const ExportOptions& options, const Region& region, const PostLayer& layer,
+                       ProgressBar& bar) {
     bar.show(1.0, "writing");
-    ORO_TRY(const PostRaster raster, heights_of(region));
+    ORO_TRY(const PostRaster raster, tagged_raster(region, layer));
     ORO_TRY(const CloudRasterWritten written,
             write_cloud_raster(options.out, options.overwrite, raster, thread_count()));
     bar.clear();
     say_notes(region, options.quiet);
-    tell_cog(options, region, raster, written);
+    if (layer.canopy)
+        for (const std::string& note : layer.canopy->notes()) say(options.quiet, "note: " + note);
+    tell_cog(options, region, layer, raster, written);
     return {};
 }
 
 }  // namespace
 
-Result<void> export_cog(const ExportOptions& options, const Region& region, ProgressBar& bar) {
+Result<void> export_cog(const ExportOptions& options, const Region& region, const PostLayer& layer,
+                        ProgressBar& bar) {
     ORO_CHECK(check_grid(region));
     if (options.detail) {
         bar.show(0.5, "ground between posts");
@@ -107,9 +102,9 @@ Result<void> export_cog(const ExportOptions& options, const Region& region, Prog
         grid.notes = region.grids.front().notes;
         dense.grids.push_back(std::move(grid));
         ORO_CHECK(region.health());
-        return write_cog(options, dense, bar);
+        return write_cog(options, dense, layer, bar);
     }
-    return write_cog(options, region, bar);
+    return write_cog(options, region, layer, bar);
 }
 
 }  // namespace oro

@@ -98,13 +98,31 @@ Result<void> export_quantized_mesh(const ExportOptions& options, const Region& r
     ORO_TRY(report.request.highest_zoom, highest_zoom_of(options, region));
     ORO_TRY(const auto grids, RegionGround::of(region, 1.0));
     const TrueGround& ground = grids->ground();
+    const std::string kept_folder = options.out + ".tiles";
+    const std::string key =
+        key_of_web_tiles(region, "quantized-mesh", {0, report.request.highest_zoom}, report.request.hole_H_m);
+    ORO_TRY(const Shard shard, parse_shard(options.shard));
+    const TilesProgress progress = [&](double share) { bar.show(share, "writing tiles"); };
+    if (!options.shard.empty()) {
+        ORO_TRY(const KeptWebTiles kept, KeptWebTiles::open(kept_folder, key));
+        report.request.share = {&kept, static_cast<std::size_t>(shard.number - 1),
+                                static_cast<std::size_t>(shard.count)};
+        ORO_TRY(const std::uint64_t tiles, keep_quantized_tiles(ground, report.request, progress));
+        bar.clear();
+        tell_part(options, kept_folder, shard, tiles);
+        return {};
+    }
     ORO_TRY(WholeFolder folder, WholeFolder::create(options.out, options.overwrite));
-    ORO_TRY(report.written, write_quantized_tiles(folder.path(), ground, report.request,
-                                                  [&](double share) { bar.show(share, "writing tiles"); }));
+    ORO_TRY(const KeptWebTiles kept, KeptWebTiles::open(kept_folder, key));
+    report.request.share.kept = &kept;
+    Result<QuantizedTiles> written = write_quantized_tiles(folder.path(), ground, report.request, progress);
+    if (!written.ok() && written.error().kind == ErrorKind::no_data) kept.remove();
+    ORO_TRY(report.written, std::move(written));
     bar.show(1.0, "measuring");
     ORO_TRY(report.errors, quantized_tiles_error(ground, report.written, report.request, measured_places));
     ORO_CHECK(write_whole_file(folder.path() + "/layer.json", layer_json(options, region, report), false));
     ORO_CHECK(folder.commit());
+    kept.remove();
     bar.clear();
     say_notes(region, options.quiet);
     tell_terrain(options, region, report);

@@ -110,17 +110,34 @@ Result<void> export_terrain_rgb(const ExportOptions& options, const Region& regi
     ORO_TRY(report.zooms, zooms_of(options, region));
     ORO_TRY(const auto grids, RegionGround::of(region, 1.0));
     const TrueGround& ground = grids->ground();
+    const std::string kept_folder = options.out + ".tiles";
+    const std::string key = key_of_web_tiles(region, "terrain-rgb", report.zooms, report.hole_H_m);
+    ORO_TRY(const Shard shard, parse_shard(options.shard));
+    TerrainTilesRequest request{report.zooms, report.hole_H_m, thread_count(), {}};
+    const TilesProgress progress = [&](double share) { bar.show(share, "writing tiles"); };
+    if (!options.shard.empty()) {
+        ORO_TRY(const KeptWebTiles kept, KeptWebTiles::open(kept_folder, key));
+        request.share = {&kept, static_cast<std::size_t>(shard.number - 1),
+                         static_cast<std::size_t>(shard.count)};
+        ORO_TRY(const std::uint64_t tiles, keep_terrain_tiles(ground, request, progress));
+        bar.clear();
+        tell_part(options, kept_folder, shard, tiles);
+        return {};
+    }
     ORO_TRY(WholeFolder folder, WholeFolder::create(options.out, options.overwrite));
-    ORO_TRY(report.written,
-            write_terrain_tiles(folder.path(), ground, {report.zooms, report.hole_H_m, thread_count()},
-                                [&](double share) { bar.show(share, "writing tiles"); }));
-    if (report.written.tiles == 0)
+    ORO_TRY(const KeptWebTiles kept, KeptWebTiles::open(kept_folder, key));
+    request.share.kept = &kept;
+    ORO_TRY(report.written, write_terrain_tiles(folder.path(), ground, request, progress));
+    if (report.written.tiles == 0) {
+        kept.remove();
         return Error{ErrorKind::no_data, "--to terrain-rgb",
                      "no pixel of these zooms has ground at its centre"};
+    }
     bar.show(1.0, "measuring");
     ORO_TRY(report.errors, terrain_tiles_error(ground, report.zooms, measured_places, thread_count()));
     ORO_CHECK(write_whole_file(folder.path() + "/tiles.json", tile_json(options, region, report), false));
     ORO_CHECK(folder.commit());
+    kept.remove();
     bar.clear();
     say_notes(region, options.quiet);
     tell_tiles(options, region, report);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/options/export_options.h"
+#include "apps/options/shard.h"
 #include "apps/report/progress_bar.h"
 #include "core/base/result.h"
 #include "geo/region/region.h"
@@ -15,14 +16,18 @@
 
 namespace oro {
 
+struct PostLayer;
+
 // What heights are counted from: "H, above the geoid EGM96 (egm96_15.gtx)"; of several grids each once.
 std::string heights_words(const Region& region);
 // What the sources say that theirs are counted from, each once, joined by "; ".
 std::string source_heights_words(const Region& region);
 
-// Writes H of a region's one grid as a Cloud Optimized GeoTIFF, and tells so on standard output. Errors
-// (usage): several grids, or more posts than go into memory at once; those of write_cloud_raster().
-Result<void> export_cog(const ExportOptions& options, const Region& region, ProgressBar& bar);
+// Writes a layer of a region's one grid as a Cloud Optimized GeoTIFF, and tells so on standard output. Errors
+// (usage): several grids, or more posts than go into memory at once; those of raster_of_layer() and
+// write_cloud_raster().
+Result<void> export_cog(const ExportOptions& options, const Region& region, const PostLayer& layer,
+                        ProgressBar& bar);
 // Writes the ground of a region as tiles of a web map with a tiles.json, measures their error, and tells it
 // on standard output. Errors (usage): zooms that are none, or too many tiles; those of WholeFolder and
 // write_terrain_tiles().
@@ -49,6 +54,12 @@ Result<void> export_quantized_mesh(const ExportOptions& options, const Region& r
 Result<ZoomRange> zooms_from(const std::string& text);
 // Refuses zooms and heights of holes that are none before anything is read.
 Result<void> check_zoom(const ExportOptions& options);
+// All that the bytes of tiles of a web map or globe depend on, the program's version among it.
+std::string key_of_web_tiles(const Region& region, const std::string& format, const ZoomRange& zooms,
+                             double hole_H_m);
+// Tells on standard output that a part of the tiles is kept in a folder.
+void tell_part(const ExportOptions& options, const std::string& folder, const Shard& shard,
+               std::uint64_t tiles);
 // Most tiles of a web map or globe.
 inline constexpr double most_web_tiles = 4.0e6;
 // Of each zoom, how far random places were from the ground; and the same as lines for people.

@@ -8,6 +8,7 @@
 #include "apps/commands/export/exported_region.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
+#include "apps/report/json_text.h"
 
 namespace oro {
 namespace {
@@ -82,6 +83,32 @@ void tell_errors(const std::vector<ZoomError>& errors) {
         std::printf("  %4d  %6s  %8s  %8s\n", error.zoom, grouped(error.places).c_str(),
                     error.places > 0 ? figure(error.largest_m).c_str() : "n/a",
                     error.places > 0 ? figure(error.rms_m).c_str() : "n/a");
+}
+
+void tell_part(const ExportOptions& options, const std::string& folder, const Shard& shard,
+               std::uint64_t tiles) {
+    if (options.json) {
+        const auto json = json_object("folder", folder, "format", *options.to, "part", shard.number, "parts",
+                                      shard.count, "tiles", tiles);
+        std::printf("%s\n", json_text(json, true).c_str());
+        return;
+    }
+    std::printf("Kept in %s: %s, part %lld of %lld\n", folder.c_str(),
+                counted(tiles, "tile", "tiles").c_str(), static_cast<long long>(shard.number),
+                static_cast<long long>(shard.count));
+}
+
+std::string key_of_web_tiles(const Region& region, const std::string& format, const ZoomRange& zooms,
+                             double hole_H_m) {
+    auto grids = nlohmann::ordered_json::array();
+    for (const RegionGrid& grid : region.grids)
+        grids.push_back(json_object("posts", grid.posts_hash, "geoid", grid.geoid_fingerprint, "rows",
+                                    grid.field.grid.rows(), "columns", grid.field.grid.columns(), "north_deg",
+                                    grid.field.grid.north_deg(), "west_deg", grid.field.grid.west_deg()));
+    const auto key =
+        json_object("generator", "orograph " OROGRAPH_VERSION, "format", format, "lowest_zoom", zooms.low,
+                    "highest_zoom", zooms.high, "hole_height_m", hole_H_m, "grids", grids);
+    return json_text(key, true) + "\n";
 }
 
 }  // namespace oro

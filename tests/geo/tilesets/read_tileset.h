@@ -33,6 +33,9 @@ struct ReadTile {
     std::vector<int> sources;               // of each vertex, its row of the table of sources
     std::vector<std::string> source_names;  // of the table
     std::vector<float> source_le90_m;
+    std::vector<int> features;               // of each vertex of a mesh, its row of the table of features
+    std::vector<std::string> feature_names;  // of the table
+    std::vector<std::string> feature_types;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::size_t ground_triangles{};
 };
@@ -153,6 +156,36 @@ inline void read_sources(const nlohmann::json& gltf, const std::string& bin, con
     }
 }
 
+// A column of texts of the first property table.
+inline std::vector<std::string> texts_in(const nlohmann::json& gltf, const std::string& bin,
+                                         const std::string& column) {
+    const auto& table = gltf["extensions"]["EXT_structural_metadata"]["propertyTables"][0];
+    const auto& of = table["properties"][column];
+    const std::string text = plain_view_bytes(gltf, bin, of["values"]),
+                      ends = plain_view_bytes(gltf, bin, of["stringOffsets"]);
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < table["count"].get<std::size_t>(); ++i) {
+        const auto begin = value_at<std::uint32_t>(ends, 4 * i),
+                   end = value_at<std::uint32_t>(ends, 4 * i + 4);
+        texts.push_back(text.substr(begin, end - begin));
+    }
+    return texts;
+}
+
+inline void read_features(const nlohmann::json& gltf, const std::string& bin, const nlohmann::json& primitive,
+                          ReadTile& tile) {
+    const auto& accessor = gltf["accessors"][primitive["attributes"]["_FEATURE_ID_0"].get<std::size_t>()];
+    EXPECT_EQ(accessor["type"], "SCALAR");
+    ASSERT_EQ(accessor["componentType"], 5123);
+    const std::string ids = view_bytes(gltf, bin, accessor["bufferView"]);
+    tile.feature_names = texts_in(gltf, bin, "name");
+    tile.feature_types = texts_in(gltf, bin, "type");
+    for (std::size_t i = 0; i < accessor["count"].get<std::size_t>(); ++i) {
+        tile.features.push_back(value_at<std::uint16_t>(ids, 4 * i));
+        ASSERT_LT(static_cast<std::size_t>(tile.features.back()), tile.feature_names.size());
+    }
+}
+
 inline void read_glb(const std::string& bytes, ReadTile& tile) {
     ASSERT_GT(bytes.size(), 28U);
     EXPECT_EQ(bytes.substr(0, 4), "glTF");
@@ -178,7 +211,9 @@ inline void read_glb(const std::string& bytes, ReadTile& tile) {
             tile.normals.push_back(glm::normalize(z_up(glm::dmat3(matrix) * normal)));
     if (primitive["attributes"].contains("COLOR_0"))
         tile.colours = vectors_of(gltf, bin, primitive["attributes"]["COLOR_0"]);
-    if (primitive["attributes"].contains("_FEATURE_ID_0")) read_sources(gltf, bin, primitive, tile);
+    const bool is_ground = mesh.contains("extras");
+    if (primitive["attributes"].contains("_FEATURE_ID_0"))
+        is_ground ? read_sources(gltf, bin, primitive, tile) : read_features(gltf, bin, primitive, tile);
     const auto& indices = gltf["accessors"][primitive["indices"].get<std::size_t>()];
     const bool shorts = indices["componentType"] == 5123;
     EXPECT_EQ(shorts, tile.posts_m.size() <= 65535U);
@@ -191,7 +226,7 @@ inline void read_glb(const std::string& bytes, ReadTile& tile) {
             ASSERT_LT(triangle[j], tile.posts_m.size());
         }
     }
-    tile.ground_triangles = mesh["extras"]["groundTriangles"];
+    if (is_ground) tile.ground_triangles = mesh["extras"]["groundTriangles"];
 }
 
 inline void read_tile(const nlohmann::json& json, const std::filesystem::path& folder, int parent,
@@ -211,10 +246,11 @@ inline void read_tile(const nlohmann::json& json, const std::filesystem::path& f
 }
 
 // All tiles, the root first, each after its parent.
-inline std::vector<ReadTile> read_tileset(const std::filesystem::path& folder) {
+inline std::vector<ReadTile> read_tileset(const std::filesystem::path& folder,
+                                          const std::string& refine = "REPLACE") {
     const auto json = nlohmann::json::parse(all_bytes(folder / "tileset.json"));
     EXPECT_EQ(json["asset"]["version"], "1.1");
-    EXPECT_EQ(json["root"]["refine"], "REPLACE");
+    EXPECT_EQ(json["root"]["refine"], refine);
     EXPECT_GE(json["geometricError"].get<double>(), json["root"]["geometricError"].get<double>());
     std::vector<ReadTile> tiles;
     read_tile(json["root"], folder, -1, tiles);
