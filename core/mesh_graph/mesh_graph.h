@@ -1,0 +1,52 @@
+// A mesh of triangles in space at every detail between all of them and a few.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "core/clusters/cluster_graph.h"
+
+namespace oro {
+
+// A cluster graph (core/clusters/cluster_graph.h) over any triangles: closed or open ones, walls, overhangs,
+// soups. Vertices are those of the mesh. What core/cluster_frame/cluster_cut.h chooses of it draws each place
+// of the mesh once, for any set of groups that stands where all below stand:
+// - every place that is drawn is within error_m of the mesh, of the group that made it;
+// - every place of the mesh is within error_m of what is drawn, of the last group that stands on the way up
+//   from its own triangle;
+// - where the mesh is closed, what is drawn is closed.
+// Distances are those in space, so nothing is said of how far a wall moved vertically.
+struct MeshGraph {
+    ClusterGraph clusters;
+    // The triangle of the mesh that each triangle of `clusters` began as: it has its feature.
+    std::vector<std::uint32_t> original_of;
+
+    [[nodiscard]] double largest_error_m() const;
+};
+
+// For tests of the bound: which groups answer for some place of each triangle of the mesh, from below.
+struct MeshPlaceChains {
+    std::vector<glm::dvec3> places;                  // of each triangle one
+    std::vector<std::vector<std::uint32_t>> groups;  // groups' numbers, rising
+};
+
+struct MeshGraphOptions {
+    int threads{1};
+    double kept_share{0.65};  // of a group's triangles, in what comes out of it
+    MeshPlaceChains* chains{};
+};
+
+// vertices: metres, from a place near the mesh. origin: that place, ECEF; groups' spheres are from the
+// Earth's middle. triangles: at least one, each of three places that are not on a line. The result does not
+// depend on `threads`. A group stops where the next collapse would cost more than four times the error below
+// it; the next level has other groups. What cannot be made coarser stays: there may be several coarsest
+// clusters. Takes 0.5 KB a triangle.
+[[nodiscard]] MeshGraph build_mesh_graph(std::span<const glm::dvec3> vertices,
+                                         std::span<const std::array<std::uint32_t, 3>> triangles,
+                                         const glm::dvec3& origin_ecef_m,
+                                         const MeshGraphOptions& options = {});
+
+}  // namespace oro

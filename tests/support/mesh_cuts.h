@@ -1,0 +1,45 @@
+// Cuts of a mesh's graph, held against the mesh by brute force, place by place.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <random>
+#include <span>
+#include <vector>
+
+#include "core/mesh_graph/mesh_graph.h"
+
+namespace oro::test {
+
+struct SpaceMesh {
+    std::vector<glm::dvec3> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+// A random place of each triangle, for its chain to be told of.
+std::vector<glm::dvec3> random_places(const SpaceMesh& mesh, std::mt19937_64& random);
+
+// Groups that stand by chance, each only where all below it do, and none whose error is above some chance
+// one.
+std::vector<char> random_standing(const ClusterGraph& graph, std::mt19937_64& random);
+
+struct CutCheck {
+    std::uint64_t places{};       // of the mesh, held against what is drawn
+    std::uint64_t places_over{};  // farther than the error of the last group that stands on their chain
+    std::uint64_t drawn{};        // drawn places, held against the mesh
+    std::uint64_t drawn_over{};   // farther than the error of the group that made them
+    std::uint64_t no_link{};      // steps of chains that are no links of the graph
+    std::uint64_t open_edges{};   // edges of one triangle that the mesh does not have on its rim
+    std::uint64_t crowded{};      // edges of three triangles and more that the mesh does not have
+    double worst_m{};             // by which the worst place is over
+};
+// Holds `count` places of the mesh, and one of each drawn triangle up to as many, against brute force by code
+// of its own: whether any triangle is within the error and a micrometre.
+void check_cut(const SpaceMesh& mesh, const MeshGraph& graph, const MeshPlaceChains& chains,
+               const std::vector<char>& stands, std::size_t count, std::mt19937_64& random, CutCheck& check);
+
+// A mutant: each chain goes, at a step by chance, to another user of the same group, and ends there.
+MeshPlaceChains wrong_users(const MeshGraph& graph, const MeshPlaceChains& chains, std::mt19937_64& random);
+
+}  // namespace oro::test
