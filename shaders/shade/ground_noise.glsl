@@ -8,27 +8,7 @@ struct GroundNoise {
     float grain;
 };
 
-// Of a sum of products, whose upper bits are mixed already. Source: C. Wellons, hash-prospector, lowbias32 (public domain), its second half.
-uint mixed_bits(uint h) {
-    h ^= h >> 15u;
-    h *= 0x846ca68bu;
-    return h ^ (h >> 16u);
-}
-// Two numbers, 1 to 2.
-vec2 at_lattice_point(uint h) {
-    uint bits = mixed_bits(h);
-    return uintBitsToFloat(0x3f800000u | uvec2(bits >> 9u, (bits << 8u) & 0x7fffffu));
-}
-// Two kinds of noise, -1 to 1, in a cell. Source: K. Perlin, Improving noise, 2002 (the fade).
-vec2 lattice_noise(uvec3 cell, vec3 part, uint octave) {
-    const uint x = 0x9e3779b1u, y = 0x85ebca77u, z = 0xc2b2ae3du;
-    uint h = cell.x * x + cell.y * y + cell.z * z + octave * 0x27d4eb2fu;
-    vec3 on = part * part * part * (part * (part * 6.0 - 15.0) + 10.0);
-    vec2 low = mix(mix(at_lattice_point(h), at_lattice_point(h + x), on.x), mix(at_lattice_point(h + y), at_lattice_point(h + x + y), on.x), on.y);
-    h += z;
-    vec2 high = mix(mix(at_lattice_point(h), at_lattice_point(h + x), on.x), mix(at_lattice_point(h + y), at_lattice_point(h + x + y), on.x), on.y);
-    return 2.0 * mix(low, high, on.z) - 3.0;
-}
+#include "shaders/shade/lattice_noise.glsl"
 
 // Of a place in view coordinates, as it is seen; foot_m: the side of a pixel on the ground; least: variance that borders have anyhow.
 GroundNoise ground_noise(vec3 view, float foot_m, float least) {
@@ -41,7 +21,8 @@ GroundNoise ground_noise(vec3 view, float foot_m, float least) {
         float kept = min(FRAME.noise[i].cell_m / foot_m - 2.0, 1.0);
         if (kept <= 0.0) break;
         vec3 from_cell = at + FRAME.noise[i].part, whole = floor(from_cell);
-        vec2 both = kept * lattice_noise(FRAME.noise[i].cell + uvec3(ivec3(whole)), from_cell - whole, i);
+        uvec3 cell = FRAME.noise[i].cell + uvec3(ivec3(whole));
+        vec2 both = kept * (i == 0u ? two_lattices_noise(cell, from_cell - whole, i) : lattice_noise(cell, from_cell - whole, i));
         float border = FRAME.noise[i].border, patches = FRAME.noise[i].patches;
         noise.border += border * both.x;
         noise.patches += patches * both.y;
