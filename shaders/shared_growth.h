@@ -46,6 +46,8 @@ struct GrowthTable {
     // float: the farthest depth of the ground in each block of 8 x 8 pixels, row by row; 0: what the ground hides is not left out.
     uvec2 farthest;
     uvec2 lists;  // ... of CrownLists
+    // uint[sites_per_tile * tile_count]: sites where a tree, or its shadow, may be in the picture; as many as CrownLists has asked for.
+    uvec2 asked;
 };
 
 // Work that is spread over more invocations than one a tree: pieces of 32 x 32 pixels of crowns that cover many, and trees whose
@@ -55,6 +57,8 @@ ORO_CONST uint crown_list_max = 65535u;
 struct CrownLists {
     uint piece_groups[3];  // of an indirect dispatch: their number, 1, 1
     uint shade_groups[3];
+    uint site_groups[3];  // of site_group sites that are asked for, folded into rows
+    uint asked_count;
     uvec2 pieces[65535];  // site, number of the piece in the crown's box of pixels
     uint shades[65535];   // site
 };

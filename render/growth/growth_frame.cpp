@@ -9,6 +9,7 @@
 #include "spirv/farthest_depths_comp.h"
 #include "spirv/grow_sites_comp.h"
 #include "spirv/keep_ids_comp.h"
+#include "spirv/list_sites_comp.h"
 #include "spirv/seed_visibility_comp.h"
 #include "spirv/shade_growth_comp.h"
 #include "spirv/smooth_crowns_comp.h"
@@ -68,8 +69,8 @@ Result<void> GrowthFrame::reserve(const Gpu& gpu, const GrowthKind& kind, VkExte
                                               MemoryKind::upload, "tiles of trees"));
     }
     const VkDeviceSize site_bytes = VkDeviceSize{tiles_} * gpu::sites_per_tile * sizeof(gpu::uint);
-    if (sites_.size < site_bytes)
-        ORO_CHECK(replace_buffer(gpu, sites_, site_bytes, usage, MemoryKind::device, "sites of trees"));
+    if (sites_.size < 2 * site_bytes)
+        ORO_CHECK(replace_buffer(gpu, sites_, 2 * site_bytes, usage, MemoryKind::device, "sites of trees"));
     constexpr VkDeviceSize map_bytes =
         VkDeviceSize{gpu::shade_map_side} * gpu::shade_map_side * sizeof(gpu::uint);
     if (kind.casts && !shade_map_.handle) {
@@ -97,6 +98,7 @@ Result<void> GrowthFrame::choose_pipelines(const Gpu& gpu, Pipelines& pipelines,
         ORO_TRY(pipeline, create_compute_pipeline(gpu, pipelines, words, name));
         return {};
     };
+    ORO_CHECK(need(pipelines.list_sites, list_sites_comp_spirv, "sites in view"));
     ORO_CHECK(need(pipelines.draw_crowns, draw_crowns_comp_spirv, "draw trees"));
     ORO_CHECK(need(pipelines.draw_large_crowns, draw_large_crowns_comp_spirv, "draw large trees"));
     if (culls_) ORO_CHECK(need(pipelines.farthest_depths, farthest_depths_comp_spirv, "farthest depths"));
@@ -124,6 +126,8 @@ void GrowthFrame::write_table(const GrowthPlan& plan, const GrowthKind& kind) {
     table.lists = address_words(lists_.address);
     table.tiles = address_words(tables_[slot_].address + tiles_at);
     table.sites = address_words(sites_.address);
+    table.asked =
+        address_words(sites_.address + VkDeviceSize{tiles_} * gpu::sites_per_tile * sizeof(gpu::uint));
     table.tile_count = tiles_;
     table.first_page = plan.first_page;
     table.reach_m = plan.reach_m;
@@ -151,26 +155,30 @@ void GrowthFrame::record_draw(VkCommandBuffer commands, const Pipelines& pipelin
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
                    0, VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
                    VK_ACCESS_2_TRANSFER_WRITE_BIT);
-    constexpr std::array<gpu::uint, 6> no_groups{0, 1, 1, 0, 1, 1};
-    vkCmdUpdateBuffer(commands, lists_.handle.get(), 0, sizeof(no_groups), no_groups.data());
+    // Groups of pieces, of shadows, of sites; sites.
+    constexpr std::array<gpu::uint, 10> nothing{0, 1, 1, 0, 1, 1, 0, 1, 1, 0};
+    static_assert(offsetof(gpu::CrownLists, asked_count) == sizeof(nothing) - sizeof(gpu::uint));
+    vkCmdUpdateBuffer(commands, lists_.handle.get(), 0, sizeof(nothing), nothing.data());
     if (map_ != VK_NULL_HANDLE) vkCmdFillBuffer(commands, shade_map_.handle.get(), 0, VK_WHOLE_SIZE, 0);
     if (culls_) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.farthest_depths.get());
         vkCmdDispatch(commands, blocks_of(width_px), blocks_of(height_px), 1);
-        wait(0, 0);
     }
-    const std::uint32_t groups = tiles_ * gpu::site_groups_per_tile;
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, grow_);
-    dispatch_groups(commands, groups);
+    // Whatever an earlier pass has found: groups lie at `groups` in the lists.
+    const auto draw = [&](VkPipeline pipeline, VkDeviceSize groups) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
+        vkCmdDispatchIndirect(commands, lists_.handle.get(), groups);
+    };
     wait(VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.draw_crowns.get());
-    dispatch_groups(commands, groups);
+    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.list_sites.get());
+    dispatch_groups(commands, tiles_ * gpu::site_groups_per_tile);
     wait(0, 0);
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.draw_large_crowns.get());
-    vkCmdDispatchIndirect(commands, lists_.handle.get(), offsetof(gpu::CrownLists, piece_groups));
-    if (map_ == VK_NULL_HANDLE) return;
-    vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, map_);
-    vkCmdDispatchIndirect(commands, lists_.handle.get(), offsetof(gpu::CrownLists, shade_groups));
+    draw(grow_, offsetof(gpu::CrownLists, site_groups));
+    wait(0, 0);
+    draw(pipelines.draw_crowns.get(), offsetof(gpu::CrownLists, site_groups));
+    wait(0, 0);
+    draw(pipelines.draw_large_crowns.get(), offsetof(gpu::CrownLists, piece_groups));
+    if (map_ != VK_NULL_HANDLE) draw(map_, offsetof(gpu::CrownLists, shade_groups));
 }
 
 void GrowthFrame::record_pixels(VkCommandBuffer commands, const Pipelines& pipelines, VkPipeline pipeline,

@@ -95,7 +95,7 @@ struct Pipelines {
     // Of frames with trees (render/growth): what stands on sites and what colours it, by what they ask for;
     // what draws them and softens their outlines; mesh path: copies of its images before that, and back.
     std::map<std::size_t, std::array<OwnedPipeline, 2>> growth;
-    OwnedPipeline draw_crowns, draw_large_crowns, draw_shade_map, farthest_depths, smooth_crowns;
+    OwnedPipeline list_sites, draw_crowns, draw_large_crowns, draw_shade_map, farthest_depths, smooth_crowns;
     OwnedPipeline seed_visibility, keep_ids;
     // Of frames with grass, likewise; shade_meadow by edges_follow.
     std::map<std::size_t, OwnedPipeline> grow_meadow;

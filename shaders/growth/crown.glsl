@@ -1,20 +1,20 @@
 // Where a line of sight meets a tree: cones and ellipsoids with gaps between their leaves. Needs growth.glsl.
 
 // Smooth noise of 0 to 1.
+float leaf_at_corner(uint h) {
+    h ^= h >> 15u;
+    h *= 0x846ca68bu;
+    h ^= h >> 16u;
+    return float(h >> 8u);
+}
 float leaf_noise(vec3 at, uint seed) {
-    vec3 cell = floor(at), part = at - cell, on = part * part * (3.0 - 2.0 * part);
-    uvec3 whole = uvec3(ivec3(cell));
+    vec3 cell = floor(at), part = at - cell, on = part * part * (3.0 - 2.0 * part), off = 1.0 - on;
+    uvec3 step = uvec3(0x9e3779b1u, 0x85ebca77u, 0xc2b2ae3du), low = uvec3(ivec3(cell)) * step, high = low + step;
+    vec4 across = vec4(off.x * off.y, on.x * off.y, off.x * on.y, on.x * on.y);
+    uvec4 corners = uvec4(low.x + low.y, high.x + low.y, low.x + high.y, high.x + high.y) + (low.z + seed);
     float sum = 0.0;
-    for (uint i = 0u; i < 8u; ++i) {
-        uvec3 corner = uvec3(i & 1u, i >> 1u & 1u, i >> 2u);
-        uvec3 lattice = whole + corner;
-        uint h = lattice.x * 0x9e3779b1u + lattice.y * 0x85ebca77u + lattice.z * 0xc2b2ae3du + seed;
-        h ^= h >> 15u;
-        h *= 0x846ca68bu;
-        h ^= h >> 16u;
-        vec3 weight = mix(1.0 - on, on, vec3(corner));
-        sum += weight.x * weight.y * weight.z * float(h >> 8u);
-    }
+    for (int i = 0; i < 4; ++i) sum += across[i] * off.z * leaf_at_corner(corners[i]);
+    for (int i = 0; i < 4; ++i) sum += across[i] * on.z * leaf_at_corner(corners[i] + step.z);
     return sum * (1.0 / 16777216.0);
 }
 

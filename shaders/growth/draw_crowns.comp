@@ -8,9 +8,12 @@
 #include "shaders/place/frame.glsl"
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"
+#include "shaders/air/air.glsl"
+#include "shaders/air/sky.glsl"
 #include "shaders/growth/growth.glsl"
 #include "shaders/growth/crown.glsl"
 #include "shaders/growth/crown_pixels.glsl"
+#include "shaders/growth/shade_map.glsl"
 
 layout(local_size_x = 128) in;  // site_group
 
@@ -25,18 +28,23 @@ bool list_piece(uint site, int piece) {
     return at < crown_list_max;
 }
 
-void draw(Crown crown, CrownPixels of, ivec4 box) {
-    for (int y = box.y; y <= box.w; ++y)
-        for (int x = box.x; x <= box.z; ++x) draw_pixel(crown, of, ivec2(x, y));
-}
-
-void draw_pieces(Crown crown, CrownPixels of, uint site) {
+// False where the list has no room for a piece.
+bool list_pieces(CrownPixels of, uint site) {
     ivec2 count = (of.box.zw - of.box.xy) / int(crown_piece_px) + 1;
     for (int piece = 0; piece < count.x * count.y; ++piece) {
         ivec2 first = of.box.xy + ivec2(piece % count.x, piece / count.x) * int(crown_piece_px);
         ivec4 box = ivec4(first, min(first + int(crown_piece_px) - 1, of.box.zw));
-        if (!is_behind_ground(box, of.nearest) && !list_piece(site, piece)) draw(crown, of, box);
+        if (!is_behind_ground(box, of.nearest) && !list_piece(site, piece)) return false;
     }
+    return true;
+}
+
+// Whether a crown may shade a place that the picture shows: one within the map's reach, and so not farther from it than both reach.
+bool may_shade(Crown crown) {
+    if (length(crown.foot) >= shade_map_reach_m + 40.0) return false;
+    vec3 middle = crown.foot + 0.5 * crown.high_m * crown.axes[2];
+    const float beside_m = 3.0;  // blades of a clump, and cells
+    return !is_beside_picture(middle, middle - (2.0 * shade_map_reach_m + 80.0) * sun_in_view(), 0.5 * crown.high_m + crown.radius_m + beside_m);
 }
 
 // There are fewer sites within reach of the map than the list has room for.
@@ -46,16 +54,69 @@ void list_shade(uint site) {
     if (at < crown_list_max) lists.at.shades[at] = site;
 }
 
-void main() {
-    uint group = folded(gl_WorkGroupID), tile = group / site_groups_per_tile;
-    if (tile >= GROWTH.tile_count) return;
-    uint site = group % site_groups_per_tile * site_group + gl_LocalInvocationIndex;
+// Crowns of a workgroup that are not left to others: its invocations share their pixels, however many each has.
+shared uint crown_count;
+shared Crown crowns[site_group];
+shared uvec2 boxes[site_group];  // x | y << 16 of their first pixel, pixels across | down << 16
+shared uint ids[site_group];
+shared uint ends[site_group];  // of its pixels, among those of all crowns
+
+void add_crown(uint tile, uint site) {
     Crown crown;
     if (!crown_of_site(tile, site, crown)) return;
-    if (GROWTH.shade_map != uvec2(0u) && length(crown.foot) < shade_map_reach_m + 40.0) list_shade(tile * sites_per_tile + site);
+    if (GROWTH.shade_map != uvec2(0u) && may_shade(crown)) list_shade(tile * sites_per_tile + site);
     CrownPixels of = crown_pixels(crown, tile, site);
     if (is_empty(of.box) || is_behind_ground(of.box, of.nearest)) return;
     ivec2 size = of.box.zw - of.box.xy + 1;
-    if (size.x * size.y > alone_px) draw_pieces(crown, of, tile * sites_per_tile + site);
-    else draw(crown, of, of.box);
+    if (size.x * size.y > alone_px && list_pieces(of, tile * sites_per_tile + site)) return;
+    uint at = atomicAdd(crown_count, 1u);
+    crowns[at] = crown;
+    boxes[at] = uvec2(of.box.x | of.box.y << 16, size.x | size.y << 16);
+    ids[at] = of.id;
+    ends[at] = uint(size.x * size.y);
+}
+
+// From numbers of pixels to ends.
+void sum_pixels() {
+    uint own = gl_LocalInvocationIndex;
+    for (uint step = 1u; step < crown_count; step *= 2u) {
+        uint before = own >= step && own < crown_count ? ends[own - step] : 0u;
+        barrier();
+        if (own < crown_count) ends[own] += before;
+        barrier();
+    }
+}
+
+// The first crown that ends beyond a pixel.
+uint crown_of_pixel(uint pixel) {
+    uint first = 0u, last = crown_count - 1u;
+    while (first < last) {
+        uint middle = (first + last) / 2u;
+        if (ends[middle] > pixel) last = middle;
+        else first = middle + 1u;
+    }
+    return first;
+}
+
+void draw_crowns() {
+    uint count = crown_count == 0u ? 0u : ends[crown_count - 1u];
+    for (uint pixel = gl_LocalInvocationIndex; pixel < count; pixel += site_group) {
+        uint at = crown_of_pixel(pixel);
+        Crown crown = crowns[at];
+        vec3 top = crown.foot + crown.high_m * crown.axes[2];
+        ivec2 first = ivec2(boxes[at].x & 0xffffu, boxes[at].x >> 16), size = ivec2(boxes[at].y & 0xffffu, boxes[at].y >> 16);
+        CrownPixels of = CrownPixels(ivec4(first, first + size - 1), pixel_m_at(crown.foot), nearest_depth(crown.foot, top, crown.radius_m), ids[at]);
+        int number = int(pixel - (at == 0u ? 0u : ends[at - 1u]));
+        draw_pixel(crown, of, first + ivec2(number % size.x, number / size.x));
+    }
+}
+
+void main() {
+    if (gl_LocalInvocationIndex == 0u) crown_count = 0u;
+    barrier();
+    uint tile, site;
+    if (asked_site(tile, site)) add_crown(tile, site);
+    barrier();
+    sum_pixels();
+    draw_crowns();
 }

@@ -1,5 +1,5 @@
 #version 460
-// Decides what stands on each site: where the materials of the ground are forest, a tree; and how much of the sun the terrain leaves it.
+// Decides what stands on each site that list_sites.comp asks for: where the materials of the ground are forest, a tree; and how much of the sun the terrain leaves it.
 #extension GL_GOOGLE_include_directive : require
 #define IN_AIR
 const bool as_map = false;
@@ -32,6 +32,7 @@ const bool of_materials = true;
 #include "shaders/shade/cover_tiles.glsl"
 #include "shaders/shade/ground.glsl"
 #include "shaders/growth/growth.glsl"
+#include "shaders/growth/kept_rank.glsl"
 #include "shaders/growth/site_ground.glsl"
 
 layout(local_size_x = 128) in;  // site_group
@@ -43,7 +44,6 @@ struct Stands {
     float open;
 };
 
-const float grows_in = 0.12;  // ranks over which a tree goes from nothing to its height
 const float foot_m = 4.0;  // borders are as sharp as sites are apart
 const float trees_in_meadows = 0.006, trees_in_crops = 0.002, trees_in_shrub = 0.07;
 
@@ -82,35 +82,7 @@ float size_at(SurfacePoint point, bool in_open, uint hash) {
     return in_open ? size * (0.3 + 0.5 * site_number(hash, 10u)) : size;
 }
 
-bool may_show(SitePlace place) {
-    float distance_m = length(place.view);
-    if (distance_m > GROWTH.reach_m || distance_m < 3.0) return false;
-    vec3 middle = place.view + 15.0 * normalize(place.view + (FRAME.earth_radius_m + FRAME.eye_h_m) * FRAME.up_view);
-    // Near the eye those beside the picture, too: their shadows may be in it.
-    float w = -middle.z, reach_m = distance_m < shade_map_reach_m ? 80.0 : 24.0;
-    if (w < -reach_m) return false;
-    vec2 side = FRAME.projection_scale * middle.xy + FRAME.projection_shift * w, slack = reach_m * (abs(FRAME.projection_scale) + 1.0 + abs(FRAME.projection_shift));
-    return all(lessThanEqual(abs(side), vec2(w) + slack));
-}
-
-// Whether neither the largest tree there nor its shadow is seen.
-bool is_hidden(SitePlace place) {
-    // With what it leans; broad-leaved ones that stand alone are the widest.
-    float tallest_m = 33.0 * FRAME.exaggeration, widest_m = 11.5 + 0.1 * tallest_m;
-    if (length(place.view) < shade_map_reach_m + 40.0) return false;
-    vec3 up = normalize(place.view + (FRAME.earth_radius_m + FRAME.eye_h_m) * FRAME.up_view), top = place.view + tallest_m * up;
-    ivec4 box = pixels_around(place.view, top, widest_m);
-    return is_empty(box) || is_behind_ground(box, nearest_depth(place.view, top, widest_m));
-}
-
-uint what_stands(GrowthTile tile, uint site) {
-    uint hash = hash_of_site(tile, site);
-    float rank = site_rank(hash);
-    if (rank >= stocked_sites) return 0u;
-    SitePlace place;
-    if (!place_of_site(tile, site, hash, place) || !may_show(place) || is_hidden(place)) return 0u;
-    float kept = trees_at(length(place.view), GROWTH.reach_m) * (stocked_sites + grows_in);
-    if (rank >= kept) return 0u;
+uint what_stands(uint hash, SitePlace place) {
     SurfacePoint point = ground_of(place);
     Stands stands = stands_at(place, point);
     float forest = stands.needle + stands.broad, number = site_number(hash, 11u);
@@ -119,7 +91,7 @@ uint what_stands(GrowthTile tile, uint site) {
     float needle = in_forest ? stands.needle / forest : 1.0 - broad_share(point);
     uint kind = site_number(hash, 12u) < needle ? site_needle : site_broad;
     // Where trees are left out the farther they are, the next of them are small already.
-    float size = size_at(point, !in_forest, hash) * smoothstep(0.0, grows_in, kept - rank);
+    float size = size_at(point, !in_forest, hash) * smoothstep(0.0, grows_in, kept_rank(place) - site_rank(hash));
     uint size_code = uint(clamp(size, 0.0, 1.0) * 255.0 + 0.5);
     if (size_code < 20u) return 0u;
     float sun = sun_on_site(place, point, 0.6 * (size * tree_height_m(hash))) * (in_forest ? sun_on_canopy(point) : 1.0);
@@ -128,8 +100,11 @@ uint what_stands(GrowthTile tile, uint site) {
 }
 
 void main() {
-    uint group = folded(gl_WorkGroupID), tile = group / site_groups_per_tile;
-    if (tile >= GROWTH.tile_count) return;
-    uint site = group % site_groups_per_tile * site_group + gl_LocalInvocationIndex;
-    Words(GROWTH.sites).at[tile * sites_per_tile + site] = what_stands(GrowthTiles(GROWTH.tiles).at[tile], site);
+    uint tile, site;
+    if (!asked_site(tile, site)) return;
+    GrowthTile of = GrowthTiles(GROWTH.tiles).at[tile];
+    uint hash = hash_of_site(of, site);
+    SitePlace place;
+    place_of_site(of, site, hash, place);
+    Words(GROWTH.sites).at[tile * sites_per_tile + site] = what_stands(hash, place);
 }

@@ -11,6 +11,13 @@ uint hash_of_site(GrowthTile tile, uint site) {
     return site_hash(tile.row * sites_per_side + site / sites_per_side, tile.column * sites_per_side + site % sites_per_side);
 }
 
+// Of a tile's site that an invocation of one of its workgroups takes: a workgroup has 16 x 8 sites, which lie near each other.
+uint site_of_group(uint group, uint invocation) {
+    const uint across = 16u, down = site_group / across, groups_across = sites_per_side / across;
+    uint row = group / groups_across * down + invocation / across, column = group % groups_across * across + invocation % across;
+    return row * sites_per_side + column;
+}
+
 // A site on the ground, as the finest page of the frame has that.
 struct SitePlace {
     uint page;    // number in the frame
@@ -67,6 +74,17 @@ bool place_in_tile(GrowthTile tile, vec2 at, out SitePlace place) {
 bool place_of_site(GrowthTile tile, uint site, uint hash, out SitePlace place) {
     vec2 at = (vec2(site % sites_per_side, site / sites_per_side) + site_place(hash)) / float(sites_per_side);
     return place_in_tile(tile, at, place);
+}
+
+// Which site an invocation takes of those that are asked for: its number in its tile and 4096 times that of the tile. False beyond
+// the last.
+bool asked_site(out uint tile, out uint site) {
+    uint at = folded(gl_WorkGroupID) * site_group + gl_LocalInvocationIndex;
+    if (at >= ListsOfCrowns(GROWTH.lists).at.asked_count) return false;
+    uint asked = Words(GROWTH.asked).at[at];
+    tile = asked / sites_per_tile;
+    site = asked % sites_per_tile;
+    return true;
 }
 
 // A crown and its stem, in a frame at the foot: east, north and along the stem, as columns in view coordinates.
