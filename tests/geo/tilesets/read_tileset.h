@@ -77,8 +77,9 @@ inline std::string view_bytes(const nlohmann::json& gltf, const std::string& bin
     }
     EXPECT_EQ(packed["mode"], "ATTRIBUTES");
     EXPECT_EQ(meshopt_decodeVertexBuffer(bytes.data(), count, stride, from, size), 0);
-    if (packed["filter"] == "EXPONENTIAL") meshopt_decodeFilterExp(bytes.data(), count, stride);
-    if (packed["filter"] == "OCTAHEDRAL") meshopt_decodeFilterOct(bytes.data(), count, stride);
+    const std::string filter = packed.value("filter", "NONE");
+    if (filter == "EXPONENTIAL") meshopt_decodeFilterExp(bytes.data(), count, stride);
+    if (filter == "OCTAHEDRAL") meshopt_decodeFilterOct(bytes.data(), count, stride);
     return bytes;
 }
 
