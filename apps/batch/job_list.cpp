@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "apps/options/horizon_options.h"
 #include "apps/options/region_option_table.h"
 #include "apps/report/json_fields.h"
 #include "core/base/open_file.h"
@@ -18,10 +19,10 @@ namespace {
 using nlohmann::json;
 
 // Commands that a line may give.
-constexpr std::array batch_commands{"shot",  "panorama", "film",     "compare", "plan",   "trade", "sun",
-                                    "sight", "profile",  "viewshed", "bake",    "export", "info"};
+constexpr std::array batch_commands{"shot",  "panorama", "film",     "compare", "plan", "trade",  "sun",
+                                    "sight", "profile",  "viewshed", "horizon", "bake", "export", "info"};
 // Of these, options whose values are written.
-constexpr std::array written_options{"--out", "--write-path"};
+constexpr std::array written_options{"--out", "--write-path", "--table"};
 // Positional arguments, in the order of the command line.
 constexpr std::array positional_names{"flight", "picture", "path", "paths"};
 
@@ -107,6 +108,11 @@ bool says_region(const std::string& option) {
 void read_words(BatchJob& job) {
     for (const auto& [option, value] : named_values(std::span(job.words).subspan(1))) {
         const bool is_written = std::ranges::find(written_options, option) != written_options.end();
+        if (is_written && job.command == "horizon") {
+            const HorizonFiles files = horizon_files_of(value);
+            job.writes.insert(job.writes.end(), {files.horizon, files.sky_view});
+            continue;
+        }
         if (is_written) {
             job.writes.push_back(value);
             continue;
@@ -180,7 +186,8 @@ void fill_in(json& value, const BatchPlace& place, bool is_file_name) {
     if (value.is_object()) {
         for (const auto& [name, field] : value.items())
             fill_in(field, place,
-                    name == "out" || name == "print" || name == "write-path" || name == "write_path");
+                    name == "out" || name == "print" || name == "table" || name == "write-path" ||
+                        name == "write_path");
     } else if (value.is_array()) {
         for (json& one : value) fill_in(one, place, is_file_name);
     } else if (value.is_string()) {

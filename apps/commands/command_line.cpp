@@ -449,7 +449,8 @@ void add_profile(CLI::App& app, ProfileOptions& options) {
              {{"profile PATH... --along LINE [--out FILE] [OPTIONS]"}, "", "docs/commands/profile.md"});
 }
 
-void add_viewshed(CLI::App& app, ViewshedOptions& options, RealisationOptions& realisations) {
+void add_viewshed(CLI::App& app, ViewshedOptions& options, RealisationOptions& realisations,
+                  ObserversOptions& observers) {
     CLI::App& command =
         *app.add_subcommand("viewshed", "Write which places are seen from one or several others (GeoTIFF)");
     OptionGroup shed(command, "The viewshed");
@@ -457,6 +458,13 @@ void add_viewshed(CLI::App& app, ViewshedOptions& options, RealisationOptions& r
                 "Where the observer is: latitude,longitude as in 46.57,7.99, or in another way that shot "
                 "takes. Give it again for each further observer.")
         .allow_extra_args(false);  // what follows the place is elevation data
+    shed.option("--observers", observers.file, "FILE",
+                "Observers of a table instead of --at, thousands of them: a .csv with columns lat and lon, "
+                "and above where each has its height; or the points of a vector file.")
+        .allow_extra_args(false);
+    shed.option("--table", observers.table, "FILE",
+                "Write how many posts each of the --observers sees, a line each (.csv).")
+        .allow_extra_args(false);
     CLI::Option& above = shed.number("--above", options.above_m, "METRES",
                                      "Height of observers over the ground (default 2). Not with --altitude.");
     shed.number("--altitude", options.altitude_m, "METRES",
@@ -756,7 +764,7 @@ void add_commands(CLI::App& app, CommandLine& line) {
     add_sun(app, line.sun);
     add_sight(app, line.sight, line.realisations);
     add_profile(app, line.profile);
-    add_viewshed(app, line.viewshed, line.realisations);
+    add_viewshed(app, line.viewshed, line.realisations, line.observers);
     add_horizon(app, line.horizon);
     add_bake(app, line.bake);
     add_export(app, line.exporting);

@@ -8,6 +8,7 @@
 #include "apps/options/fetch_options.h"
 #include "apps/options/fetching_options.h"
 #include "apps/options/horizon_options.h"
+#include "apps/options/observers_options.h"
 #include "apps/options/realisation_options.h"
 #include "apps/options/serve_options.h"
 
@@ -26,6 +27,7 @@ struct CommandLine {
     SightOptions sight;
     ProfileOptions profile;
     ViewshedOptions viewshed;
+    ObserversOptions observers;  // of viewshed
     RealisationOptions realisations;  // of sight and viewshed
     HorizonOptions horizon;
     BakePartOptions bake;

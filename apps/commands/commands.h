@@ -15,6 +15,7 @@ struct BakePartOptions;     // apps/options/bake_part_options.h
 struct BatchOptions;        // apps/options/batch_options.h
 struct ExportOptions;       // apps/options/export_options.h
 struct HorizonOptions;      // apps/options/horizon_options.h
+struct ObserversOptions;    // apps/options/observers_options.h
 struct RealisationOptions;  // apps/options/realisation_options.h
 struct ServeOptions;        // apps/options/serve_options.h
 
@@ -37,7 +38,8 @@ Result<void> run_sight(const SightOptions& options, const RealisationOptions& re
 // Tells how high the ground is along a line, and draws it.
 Result<void> run_profile(const ProfileOptions& options);
 // Writes which places are seen from others, as a GeoTIFF, and how probable that is where it is asked for.
-Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptions& realisations);
+Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptions& realisations,
+                          const ObserversOptions& observers);
 // Writes how high the horizon stands around posts, and how much of the sky they see, as GeoTIFFs.
 Result<void> run_horizon(const HorizonOptions& options);
 // Opens a window to fly over a region.

@@ -40,7 +40,7 @@ Result<void> run_command(CLI::App& app, CommandLine& line, const std::vector<std
     if (app.got_subcommand("sun")) return of_unchanged_files(run_sun(line.sun));
     if (app.got_subcommand("sight")) return of_unchanged_files(run_sight(line.sight, line.realisations));
     if (app.got_subcommand("profile")) return run_profile(line.profile);
-    if (app.got_subcommand("viewshed")) return run_viewshed(line.viewshed, line.realisations);
+    if (app.got_subcommand("viewshed")) return run_viewshed(line.viewshed, line.realisations, line.observers);
     if (app.got_subcommand("horizon")) return run_horizon(line.horizon);
     if (app.got_subcommand("bake")) return run_bake(line.bake);
     if (app.got_subcommand("export")) return run_export(line.exporting);

@@ -20,4 +20,14 @@ struct HorizonOptions {
     bool quiet{false};
 };
 
+// The two files of an --out NAME.tif or NAME.tiff.
+struct HorizonFiles {
+    std::string horizon, sky_view;
+};
+inline HorizonFiles horizon_files_of(const std::string& out) {
+    const std::size_t dot = out.rfind('.');
+    const std::string name = out.substr(0, dot), ending = dot == std::string::npos ? "" : out.substr(dot);
+    return {name + ".horizon" + ending, name + ".sky-view" + ending};
+}
+
 }  // namespace oro

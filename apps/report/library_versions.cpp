@@ -1,12 +1,14 @@
 #include "apps/report/library_versions.h"
 
 #include <erfaextra.h>
+#include <freetype/freetype.h>
 #include <ft2build.h>
 #include <hb.h>
 #include <vulkan/vulkan_core.h>
 #include <xxhash.h>
 #include <zstd.h>
-#include <freetype/freetype.h>
+
+#include <utility>
 
 namespace oro {
 namespace {
@@ -27,12 +29,15 @@ std::string vulkan_headers() {
 }  // namespace
 
 std::vector<LibraryVersion> library_versions() {
-    return {{"zstd", "zstd", ZSTD_versionString()},
-            {"xxhash", "xxHash", dotted(XXH_VERSION_MAJOR, XXH_VERSION_MINOR, XXH_VERSION_RELEASE)},
-            {"erfa", "ERFA", eraVersion()},
-            {"freetype", "FreeType", dotted(FREETYPE_MAJOR, FREETYPE_MINOR, FREETYPE_PATCH)},
-            {"harfbuzz", "HarfBuzz", hb_version_string()},
-            {"vulkan_headers", "Vulkan headers", vulkan_headers()}};
+    std::vector<LibraryVersion> all = {
+        {"zstd", "zstd", ZSTD_versionString()},
+        {"xxhash", "xxHash", dotted(XXH_VERSION_MAJOR, XXH_VERSION_MINOR, XXH_VERSION_RELEASE)},
+        {"erfa", "ERFA", eraVersion()},
+        {"freetype", "FreeType", dotted(FREETYPE_MAJOR, FREETYPE_MINOR, FREETYPE_PATCH)},
+        {"harfbuzz", "HarfBuzz", hb_version_string()},
+        {"vulkan_headers", "Vulkan headers", vulkan_headers()}};
+    for (LibraryVersion& library : package_versions()) all.push_back(std::move(library));
+    return all;
 }
 
 }  // namespace oro

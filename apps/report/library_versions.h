@@ -15,5 +15,7 @@ struct LibraryVersion {
 
 // Of each library the version that runs, or that was compiled in; of Vulkan that of its headers.
 std::vector<LibraryVersion> library_versions();
+// Those of them whose version CMake has found (package_versions.cpp.in).
+std::vector<LibraryVersion> package_versions();
 
 }  // namespace oro

@@ -527,6 +527,8 @@ std::optional<std::size_t> grid_of_most(const TrueGround& ground, const std::vec
             const PostPlace place =
                 place_of_normal(std::cos(angle) * enu[2] +
                                 std::sin(angle) * (std::cos(bearing) * enu[1] + std::sin(bearing) * enu[0]));
+            // Of one grid it is enough to know that it has any.
+            if (held.size() == 1 && held[0].first > 0) return 0;
             for (std::size_t grid = 0; grid < held.size(); ++grid)
                 held[grid].first += ground.surface(grid).h_m(place.lat_deg, place.lon_deg).has_value();
             if (const auto shown = ground.grid_at(place.lat_deg, place.lon_deg)) ++held[*shown].second;

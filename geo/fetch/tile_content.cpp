@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/base/files_read.h"
 #include "geo/fetch/terrarium_tile.h"
 #include "geo/files/raster_library.h"
 #include "geo/sources/hgt_source.h"
@@ -148,16 +149,8 @@ Result<void> check_geotiff(const std::string& file, const std::string& shown, co
     return are_heights ? check_elevation(file, shown, file_of(layout, tile)) : Result<void>{};
 }
 
-}  // namespace
-
-Result<void> check_elevation_raster(const std::string& file, const std::string& shown,
-                                    const std::string& name, const IsInPlace& is_in_place) {
-    ORO_CHECK(check_raster(file, shown, false, "the pictures of its tile", is_in_place));
-    return check_elevation(file, shown, name);
-}
-
-Result<void> check_tile(const std::string& file, const std::string& shown, const TileLayout& layout,
-                        const TileName& tile) {
+Result<void> check_content(const std::string& file, const std::string& shown, const TileLayout& layout,
+                           const TileName& tile) {
     switch (layout.format) {
         case TileFormat::hgt_gz:
             return check_hgt_gz(file, shown);
@@ -167,6 +160,24 @@ Result<void> check_tile(const std::string& file, const std::string& shown, const
             break;
     }
     return check_geotiff(file, shown, layout, tile);
+}
+
+}  // namespace
+
+// What was looked at gets its name only now: that is no change of what a command reads.
+Result<void> check_elevation_raster(const std::string& file, const std::string& shown,
+                                    const std::string& name, const IsInPlace& is_in_place) {
+    Result<void> checked = check_raster(file, shown, false, "the pictures of its tile", is_in_place);
+    if (checked.ok()) checked = check_elevation(file, shown, name);
+    forget_file_read(file);
+    return checked;
+}
+
+Result<void> check_tile(const std::string& file, const std::string& shown, const TileLayout& layout,
+                        const TileName& tile) {
+    const Result<void> checked = check_content(file, shown, layout, tile);
+    forget_file_read(file);
+    return checked;
 }
 
 }  // namespace oro

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -221,7 +223,23 @@ TEST_F(FetchMissing, PathsOnANetworkAreOptIn) {
         EXPECT_EQ(nlohmann::json::parse(far.out)[what], nlohmann::json::parse(near.out)[what]) << what;
 }
 
-// A new user's way, from nothing to a panorama of a mountain with its name: two commands.
+// The words of the commands of a page's section, but for the program's name.
+std::vector<Words> commands_of_page(const fs::path& page, const std::string& heading) {
+    std::vector<Words> commands;
+    std::istringstream lines(bytes_of(page));
+    bool is_there = false;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("## ")) is_there = line == "## " + heading;
+        if (!is_there || !line.starts_with("    orograph ")) continue;
+        std::istringstream words(line.substr(13));
+        Words& command = commands.emplace_back();
+        for (std::string word; words >> word;) command.push_back(word);
+    }
+    return commands;
+}
+
+// A new user's way, from nothing to a panorama of a mountain with its name: the commands of two pages, word
+// for word but for the picture's size, in an empty home. The server stands in for the network.
 TEST_F(FetchMissing, FromNothingToAPanoramaWithNames) {
     const LoopbackServer server([&](const LoopbackRequest& request, const LoopbackSend& send) {
         if (request.path.starts_with("/api/interpreter?")) {
@@ -232,23 +250,42 @@ TEST_F(FetchMissing, FromNothingToAPanoramaWithNames) {
         }
     });
     settle(server);
+    const fs::path root = oro::test::bundled_data().parent_path();
+    const auto commands = commands_of_page(root / "README.md", "A panorama of your mountain, with names");
+    ASSERT_EQ(commands.size(), 2U);
+    EXPECT_EQ(commands, commands_of_page(root / "docs" / "commands" / "fetch.md",
+                                         "From nothing to a panorama with names"));
+    const fs::path home = folder_ / "home", work = folder_ / "work";
+    fs::create_directories(home / ".config");
+    fs::create_directories(work);
+    fs::rename(folder_ / "settings" / "orograph", home / ".config" / "orograph");
+    Circumstances circumstances;
+    circumstances.environment = {"no_proxy=127.0.0.1", "HOME=" + home.string(), "XDG_CONFIG_HOME",
+                                 "XDG_CACHE_HOME",     "XDG_STATE_HOME",        "OROGRAPH_CACHE"};
+    circumstances.folder = work;
     const auto begin = std::chrono::steady_clock::now();
-    const std::string names = (folder_ / "peaks.geojson").string();
-    const std::string picture = (folder_ / "panorama.png").string();
-    const Outcome first = run({"fetch", "--source", "peaks", "--bbox", "8.3,46.4,8.7,46.8", "--out", names});
-    ASSERT_EQ(first.exit_code, 0) << first.err;
-    const Outcome second = run({"panorama", "--fetch", "skadi", "--at", "46.5,8.5", "--names", names,
-                                "--width", "800", "--out", picture, "--json"});
-    ASSERT_EQ(second.exit_code, 0) << second.err;
-    const nlohmann::json named = nlohmann::json::parse(second.out)["names"]["named"];
-    ASSERT_EQ(named.size(), 1U) << second.out;
-    EXPECT_EQ(named[0]["name"], "My Mountain");
-    // 0.1 degrees of latitude: 11.1 km.
-    EXPECT_NEAR(named[0]["distance_m"].get<double>(), 11120.0, 300.0);
+    std::string said;
+    for (const Words& command : commands) {
+        const bool draws = command.front() == "panorama";
+        const Outcome outcome =
+            run_orograph(draws ? joined(command, {"--width", "800", "--json"}) : command, circumstances);
+        ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+        said = outcome.out;
+    }
     const double all_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    std::printf("from nothing to a panorama with names: 2 commands, %zu requests, %.1f s\n",
-                server.requests().size(), all_s);
+    const nlohmann::json named = nlohmann::json::parse(said)["names"]["named"];
+    ASSERT_EQ(named.size(), 1U) << said;
+    EXPECT_EQ(named[0]["name"], "My Mountain");
+    // From 46.6599 N 8.0536 E along the ellipsoid, by pyproj.Geod: 34.83 km; the line rises to the summit.
+    EXPECT_NEAR(named[0]["distance_m"].get<double>(), 34828.0, 100.0);
+    std::printf("from nothing to a panorama with names: %zu commands, %zu requests, %.1f s\n",
+                commands.size(), server.requests().size(), all_s);
     EXPECT_LT(all_s, 120.0);
+    // Where the pages say that things are, and nothing elsewhere.
+    EXPECT_EQ(names_in(home), (Words{".cache", ".config"}));
+    EXPECT_EQ(names_in(home / ".cache" / "orograph" / "fetched" / "skadi"),
+              (Words{"N46E008.hgt.gz", "N46E008.hgt.gz.used"}));
+    EXPECT_TRUE(fs::exists(work / "panorama.png") && fs::exists(work / "peaks.geojson"));
 }
 
 }  // namespace

@@ -7,7 +7,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
 
 #include "tests/apps/program.h"
 #include "tests/support/loopback_server.h"
@@ -36,13 +39,18 @@ constexpr const char* key = "SECRET-0123456789abcdef";
 
 class FetchSources : public testing::Test {
   protected:
-    [[nodiscard]] Words words(const nlohmann::json& changes, const Words& more) const {
+    // A table whose one source is `test`.
+    fs::path write_table(const nlohmann::json& changes) const {
         nlohmann::json source{{"title", "A test"},     {"side_deg", 1},          {"missing", "sea"},
                               {"most_bytes", 1000000}, {"licence", "for tests"}, {"attribution", "Nobody"},
                               {"holds", "heights"},    {"format", "geotiff"}};
         source.update(changes);
         const fs::path file = folder_ / "table.json";
         write_bytes(file, nlohmann::json{{"sources", {{"test", source}}}}.dump());
+        return file;
+    }
+    [[nodiscard]] Words words(const nlohmann::json& changes, const Words& more) const {
+        const fs::path file = write_table(changes);
         return joined({"fetch", "--source", "test", "--sources", file.string(), "--out", tiles_.string(),
                        "--retries", retries_},
                       more);
@@ -241,6 +249,26 @@ TEST_F(FetchWithKey, TellsTheServerAlone) {
     EXPECT_FALSE(says(bytes_of(folder_ / "shot.png"), key));
 }
 
+// A command by itself gets a GeoTIFF, and draws from it at once.
+TEST_F(FetchSources, AGeoTiffIsReadAsSoonAsItHasCome) {
+    const std::string tif = geotiff("Float32");
+    const LoopbackServer server([&](const LoopbackRequest& request, const LoopbackSend& send) {
+        send(file_answer(request, tif, "\"1\""));
+    });
+    write_table(
+        {{"url", server.address() + "/{latitude}{longitude}.tif"}, {"file", "{latitude}{longitude}.tif"}});
+    fs::create_directories(folder_ / "settings" / "orograph");
+    fs::rename(folder_ / "table.json", folder_ / "settings" / "orograph" / "sources.json");
+    const Circumstances circumstances = plain({"XDG_CONFIG_HOME=" + (folder_ / "settings").string(),
+                                               "OROGRAPH_CACHE=" + (folder_ / "cache").string()});
+    const Outcome outcome = run_orograph(
+        {"sight", "--fetch", "test", "--fetch-km", "2", "--from", "46.5,8.5", "--to", "46.51,8.5", "--json"},
+        circumstances);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(nlohmann::json::parse(outcome.out)["visible"], true);
+    EXPECT_EQ(names_in(folder_ / "cache" / "fetched" / "test"), (Words{"N46E008.tif", "N46E008.tif.used"}));
+}
+
 // From a file that the user alone may read, and from the folder of settings.
 TEST_F(FetchWithKey, ComesFromAFile) {
     const std::string tif = geotiff("Float32");
@@ -293,6 +321,70 @@ TEST_F(FetchWithKey, FaultsDoNotTellIt) {
     EXPECT_EQ(names_in(tiles_), (Words{"N46E008.tif.part", "N46E008.tif.part-etag"}));
     const Outcome nobody = run("http://127.0.0.1:1");
     EXPECT_EQ(nobody.exit_code, oro::test::failed);
+}
+
+// What others on the machine see of a process, while the server is asked; and what it sees of the key's file.
+TEST_F(FetchWithKey, IsNotInTheProcessList) {
+    const std::string tif = geotiff("Float32");
+    std::vector<std::string> seen;
+    const LoopbackServer server([&](const LoopbackRequest& request, const LoopbackSend& send) {
+        for (const auto& process : fs::directory_iterator("/proc")) {
+            std::ifstream stream(process.path() / "cmdline", std::ios::binary);
+            std::ostringstream line;
+            line << stream.rdbuf();
+            if (!says(line.str(), (folder_ / "table.json").string())) continue;
+            std::ifstream variables(process.path() / "environ", std::ios::binary);
+            line << variables.rdbuf();
+            seen.push_back(line.str());
+        }
+        send(file_answer(request, tif, "\"1\""));
+    });
+    const fs::path file = folder_ / "key";
+    write_bytes(file, std::string(key) + "\n");
+    fs::permissions(file, fs::perms::owner_read);
+    const Outcome outcome = run(server.address(), {"--key-file", file.string()}, plain());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    ASSERT_GE(seen.size(), 1U);
+    for (const std::string& process : seen) EXPECT_FALSE(says(process, key)) << process;
+}
+
+// What other commands fetch for themselves: not in what they say, in the cache, in pictures and what lies
+// beside them, in the record of a list.
+TEST_F(FetchWithKey, StaysOutOfTheCacheAndOfPictures) {
+    const std::string tif = geotiff("Float32");
+    const LoopbackServer server([&](const LoopbackRequest& request, const LoopbackSend& send) {
+        send(file_answer(request, tif, "\"1\""));
+    });
+    const fs::path settings = folder_ / "settings" / "orograph", out = folder_ / "out";
+    fs::create_directories(settings / "keys");
+    fs::create_directories(out);
+    write_table(layout(server.address()));
+    fs::rename(folder_ / "table.json", settings / "sources.json");
+    write_bytes(settings / "keys" / "test", std::string(key) + "\n");
+    fs::permissions(settings / "keys" / "test", fs::perms::owner_read);
+    const Circumstances circumstances = plain({"XDG_CONFIG_HOME=" + (folder_ / "settings").string(),
+                                               "OROGRAPH_CACHE=" + (folder_ / "cache").string()});
+    const nlohmann::json job{{"command", "shot"},  {"fetch", "test"},
+                             {"fetch_km", 2},      {"at", {46.5, 8.5}},
+                             {"above", 500},       {"size", {64, 48}},
+                             {"style", "default"}, {"layers", true},
+                             {"json", true},       {"out", (out / "shot.png").string()}};
+    write_bytes(out / "jobs.jsonl", job.dump() + "\n");
+    const Outcome outcome = run_orograph({"batch", (out / "jobs.jsonl").string(), "--json"}, circumstances);
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+    ASSERT_FALSE(server.requests().empty());
+    EXPECT_TRUE(says(server.requests()[0].path, key));
+    EXPECT_TRUE(fs::exists(out / "shot.png") && fs::exists(out / "jobs.jsonl.done"));
+    EXPECT_FALSE(says(outcome.out + outcome.err, key)) << outcome.out << outcome.err;
+    int files = 0;
+    for (const fs::path& folder : {out, folder_ / "cache"})
+        for (const auto& place : fs::recursive_directory_iterator(folder)) {
+            EXPECT_FALSE(says(place.path().string(), key)) << place.path();
+            if (!place.is_regular_file()) continue;
+            EXPECT_FALSE(says(bytes_of(place.path()), key)) << place.path();
+            ++files;
+        }
+    EXPECT_GE(files, 5);
 }
 
 TEST_F(FetchWithKey, WhatIsWrongIsSaidInOneLine) {

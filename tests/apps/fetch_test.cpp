@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <csignal>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -167,6 +168,63 @@ TEST_F(FetchCommand, GoesOnAfterAKill) {
     ASSERT_EQ(server.requests().size(), 2U);
     EXPECT_EQ(server.requests()[1].headers.at("range"), "bytes=" + std::to_string(half) + "-");
     EXPECT_TRUE(server.requests()[1].headers.at("user-agent").starts_with("Orograph/"));
+}
+
+// Stopped at several moments and in each way, and run again: the files of a run that nobody stopped, and of
+// what had come nothing is sent again.
+TEST_F(FetchCommand, StoppedInAnyWayItGoesOn) {
+    const LoopbackServer* self = nullptr;
+    const LoopbackServer server([&](const LoopbackRequest& request, const LoopbackSend& send) {
+        const std::string answer = file_answer(request, tile_, "\"1\"");
+        constexpr int pieces = 8;
+        for (int i = 0; i < pieces && !self->is_ending(); ++i) {
+            const std::size_t begin = answer.size() * static_cast<std::size_t>(i) / pieces;
+            const std::size_t end = answer.size() * static_cast<std::size_t>(i + 1) / pieces;
+            if (!send(answer.substr(begin, end - begin))) return;
+            std::this_thread::sleep_for(std::chrono::milliseconds(40));
+        }
+    });
+    self = &server;
+    const Words three{"--tile", "N46E008:N46E010", "--jobs", "2"};
+    const std::string source = table(server);
+    int stopped = 0, gone_on = 0;
+    for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+        for (const double after_s : {0.15, 0.3, 0.5}) {
+            SCOPED_TRACE(std::to_string(signal) + " after " + std::to_string(after_s));
+            fs::remove_all(tiles_);
+            Circumstances killed = plain();
+            killed.signal = signal;
+            killed.signal_after_s = after_s;
+            const Outcome first = run_orograph(words(source, three), killed);
+            if (first.exit_code != 0) {
+                EXPECT_EQ(first.exit_code, 128 + signal) << first.err;
+                ++stopped;
+            }
+            // A tile has its name when it is whole, and only then.
+            std::size_t there = 0;
+            for (const std::string& name : fs::exists(tiles_) ? names_in(tiles_) : Words{}) {
+                const bool is_part = name.ends_with(".part") || name.ends_with(".part-etag");
+                EXPECT_TRUE(is_part || bytes_of(tiles_ / name) == tile_) << name;
+                if (!name.ends_with("-etag")) there += fs::file_size(tiles_ / name);
+            }
+            const std::size_t asked = server.requests().size();
+            const Outcome again = run(source, three);
+            EXPECT_EQ(again.exit_code, 0) << again.err;
+            EXPECT_EQ(names_in(tiles_), (Words{"N46E008.hgt.gz", "N46E009.hgt.gz", "N46E010.hgt.gz"}));
+            for (const std::string& name : names_in(tiles_)) EXPECT_TRUE(bytes_of(tiles_ / name) == tile_);
+            std::size_t wanted = 0;
+            const auto requests = server.requests();
+            for (std::size_t i = asked; i < requests.size(); ++i) {
+                const auto range = requests[i].headers.find("range");
+                wanted += tile_.size() -
+                          (range == requests[i].headers.end() ? 0 : std::stoul(range->second.substr(6)));
+            }
+            EXPECT_EQ(wanted, 3 * tile_.size() - there);
+            gone_on += there > 0 && there < 3 * tile_.size();
+        }
+    }
+    EXPECT_GE(stopped, 3);
+    EXPECT_GE(gone_on, 1);
 }
 
 // 64 MiB of zeros in 64 KiB; pages and errors instead of tiles; what is cut; what is damaged.

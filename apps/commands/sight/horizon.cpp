@@ -35,10 +35,6 @@ namespace {
 const std::string beyond_note =
     "the radius reaches beyond the data: ground there does not count, and horizons may be higher";
 
-struct HorizonFiles {
-    std::string horizon, sky_view;
-};
-
 struct HorizonSums {
     std::size_t posts{}, with_sky{};
     double mean_sky{}, lowest_sky{1.0};
@@ -66,7 +62,7 @@ Result<HorizonFiles> files_to_write(const HorizonOptions& options) {
     const std::string name = options.out.substr(0, options.out.size() - ending.size());
     if (name.empty() || name.ends_with('/'))
         return refused("--out", options.out, "has no name before " + ending);
-    HorizonFiles files{name + ".horizon" + ending, name + ".sky-view" + ending};
+    HorizonFiles files = horizon_files_of(options.out);
     ORO_CHECK(check_may_write(files.horizon, options.overwrite));
     ORO_CHECK(check_may_write(files.sky_view, options.overwrite));
     return files;

@@ -9,12 +9,15 @@
 #include "apps/commands/commands.h"
 #include "apps/commands/sight/seen_probability.h"
 #include "apps/commands/sight/sight_ground.h"
+#include "apps/commands/sight/table_observers.h"
 #include "apps/commands/sight/viewshed_question.h"
 #include "apps/commands/sight/viewshed_report.h"
 #include "apps/cover/canopy_words.h"
+#include "apps/options/observers_options.h"
 #include "apps/options/region_option_table.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/figures.h"
+#include "apps/report/json_fields.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
@@ -23,15 +26,18 @@
 #include "apps/view/model_names.h"
 #include "apps/view/view.h"
 #include "geo/files/letter_case.h"
+#include "geo/files/whole_file.h"
 #include "geo/places/geodesic.h"
 #include "geo/rasters/post_raster.h"
 
 namespace oro {
 namespace {
 
-Result<void> check_words(const ViewshedOptions& options) {
-    if (options.at.empty()) return refused("--at", "", "is missing: name the place, e.g. --at 46.67,8.06");
+Result<void> check_words(const ViewshedOptions& options, const ObserversOptions& observers) {
+    if (options.at.empty() && observers.file.empty())
+        return refused("--at", "", "is missing: name the place, e.g. --at 46.67,8.06");
     ORO_CHECK(check_viewshed(options));
+    ORO_CHECK(check_observers(observers, options));
     if (options.out.empty()) return refused("--out", "", "is missing: name the file to write (.tif)");
     const std::string name = lower_case(options.out);
     if (!name.ends_with(".tif") && !name.ends_with(".tiff"))
@@ -45,8 +51,35 @@ void say_canopy_notes(const SightGround& ground, bool quiet) {
     for (const std::string& note : notes_of_canopy(ground.canopy->region)) say(quiet, "note: " + note);
 }
 
+// Observers of a table, where there is one.
+struct ToldObservers {
+    const ObserversOptions& options;
+    std::vector<TableObserver> all;
+};
+
+void tell_observers(const ToldObservers& observers, const ViewshedReport& report,
+                    nlohmann::ordered_json& json) {
+    json["observers_of"] = path_json(observers.options.file);
+    if (!observers.options.table.empty()) json["table"] = path_json(observers.options.table);
+    json["left_out"] = nlohmann::ordered_json::array();
+    std::size_t i = 0;
+    for (const TableObserver& observer : observers.all) {
+        if (!observer.has_ground) {
+            json["left_out"].push_back(observer.number);
+            continue;
+        }
+        auto& one = json["observers"][i];
+        one["number"] = observer.number;
+        if (!observer.name.empty()) one["name"] = observer.name;
+        one["cells"] = report.each[i].cells;
+        one["seen"] = report.each[i].seen;
+        ++i;
+    }
+}
+
 void tell(const ViewshedOptions& options, const ViewshedReport& report, const Standpoints& stood,
-          const SightGround& ground, const std::optional<SeenProbability>& probability) {
+          const SightGround& ground, const std::optional<SeenProbability>& probability,
+          const ToldObservers& observers) {
     const ViewshedQuestion& question = report.question;
     const std::string light = light_words(question.air, question.eyes.front().h_m);
     if (options.json) {
@@ -58,6 +91,7 @@ void tell(const ViewshedOptions& options, const ViewshedReport& report, const St
         for (const Geodetic& eye : question.eyes) json["observers"].push_back(point_json(ground, eye));
         for (std::size_t i = 0; i < stood.moved.size(); ++i)
             json["observers"][i]["on_summit"] = summit_json(stood.moved[i]);
+        if (!observers.all.empty()) tell_observers(observers, report, json);
         json["target_m"] = question.target_m;
         json["radius_km"] = question.radius_km;
         json["columns"] = report.window.columns;
@@ -77,7 +111,9 @@ void tell(const ViewshedOptions& options, const ViewshedReport& report, const St
     }
     std::printf("%s\n", seen_words(report).c_str());
     if (probability) std::printf("%s\n", probable_words(*probability, report.cells).c_str());
-    for (std::size_t i = 0; i < question.eyes.size(); ++i) {
+    if (!observers.all.empty())
+        std::printf("Observers: %s\n", observers_words(observers.options.file, observers.all).c_str());
+    for (std::size_t i = 0; question.are_told_one_by_one && i < question.eyes.size(); ++i) {
         std::printf("From: %s\n", eye_text(question.eyes[i], ground.ground()).c_str());
         if (!stood.moved.empty())
             std::printf("Summit: %s\n", summit_words("the observer stands", stood.moved[i]).c_str());
@@ -87,6 +123,18 @@ void tell(const ViewshedOptions& options, const ViewshedReport& report, const St
         std::printf("%s; targets stand on the %s\n",
                     canopy_words(*ground.canopy->map, ground.canopy->region).c_str(),
                     options.target_on.value_or("ground").c_str());
+}
+
+// The raster, and the table where one is asked for: both, or none.
+Result<void> write_files(const ViewshedOptions& options, const PostRaster& raster,
+                         const ToldObservers& observers, const ViewshedReport& report,
+                         const SightGround& ground) {
+    ORO_TRY(WholeFile shed, written_post_raster(options.out, options.overwrite, raster));
+    if (observers.options.table.empty()) return shed.commit();
+    ORO_TRY(WholeFile table, WholeFile::create(observers.options.table, options.overwrite));
+    const std::string text = observers_csv(observers.all, report, ground);
+    ORO_CHECK(table.write(text.data(), text.size()));
+    return commit_together({&table, &shed});
 }
 
 // The sides on which a circle leaves the box of the data.
@@ -121,7 +169,14 @@ std::string sides_beyond(const ViewshedReport& report, const PostGrid& grid) {
     return said;
 }
 
-void say_walls(const Standpoints& standpoints, std::size_t eyes, bool quiet) {
+void say_walls(const Standpoints& standpoints, const ViewshedQuestion& question, bool quiet) {
+    if (!question.are_told_one_by_one) {
+        if (!standpoints.walls.empty())
+            say(quiet, "note: " + counted(standpoints.walls.size(), "observer has", "observers have") +
+                           " a summit before the eye; --on-summit stands there");
+        return;
+    }
+    const std::size_t eyes = question.eyes.size();
     for (const auto& [at, wall] : standpoints.walls) {
         if (eyes == 1)
             say_wall(wall, quiet);
@@ -132,20 +187,31 @@ void say_walls(const Standpoints& standpoints, std::size_t eyes, bool quiet) {
 
 }  // namespace
 
-Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptions& realisations) {
-    ORO_CHECK(check_words(options));
+Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptions& realisations,
+                          const ObserversOptions& of_table) {
+    ORO_CHECK(check_words(options, of_table));
     ORO_CHECK(check_realisations(realisations));
     ORO_CHECK(check_target_on(options));
+    ToldObservers observers{of_table, {}};
+    if (!of_table.file.empty()) {
+        ORO_TRY(observers.all, read_observers(of_table, options));
+    }
     ViewshedQuestion question;
     ORO_CHECK(begin_question(options, question));
+    question.are_told_one_by_one = of_table.file.empty();
     ORO_TRY(const SightCover cover, open_sight_cover(options.view));
     ProgressBar bar(options.quiet);
     ORO_TRY(const auto ground, open_sight_ground(options.region, bar.progress(), cover));
-    ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, ground->region),
-                                           {files_of_cover(cover), "which is land cover or a canopy"}}));
+    std::vector<std::string> written{options.out};
+    if (!of_table.table.empty()) written.push_back(of_table.table);
+    ORO_CHECK(spare_inputs(written, {files_of_ground(options.region.paths, ground->region),
+                                     {files_of_cover(cover), "which is land cover or a canopy"}}));
     Standpoints standpoints;
-    ORO_CHECK(place_eyes(asked_eyes(options), options.target_on.value_or("") == "canopy", *ground, question,
-                         standpoints));
+    ORO_CHECK(find_ground(of_table.file, *ground, observers.all));
+    const std::vector<Standing> standings =
+        of_table.file.empty() ? asked_eyes(options) : standings_of(observers.all);
+    ORO_CHECK(
+        place_eyes(standings, options.target_on.value_or("") == "canopy", *ground, question, standpoints));
     std::optional<MeshRoofs> roofs;
     if (options.target_on == "top")
         question.roofs = &roofs.emplace(ground->region, ground->ground().exaggeration());
@@ -154,19 +220,19 @@ Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptio
             viewshed_report(question, hiding, [&](double share) { bar.show(share, "looking around"); }));
     std::optional<SeenProbability> probability;
     if (realisations.count) {
-        ORO_TRY(probability,
-                seen_probability(realisations, report, *ground, asked_eyes(options),
-                                 [&](double share) { bar.show(share, "looking around in realisations"); }));
+        ORO_TRY(probability, seen_probability(realisations, report, *ground, standings, [&](double share) {
+                    bar.show(share, "looking around in realisations");
+                }));
     }
     bar.show(1.0, "writing");
     PostRaster raster = raster_of(report, *ground->grids);
     add_canopy_tags(*ground, options.target_on.value_or("ground"), raster);
     if (probability) add_probability(*probability, raster);
-    ORO_CHECK(write_post_raster(options.out, options.overwrite, raster));
+    ORO_CHECK(write_files(options, raster, observers, report, *ground));
     bar.clear();
     say_notes(ground->region, options.quiet);
     say_canopy_notes(*ground, options.quiet);
-    say_walls(standpoints, question.eyes.size(), options.quiet);
+    say_walls(standpoints, question, options.quiet);
     if (ground->ground().grids() > 1)
         say(options.quiet, "note: the file has the posts of " + source_of_posts(report, *ground->grids) +
                                "; where other grids are the ground, it is their ground that is looked at");
@@ -174,7 +240,7 @@ Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptio
     if (const std::string sides = sides_beyond(report, grid); !sides.empty())
         say(options.quiet, "note: the circle reaches beyond the data (" + sides +
                                "): what is seen there is not in the file");
-    tell(options, report, standpoints, *ground, probability);
+    tell(options, report, standpoints, *ground, probability, observers);
     return {};
 }
 

@@ -51,7 +51,7 @@ Result<void> check_target_on(const ViewshedOptions& options) {
 }
 
 Result<void> begin_question(const ViewshedOptions& options, ViewshedQuestion& question) {
-    question.at = options.at.front();
+    if (!options.at.empty()) question.at = options.at.front();
     question.target_m = options.target_m.value_or(0.0);
     question.radius_km = options.radius_km.value_or(usual_radius_km);
     ORO_TRY(question.air, air_asked_for(options.view.refraction_k, options.view.air, standard_air));

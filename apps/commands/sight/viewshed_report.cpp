@@ -62,6 +62,7 @@ Result<void> make_window(const RegionGround& ground, ViewshedReport& report) {
 
 void take_in(const Viewshed& shed, const PostGrid& grid, const ViewshedValues& values,
              ViewshedReport& report) {
+    ViewshedReport::SeenByEye& eye = report.each.emplace_back();
     const GridPart window = turned_near(shed.window, report.window, grid);
     for (int row = window.first_row; row < window.first_row + window.rows; ++row) {
         for (int column = window.first_column; column < window.first_column + window.columns; ++column) {
@@ -74,6 +75,8 @@ void take_in(const Viewshed& shed, const PostGrid& grid, const ViewshedValues& v
                 least_m = missed_m;
             }
             values.count[cell] += missed_m == 0.0F ? 1.0F : 0.0F;
+            ++eye.cells;
+            eye.seen += missed_m == 0.0F;
             least_m = std::min(least_m, missed_m);
         }
     }
@@ -94,6 +97,7 @@ Result<void> look_around(const RegionGround& ground, const ViewshedValues& value
     const ViewshedQuestion& question = report.question;
     std::ranges::fill(values.clearance_deficit_m, Viewshed::unknown);
     std::ranges::fill(values.count, Viewshed::unknown);
+    report.each.clear();
     const PostGrid& grid = ground.grid(report.grid).field.grid;
     const auto looking = Clock::now();
     for (std::size_t i = 0; i < question.eyes.size(); ++i) {
@@ -171,7 +175,9 @@ PostRaster raster_of(ViewshedReport& report, const RegionGround& ground) {
     raster.bands.push_back({"seen (1) or hidden (0)", std::move(seen)});
     raster.bands.push_back({"missed by, metres of height (0: seen)", std::move(report.clearance_deficit_m)});
     if (question.eyes.size() > 1) raster.bands.push_back({"observers that see it", std::move(report.count)});
-    for (std::size_t i = 0; i < question.eyes.size(); ++i)
+    if (!question.are_told_one_by_one)
+        raster.tags.emplace_back("OBSERVERS", std::to_string(question.eyes.size()));
+    for (std::size_t i = 0; question.are_told_one_by_one && i < question.eyes.size(); ++i)
         raster.tags.emplace_back("OBSERVER_" + std::to_string(i + 1),
                                  eye_text(question.eyes[i], ground.ground()));
     raster.tags.emplace_back("TARGET_ABOVE_GROUND_M", all_digits(question.target_m));

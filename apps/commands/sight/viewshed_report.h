@@ -24,6 +24,7 @@ struct ViewshedQuestion {
     Air air;
     double target_m{};  // height of targets over the ground
     double radius_km{usual_radius_km};
+    bool are_told_one_by_one{true};  // the file has a tag for each eye; else one that counts them
     // What targets stand on, where that is not what hides them (ViewshedRequest); outlives the question.
     const TrueGround* footing{nullptr};
     // Tops that targets stand on, where there are some (ViewshedRequest); outlive the question.
@@ -36,8 +37,12 @@ struct ViewshedReport {
     GridPart window;
     std::vector<float> clearance_deficit_m;  // of the eye that misses it least
     std::vector<float> count;                // of eyes that see it
-    std::size_t cells{}, seen{};             // posts within the radius, and those of them that are seen
-    std::size_t asked{};                     // of the oracle
+    struct SeenByEye {
+        std::size_t cells{}, seen{};
+    };
+    std::vector<SeenByEye> each;  // of the question's eyes: posts within its radius, and seen by it
+    std::size_t cells{}, seen{};  // posts within the radius, and those of them that are seen
+    std::size_t asked{};          // of the oracle
     double looking_s{};
 };
 
