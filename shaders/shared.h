@@ -296,6 +296,7 @@ struct NetMap {
 };
 
 #include "shaders/shared_clusters.h"
+#include "shaders/shared_mesh_looks.h"
 
 struct FrameConstants {
     mat3 view_from_eye;     // rotation, from the eye's meridian frame
@@ -393,6 +394,7 @@ struct FrameConstants {
     uint clusters_before;  // ... of the last one; 0: nothing is known of it
     ClusterCut cut;
     NoiseOctave noise[16];  // from the largest cells on
+    ClearedGround cleared;  // near meshes
 };
 
 #ifdef __cplusplus

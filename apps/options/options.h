@@ -28,6 +28,8 @@ struct RegionOptions {
     std::string mesh_unit;
     std::string mesh_lod;  // of CityJSON
     std::string building_height, building_base;
+    std::string mesh_look;  // ground, built; "": by the file
+    bool cut_under{false};  // terrain is cut out under meshes that are ground
 };
 
 // From where, and how it looks.

@@ -78,9 +78,9 @@ void add_reading(RegionRows& rows) {
 void add_meshes(RegionRows& rows) {
     add(rows, {"--mesh-file FILE", no_trait}, &RegionOptions::mesh_files,
         "Draw a triangle mesh on the ground, and let it hide what is behind it: a surveyor's LandXML (.xml), "
-        "a town's CityJSON, OBJ, PLY, STL, surfaces with heights of a GeoPackage, and footprints of "
-        "buildings "
-        "with --building-height. May be given several times. Heights without a vertical CRS are above sea "
+        "a town's CityJSON, OBJ, PLY, STL, glTF, surfaces with heights of a GeoPackage, and footprints of "
+        "buildings with --building-height. May be given several times. Heights without a vertical CRS are "
+        "above sea "
         "level.");
     add(rows, {"--mesh-crs CRS", no_trait, "the one that its file states"}, &RegionOptions::mesh_crs,
         "Where meshes lie: EPSG:2056, or another that PROJ knows; with heights of a vertical CRS "
@@ -91,6 +91,15 @@ void add_meshes(RegionRows& rows) {
         {"m", "ft", "us-ft", "cm", "dm", "mm"});
     add(rows, {"--lod LEVEL", no_trait, "the highest that each object has"}, &RegionOptions::mesh_lod,
         "Level of detail to take from CityJSON: 1, 2, 2.2 ... Needs --mesh-file.");
+    add(rows, {"--mesh-look LOOK", no_trait, "by what a file is of"}, &RegionOptions::mesh_look,
+        "Colour meshes in the style natural as ground (LandXML and TINs of a GeoPackage are), or as built: "
+        "walls of plaster and roofs (CityJSON and footprints are; OBJ, PLY, STL and glTF are grey). Needs "
+        "--mesh-file.",
+        {"ground", "built"});
+    add(rows, {"--cut-under", no_trait}, &RegionOptions::cut_under,
+        "Cut the terrain out under meshes that are ground (a pit, a quarry, a cutting), inside their "
+        "outline, "
+        "and close the rim. Of a region of one grid that is not baked. Needs --mesh-file.");
     add(rows, {"--building-height FIELD", no_trait}, &RegionOptions::building_height,
         "Raise buildings from the polygons of a vector file (--mesh-file), whose field FIELD has the height "
         "of "

@@ -22,18 +22,21 @@ bool is_no_lod(const std::string& lod) {
 }
 
 Result<MeshRequest> mesh_request(const RegionOptions& options) {
-    MeshRequest meshes{options.mesh_files, options.mesh_crs,        options.mesh_unit,
-                       options.mesh_lod,   options.building_height, options.building_base};
+    MeshRequest meshes{options.mesh_files,      options.mesh_crs,      options.mesh_unit, options.mesh_lod,
+                       options.building_height, options.building_base, options.mesh_look, options.cut_under};
     std::ranges::copy_if(options.paths, std::back_inserter(meshes.files), is_mesh_file);
-    const std::array<std::pair<const char*, const std::string*>, 5> given{
+    const std::array<std::pair<const char*, const std::string*>, 6> given{
         {{"--mesh-crs", &meshes.crs},
          {"--mesh-unit", &meshes.unit},
          {"--lod", &meshes.lod},
          {"--building-height", &meshes.building_height},
-         {"--building-base", &meshes.building_base}}};
+         {"--building-base", &meshes.building_base},
+         {"--mesh-look", &meshes.look}}};
     for (const auto& [option, value] : given)
         if (meshes.files.empty() && !value->empty())
             return refused(option, "", "says nothing without --mesh-file FILE");
+    if (meshes.files.empty() && meshes.cut_under)
+        return refused("--cut-under", "", "says nothing without --mesh-file FILE");
     if (meshes.building_height.empty() && !meshes.building_base.empty())
         return refused("--building-base", "", "says nothing without --building-height FIELD");
     if (is_no_lod(meshes.lod)) return refused("--lod", meshes.lod, "is no level of detail: 1, 2, 2.2, say");

@@ -111,6 +111,10 @@ void read_meshes(const nlohmann::json& json, MeshRequest& request) {
         throw JsonFault{"'lod' of 'meshes' is '" + request.lod + "', no level of detail"};
     if (meshes.contains("building_height")) request.building_height = json_string(meshes, "building_height");
     if (meshes.contains("building_base")) request.building_base = json_string(meshes, "building_base");
+    if (meshes.contains("cut_under")) request.cut_under = json_flag(meshes, "cut_under");
+    if (meshes.contains("look")) request.look = json_string(meshes, "look");
+    if (!request.look.empty() && request.look != "ground" && request.look != "built")
+        throw JsonFault{"'look' of 'meshes' is '" + request.look + "', none of ground, built"};
     if (!meshes.contains("unit")) return;
     request.unit = json_string(meshes, "unit");
     if (!metres_in(request.unit))
@@ -199,6 +203,8 @@ ordered_json meshes_json(const MeshRequest& meshes) {
     if (!meshes.lod.empty()) json["lod"] = meshes.lod;
     if (!meshes.building_height.empty()) json["building_height"] = meshes.building_height;
     if (!meshes.building_base.empty()) json["building_base"] = meshes.building_base;
+    if (!meshes.look.empty()) json["look"] = meshes.look;
+    if (meshes.cut_under) json["cut_under"] = true;
     return json;
 }
 

@@ -234,7 +234,6 @@ GrowthPlan plan_growth(const PostGrid& grid, std::span<const PageIndex> page_ind
     for (std::uint32_t row = lowest.row; row <= highest.row; ++row) rows.push_back(tile_row(grid, row));
     for (const NearTile& near : around) {
         if (plan.tiles.size() == gpu::growth_tiles_max) break;
-        if (view.cleared != nullptr && view.cleared->contains(near.row, near.column)) continue;
         const TileRow& row = rows[near.row - lowest.row];
         const auto tile = tile_on_grid(grid, pages, row, near.row, near.column);
         if (tile && in_view.may_show(row, near.column, ground(tile->page))) plan.tiles.push_back(*tile);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/earth/camera.h"
-#include "core/growth/cleared_tiles.h"
 #include "core/terrain/page.h"
 #include "core/terrain/post_grid.h"
 #include "shaders/shared_growth.h"
@@ -25,7 +24,6 @@ struct GrowthView {
     Camera camera;
     Tile tile;  // of the camera's picture
     double tau_px{1.0};
-    const ClearedTiles* cleared{nullptr};  // where no trees are planted; null: nowhere
 };
 
 // Lowest and highest ground of one of the frame's pages, metres above the ellipsoid, as drawn.

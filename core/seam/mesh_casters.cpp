@@ -22,7 +22,7 @@ CasterBox box_around(const Corners& at) {
 
 class CasterTree {
   public:
-    CasterTree(std::vector<Corners> triangles, MeshCasters& casters)
+    CasterTree(std::vector<Corners> triangles, const std::vector<std::uint8_t>& looks, MeshCasters& casters)
         : triangles_(std::move(triangles)), casters_(casters) {
         for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
             boxes_.push_back(box_around(triangles_[i]));
@@ -33,6 +33,7 @@ class CasterTree {
         for (const std::uint32_t i : order_) {
             const Corners& at = triangles_[i];
             casters_.triangles.push_back({at[0], at[1] - at[0], at[2] - at[0]});
+            casters_.looks.push_back(looks[i]);
         }
     }
 
@@ -86,25 +87,15 @@ MeshCasters mesh_casters_of(const std::vector<SeamPiece>& pieces) {
     if (!(low.x <= high.x)) return casters;
     casters.origin_m = 0.5 * (low + high);
     std::vector<Corners> triangles;
+    std::vector<std::uint8_t> looks;
     for (const SeamPiece& piece : pieces) {
         if (!piece.two_sided) continue;
+        looks.push_back(static_cast<std::uint8_t>(piece.look));
         Corners& at = triangles.emplace_back();
         for (std::size_t i = 0; i < 3; ++i) at[i] = glm::vec3(piece.corners[i].at.m - casters.origin_m);
     }
-    const CasterTree tree(std::move(triangles), casters);
+    const CasterTree tree(std::move(triangles), looks, casters);
     return casters;
-}
-
-std::vector<glm::dvec3> corners_of(const MeshCasters& casters) {
-    std::vector<glm::dvec3> corners;
-    corners.reserve(3 * casters.triangles.size());
-    for (const gpu::MeshTriangle& triangle : casters.triangles) {
-        const glm::dvec3 corner = casters.origin_m + glm::dvec3(triangle.corner);
-        corners.push_back(corner);
-        corners.push_back(corner + glm::dvec3(triangle.one));
-        corners.push_back(corner + glm::dvec3(triangle.other));
-    }
-    return corners;
 }
 
 }  // namespace oro

@@ -1,6 +1,7 @@
 // Triangles of meshes as what casts shadows: a tree of boxes for the GPU.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -13,14 +14,12 @@ struct MeshCasters {
     glm::dvec3 origin_m{0.0};          // ECEF, near the middle
     std::vector<gpu::MeshNode> nodes;  // the first is the root
     std::vector<gpu::MeshTriangle> triangles;
+    std::vector<std::uint8_t> looks;  // of each triangle: SeamPiece::look
 };
 
 // The tree of a seam's two-sided pieces, which are those of meshes; without nodes where there are none.
 // Places are float, from the origin: within 1 mm up to 16 km from it. At most gpu::mesh_tree_depth deep.
 // Takes some 0.5 us a triangle on one thread.
 MeshCasters mesh_casters_of(const std::vector<SeamPiece>& pieces);
-
-// The corners of these triangles, three by three, ECEF metres.
-std::vector<glm::dvec3> corners_of(const MeshCasters& casters);
 
 }  // namespace oro

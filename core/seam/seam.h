@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -19,7 +20,9 @@ struct SeamCorner {
 // Anticlockwise, seen from above; of a mesh either way round.
 struct SeamPiece {
     std::array<SeamCorner, 3> corners;
-    bool two_sided{};  // of a mesh, whose sides may both be seen: light is that of the eye's side
+    bool two_sided{};      // of a mesh, whose sides may both be seen: light is that of the eye's side
+    std::uint32_t look{};  // of a mesh: gpu::mesh_look_...
+    float tone{};          // of a mesh: 0 to 1, what tells its features apart
 };
 
 // Upright ground along a piece of a rim, from one surface to the other; no higher than a line where the two

@@ -40,7 +40,9 @@ SeamQuad quad_of(const SeamPiece& piece) {
         quad.corners[i] = piece.corners[i];
         quad.vectors[i] = piece.corners[i].normal;
     }
-    if (piece.two_sided) quad.vectors[3] = glm::dvec3(1.0, 0.0, 0.0);
+    if (piece.two_sided)
+        quad.vectors[3] = {1.0, static_cast<double>(piece.look) / gpu::mesh_looks,
+                           static_cast<double>(piece.tone)};
     return quad;
 }
 // A skirt's upright part, whose top reaches upwards, and what reaches down and to both sides from its foot:

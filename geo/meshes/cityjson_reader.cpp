@@ -134,7 +134,12 @@ class CityJsonReader {
 
     Result<void> read_transform() {
         const auto transform = member(root_, "transform");
-        if (!transform) return {};
+        if (!transform) {
+            // Those from 1.1 on have one; some programs leave it out where vertices are metres.
+            if (!text_of_member(root_, "version").starts_with("1.0"))
+                mesh_.notes.emplace_back("it has no 'transform': its vertices are taken as they are");
+            return {};
+        }
         const auto scale = member(*transform, "scale"), translate = member(*transform, "translate");
         if (!scale || !translate) return city_fault(*transform, "'transform' has no scale and translate");
         ORO_TRY(scale_, place_of(*scale));

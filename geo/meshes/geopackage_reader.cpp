@@ -57,6 +57,7 @@ class GeoPackageReader {
             return no_mesh(
                 "no triangles: its polygons have no heights (TIN Z, PolyhedralSurface Z and "
                 "MultiPolygon Z have)");
+        if (tins_ > 0 && others_ == 0) mesh_.format = "GeoPackage TIN";
         return std::move(mesh_);
     }
 
@@ -71,8 +72,10 @@ class GeoPackageReader {
             if (count % features_between_looks == 0 && watch_.spent()) return no_mesh(watch_.fault());
             const OgrMeshFeature feature(OGR_L_GetNextFeature(layer));
             if (!feature) break;
-            if (OGRGeometryH geometry = OGR_F_GetGeometryRef(feature.get()); geometry != nullptr)
+            if (OGRGeometryH geometry = OGR_F_GetGeometryRef(feature.get()); geometry != nullptr) {
+                ++(OGR_GT_Flatten(OGR_G_GetGeometryType(geometry)) == wkbTIN ? tins_ : others_);
                 ORO_CHECK(take(geometry, 0));
+            }
         }
         if (!messages_.last("").empty())
             return no_mesh("layer '" + name + "' cannot be read to its end: " + messages_.last(""));
@@ -138,7 +141,8 @@ class GeoPackageReader {
     const GdalMessages& messages_;
     SourceMesh mesh_;
     EqualCorners corners_{mesh_};
-    std::size_t flat_{};  // polygons without heights
+    std::size_t flat_{};             // polygons without heights
+    std::size_t tins_{}, others_{};  // features
 };
 
 }  // namespace

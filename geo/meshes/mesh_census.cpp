@@ -4,8 +4,11 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <utility>
+
+#include "geo/meshes/crs_unit.h"
 
 namespace oro {
 namespace {
@@ -102,14 +105,23 @@ void count_edges(const std::vector<SourceTriangle>& triangles, MeshCensus& censu
     count_chains(rim, census);
 }
 
+// Metres of a step along each axis; of degrees near the first vertex.
+glm::dvec3 metres_of(const SourceMesh& mesh) {
+    if (mesh.crs.empty() || crs_unit_m(mesh.crs)) return glm::dvec3(mesh.metres_per_unit);
+    constexpr double m_per_deg = 111320.0;
+    const double lat_deg = mesh.triangles.empty() ? 0.0 : mesh.vertices[mesh.triangles.front()[0]].y;
+    return {m_per_deg * std::cos(lat_deg * std::numbers::pi / 180.0), m_per_deg, mesh.metres_per_unit};
+}
+
 }  // namespace
 
 MeshCensus census_of(const SourceMesh& mesh) {
     MeshCensus census;
     census.triangles = mesh.triangles.size();
     std::vector<glm::dvec3> lattice(mesh.vertices.size());
+    const glm::dvec3 metres = metres_of(mesh);
     std::ranges::transform(mesh.vertices, lattice.begin(), [&](const glm::dvec3& at) {
-        return glm::round(at * (mesh.metres_per_unit * lattice_steps_per_m));
+        return glm::round(at * (metres * lattice_steps_per_m));
     });
     const std::vector<std::uint32_t> same = welded(lattice);
     constexpr double infinite = std::numeric_limits<double>::infinity();

@@ -8,7 +8,8 @@
 
 namespace oro {
 
-// Vertices that round to one point of a lattice of 2^-11 m (in the file's own axes) are one vertex here.
+// Vertices that round to one point of a lattice of 2^-11 m (in the file's own axes; of
+// degrees as long as they are near the first vertex) are one vertex here.
 struct MeshCensus {
     std::size_t triangles{};      // of the mesh
     std::size_t vertices{};       // that triangles use, after welding

@@ -44,6 +44,15 @@ Result<std::string> mesh_bytes(const std::string& path) {
     return bytes;
 }
 
+// With its slash; "" for where the program runs.
+std::string folder_of(const std::string& path) {
+    return path.substr(0, path.rfind('/') + 1);
+}
+
+bool is_gltf_name(const std::string& path) {
+    return mesh_ending(path) == "gltf" || mesh_ending(path) == "glb";
+}
+
 constexpr double geopackage_limit_s = 60.0;
 
 // The local name of a text's first element: behind a byte order mark, declarations and comments.
@@ -110,19 +119,22 @@ bool is_mesh_file(const std::string& path) {
 }
 
 bool is_mesh_name(const std::string& path) {
-    return mesh_reader_for(path) != nullptr || is_city_name(path);
+    return mesh_reader_for(path) != nullptr || is_city_name(path) || is_gltf_name(path);
 }
 
 Result<SourceMesh> read_mesh(const std::string& path, const std::string& lod) {
     const MeshReader reader = mesh_reader_for(path);
     const bool is_geopackage = mesh_ending(path) == "gpkg",
                is_city = is_city_name(path) || mesh_ending(path) == "json";
-    if (reader == nullptr && !is_geopackage && !is_city)
+    if (reader == nullptr && !is_geopackage && !is_city && !is_gltf_name(path))
         return Error{ErrorKind::failed, path,
-                     "is no mesh by its name: .obj, .ply, .stl, .xml, .landxml, .city.json and .gpkg are; of "
-                     "footprints --building-height FIELD tells how high buildings are"};
+                     "is no mesh by its name: .obj, .ply, .stl, .gltf, .glb, .xml, .landxml, .city.json and "
+                     ".gpkg are; of footprints --building-height FIELD tells how high buildings are"};
     const auto read_bytes = [&]() -> Result<SourceMesh> {
         ORO_TRY(const std::string bytes, mesh_bytes(path));
+        if (is_gltf_name(path))
+            return read_gltf(bytes,
+                             [&](const std::string& name) { return mesh_bytes(folder_of(path) + name); });
         return is_city ? read_cityjson(bytes, lod) : reader(bytes);
     };
     Result<SourceMesh> read = is_geopackage ? read_geopackage_mesh(path, geopackage_limit_s) : read_bytes();

@@ -1,4 +1,4 @@
-// Files of triangle meshes: OBJ, PLY, STL, LandXML, CityJSON and GeoPackage.
+// Files of triangle meshes: OBJ, PLY, STL, glTF, LandXML, CityJSON and GeoPackage.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@ namespace oro {
 // The largest file that is read: 1 GiB.
 inline constexpr std::size_t most_mesh_bytes = std::size_t{1} << 30U;
 
-// Whether a name ends as those of meshes do: .obj, .ply, .stl, .xml, .landxml, .city.json, .cityjson, in any
-// letter case.
+// Whether a name ends as those of meshes do: .obj, .ply, .stl, .gltf, .glb, .xml, .landxml, .city.json,
+// .cityjson, in any letter case.
 bool is_mesh_name(const std::string& path);
 
 // Whether a file is to be read as a mesh: by its name, and where that is .xml or .json, which much else has,

@@ -29,7 +29,8 @@ std::optional<MeshOverGround> mesh_over_ground(const PlacedMesh& mesh,
                                                std::span<const HeightField* const> fields) {
     constexpr std::size_t most_asked = 10000;
     std::vector<std::uint32_t> used;
-    for (const SourceTriangle& triangle : mesh.triangles)
+    const std::size_t own = mesh.not_added > 0 ? mesh.not_added : mesh.triangles.size();
+    for (const SourceTriangle& triangle : std::span(mesh.triangles).first(own))
         used.insert(used.end(), triangle.begin(), triangle.end());
     std::ranges::sort(used);
     used.erase(std::unique(used.begin(), used.end()), used.end());
@@ -53,6 +54,14 @@ std::optional<MeshOverGround> mesh_over_ground(const PlacedMesh& mesh,
     over.median_m = *middle;
     over.vertices = above_m.size();
     return over;
+}
+
+bool is_over_ground_swapped(const PlacedMesh& mesh, std::span<const HeightField* const> fields) {
+    if (mesh.triangles.empty()) return false;
+    const PlacedVertex& first = mesh.vertices[mesh.triangles.front()[0]];
+    return std::abs(first.lon_deg) <= 90.0 && std::ranges::any_of(fields, [&](const HeightField* field) {
+               return ground_H_m(*field, first.lon_deg, first.lat_deg).has_value();
+           });
 }
 
 std::string words_of(const std::optional<MeshOverGround>& over, const std::string& geoid) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,11 @@ Result<SourceMesh> read_landxml(std::string_view bytes);
 // CityJSON 1.0 to 2.0: solids, multi and composite surfaces and templates, each object a feature. lod: "", or
 // the level of detail that is read; then objects without it are left out.
 Result<SourceMesh> read_cityjson(std::string_view bytes, const std::string& lod);
+// Reads a file beside the mesh's by its name.
+using FileBeside = std::function<Result<std::string>(const std::string& name)>;
+// glTF 2.0 as text or GLB, without extensions but KHR_mesh_quantization: the scene that is shown, its nodes'
+// transforms in double. y is up: east is x, north is -z. beside: asked for buffers of other files.
+Result<SourceMesh> read_gltf(std::string_view bytes, const FileBeside& beside);
 // By OGR, which wants the file itself: TIN, PolyhedralSurface, MultiPolygon and Polygon with heights, of all
 // layers, which lie in one CRS. limit_s: seconds that it may take.
 Result<SourceMesh> read_geopackage_mesh(const std::string& path, double limit_s);

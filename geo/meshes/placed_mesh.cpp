@@ -15,31 +15,16 @@
 #include "core/earth/ellipsoid.h"
 #include "core/terrain/page_on_net.h"
 #include "geo/coordinates/crs_places.h"
-#include "geo/datum/proj_operations.h"
 #include "geo/datum/vertical_datum.h"
+#include "geo/meshes/crs_unit.h"
 #include "geo/meshes/footprints.h"
+#include "geo/meshes/lengthened_walls.h"
 #include "geo/meshes/mesh_file.h"
+#include "geo/meshes/mesh_look.h"
 #include "geo/sources/length_unit.h"
 
 namespace oro {
 namespace {
-
-// Metres of a projected CRS's unit; nothing of one in degrees.
-std::optional<double> crs_unit_m(const std::string& crs) {
-    const ProjContext context = new_proj_context();
-    ProjObject object = unbound(context.get(), ProjObject(proj_create(context.get(), crs.c_str())));
-    if (object && proj_get_type(object.get()) == PJ_TYPE_COMPOUND_CRS)
-        object = unbound(context.get(), ProjObject(proj_crs_get_sub_crs(context.get(), object.get(), 0)));
-    if (!object || proj_get_type(object.get()) != PJ_TYPE_PROJECTED_CRS) return std::nullopt;
-    const ProjObject axes(proj_crs_get_coordinate_system(context.get(), object.get()));
-    double metres = 0.0;
-    if (!axes ||
-        proj_cs_get_axis_info(context.get(), axes.get(), 0, nullptr, nullptr, nullptr, &metres, nullptr,
-                              nullptr, nullptr) == 0 ||
-        !(metres > 0.0))
-        return std::nullopt;
-    return metres;
-}
 
 // What turns a file's numbers into those of its CRS, and heights into metres.
 struct MeshScale {
@@ -334,6 +319,8 @@ Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, 
     mesh.crs = places->name(), mesh.heights = "sea level (EGM96)", mesh.note = scale.note;
     for (const std::string& note : source.notes) add_note(mesh, note);
     mesh.features = source.features;
+    mesh.look = look_of_mesh(source, request.look);
+    mesh.has_look_by_type = request.look.empty() && source.format == "CityJSON";
     mesh.in_file = source.triangles.size() + source.not_finite;
     mesh.not_finite = source.not_finite;
     mesh.fingerprint = fingerprint_of(source, crs, request.unit);
@@ -342,10 +329,12 @@ Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, 
     if (mesh.triangles.empty()) {
         const glm::dvec3& first = source.vertices[source.triangles.front()[0]];
         const Result<Place> why = places->place(first.x * scale.plane, first.y * scale.plane);
+        const bool is_swapped = !why.ok() && places->place(first.y * scale.plane, first.x * scale.plane).ok();
         return Error{ErrorKind::failed, source.path,
                      "none of its triangles has a place: " +
                          (why.ok() ? std::string("its heights are beyond 100 km") : why.error().what) +
-                         "; is --mesh-crs right?"};
+                         (is_swapped ? "; with x and y swapped they have: x is the easting"
+                                     : "; is --mesh-crs right?")};
     }
     ORO_CHECK(check_reach(mesh));
     if (const std::optional<StatedDatum> datum = stated_datum(crs))
@@ -368,6 +357,12 @@ std::string note_of_mesh(const PlacedMesh& mesh) {
     left_out(mesh.not_finite, "with a vertex that is no finite place");
     left_out(mesh.not_placed, "with a vertex that has no place in its CRS");
     left_out(mesh.degenerate, "without an area");
+    if (mesh.lengthened > 0) {
+        char text[120];
+        std::snprintf(text, sizeof text, "; walls of %zu buildings led down to the ground, by up to %.1f m",
+                      mesh.lengthened, mesh.most_lengthened_m);
+        note += text;
+    }
     return mesh.note.empty() ? note : note + "; " + mesh.note;
 }
 
@@ -390,11 +385,14 @@ Result<std::shared_ptr<const std::vector<PlacedMesh>>> open_meshes(
             MeshRequest as_placed = request;
             as_placed.crs.clear(), as_placed.unit.clear();
             ORO_TRY(PlacedMesh mesh, placed(source, as_placed, strict_datum, undulation));
+            mesh.not_added = mesh.triangles.size();
             meshes->push_back(std::move(mesh));
             continue;
         }
         ORO_TRY(const SourceMesh source, read_mesh(file, request.lod));
         ORO_TRY(PlacedMesh mesh, placed(source, request, strict_datum, undulation));
+        mesh.not_added = mesh.triangles.size();
+        lengthen_walls(ground, mesh);
         meshes->push_back(std::move(mesh));
     }
     if (!request.building_height.empty() && !has_footprints)

@@ -1,6 +1,7 @@
 // Meshes of files, put on the Earth.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -21,6 +22,14 @@ struct PlacedVertex {
     double lat_deg{}, lon_deg{}, H_m{};
 };
 
+// Upright ground along the rim of what a mesh cuts out of the terrain, by numbers of vertices: from one
+// surface to the other; the terrain that is left lies on the right hand of the way from cut[0] to cut[1].
+// Where both are the same, terrain that was cut meets what was not.
+struct RimWall {
+    std::array<std::uint32_t, 2> cut{};   // along the terrain
+    std::array<std::uint32_t, 2> over{};  // above or below these
+};
+
 // A mesh as it is drawn and asked: its triangles' sides are straight in space, and no longer than
 // longest_side_m. Vertices at one place of the file are one vertex.
 struct PlacedMesh {
@@ -32,6 +41,12 @@ struct PlacedMesh {
     std::vector<SourceTriangle> triangles;
     std::vector<MeshFeature> features;
     std::vector<std::uint32_t> feature_of;  // number of each triangle's feature; empty where there are none
+    std::uint32_t look{};                   // gpu::mesh_look_..., but for features whose type says another
+    bool has_look_by_type{};                // ... as types of CityJSON do (look_of_type())
+    std::vector<RimWall> rim_walls;         // of one that the terrain is cut out under
+    std::size_t not_added{};                // triangles that are the file's; those behind them were added
+    std::size_t lengthened{};               // features whose walls were led down to the terrain,
+    double most_lengthened_m{};             // ... the longest by so much
     std::size_t in_file{};                  // triangles of the file
     std::size_t
         not_placed{};  // ... left out: the CRS has no place for a vertex, or none near where it is made for

@@ -33,7 +33,8 @@ using SourceTriangle = std::array<std::uint32_t, 3>;  // numbers of vertices, fr
 // What a file of triangles holds. Each triangle's vertices are there, and are finite.
 struct SourceMesh {
     std::string path;
-    std::string format;  // "OBJ", "PLY", "STL", "LandXML", "GeoPackage", "CityJSON", "footprints"
+    std::string format;  // "OBJ", "PLY", "STL", "glTF", "LandXML", "GeoPackage", "GeoPackage TIN" (nothing
+                         // else is in it), "CityJSON", "footprints"
     std::vector<glm::dvec3> vertices;  // east (x), north (y), height, in the file's units
     std::vector<SourceTriangle> triangles;
     std::vector<MeshPart> parts;

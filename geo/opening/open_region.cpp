@@ -23,9 +23,28 @@
 #include "geo/opening/region_sources.h"
 #include "geo/region/region_grid.h"
 #include "geo/together/feather.h"
+#include "geo/together/mesh_cut.h"
 
 namespace oro {
 namespace {
+
+// Under the meshes that are ground.
+Result<void> cut_terrain_out(Region& region) {
+    if (region.grids.size() > 1)
+        return Error{ErrorKind::usage, "--cut-under", "is of a region of one grid, and this one has several"};
+    auto meshes = std::make_shared<std::vector<PlacedMesh>>(*region.meshes);
+    bool is_any = false;
+    for (PlacedMesh& mesh : *meshes) {
+        if (mesh.look != gpu::mesh_look_ground) continue;
+        is_any = true;
+        ORO_CHECK(cut_under(region.grids.front().field, mesh));
+    }
+    if (!is_any)
+        return Error{ErrorKind::usage, "--cut-under",
+                     "needs a mesh that is ground: LandXML, a TIN, or --mesh-look ground"};
+    region.meshes = std::move(meshes);
+    return {};
+}
 
 // The meshes on a region, and what is to be told of them.
 Result<void> open_meshes_of(const RegionRequest& request, Region& region) {
@@ -37,9 +56,14 @@ Result<void> open_meshes_of(const RegionRequest& request, Region& region) {
     ORO_TRY(region.meshes,
             open_meshes(request.meshes, request.strict_datum, region.grids.front().field.undulation, fields));
     RegionGrid& first = region.grids.front();
-    for (const PlacedMesh& mesh : *region.meshes)
-        first.notes.push_back(note_of_mesh(mesh) + "; " +
-                              words_of(mesh_over_ground(mesh, fields), first.geoid));
+    for (const PlacedMesh& mesh : *region.meshes) {
+        const std::optional<MeshOverGround> over = mesh_over_ground(mesh, fields);
+        const bool is_swapped = !over && is_over_ground_swapped(mesh, fields);
+        first.notes.push_back(
+            note_of_mesh(mesh) + "; " + words_of(over, first.geoid) +
+            (is_swapped ? "; with latitude and longitude swapped it would: x is the longitude" : ""));
+    }
+    if (request.meshes.cut_under) ORO_CHECK(cut_terrain_out(region));
     return region.health();
 }
 
@@ -128,7 +152,7 @@ bool asks_for_same(const RegionRequest& a, const RegionRequest& b) {
     const auto rest = [](const RegionRequest& one) {
         return std::tie(one.paths, one.strict_datum, one.fill_voids, one.resample, one.listed_first,
                         one.feather_m, one.height_unit, one.source_crs, one.source_vertical,
-                        one.allow_multiple_grids);
+                        one.allow_multiple_grids, one.meshes);
     };
     return rest(a) == rest(b) && same_box(a.box, b.box);
 }

@@ -63,7 +63,7 @@ std::array<double, 3> shares_at(bool south_west, const glm::dvec2& at) {
 
 class Cutting {
   public:
-    Cutting(const HeightField& field, std::span<const HeightField* const> over)
+    Cutting(const HeightField& field, std::span<const ClipCover> over)
         : field_(field), over_(over), cutter_(seam_slack_posts) {}
     Result<GridClip> run();
 
@@ -72,13 +72,13 @@ class Cutting {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(field_.grid.columns()) +
                static_cast<std::size_t>(column);
     }
-    [[nodiscard]] glm::dvec2 in_field(const HeightField& over, GridPost post) const;
+    [[nodiscard]] glm::dvec2 in_field(const PostPlace& place) const;
     [[nodiscard]] bool is_covered(double row, double column) const;
     [[nodiscard]] bool is_on_rim(int row, int column) const;
     // Numbers of the rim lines that a cell may meet.
     [[nodiscard]] std::span<const std::uint32_t> lines_of(int row, int column) const;
     void find_rims();
-    void add_rim(std::uint32_t grid, const RimEdge& edge);
+    void add_rim(std::uint32_t grid, const ClipRim& rim);
     void leave_covered_out();
     Result<void> mask_covered(int row, int column, bool south_west);
     Result<void> keep_rest(int row, int column, bool south_west);
@@ -91,7 +91,7 @@ class Cutting {
     Result<void> for_each_triangle(const Visit& visit);
 
     const HeightField& field_;
-    std::span<const HeightField* const> over_;
+    std::span<const ClipCover> over_;
     FaceCutter cutter_;
     std::vector<RimLine> rims_;
     std::unordered_map<std::size_t, std::vector<std::uint32_t>> by_cell_;
@@ -101,17 +101,15 @@ class Cutting {
     GridClip out_;
 };
 
-glm::dvec2 Cutting::in_field(const HeightField& over, GridPost post) const {
-    const PostPlace place = over.grid.place_at(post.row, post.column);
+glm::dvec2 Cutting::in_field(const PostPlace& place) const {
     const PostNumber at = field_.grid.post_at(place.lat_deg, place.lon_deg);
     return {at.column, at.row};
 }
 
 bool Cutting::is_covered(double row, double column) const {
     const PostPlace place = field_.grid.place_at(row, column);
-    return std::any_of(over_.begin(), over_.end(), [&](const HeightField* over) {
-        return over->surface_H_m(place.lat_deg, place.lon_deg).has_value();
-    });
+    return std::any_of(over_.begin(), over_.end(),
+                       [&](const ClipCover& over) { return over.has_ground(place.lat_deg, place.lon_deg); });
 }
 
 std::span<const std::uint32_t> Cutting::lines_of(int row, int column) const {
@@ -132,9 +130,8 @@ bool Cutting::is_on_rim(int row, int column) const {
     return false;
 }
 
-void Cutting::add_rim(std::uint32_t grid, const RimEdge& edge) {
-    const HeightField& over = *over_[grid - 1];
-    RimLine line{grid, edge, {in_field(over, edge.from), in_field(over, edge.to)}};
+void Cutting::add_rim(std::uint32_t grid, const ClipRim& rim) {
+    RimLine line{grid, rim.edge, {in_field(rim.at[0]), in_field(rim.at[1])}};
     if (!field_.grid.net) {
         // The same turn at both ends.
         const double turn = 360.0 * field_.grid.lon.posts_per_deg;
@@ -161,10 +158,9 @@ void Cutting::add_rim(std::uint32_t grid, const RimEdge& edge) {
 
 void Cutting::find_rims() {
     for (std::size_t i = 0; i < over_.size(); ++i) {
-        const PostGrid& grid = over_[i]->grid;
         // Rims more than half way round the Earth apart may be taken for those of the other way round.
-        is_somewhere_ = is_somewhere_ && grid.east_deg() - grid.west_deg() < 180.0;
-        for (const RimEdge& edge : coverage_rim(*over_[i])) add_rim(static_cast<std::uint32_t>(i + 1), edge);
+        is_somewhere_ = is_somewhere_ && over_[i].is_narrow;
+        for (const ClipRim& rim : over_[i].rim) add_rim(static_cast<std::uint32_t>(i + 1), rim);
     }
     const glm::dvec2 last(field_.grid.columns() - 1, field_.grid.rows() - 1);
     const glm::dvec2 low =
@@ -230,7 +226,7 @@ void Cutting::keep_walls(GridPost cell, bool south_west, const PlaneFace& face) 
                     distance_to(rim.at, ends[1] + corner) > on_rim_posts)
                     continue;
                 const PostPlace place = field_.grid.place_at(beyond.y, beyond.x);
-                if (!over_[rim.grid - 1]->surface_H_m(place.lat_deg, place.lon_deg)) continue;
+                if (!over_[rim.grid - 1].has_ground(place.lat_deg, place.lon_deg)) continue;
                 SeamWall wall;
                 for (std::size_t end = 0; end < 2; ++end) {
                     const double share = share_along(rim.at, ends[end] + corner);
@@ -301,14 +297,32 @@ Result<GridClip> Cutting::run() {
     ORO_CHECK(for_each_triangle(
         [&](int row, int column, bool south_west) { return keep_rest(row, column, south_west); }));
     ORO_CHECK(field_.health());
-    for (const HeightField* over : over_) ORO_CHECK(over->health());
     return std::move(out_);
 }
 
 }  // namespace
 
-Result<GridClip> clip_by_finer(const HeightField& field, std::span<const HeightField* const> over) {
+Result<GridClip> clip_by_covers(const HeightField& field, std::span<const ClipCover> over) {
     return Cutting(field, over).run();
+}
+
+Result<GridClip> clip_by_finer(const HeightField& field, std::span<const HeightField* const> over) {
+    std::vector<ClipCover> covers;
+    for (const HeightField* const one : over) {
+        ClipCover& cover = covers.emplace_back();
+        cover.has_ground = [one](double lat_deg, double lon_deg) {
+            return one->surface_H_m(lat_deg, lon_deg).has_value();
+        };
+        const PostGrid& grid = one->grid;
+        for (const RimEdge& edge : coverage_rim(*one))
+            cover.rim.push_back({edge,
+                                 {grid.place_at(edge.from.row, edge.from.column),
+                                  grid.place_at(edge.to.row, edge.to.column)}});
+        cover.is_narrow = grid.east_deg() - grid.west_deg() < 180.0;
+    }
+    ORO_TRY(GridClip clip, clip_by_covers(field, covers));
+    for (const HeightField* const one : over) ORO_CHECK(one->health());
+    return clip;
 }
 
 }  // namespace oro

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -38,11 +39,26 @@ struct GridClip {
     std::vector<SeamWall> walls;
 };
 
+// A piece of the rim of what covers a grid.
+struct ClipRim {
+    RimEdge edge;  // as SeamWall::over names it
+    std::array<PostPlace, 2> at;
+};
+// What covers a part of a grid: all places where has_ground is true, whose rim is known.
+struct ClipCover {
+    std::function<bool(double lat_deg, double lon_deg)> has_ground;
+    std::vector<ClipRim> rim;
+    bool is_narrow{true};  // less than half way round the Earth
+};
+
 // Cuts the ground of `over` out of `field`. Every place that `field` has ground for is then on one triangle
 // without a post left out, on one of `ground`, or covered. Two rims nearer than seam_slack_posts are one.
 // Costs a search in `over` for each post of `field` in their boxes. Errors: a post that could not be read
 // (HeightField::health).
 inline constexpr double seam_slack_posts = 1.0e-7;
 Result<GridClip> clip_by_finer(const HeightField& field, std::span<const HeightField* const> over);
+
+// The same of anything that covers ground.
+Result<GridClip> clip_by_covers(const HeightField& field, std::span<const ClipCover> over);
 
 }  // namespace oro

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/terrain/page_on_net.h"
+#include "geo/meshes/mesh_look.h"
 
 namespace oro {
 namespace {
@@ -76,9 +77,77 @@ glm::dvec3 normal_at(const TrianglesAround& around, const std::vector<glm::dvec3
     return glm::normalize(sum);
 }
 
+// How a mesh's triangles are coloured: by its features.
+struct FeatureLooks {
+    std::vector<std::uint32_t> looks;
+    std::vector<float> tones;
+
+    explicit FeatureLooks(const PlacedMesh& mesh) {
+        for (const MeshFeature& feature : mesh.features) {
+            looks.push_back(mesh.has_look_by_type ? look_of_type(feature.type) : mesh.look);
+            // Parts of one building have one hue.
+            tones.push_back(tone_of(feature.part_of.empty() ? feature.name : feature.part_of));
+        }
+    }
+};
+
+void add_look(const PlacedMesh& mesh, const FeatureLooks& features, std::size_t number, SeamPiece& piece) {
+    constexpr float only_tone = 0.08F;  // of a mesh without features
+    piece.look = mesh.look, piece.tone = only_tone;
+    if (mesh.feature_of.empty()) return;
+    piece.look = features.looks[mesh.feature_of[number]];
+    piece.tone = features.tones[mesh.feature_of[number]];
+}
+
+// Upright ground between a mesh that the terrain is cut out under and what is left of that: it closes the
+// gaps that levels leave, too. What the wall's first side bounds lies on its right hand.
+SeamSkirt skirt_of(const RimWall& wall, const std::vector<SeamCorner>& corners) {
+    SeamSkirt skirt;
+    std::array<SeamCorner, 2> cut{}, over{};
+    for (std::size_t end = 0; end < 2; ++end)
+        cut[end] = corners[wall.cut[end]], over[end] = corners[wall.over[end]];
+    skirt.up = glm::normalize(cut[0].at.m / glm::dvec3(1.0, 1.0, 1.0 - wgs84_e2));
+    const glm::dvec3 left = glm::cross(skirt.up, cut[1].at.m - cut[0].at.m);
+    skirt.side = glm::length(left) > 0.0 ? glm::normalize(left) : glm::dvec3(0.0);
+    for (std::size_t end = 0; end < 2; ++end) {
+        cut[end].normal = over[end].normal = skirt.up;
+        const bool is_higher = cut[end].h_m >= over[end].h_m;
+        skirt.top[end] = is_higher ? cut[end] : over[end];
+        skirt.foot[end] = is_higher ? over[end] : cut[end];
+    }
+    return skirt;
+}
+
+// The same as sight lines meet it: two triangles, or where the surfaces change places between the ends one on
+// either side of where they meet.
+void add_rim_wall(const RimWall& wall, const std::vector<SeamCorner>& corners, std::uint32_t number,
+                  std::vector<SurfaceTriangle>& pieces) {
+    const SeamCorner &a = corners[wall.cut[0]], &b = corners[wall.cut[1]], &over_a = corners[wall.over[0]],
+                     &over_b = corners[wall.over[1]];
+    const double begin_m = over_a.h_m - a.h_m, end_m = over_b.h_m - b.h_m;
+    constexpr double least_m = 1.0e-6;
+    if (std::abs(begin_m) < least_m && std::abs(end_m) < least_m) return;
+    const auto add = [&](const glm::dvec3& first, const glm::dvec3& second, const glm::dvec3& third) {
+        SurfaceTriangle piece;
+        piece.corners = {geodetic_from_ecef(Ecef{first}), geodetic_from_ecef(Ecef{second}),
+                         geodetic_from_ecef(Ecef{third})};
+        piece.mesh = number;
+        pieces.push_back(piece);
+    };
+    if (begin_m * end_m >= 0.0) {
+        add(a.at.m, b.at.m, over_b.at.m);
+        add(a.at.m, over_b.at.m, over_a.at.m);
+        return;
+    }
+    const glm::dvec3 meeting = glm::mix(a.at.m, b.at.m, begin_m / (begin_m - end_m));
+    add(a.at.m, meeting, over_a.at.m);
+    add(b.at.m, over_b.at.m, meeting);
+}
+
 }  // namespace
 
 void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration, Seam& seam) {
+    const FeatureLooks features(mesh);
     const std::vector<SeamCorner> corners = drawn_vertices(mesh, undulation, exaggeration);
     std::vector<glm::dvec3> vertices_m;
     vertices_m.reserve(corners.size());
@@ -89,6 +158,7 @@ void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double 
         if (normals[number] == glm::dvec3(0.0)) continue;
         SeamPiece piece;
         piece.two_sided = true;
+        add_look(mesh, features, number, piece);
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t vertex = mesh.triangles[number][i];
             piece.corners[i] = corners[vertex];
@@ -96,6 +166,7 @@ void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double 
         }
         seam.pieces.push_back(piece);
     }
+    for (const RimWall& wall : mesh.rim_walls) seam.skirts.push_back(skirt_of(wall, corners));
 }
 
 void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration,
@@ -109,6 +180,7 @@ void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double 
         piece.feature = mesh.feature_of.empty() ? 0 : mesh.feature_of[k] + 1;
         pieces.push_back(piece);
     }
+    for (const RimWall& wall : mesh.rim_walls) add_rim_wall(wall, corners, number, pieces);
 }
 
 std::vector<std::array<glm::vec3, 3>> corner_normals(const PlacedMesh& mesh,

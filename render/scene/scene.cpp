@@ -10,7 +10,6 @@
 #include "core/base/parallel.h"
 #include "core/frame/casters.h"
 #include "core/lod/ground_means.h"
-#include "core/seam/mesh_casters.h"
 #include "render/pipelines/plan_pass.h"
 
 namespace oro {
@@ -51,6 +50,18 @@ Result<Buffer> create_mesh_casters(const Gpu& gpu, const MeshCasters& casters) {
     return buffer;
 }
 
+Result<std::shared_ptr<const ClearedScene>> create_cleared(const Gpu& gpu, const MeshCasters& casters) {
+    auto cleared = std::make_shared<ClearedScene>();
+    cleared->map = cleared_map_of(casters);
+    const std::size_t size = cleared->map.cells.size() * sizeof(std::uint32_t);
+    ORO_TRY(cleared->cells,
+            create_buffer(gpu, size,
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                          MemoryKind::mapped_device, "ground near meshes"));
+    std::memcpy(cleared->cells.mapped, cleared->map.cells.data(), size);
+    return std::shared_ptr<const ClearedScene>(std::move(cleared));
+}
+
 // Device address of what lies so far before a page's block.
 gpu::uvec2 before(const gpu::FramePage& page, std::uint64_t bytes) {
     return address_words((std::uint64_t{page.block.y} << 32U | page.block.x) - bytes);
@@ -88,6 +99,7 @@ Result<GridScene> GridScene::create(const Gpu& gpu, std::unique_ptr<RegionPages>
     }
     if (const MeshCasters* const casters = scene.pages_->mesh_casters(); casters != nullptr) {
         ORO_TRY(scene.mesh_casters_, create_mesh_casters(gpu, *casters));
+        ORO_TRY(scene.cleared_, create_cleared(gpu, *casters));
     }
     return scene;
 }
@@ -161,7 +173,7 @@ Result<void> GridScene::add_growth(const FrameView& view, GridPlan& plan) {
         ranges.push_back({page->record.summary.lowest_h_m, page->record.summary.highest_h_m});
     }
     const auto ground = [&](std::size_t page) { return ranges[page]; };
-    const GrowthView from{view.camera, view.tile, view.tau_px, cleared_.get()};
+    const GrowthView from{view.camera, view.tile, view.tau_px};
     if (has_trees_) plan.growth = plan_growth(pages_->facts().grid, plan.page_indices, ground, from);
     if (has_grass_) plan.meadow = plan_meadow(pages_->facts().grid, plan.page_indices, ground, from);
     return {};
@@ -220,6 +232,10 @@ Result<void> GridScene::end_plan(const FrameView& view, GridPlan& plan) {
         plan.mesh_casters = mesh_casters_.address;
         plan.mesh_nodes = casters->nodes.size();
         plan.mesh_origin_m = casters->origin_m;
+    }
+    if (cleared_ && view.model.earth == Earth::ellipsoid) {
+        plan.constants.cleared = cleared_in_view(cleared_->map, view.camera);
+        plan.constants.cleared.cells = address_words(cleared_->cells.address);
     }
     return {};
 }
@@ -328,6 +344,10 @@ Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, 
 void Scene::add(Scene other) {
     assert(!grids_.front().clusters_ && !other.grids_.front().clusters_);
     std::ranges::move(other.grids_, std::back_inserter(grids_));
+    const auto with_meshes =
+        std::ranges::find_if(grids_, [](const GridScene& grid) { return grid.cleared_ != nullptr; });
+    if (with_meshes == grids_.end()) return;
+    for (GridScene& grid : grids_) grid.cleared_ = with_meshes->cleared_;
 }
 
 void Scene::draw_clusters(ClusterScene clusters) {
@@ -349,15 +369,7 @@ void Scene::set_footprint_spacing(double spacing_px) {
 
 // What lies between grids is as wide as a gap: no tree stands there.
 void Scene::set_trees(bool on) {
-    // No trees stand in a town, or on a survey.
-    std::shared_ptr<const ClearedTiles> cleared;
-    for (const GridScene& grid : grids_)
-        if (const MeshCasters* const meshes = grid.pages_->mesh_casters(); on && meshes != nullptr)
-            cleared = std::make_shared<const ClearedTiles>(corners_of(*meshes));
-    for (GridScene& grid : grids_) {
-        grid.has_trees_ = on && !grid.pages_->is_seam();
-        grid.cleared_ = cleared;
-    }
+    for (GridScene& grid : grids_) grid.has_trees_ = on && !grid.pages_->is_seam();
 }
 
 void Scene::set_grass(bool on) {

@@ -14,6 +14,7 @@
 #include "core/frame/plan_memory.h"
 #include "core/frame/region_pages.h"
 #include "core/frame/visibility_feedback.h"
+#include "core/seam/cleared_map.h"
 #include "render/clusters/cluster_scene.h"
 #include "render/scene/drape_store.h"
 #include "render/scene/page_store.h"
@@ -44,6 +45,12 @@ struct PlanTimes {
     double clusters_s{};  // clusters chosen, with theirs
     double casters_s{};   // what casts shadows and opens the sky
     double growth_s{};    // tiles of trees
+};
+
+// The ground near meshes, and its cells on the GPU.
+struct ClearedScene {
+    ClearedMap map;
+    Buffer cells;
 };
 
 // One grid that is being drawn: its pages, and those of them that are on the GPU.
@@ -97,7 +104,7 @@ class GridScene {
     PageStore store_;
     std::unique_ptr<DrapeStore> drape_;
     Buffer undulation_;
-    std::shared_ptr<const ClearedTiles> cleared_;  // where no trees are planted; null: nowhere
+    std::shared_ptr<const ClearedScene> cleared_;  // near the meshes of the scene; null: there are none
     Buffer mesh_casters_;                          // nodes, then triangles; of a seam with meshes
     Buffer plan_sources_;
     std::uint64_t number_{};  // GridPlan::heights

@@ -54,6 +54,8 @@ Stands stands_of(MaterialShares shares) {
 
 Stands stands_at(SitePlace place, SurfacePoint point) {
     pixel_noise = ground_noise(point.view, foot_m, 0.0005);
+    // Crowns are wide: no tree stands beside a mesh, whatever a map says.
+    if (mesh_distance_m(point.view).x < 9.0) return Stands(0.0, 0.0, 0.0);
     pixel_second = patched(0.0, 1.0);
     float known = 0.0;
     Stands by_map = Stands(0.0, 0.0, 0.0);

@@ -28,6 +28,12 @@ vec3 seam_normal(FramePage page, uvec2 post) {
     return vector_of_quad(page, quad + uvec2(second ? 1u : 0u, 2u));
 }
 
+// Of a mesh's piece: mesh_look_..., and the tone of its feature, 0 to 1.
+vec2 mesh_look(FramePage page, uvec2 post) {
+    vec3 stored = vector_of_quad(page, quad_of_post(post) + uvec2(2u, 1u));
+    return vec2(round(stored.y * float(mesh_looks)), stored.z);
+}
+
 // Whether a piece is of a mesh: its light is then that of the eye's side.
 bool is_two_sided(FramePage page, uvec2 post) {
     return (page.cull & is_skirt) == 0u && vector_of_quad(page, quad_of_post(post) + uvec2(2u, 1u)).x > 0.5;

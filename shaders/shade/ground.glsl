@@ -33,7 +33,9 @@ float aspect_deg(SurfacePoint point) {
 }
 
 #include "shaders/shade/cover.glsl"
+#include "shaders/shade/cleared.glsl"
 #include "shaders/shade/materials.glsl"
+#include "shaders/shade/mesh_looks.glsl"
 
 // In linear light, or as codes.
 vec3 ground_tint(SurfacePoint point) {
@@ -131,6 +133,9 @@ vec3 imaged_tint(Images images, inout SurfacePoint point) {
         vec3 by_rule = as_map || in_air ? ground_tint(point) : tint(point.mean_H_m);
         colour = draped ? mix(by_rule, colour, images.cover.a) : by_rule;
     }
+#ifdef IN_AIR
+    if (HAS_NET && of_materials && pixel_look.x > 0.0) colour = mesh_colour(point);
+#endif
     if (images.share <= 0.0) return colour;
     point.normal = normalize(mix(point.normal, vec3(0.0, 0.0, 1.0), images.upright));
     return mix(colour, images.colour, images.share);

@@ -130,6 +130,20 @@ float dry_share(SurfacePoint point) {
     return broken(min(within_deg / 0.3, up), 1.0);
 }
 
+// Near meshes no forest grows and nothing is tilled: meadows and gardens, and beside buildings much is paved.
+void make_open(inout MaterialShares shares, vec2 distance_m) {
+    float open = broken(38.0 - distance_m.x, 9.0);
+    float woods = open * (shares.of[material_needle_forest] + shares.of[material_broad_forest] + shares.of[material_crops] + shares.of[material_shrub]);
+    shares.of[material_needle_forest] *= 1.0 - open;
+    shares.of[material_broad_forest] *= 1.0 - open;
+    shares.of[material_crops] *= 1.0 - open;
+    shares.of[material_shrub] *= 1.0 - open;
+    shares.of[material_meadow] += woods;
+    float paved = shares.of[material_meadow] * patched(7.0 - distance_m.y, 4.0);
+    shares.of[material_meadow] -= paved;
+    shares.of[material_built] += paved;
+}
+
 MaterialShares shares_by_rule(SurfacePoint point) {
     float above_m = above_snow_line_m(point), slope = slope_deg(point), forest_m = FRAME.style.cover.forest_m;
     // Snow lies longest in hollows, and slides from walls; where trees grow it has gone.
@@ -160,6 +174,7 @@ MaterialShares shares_by_rule(SurfacePoint point) {
     shares.of[material_bare] = bare;
     shares.of[material_snow] = snow;
     shares.of[material_water] = shares.of[material_built] = shares.of[material_wetland] = 0.0;
+    if (FRAME.cleared.cells != uvec2(0u)) make_open(shares, mesh_distance_m(point.view));
     return shares;
 }
 

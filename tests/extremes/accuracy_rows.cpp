@@ -46,6 +46,8 @@ constexpr AccuracyRow rows[] = {
      "pixels", ""},
     {places, "posts within 2 km of a pole", "distance of placed posts", "GeographicLib", 1.0, "mm", "posts",
      ""},
+    {places, "corners of meshes in four CRSs", "distance of drawn corners", "PROJ, GeographicLib", 1.0, "mm",
+     "corners", "all over LV95, RD New, UTM 32 and the National Grid, up to 4 km high"},
     {places, "the 1,441 posts at a pole", "distance from the first", "each other", 0, "m", "posts",
      "one point, the same bits"},
     {places, "the antimeridian as 180, -180 and 540", "pixels that differ", "each other", 0, "", "pixels",

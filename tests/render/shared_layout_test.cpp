@@ -85,8 +85,9 @@ std::map<std::string, std::uint32_t> offsets_of_all_shaders() {
 // in the shaders without anyone naming it here.
 std::set<std::string> shared_structs() {
     std::string text;
-    for (const char* const name : {"shaders/shared.h", "shaders/shared_rounds.h", "shaders/shared_clusters.h",
-                                   "shaders/shared_heights.h", "shaders/shared_places.h"}) {
+    for (const char* const name :
+         {"shaders/shared.h", "shaders/shared_rounds.h", "shaders/shared_clusters.h",
+          "shaders/shared_heights.h", "shaders/shared_places.h", "shaders/shared_mesh_looks.h"}) {
         std::ifstream file(test::bundled_data().parent_path() / name);
         text += std::string((std::istreambuf_iterator<char>(file)), {});
     }

@@ -261,6 +261,18 @@ TEST(MeshCensus, CountsWhatIsInASquare) {
     EXPECT_EQ(bad.rims, 1U);
 }
 
+// Degrees are no metres: a house of 11 m is no point of a lattice of 54 m.
+TEST(MeshCensus, OfDegreesCountsMetres) {
+    const auto mesh = read_mesh(test::geopackage(
+        "degrees.gpkg", 4326,
+        {{"POLYHEDRALSURFACE Z (((8 46 5,8.0001 46 5,8.0001 46.0001 5,8 46.0001 5,8 46 5)))", "roof"}}));
+    ASSERT_TRUE(mesh.ok()) << mesh.error().line();
+    const MeshCensus census = census_of(*mesh);
+    EXPECT_EQ(census.vertices, 4U);
+    EXPECT_EQ(census.degenerate, 0U);
+    EXPECT_EQ(census.rims, 1U);
+}
+
 TEST(MeshCensus, ClosedAndCrowdedMeshes) {
     const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 0 -1\n";
     const MeshCensus closed = census_of_obj(corners + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");

@@ -1,0 +1,440 @@
+// glTF 2.0 and GLB without extensions, in double: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "geo/meshes/mesh_readers.h"
+#include "geo/meshes/mesh_words.h"
+#include "geo/vectors/json_text.h"
+
+namespace oro {
+namespace {
+
+constexpr std::size_t most_gltf_triangles = 50'000'000;
+
+Error gltf_fault(const std::string& why) {
+    return {ErrorKind::failed, "", why};
+}
+
+std::optional<JsonValue> gltf_member(const JsonValue& object, std::string_view name) {
+    for (const auto& [its_name, value] : object.members())
+        if (its_name == name) return value;
+    return std::nullopt;
+}
+std::vector<JsonValue> gltf_list(const JsonValue& object, std::string_view name) {
+    std::vector<JsonValue> list;
+    if (const auto array = gltf_member(object, name))
+        array->each([&](const JsonValue& one) { return list.push_back(one), true; });
+    return list;
+}
+// A whole number, not negative; `otherwise` where there is none, and nothing where it is something else.
+std::optional<std::size_t> gltf_count(const JsonValue& object, std::string_view name,
+                                      std::optional<std::size_t> otherwise) {
+    const auto value = gltf_member(object, name);
+    if (!value) return otherwise;
+    long long number = -1;
+    if (!whole_number_in(value->source(), number) || number < 0) return std::nullopt;
+    return static_cast<std::size_t>(number);
+}
+
+// The bytes of a text of base64 (RFC 4648); nothing of any other.
+std::optional<std::string> base64_bytes(std::string_view text) {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::array<int, 256> value_of{};
+    value_of.fill(-1);
+    for (std::size_t i = 0; i < digits.size(); ++i)
+        value_of[static_cast<unsigned char>(digits[i])] = static_cast<int>(i);
+    while (text.ends_with('=')) text.remove_suffix(1);
+    std::string bytes;
+    bytes.reserve(text.size() / 4 * 3 + 3);
+    unsigned held = 0, bits = 0;
+    for (const char digit : text) {
+        const int value = value_of[static_cast<unsigned char>(digit)];
+        if (value < 0) return std::nullopt;
+        held = held << 6U | static_cast<unsigned>(value);
+        bits += 6;
+        if (bits < 8) continue;
+        bits -= 8;
+        bytes.push_back(static_cast<char>(held >> bits & 255U));
+    }
+    return bytes;
+}
+
+// The bytes that an accessor's elements stand in.
+struct GltfElements {
+    std::string_view bytes;  // from the first element on, to the end of the view
+    std::size_t count{}, stride{}, component{};
+    bool normalized{};
+};
+
+std::size_t component_bytes(std::size_t component) {
+    switch (component) {
+        case 5120:
+        case 5121:
+            return 1;
+        case 5122:
+        case 5123:
+            return 2;
+        case 5125:
+        case 5126:
+            return 4;
+        default:
+            return 0;
+    }
+}
+
+template <class T>
+T gltf_value(std::string_view bytes, std::size_t at) {
+    static_assert(std::endian::native == std::endian::little);
+    T value{};
+    std::memcpy(&value, bytes.data() + at, sizeof value);
+    return value;
+}
+
+double gltf_number(const GltfElements& from, std::size_t element, std::size_t number) {
+    const std::size_t at = element * from.stride + number * component_bytes(from.component);
+    const auto part = [&](double value, double most) {
+        return from.normalized ? std::max(value / most, -1.0) : value;
+    };
+    switch (from.component) {
+        case 5120:
+            return part(gltf_value<std::int8_t>(from.bytes, at), 127.0);
+        case 5121:
+            return part(gltf_value<std::uint8_t>(from.bytes, at), 255.0);
+        case 5122:
+            return part(gltf_value<std::int16_t>(from.bytes, at), 32767.0);
+        case 5123:
+            return part(gltf_value<std::uint16_t>(from.bytes, at), 65535.0);
+        case 5125:
+            return gltf_value<std::uint32_t>(from.bytes, at);
+        default:
+            return static_cast<double>(gltf_value<float>(from.bytes, at));
+    }
+}
+
+class GltfReader {
+  public:
+    GltfReader(const JsonValue& root, std::optional<std::string_view> binary, const FileBeside& beside)
+        : root_(root),
+          binary_(binary),
+          beside_(beside),
+          nodes_(gltf_list(root, "nodes")),
+          meshes_(gltf_list(root, "meshes")),
+          accessors_(gltf_list(root, "accessors")),
+          views_(gltf_list(root, "bufferViews")) {}
+
+    Result<SourceMesh> all() {
+        mesh_.format = "glTF";
+        mesh_.unit = "meter";
+        ORO_CHECK(check_asset());
+        ORO_CHECK(read_buffers());
+        on_way_.assign(nodes_.size(), false);
+        ORO_TRY(const std::vector<std::size_t> roots, roots_of_scene());
+        for (const std::size_t node : roots) ORO_CHECK(read_node(node, glm::dmat4(1.0)));
+        if (without_triangles_ > 0)
+            mesh_.notes.push_back(std::to_string(without_triangles_) +
+                                  " primitives of points or lines, without triangles, left out");
+        return std::move(mesh_);
+    }
+
+  private:
+    [[nodiscard]] Result<void> check_asset() const {
+        const auto asset = gltf_member(root_, "asset");
+        const auto version = asset ? gltf_member(*asset, "version") : std::nullopt;
+        const std::string text = version ? version->words() : "";
+        if (!text.starts_with("2."))
+            return gltf_fault("is glTF " + (text.empty() ? "without a version" : shown_word(text)) +
+                              ": 2.0 is read");
+        for (const JsonValue& one : gltf_list(root_, "extensionsRequired"))
+            if (one.words() != "KHR_mesh_quantization" && one.words() != "KHR_materials_unlit")
+                return gltf_fault("needs the extension " + shown_word(one.words()) + ", which is not read");
+        return {};
+    }
+
+    Result<void> read_buffers() {
+        const std::vector<JsonValue> buffers = gltf_list(root_, "buffers");
+        for (std::size_t i = 0; i < buffers.size(); ++i) {
+            const std::string name = "buffer " + std::to_string(i);
+            const auto length = gltf_count(buffers[i], "byteLength", std::nullopt);
+            if (!length) return gltf_fault(name + " has no byteLength");
+            const auto uri = gltf_member(buffers[i], "uri");
+            if (!uri && (i > 0 || !binary_)) return gltf_fault(name + " has no uri");
+            if (uri) {
+                ORO_TRY(std::string bytes, bytes_of(uri->text(), name));
+                own_bytes_.push_back(std::make_unique<std::string>(std::move(bytes)));
+            }
+            const std::string_view bytes = uri ? std::string_view(*own_bytes_.back()) : *binary_;
+            if (bytes.size() < *length)
+                return gltf_fault(name + " promises " + std::to_string(*length) + " bytes and has " +
+                                  std::to_string(bytes.size()));
+            buffers_.push_back(bytes.substr(0, *length));
+        }
+        return {};
+    }
+
+    [[nodiscard]] Result<std::string> bytes_of(const std::string& uri, const std::string& name) const {
+        if (uri.starts_with("data:")) {
+            const std::size_t comma = uri.find(',');
+            if (comma == std::string::npos || !uri.substr(0, comma).ends_with(";base64"))
+                return gltf_fault(name + " has a data uri that is not base64");
+            std::optional<std::string> bytes = base64_bytes(std::string_view(uri).substr(comma + 1));
+            if (!bytes) return gltf_fault(name + " has a data uri whose base64 is damaged");
+            return std::move(*bytes);
+        }
+        std::string path;
+        for (std::size_t i = 0; i < uri.size(); ++i) {
+            unsigned code = 0;
+            const bool is_code =
+                uri[i] == '%' && i + 2 < uri.size() &&
+                std::from_chars(&uri[i + 1], &uri[i + 1] + 2, code, 16).ptr == &uri[i + 1] + 2;
+            path.push_back(is_code ? static_cast<char>(code) : uri[i]);
+            if (is_code) i += 2;
+        }
+        if (path.empty() || path.find(':') != std::string::npos || path.starts_with('/') ||
+            path.find("..") != std::string::npos || path.find('\\') != std::string::npos ||
+            path.find('\0') != std::string::npos)
+            return gltf_fault(name + " is at " + shown_word(uri) + ": only files beside it are read");
+        return beside_(path);
+    }
+
+    // Of the scene that is shown; without scenes all nodes that are no child.
+    [[nodiscard]] Result<std::vector<std::size_t>> roots_of_scene() const {
+        std::vector<std::size_t> roots;
+        const std::vector<JsonValue> scenes = gltf_list(root_, "scenes");
+        if (scenes.empty()) {
+            std::vector<bool> is_child(nodes_.size());
+            for (const JsonValue& node : nodes_) {
+                ORO_TRY(const std::vector<std::size_t> children,
+                        numbers(node, "children", nodes_.size(), "node"));
+                for (const std::size_t child : children) is_child[child] = true;
+            }
+            for (std::size_t i = 0; i < nodes_.size(); ++i)
+                if (!is_child[i]) roots.push_back(i);
+            return roots;
+        }
+        const auto scene = gltf_count(root_, "scene", 0);
+        if (!scene || *scene >= scenes.size()) return gltf_fault("its scene is none of its scenes");
+        return numbers(scenes[*scene], "nodes", nodes_.size(), "node");
+    }
+
+    [[nodiscard]] static Result<std::vector<std::size_t>> numbers(const JsonValue& object,
+                                                                  std::string_view name, std::size_t count,
+                                                                  const std::string& of) {
+        std::vector<std::size_t> list;
+        for (const JsonValue& one : gltf_list(object, name)) {
+            long long number = -1;
+            if (!whole_number_in(one.source(), number) || number < 0 ||
+                static_cast<std::size_t>(number) >= count)
+                return gltf_fault("there is no " + of + " " + shown_word(one.source()) + ": it has " +
+                                  std::to_string(count));
+            list.push_back(static_cast<std::size_t>(number));
+        }
+        return list;
+    }
+
+    [[nodiscard]] static Result<std::vector<double>> reals(const JsonValue& object, std::string_view name,
+                                                           std::vector<double> otherwise) {
+        const auto array = gltf_member(object, name);
+        if (!array) return otherwise;
+        std::vector<double> list;
+        bool all = true;
+        array->each([&](const JsonValue& one) {
+            double number = 0.0;
+            all = all && mesh_number(one.source(), number);
+            list.push_back(number);
+            return list.size() <= otherwise.size();
+        });
+        if (!all || list.size() != otherwise.size())
+            return gltf_fault("a node's " + std::string(name) + " is no list of " +
+                              std::to_string(otherwise.size()) + " numbers");
+        return list;
+    }
+
+    [[nodiscard]] static Result<glm::dmat4> transform_of(const JsonValue& node) {
+        if (gltf_member(node, "matrix")) {
+            ORO_TRY(const std::vector<double> m, reals(node, "matrix", std::vector<double>(16)));
+            glm::dmat4 matrix(1.0);
+            for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = m[static_cast<std::size_t>(i)];
+            return matrix;
+        }
+        ORO_TRY(const std::vector<double> t, reals(node, "translation", {0.0, 0.0, 0.0}));
+        ORO_TRY(const std::vector<double> r, reals(node, "rotation", {0.0, 0.0, 0.0, 1.0}));
+        ORO_TRY(const std::vector<double> s, reals(node, "scale", {1.0, 1.0, 1.0}));
+        const glm::dmat3 turned = glm::mat3_cast(glm::normalize(glm::dquat(r[3], r[0], r[1], r[2])));
+        glm::dmat4 matrix(1.0);
+        for (int i = 0; i < 3; ++i) matrix[i] = glm::dvec4(turned[i] * s[static_cast<std::size_t>(i)], 0.0);
+        matrix[3] = glm::dvec4(t[0], t[1], t[2], 1.0);
+        return matrix;
+    }
+
+    Result<void> read_node(std::size_t number, const glm::dmat4& above) {
+        if (on_way_[number]) return gltf_fault("node " + std::to_string(number) + " is below itself");
+        constexpr int deepest = 256;
+        if (++depth_ > deepest) return gltf_fault("its nodes are more than 256 deep");
+        constexpr std::size_t most_nodes = 1'000'000;
+        if (++visited_ > most_nodes) return gltf_fault("has more than 1,000,000 nodes");
+        const JsonValue& node = nodes_[number];
+        ORO_TRY(const glm::dmat4 own, transform_of(node));
+        const glm::dmat4 transform = above * own;
+        if (gltf_member(node, "mesh")) {
+            const auto mesh = gltf_count(node, "mesh", std::nullopt);
+            if (!mesh || *mesh >= meshes_.size())
+                return gltf_fault("node " + std::to_string(number) + " has a mesh that is not there");
+            const auto name = gltf_member(node, "name");
+            mesh_.parts.push_back({name ? name->words() : "", mesh_.triangles.size()});
+            for (const JsonValue& primitive : gltf_list(meshes_[*mesh], "primitives"))
+                ORO_CHECK(read_primitive(primitive, transform));
+        }
+        on_way_[number] = true;
+        ORO_TRY(const std::vector<std::size_t> children, numbers(node, "children", nodes_.size(), "node"));
+        for (const std::size_t child : children) ORO_CHECK(read_node(child, transform));
+        on_way_[number] = false;
+        --depth_;
+        return {};
+    }
+
+    // numbers: of an element.
+    [[nodiscard]] Result<GltfElements> elements(std::optional<std::size_t> number, const std::string& type,
+                                                std::size_t parts) const {
+        if (!number || *number >= accessors_.size()) return gltf_fault("an accessor is not there");
+        const JsonValue& accessor = accessors_[*number];
+        const std::string name = "accessor " + std::to_string(*number);
+        if (gltf_member(accessor, "sparse")) return gltf_fault(name + " is sparse, which is not read");
+        const auto its_type = gltf_member(accessor, "type");
+        const auto component = gltf_count(accessor, "componentType", std::nullopt),
+                   count = gltf_count(accessor, "count", std::nullopt),
+                   view = gltf_count(accessor, "bufferView", std::nullopt),
+                   offset = gltf_count(accessor, "byteOffset", 0);
+        if (!its_type || its_type->words() != type || !component || component_bytes(*component) == 0 ||
+            !count || !view || !offset)
+            return gltf_fault(name + " is no list of " + type + " in a buffer view");
+        if (*view >= views_.size()) return gltf_fault(name + " has a buffer view that is not there");
+        const auto buffer = gltf_count(views_[*view], "buffer", std::nullopt),
+                   begin = gltf_count(views_[*view], "byteOffset", 0),
+                   length = gltf_count(views_[*view], "byteLength", std::nullopt);
+        const std::size_t element = parts * component_bytes(*component);
+        const auto stride = gltf_count(views_[*view], "byteStride", element);
+        if (!buffer || *buffer >= buffers_.size() || !begin || !length || !stride || *stride < element ||
+            *begin > buffers_[*buffer].size() || *length > buffers_[*buffer].size() - *begin)
+            return gltf_fault(name + ": its buffer view lies beyond its buffer");
+        const std::string_view bytes = buffers_[*buffer].substr(*begin, *length);
+        const bool fits = *count == 0 || (*offset <= bytes.size() && element <= bytes.size() - *offset &&
+                                          *count - 1 <= (bytes.size() - *offset - element) / *stride);
+        if (!fits) return gltf_fault(name + " lies beyond its buffer view");
+        const auto normalized = gltf_member(accessor, "normalized");
+        return GltfElements{bytes.substr(*count == 0 ? 0 : *offset), *count, *stride, *component,
+                            normalized && normalized->source() == "true"};
+    }
+
+    Result<void> read_primitive(const JsonValue& primitive, const glm::dmat4& transform) {
+        const auto mode = gltf_count(primitive, "mode", 4);
+        const auto attributes = gltf_member(primitive, "attributes");
+        if (!mode || *mode > 6) return gltf_fault("a primitive has a mode that is none");
+        if (*mode < 4 || !attributes || !gltf_member(*attributes, "POSITION")) {
+            ++without_triangles_;
+            return {};
+        }
+        ORO_TRY(const GltfElements places,
+                elements(gltf_count(*attributes, "POSITION", std::nullopt), "VEC3", 3));
+        const std::size_t first = mesh_.vertices.size();
+        if (places.count > most_gltf_triangles - std::min(first, most_gltf_triangles))
+            return gltf_fault("has more than 50,000,000 vertices");
+        for (std::size_t i = 0; i < places.count; ++i) {
+            const glm::dvec3 at(transform * glm::dvec4(gltf_number(places, i, 0), gltf_number(places, i, 1),
+                                                       gltf_number(places, i, 2), 1.0));
+            mesh_.vertices.emplace_back(at.x, -at.z, at.y);  // y is up, z comes towards one who looks north
+        }
+        if (!gltf_member(primitive, "indices"))
+            return triangles(
+                *mode, places.count, [&](std::size_t i) { return i; }, first, places.count);
+        ORO_TRY(const GltfElements indices,
+                elements(gltf_count(primitive, "indices", std::nullopt), "SCALAR", 1));
+        return triangles(
+            *mode, indices.count,
+            [&](std::size_t i) { return static_cast<std::size_t>(gltf_number(indices, i, 0)); }, first,
+            places.count);
+    }
+
+    // mode: 4 triangles, 5 a strip, 6 a fan. Indices are those of whole numbers up to 2^32.
+    template <class Index>
+    Result<void> triangles(std::size_t mode, std::size_t count, const Index& index, std::size_t first,
+                           std::size_t vertices) {
+        const std::size_t step = mode == 4 ? 3 : 1;
+        for (std::size_t i = 0; i + 2 < count; i += step) {
+            const std::size_t turned = mode == 5 ? i % 2 : 0;
+            const std::array<std::size_t, 3> corners{mode == 6 ? index(0) : index(i), index(i + 1 + turned),
+                                                     index(i + 2 - turned)};
+            SourceTriangle triangle{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (corners[k] >= vertices)
+                    return gltf_fault("there is no vertex " + std::to_string(corners[k]) +
+                                      ": its primitive has " + std::to_string(vertices));
+                triangle[k] = static_cast<std::uint32_t>(first + corners[k]);
+            }
+            if (mesh_.triangles.size() >= most_gltf_triangles)
+                return gltf_fault("has more than 50,000,000 triangles");
+            mesh_.triangles.push_back(triangle);
+        }
+        return {};
+    }
+
+    const JsonValue root_;
+    const std::optional<std::string_view> binary_;
+    const FileBeside& beside_;
+    const std::vector<JsonValue> nodes_, meshes_, accessors_, views_;
+    std::vector<std::unique_ptr<std::string>> own_bytes_;
+    std::vector<std::string_view> buffers_;
+    std::vector<bool> on_way_;
+    int depth_{};
+    std::size_t visited_{};
+    std::size_t without_triangles_{};
+    SourceMesh mesh_;
+};
+
+Result<SourceMesh> read_gltf_text(std::string_view text, std::optional<std::string_view> binary,
+                                  const FileBeside& beside) {
+    const std::size_t begin = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+    ORO_CHECK(check_json(text, begin));
+    const std::size_t at = text.find_first_not_of(" \t\r\n", begin);
+    const JsonValue root(text, at == std::string_view::npos ? begin : at);
+    if (!root.is(JsonValue::Kind::object)) return gltf_fault("is no glTF: it is no JSON object");
+    return GltfReader(root, binary, beside).all();
+}
+
+}  // namespace
+
+Result<SourceMesh> read_gltf(std::string_view bytes, const FileBeside& beside) {
+    if (!bytes.starts_with("glTF")) return read_gltf_text(bytes, std::nullopt, beside);
+    constexpr std::size_t head = 12, chunk_head = 8;
+    if (bytes.size() < head + chunk_head) return gltf_fault("is cut off: a GLB has 20 bytes and more");
+    if (gltf_value<std::uint32_t>(bytes, 4) != 2)
+        return gltf_fault("is GLB of version " + std::to_string(gltf_value<std::uint32_t>(bytes, 4)) +
+                          ": 2 is read");
+    if (gltf_value<std::uint32_t>(bytes, 8) > bytes.size())
+        return gltf_fault("is cut off: its header promises " +
+                          std::to_string(gltf_value<std::uint32_t>(bytes, 8)) + " bytes; the file has " +
+                          std::to_string(bytes.size()));
+    std::optional<std::string_view> text, binary;
+    for (std::size_t at = head; at + chunk_head <= bytes.size();) {
+        const std::size_t length = gltf_value<std::uint32_t>(bytes, at);
+        const std::string_view kind = bytes.substr(at + 4, 4);
+        if (length > bytes.size() - at - chunk_head)
+            return gltf_fault("byte " + std::to_string(at) + ": a chunk is longer than the file");
+        const std::string_view chunk = bytes.substr(at + chunk_head, length);
+        if (kind == "JSON" && !text) text = chunk;
+        if (kind == std::string_view("BIN\0", 4) && !binary) binary = chunk;
+        at += chunk_head + length;
+    }
+    if (!text) return gltf_fault("is a GLB without a chunk of JSON");
+    return read_gltf_text(*text, binary, beside);
+}
+
+}  // namespace oro
