@@ -887,6 +887,9 @@ set_tests_properties(
   RealHorizons.AreThoseOfSightLines
   RealHorizons.SkyViewIsThatOfSightLines
   RealHorizons.TakesSecondsForThousandsOfPosts
+  RealMeshGraph.OfASurveyIsWithinItsErrors
+  RealMeshGraph.OfDelftIsWithinItsErrors
+  RealMeshGraph.OfZurichIsWithinItsErrors
   Viewshed.IsTheLookoutsOverHills
   Viewshed.IsTheLookoutsOverTheAntimeridianAndNearThePole
   Viewshed.OfMadeTerrainIsGdals

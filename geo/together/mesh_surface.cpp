@@ -78,6 +78,14 @@ glm::dvec3 normal_at(const TrianglesAround& around, const std::vector<glm::dvec3
 
 }  // namespace
 
+std::vector<glm::dvec3> drawn_places_m(const PlacedMesh& mesh, const UndulationField& undulation,
+                                       double exaggeration) {
+    std::vector<glm::dvec3> places;
+    for (const SeamCorner& corner : drawn_vertices(mesh, undulation, exaggeration))
+        places.push_back(corner.at.m);
+    return places;
+}
+
 void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration, Seam& seam) {
     const std::vector<SeamCorner> corners = drawn_vertices(mesh, undulation, exaggeration);
     const std::vector<glm::dvec3> normals = area_normals(mesh, corners);
