@@ -892,6 +892,9 @@ set_tests_properties(
   PostHorizons.AreThoseOfSightLinesOverHillsThePoleAndNets
   RealHorizons.AreThoseOfSightLines
   RealHorizons.TakesSecondsForThousandsOfPosts
+  RealMeshGraph.OfASurveyIsWithinItsErrors
+  RealMeshGraph.OfDelftIsWithinItsErrors
+  RealMeshGraph.OfZurichIsWithinItsErrors
   Viewshed.IsTheLookoutsOverHills
   Viewshed.IsTheLookoutsOverTheAntimeridianAndNearThePole
   Viewshed.OfMadeTerrainIsGdals

@@ -10,6 +10,7 @@
 #include "apps/drawing/drape.h"
 #include "apps/drawing/kept_drawing.h"
 #include "apps/drawing/mesh_choice.h"
+#include "apps/drawing/mesh_cut.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/legend/legend.h"
@@ -113,11 +114,15 @@ Result<void> run_compare(const CompareOptions& options) {
     ORO_TRY(const RegionCuts cuts, cut_regions(region));
     ORO_TRY(GridPages pages, make_grid_pages(region, cuts, view.exaggeration,
                                              [&](double share) { bar.show(share, "measuring levels"); }));
-    ORO_TRY(const bool clusters, draws_clusters(region, view));
-    ORO_TRY(RegionScene whole,
-            scene_of_region(*gpu, region, cuts, std::move(pages),
-                            {view.exaggeration, memory_of_pages(view, options.memory), view.heights,
-                             asks_for_means(style.frame), clusters, view.mesh_level}));
+    ORO_TRY(const std::optional<DrawnMeshes> meshes, drawn_meshes(region, view));
+    bool clusters = false;
+    if (!meshes) {
+        ORO_TRY(clusters, draws_clusters(region, view));
+    }
+    ORO_TRY(RegionScene whole, scene_of_region(*gpu, region, cuts, std::move(pages),
+                                               {view.exaggeration, memory_of_pages(view, options.memory),
+                                                view.heights, asks_for_means(style.frame), clusters,
+                                                view.mesh_level, meshes ? meshes->cut.meshes : nullptr}));
     Scene& scene = whole.scene;
     ORO_TRY(const auto ground, RegionGround::of(region, cuts, view.exaggeration));
     if (const std::string note = note_of_missing_footprints(style.frame, scene.pages()); !note.empty())

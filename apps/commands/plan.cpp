@@ -4,9 +4,11 @@
 #include "apps/accuracy/mesh_forecast.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
+#include "apps/commands/drawn_meshes_json.h"
 #include "apps/commands/plan_text.h"
 #include "apps/cover/canopy_words.h"
 #include "apps/drawing/mesh_choice.h"
+#include "apps/drawing/mesh_cut.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/eye/standpoint.h"
 #include "apps/report/json_object.h"
@@ -153,7 +155,9 @@ PlanEye eye_of(const View& view, const Region& region) {
 
 // As shot chooses, and refuses. A level of the graph promises nothing that could be told beforehand.
 Result<void> choose_mesh(const Region& region, View& view) {
-    if (const auto clusters = draws_clusters(region, view); !clusters.ok()) return clusters.error();
+    ORO_TRY(const bool of_meshes, draws_mesh_clusters(region, view));
+    if (!of_meshes)
+        if (const auto clusters = draws_clusters(region, view); !clusters.ok()) return clusters.error();
     if (view.mesh_level)
         return refused("--mesh-level", std::to_string(*view.mesh_level),
                        "plan tells what --tau promises, and one level of clusters promises nothing (--tau "
@@ -195,14 +199,17 @@ Result<void> run_plan(const PlanOptions& options) {
             choose_accuracy(view, region, truth->ground(), of_grids, tolerance_px));
     ORO_TRY(const UnseenGround unseen, unseen_in(view, region, ceiling_m, truth.get()));
     ORO_TRY(const std::optional<MeshForecasts> meshes, mesh_forecasts(view, region, *pages.front()));
+    ORO_TRY(const std::optional<DrawnMeshes> on_ground, drawn_meshes(region, view));
     if (options.json) {
         ordered_json json = plan_json(budget, view, choice, unseen, meshes);
+        if (on_ground) json["meshes_on_ground"] = drawn_meshes_json(*on_ground);
         if (view.canopy) json["canopy"] = canopy_json(*view.canopy, region);
         json["notes"] = all_notes(region);
         std::printf("%s\n", json_text(json, true).c_str());
         return {};
     }
     std::fputs(plan_text(budget, view, eye_of(view, region), choice, unseen, meshes).c_str(), stdout);
+    if (on_ground) std::printf("On the ground, %s.\n", words_of(*on_ground).c_str());
     if (view.canopy) std::printf("%s.\n", canopy_words(*view.canopy, region).c_str());
     return {};
 }

@@ -100,8 +100,8 @@ Result<void> add_clusters(const Gpu& gpu, const RegionGrid& grid, std::uint64_t 
 
 // What is between a region's grids, into the frames of their scene. Gives the triangles that it has.
 Result<std::uint64_t> draw_between(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
-                                   double exaggeration, Scene& scene) {
-    const Seam seam = seam_between(region, cuts, exaggeration);
+                                   double exaggeration, const std::vector<PlacedMesh>* meshes, Scene& scene) {
+    const Seam seam = seam_between(region, cuts, exaggeration, meshes);
     if (seam.empty()) return std::uint64_t{0};
     const HeightField& field = region.grids.front().field;
     ORO_TRY(std::unique_ptr<RegionPages> pages,
@@ -137,7 +137,8 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
     if (request.clusters)
         ORO_CHECK(add_clusters(gpu, region.grids.front(), bytes, memory.main, request.mesh_level, *scene));
     if (pages.size() > 1 || region.meshes) {
-        ORO_TRY(const std::uint64_t between, draw_between(gpu, region, cuts, request.exaggeration, *scene));
+        ORO_TRY(const std::uint64_t between,
+                draw_between(gpu, region, cuts, request.exaggeration, request.meshes.get(), *scene));
         triangles += between;
     }
     return RegionScene{std::move(*scene), triangles};

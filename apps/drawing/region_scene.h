@@ -1,6 +1,7 @@
 // From a region that was read to one that can be drawn.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -37,6 +38,8 @@ struct SceneRequest {
     bool means{};
     bool clusters{};                  // drawn by the region's clusters (draws_clusters())
     std::optional<int> mesh_level{};  // those of one level of the graph (View)
+    // What is drawn in the place of the region's meshes; null: themselves.
+    std::shared_ptr<const std::vector<PlacedMesh>> meshes{};
 };
 // pages: of all grids (make_grid_pages()). cuts: of all of them (cut_regions()). Errors: out of device
 // memory.

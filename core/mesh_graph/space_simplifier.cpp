@@ -179,13 +179,13 @@ double SpaceSimplifier::cost_to_mesh(std::uint32_t vertex, std::uint32_t onto, d
             if (std::find(seen.begin(), seen.end(), corner) != seen.end()) continue;
             seen.push_back(corner);
             const int parts =
-                std::clamp(static_cast<int>(2.0 * glm::distance(at(corner), tip) / limits_.spacing_m), 2, 32);
+                std::clamp(static_cast<int>(2.0 * glm::distance(at(corner), tip) / limits_.spacing_m), 2, 10);
             for (int i = 1; i < parts; ++i) ask(tip + (at(corner) - tip) * (static_cast<double>(i) / parts));
             if (most2 > end2) return no_limit;
         }
         const double longest = std::max(
             {glm::distance(ends[0], tip), glm::distance(ends[1], tip), glm::distance(ends[0], ends[1])});
-        const int parts = std::clamp(static_cast<int>(1.5 * longest / limits_.spacing_m), 3, 12);
+        const int parts = std::clamp(static_cast<int>(1.5 * longest / limits_.spacing_m), 3, 6);
         for (int i = 1; i < parts; ++i)
             for (int k = 1; i + k < parts; ++k)
                 ask(tip + (ends[0] - tip) * (static_cast<double>(i) / parts) +

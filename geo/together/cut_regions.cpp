@@ -212,13 +212,15 @@ Result<RegionCuts> cut_regions(const Region& region) {
     return cuts;
 }
 
-Seam seam_between(const Region& region, const RegionCuts& cuts, double exaggeration) {
+Seam seam_between(const Region& region, const RegionCuts& cuts, double exaggeration,
+                  const std::vector<PlacedMesh>* meshes) {
     Seam seam;
     for (std::size_t i = 0; i < region.grids.size(); ++i)
         SeamBuilder(region.grids, cuts, i, exaggeration).add(seam);
     add_bridges(region.grids, cuts, exaggeration, seam);
-    if (region.meshes)
-        for (const PlacedMesh& mesh : *region.meshes)
+    if (meshes == nullptr) meshes = region.meshes.get();
+    if (meshes != nullptr)
+        for (const PlacedMesh& mesh : *meshes)
             add_mesh(mesh, region.grids.front().field.undulation, exaggeration, seam);
     return seam;
 }

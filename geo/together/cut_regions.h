@@ -46,7 +46,9 @@ struct RegionCuts {
 // Errors: as clip_by_finer() and gap_bridges().
 Result<RegionCuts> cut_regions(const Region& region);
 
-// What is drawn between them, and the region's meshes.
-Seam seam_between(const Region& region, const RegionCuts& cuts, double exaggeration);
+// What is drawn between them, and the region's meshes. meshes: what is drawn in the place of these
+// (geo/together/mesh_detail.h); null: themselves.
+Seam seam_between(const Region& region, const RegionCuts& cuts, double exaggeration,
+                  const std::vector<PlacedMesh>* meshes = nullptr);
 
 }  // namespace oro

@@ -146,6 +146,14 @@ void add_rim_wall(const RimWall& wall, const std::vector<SeamCorner>& corners, s
 
 }  // namespace
 
+std::vector<glm::dvec3> drawn_places_m(const PlacedMesh& mesh, const UndulationField& undulation,
+                                       double exaggeration) {
+    std::vector<glm::dvec3> places;
+    for (const SeamCorner& corner : drawn_vertices(mesh, undulation, exaggeration))
+        places.push_back(corner.at.m);
+    return places;
+}
+
 void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration, Seam& seam) {
     const FeatureLooks features(mesh);
     const std::vector<SeamCorner> corners = drawn_vertices(mesh, undulation, exaggeration);

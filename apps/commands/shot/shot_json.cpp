@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "apps/commands/drawn_meshes_json.h"
 #include "apps/cover/canopy_words.h"
 #include "apps/detail/detail_words.h"
 #include "apps/layers/picture_layers.h"
@@ -70,6 +71,7 @@ void put_counts(const ShotResult& shot, ordered_json& json) {
     pages["culled_by_horizon"] = counts.pages_beyond_horizon;
     pages["on_gpu"] = shot.pages_on_gpu;
     pages["bytes_on_gpu"] = shot.page_bytes;
+    if (shot.meshes) json["meshes"] = drawn_meshes_json(*shot.meshes);
     ordered_json& clusters = json["clusters"] = nullptr;
     if (!shot.clusters) return;
     clusters =

@@ -8,6 +8,7 @@
 #include "apps/accuracy/beyond_data.h"
 #include "apps/accuracy/pixel_check.h"
 #include "apps/accuracy/verification.h"
+#include "apps/drawing/mesh_cut.h"
 #include "apps/drawing/picking.h"
 #include "apps/output/picture_file.h"
 #include "apps/view/accuracy.h"
@@ -54,6 +55,7 @@ struct ShotResult {
     std::uint64_t pages_on_gpu{};
     std::uint64_t page_bytes{};
     std::optional<ClustersHeld> clusters;
+    std::optional<DrawnMeshes> meshes;  // where meshes are drawn by clusters
     double height_step_m{};
     bool has_means{};  // pixels have the colour of the mean of the ground that they cover
     std::uint64_t triangles_at_full_resolution{};

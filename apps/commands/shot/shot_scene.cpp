@@ -8,6 +8,7 @@
 #include "apps/drawing/drape.h"
 #include "apps/drawing/kept_drawing.h"
 #include "apps/drawing/mesh_choice.h"
+#include "apps/drawing/mesh_cut.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/legend/legend.h"
 #include "apps/report/progress_bar.h"
@@ -78,11 +79,17 @@ Result<ShotScene> scene_of_shot(const ShotOptions& options, double ceiling_m, co
     if (!shot.view.map) {
         ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
     }
-    ORO_TRY(const bool clusters, draws_clusters(shot.region, shot.view));
+    ORO_TRY(shot.meshes, drawn_meshes(shot.region, shot.view));
+    bool clusters = false;
+    if (shot.meshes)
+        say(options.quiet, words_of(*shot.meshes));
+    else {
+        ORO_TRY(clusters, draws_clusters(shot.region, shot.view));
+    }
     const bool means = asks_for_means(style.frame);
     std::string key;
     std::optional<RegionScene> whole;
-    if (keeps_drawing() && !asks) {
+    if (keeps_drawing() && !asks && !shot.meshes) {
         key = scene_key(shot.view, options.memory, means, clusters);
         whole = take_kept_scene(key);
     }
@@ -91,7 +98,8 @@ Result<ShotScene> scene_of_shot(const ShotOptions& options, double ceiling_m, co
         if (!asks) ORO_CHECK(make_pages());
         ORO_TRY(whole, scene_of_region(gpu, shot.region, ground.cuts, std::move(pages),
                                        {shot.view.exaggeration, memory_of_pages(shot.view, options.memory),
-                                        shot.view.heights, means, clusters, shot.view.mesh_level}));
+                                        shot.view.heights, means, clusters, shot.view.mesh_level,
+                                        shot.meshes ? shot.meshes->cut.meshes : nullptr}));
     }
     Scene& scene = whole->scene;
     const std::string note = note_of_missing_footprints(style.frame, scene.pages());
@@ -101,6 +109,8 @@ Result<ShotScene> scene_of_shot(const ShotOptions& options, double ceiling_m, co
     for (const GridScene& grid : scene.grids())
         if (!grid.pages().is_seam()) shot.pages += grid.pages().layout(0).count();
     shot.triangles_at_full_resolution = whole->triangles;
+    if (shot.meshes)
+        shot.triangles_at_full_resolution += shot.meshes->cut.of_triangles - shot.meshes->cut.triangles;
     shot.times.pages_s = seconds_since(start);
     return ShotScene{std::move(*whole), std::move(key)};
 }
