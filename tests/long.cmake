@@ -84,7 +84,9 @@ set_tests_properties(
   DeviceChoice.TimesCountValidBitsAlone
   Environment.ChangesNothingThatAFileMeans
   Environment.DoctorPrintsNoControlCharacters
+  FetchCommand.StoppedInAnyWayItGoesOn
   FetchFile.GivesUpOnAServerThatDrips
+  FetchMissing.FromNothingToAPanoramaWithNames
   FilesFarApart.AreDrawnAgainAsTheyWere
   FilesFarApart.AreEachDrawnAsAlone
   FilesFarApart.AreListedAsRegionsOfTheirOwn

@@ -14,6 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Without links, from the root: weakly_canonical() leaves a name relative of which nothing is there.
+fs::path whole_path(const std::string& name, std::error_code& failed) {
+    const fs::path from_root = fs::absolute(name, failed);
+    return failed ? fs::path(name) : fs::weakly_canonical(from_root, failed).lexically_normal();
+}
+
 // What a name leads to, the same for all names of one file.
 class FileNames {
   public:
@@ -26,7 +32,7 @@ class FileNames {
             place = std::to_string(found.st_dev) + ":" + std::to_string(found.st_ino);
         } else {
             std::error_code failed;
-            place = fs::weakly_canonical(name, failed).lexically_normal().string();
+            place = whole_path(name, failed).string();
             if (failed) place = name;
         }
         return places_.emplace(name, std::move(place)).first->second;
@@ -100,7 +106,7 @@ class Conflicts {
     std::optional<std::size_t> folder_around(const std::string& file) {
         if (folders_.empty() || !could_be_elevation(file)) return std::nullopt;
         std::error_code failed;
-        fs::path folder = fs::weakly_canonical(file, failed).parent_path();
+        fs::path folder = whole_path(file, failed).parent_path();
         while (!failed && !folder.empty()) {
             const auto found = folders_.find(names_.place_of(folder.string()));
             if (found != folders_.end()) return found->second;

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "apps/report/json_fields.h"
 #include "apps/settings/user_folders.h"
@@ -45,6 +48,29 @@ Value choice_in(const nlohmann::json& json, const char* name,
     throw JsonFault{"'" + std::string(name) + "' must be one of " + words};
 }
 
+// Of names that an object has twice the parser takes the second.
+void refuse_names_given_twice(const std::string& text) {
+    std::vector<std::set<std::string>> names;
+    std::string twice;
+    const auto look = [&](int, nlohmann::json::parse_event_t event, nlohmann::json& parsed) {
+        if (event == nlohmann::json::parse_event_t::object_start) names.emplace_back();
+        if (event == nlohmann::json::parse_event_t::object_end) names.pop_back();
+        if (event == nlohmann::json::parse_event_t::key &&
+            !names.back().insert(parsed.get<std::string>()).second)
+            twice = parsed.get<std::string>();
+        return true;
+    };
+    const nlohmann::json parsed_again = nlohmann::json::parse(text, look);
+    if (!parsed_again.is_null() && !twice.empty()) throw JsonFault{"'" + twice + "' is there twice"};
+}
+
+std::string url_in(const nlohmann::json& json) {
+    std::string url = json_string(json, "url");
+    if (std::ranges::any_of(url, [](unsigned char c) { return c <= 0x20U || c == 0x7FU; }))
+        throw JsonFault{"'url' holds a space or a control character"};
+    return url;
+}
+
 TileLayout layout_from(const std::string& name, const nlohmann::json& json) {
     refuse_unknown(json, ("source '" + name + "'").c_str(),
                    {"title", "url", "file", "side_deg", "format", "holds", "missing", "missing_words",
@@ -52,7 +78,7 @@ TileLayout layout_from(const std::string& name, const nlohmann::json& json) {
     TileLayout layout;
     layout.name = name;
     layout.title = json_string(json, "title");
-    layout.url = json_string(json, "url");
+    layout.url = url_in(json);
     layout.file = json_string(json, "file");
     layout.side_deg = static_cast<int>(json_whole(json, "side_deg", 1, 180));
     layout.format = choice_in<TileFormat>(json, "format",
@@ -84,7 +110,7 @@ PlacesSource places_from(const std::string& name, const nlohmann::json& json) {
     PlacesSource source;
     source.name = name;
     source.title = json_string(json, "title");
-    source.url = json_string(json, "url");
+    source.url = url_in(json);
     source.query = json_string(json, "query");
     source.most_bytes = static_cast<std::uint64_t>(json_whole(json, "most_bytes", 1, most_answer_bytes));
     source.licence = json_string(json, "licence");
@@ -126,7 +152,11 @@ Result<PublicSources> public_sources_from(const std::string& text, const std::st
         return Error{ErrorKind::failed, where, "is no table of sources: " + what};
     };
     try {
+        // The parser would take it for the end.
+        if (text.find('\0') != std::string::npos) return wrong("it is no text");
         const nlohmann::json json = parsed_json(text);
+        if (!json.is_object()) return wrong("an object with 'sources' was expected");
+        refuse_names_given_twice(text);
         refuse_unknown(json, "a table of sources", {"licence", "sources", "cache_limit_gb"});
         const nlohmann::json& sources = json_field(json, "sources");
         if (!sources.is_object()) return wrong("'sources' must be an object of sources by their names");
@@ -136,7 +166,8 @@ Result<PublicSources> public_sources_from(const std::string& text, const std::st
         for (const auto& [name, source] : sources.items()) {
             if (!is_name(name))
                 return wrong("'" + name + "' is no name of a source: letters, figures, '-' and '_' are");
-            if (source.is_object() && text_or_none(source, "format") == "overpass")
+            if (!source.is_object()) return wrong("source '" + name + "' must be an object");
+            if (text_or_none(source, "format") == "overpass")
                 all.places.push_back(places_from(name, source));
             else
                 all.tiles.push_back(layout_from(name, source));

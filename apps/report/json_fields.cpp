@@ -92,6 +92,20 @@ const json& json_array(const json& object, const char* name, std::size_t count) 
     return value;
 }
 
+namespace {
+
+// The library repeats what it stumbled over, however long that is.
+std::string in_brief(std::string what) {
+    constexpr std::size_t most = 240;
+    if (what.size() <= most) return what;
+    std::size_t end = most;
+    while (end > 0 && (static_cast<unsigned char>(what[end]) & 0xC0U) == 0x80U) --end;
+    what.resize(end);
+    return what + " ...";
+}
+
+}  // namespace
+
 json parsed_json(const std::string& text) {
     if (auto much = beyond_json_bounds(text)) throw JsonFault{std::move(*much)};
     try {
@@ -100,7 +114,8 @@ json parsed_json(const std::string& text) {
         // Less the library's own numbering: "[json.exception.parse_error.101] parse error at line 1, ...".
         const std::string what = fault.what();
         const std::size_t bracket = what.find("] ");
-        throw JsonFault{"is no JSON: " + (bracket == std::string::npos ? what : what.substr(bracket + 2))};
+        throw JsonFault{"is no JSON: " +
+                        in_brief(bracket == std::string::npos ? what : what.substr(bracket + 2))};
     }
 }
 

@@ -41,9 +41,9 @@ using PostHorizonsProgress = std::function<void(double share)>;
 // The horizons around posts of one of the ground's grids. Azimuths are from true north. The answer does not
 // depend on `threads`.
 //
-// Of ground that is one grid, by HorizonGround: as exact as its edges are straight (5e-4 degree on posts of 3
-// seconds, against the oracle). Of several, by bisection with sight lines of the oracle, to 1e-5 degree: some
-// thousand times as long.
+// Of ground that is one grid, by HorizonGround: as exact as its edges are straight (1.2e-3 degree on posts of
+// 3 seconds, against the oracle). Of several, by bisection with sight lines of the oracle, to 1e-5 degree:
+// some thousand times as long.
 PostHorizons post_horizons(const TrueGround& ground, std::size_t grid, const PostHorizonsRequest& request,
                            const PostHorizonsProgress& progress = {});
 

@@ -188,8 +188,12 @@ TEST_F(FetchCommand, StoppedInAnyWayItGoesOn) {
     const Words three{"--tile", "N46E008:N46E010", "--jobs", "2"};
     const std::string source = table(server);
     int stopped = 0, gone_on = 0;
+    const auto begin = std::chrono::steady_clock::now();
+    ASSERT_EQ(run(source, three).exit_code, 0);
+    const double whole_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
-        for (const double after_s : {0.15, 0.3, 0.5}) {
+        for (const double share : {0.35, 0.6, 0.85}) {
+            const double after_s = share * whole_s;
             SCOPED_TRACE(std::to_string(signal) + " after " + std::to_string(after_s));
             fs::remove_all(tiles_);
             Circumstances killed = plain();

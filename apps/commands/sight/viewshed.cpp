@@ -52,12 +52,12 @@ void say_canopy_notes(const SightGround& ground, bool quiet) {
 }
 
 // Observers of a table, where there is one.
-struct ToldObservers {
+struct ReportedObservers {
     const ObserversOptions& options;
     std::vector<TableObserver> all;
 };
 
-void tell_observers(const ToldObservers& observers, const ViewshedReport& report,
+void tell_observers(const ReportedObservers& observers, const ViewshedReport& report,
                     nlohmann::ordered_json& json) {
     json["observers_of"] = path_json(observers.options.file);
     if (!observers.options.table.empty()) json["table"] = path_json(observers.options.table);
@@ -79,7 +79,7 @@ void tell_observers(const ToldObservers& observers, const ViewshedReport& report
 
 void tell(const ViewshedOptions& options, const ViewshedReport& report, const Standpoints& stood,
           const SightGround& ground, const std::optional<SeenProbability>& probability,
-          const ToldObservers& observers) {
+          const ReportedObservers& observers) {
     const ViewshedQuestion& question = report.question;
     const std::string light = light_words(question.air, question.eyes.front().h_m);
     if (options.json) {
@@ -113,7 +113,7 @@ void tell(const ViewshedOptions& options, const ViewshedReport& report, const St
     if (probability) std::printf("%s\n", probable_words(*probability, report.cells).c_str());
     if (!observers.all.empty())
         std::printf("Observers: %s\n", observers_words(observers.options.file, observers.all).c_str());
-    for (std::size_t i = 0; question.are_told_one_by_one && i < question.eyes.size(); ++i) {
+    for (std::size_t i = 0; question.are_recorded_one_by_one && i < question.eyes.size(); ++i) {
         std::printf("From: %s\n", eye_text(question.eyes[i], ground.ground()).c_str());
         if (!stood.moved.empty())
             std::printf("Summit: %s\n", summit_words("the observer stands", stood.moved[i]).c_str());
@@ -127,7 +127,7 @@ void tell(const ViewshedOptions& options, const ViewshedReport& report, const St
 
 // The raster, and the table where one is asked for: both, or none.
 Result<void> write_files(const ViewshedOptions& options, const PostRaster& raster,
-                         const ToldObservers& observers, const ViewshedReport& report,
+                         const ReportedObservers& observers, const ViewshedReport& report,
                          const SightGround& ground) {
     ORO_TRY(WholeFile shed, written_post_raster(options.out, options.overwrite, raster));
     if (observers.options.table.empty()) return shed.commit();
@@ -170,7 +170,7 @@ std::string sides_beyond(const ViewshedReport& report, const PostGrid& grid) {
 }
 
 void say_walls(const Standpoints& standpoints, const ViewshedQuestion& question, bool quiet) {
-    if (!question.are_told_one_by_one) {
+    if (!question.are_recorded_one_by_one) {
         if (!standpoints.walls.empty())
             say(quiet, "note: " + counted(standpoints.walls.size(), "observer has", "observers have") +
                            " a summit before the eye; --on-summit stands there");
@@ -192,13 +192,13 @@ Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptio
     ORO_CHECK(check_words(options, of_table));
     ORO_CHECK(check_realisations(realisations));
     ORO_CHECK(check_target_on(options));
-    ToldObservers observers{of_table, {}};
+    ReportedObservers observers{of_table, {}};
     if (!of_table.file.empty()) {
         ORO_TRY(observers.all, read_observers(of_table, options));
     }
     ViewshedQuestion question;
     ORO_CHECK(begin_question(options, question));
-    question.are_told_one_by_one = of_table.file.empty();
+    question.are_recorded_one_by_one = of_table.file.empty();
     ORO_TRY(const SightCover cover, open_sight_cover(options.view));
     ProgressBar bar(options.quiet);
     ORO_TRY(const auto ground, open_sight_ground(options.region, bar.progress(), cover));

@@ -175,9 +175,9 @@ PostRaster raster_of(ViewshedReport& report, const RegionGround& ground) {
     raster.bands.push_back({"seen (1) or hidden (0)", std::move(seen)});
     raster.bands.push_back({"missed by, metres of height (0: seen)", std::move(report.clearance_deficit_m)});
     if (question.eyes.size() > 1) raster.bands.push_back({"observers that see it", std::move(report.count)});
-    if (!question.are_told_one_by_one)
+    if (!question.are_recorded_one_by_one)
         raster.tags.emplace_back("OBSERVERS", std::to_string(question.eyes.size()));
-    for (std::size_t i = 0; question.are_told_one_by_one && i < question.eyes.size(); ++i)
+    for (std::size_t i = 0; question.are_recorded_one_by_one && i < question.eyes.size(); ++i)
         raster.tags.emplace_back("OBSERVER_" + std::to_string(i + 1),
                                  eye_text(question.eyes[i], ground.ground()));
     raster.tags.emplace_back("TARGET_ABOVE_GROUND_M", all_digits(question.target_m));

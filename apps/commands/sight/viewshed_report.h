@@ -24,7 +24,7 @@ struct ViewshedQuestion {
     Air air;
     double target_m{};  // height of targets over the ground
     double radius_km{usual_radius_km};
-    bool are_told_one_by_one{true};  // the file has a tag for each eye; else one that counts them
+    bool are_recorded_one_by_one{true};  // the file has a tag for each eye; else one that counts them
     // What targets stand on, where that is not what hides them (ViewshedRequest); outlives the question.
     const TrueGround* footing{nullptr};
     // Tops that targets stand on, where there are some (ViewshedRequest); outlive the question.

@@ -3,7 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <filesystem>
 #include <fstream>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "apps/batch/job_conflicts.h"
 #include "tests/support/test_data.h"
@@ -168,6 +174,123 @@ TEST_F(JobFile, WhatIsNoListIsRefusedAsAWhole) {
     EXPECT_NE(huge.error().what.find("a list of jobs has at most 1 GiB"), std::string::npos);
     EXPECT_FALSE(read_jobs(file.parent_path().string()).ok());
     EXPECT_FALSE(read_jobs("/nowhere/jobs.jsonl").ok());
+}
+
+// What no honest program writes: each is one line, that says what is wrong and is no longer than a screen.
+TEST_F(JobFile, HostileLinesAreFaultsInOneLine) {
+    const std::string begin = R"({"command": "sight", "path": "a.tif", "from": "36,-84")";
+    const auto fault_of = [&](const std::string& line) {
+        const auto jobs = jobs_in(begin + "}\n" + line + "\n");
+        if (!jobs.ok() || jobs->size() != 2)
+            return std::string("the list: ") + (jobs.ok() ? "" : jobs.error().line());
+        return (*jobs)[1].fault ? (*jobs)[1].fault->line() : std::string();
+    };
+    const auto deep = [](const std::string& open, const std::string& close) {
+        std::string text;
+        for (int i = 0; i < 100000; ++i) text += open;
+        text += "1";
+        for (int i = 0; i < 100000; ++i) text += close;
+        return text;
+    };
+    const std::vector<std::pair<std::string, std::string>> lines{
+        {begin + R"(, "from": "36,-85"})", "'from' is there twice"},
+        {begin + R"(, "above": 1e999})", "number overflow"},
+        {begin + R"(, "above": )" + std::string(5000, '9') + "}", "number overflow"},
+        {begin + R"(, "above": NaN})", "is no JSON"},
+        {begin + R"(, "above": {"a": 1}})", "'above' must be a text, a number"},
+        {begin + R"(, "above": )" + deep("[", "]") + "}", "nested deeper than 16"},
+        {deep("{\"a\":", "}"), "nested deeper than 16"},
+        {begin + R"(, "print": "x\u0000y"})", "'print' holds a zero byte"},
+        {begin + R"(, "print": "\ud800"})", "is no JSON"},
+        {begin + ", \"print\": \"\xff\"}", "is no JSON"},
+        {begin + "}" + begin + "}", "is no JSON"},
+        {begin + ",}", "is no JSON"},
+        {begin + R"(, "--json": true})", "'--json' is no name of an option"},
+        {begin + R"(, "": true})", "'' is no name of an option"},
+        {begin + R"(, "args": "--json"})", "'args' must be a list"},
+        {R"({"command": "batch", "path": "b.jsonl"})", "\"batch\" is no command"},
+        {R"({"command": 5})", "'command' must be text"},
+        {"[1, 2]", "must be a JSON object"},
+        {"{}", "'command' is missing"},
+        {begin + R"(, "print": ")" + std::string(std::size_t{1} << 20U, 'x') + "\"}", "longer than 1 MiB"}};
+    for (const auto& [line, says] : lines) {
+        const std::string fault = fault_of(line);
+        EXPECT_NE(fault.find(says), std::string::npos) << line.substr(0, 200) << "\n" << fault;
+        EXPECT_EQ(fault.find('\n'), std::string::npos) << fault;
+        EXPECT_LT(fault.size(), 400U) << fault;
+    }
+    // A mark of the byte order, ends of lines as of Windows, and no end of the last line are no faults.
+    const auto jobs = jobs_in("\xEF\xBB\xBF" + begin + "}\r\n\r\n" + begin + "}");
+    ASSERT_TRUE(jobs.ok());
+    ASSERT_EQ(jobs->size(), 2U);
+    for (const BatchJob& job : *jobs) EXPECT_FALSE(job.fault) << job.fault->line();
+    EXPECT_EQ((*jobs)[1].line, 3U);
+    const auto cut = jobs_in(begin + "}" + std::string(1, '\0') + "\n");
+    ASSERT_FALSE(cut.ok());
+    EXPECT_NE(cut.error().line().find("it is no text"), std::string::npos) << cut.error().line();
+}
+
+// Lines by grammar, right ones with a part taken away, doubled or replaced: a line is a job or one line.
+TEST_F(JobFile, LinesByGrammar) {
+    constexpr unsigned seed = 541;
+    std::printf("seed %u\n", seed);
+    std::mt19937 random(seed);
+    const std::vector<std::string> parts{"{",           "}",
+                                         "[",           "]",
+                                         ",",           ":",
+                                         "\"command\"", "\"shot\"",
+                                         "\"path\"",    "\"a.tif\"",
+                                         "\"out\"",     "\"x.png\"",
+                                         "\"size\"",    "1e308",
+                                         "-0",          "1e-400",
+                                         "null",        "true",
+                                         "\"args\"",    "\"\\u0000\"",
+                                         "\"\\u202e\"", "\xEF\xBB\xBF",
+                                         "\t",          "\r",
+                                         "#",           "\"\"",
+                                         "0x1",         "18446744073709551616",
+                                         "\x80",        "{{",
+                                         "\"at\"",      "[46.5, 8]",
+                                         "\"--\""};
+    int understood = 0;
+    for (int i = 0; i < 5000; ++i) {
+        std::vector<std::string> line{"{", "\"command\"", ":", "\"shot\"",  ",", "\"path\"", ":", "\"a.tif\"",
+                                      ",", "\"out\"",     ":", "\"x.png\"", "}"};
+        for (std::size_t change = random() % 3; change > 0; --change) {
+            const std::size_t at = random() % line.size();
+            const std::string& part = parts[random() % parts.size()];
+            if (random() % 3 == 0)
+                line.erase(line.begin() + static_cast<std::ptrdiff_t>(at));
+            else if (random() % 2 == 0)
+                line.insert(line.begin() + static_cast<std::ptrdiff_t>(at), part);
+            else
+                line[at] = part;
+        }
+        std::string text;
+        for (const std::string& part : line) text += part;
+        const BatchJob job = job_of_line(text, 1);
+        understood += !job.fault;
+        if (!job.fault) continue;
+        EXPECT_EQ(job.fault->kind, ErrorKind::usage);
+        EXPECT_EQ(job.fault->line().find('\n'), std::string::npos) << text;
+        EXPECT_FALSE(job.fault->what.empty() || job.fault->line().size() > 400) << text;
+    }
+    EXPECT_GT(understood, 1000);
+    EXPECT_LT(understood, 4500);
+}
+
+// The same file by other names, of files that are not there yet, from the working folder.
+TEST_F(JobConflicts, OtherNamesOfOneFileFromTheWorkingFolder) {
+    const auto sight = [](const std::string& print) {
+        return R"({"command": "sight", "path": "nowhere.tif", "print": ")" + print + "\"}";
+    };
+    const std::string here = std::filesystem::current_path().filename().string();
+    const auto jobs = jobs_of({sight("not-there-x.txt"), sight("./not-there-x.txt"),
+                               sight("../" + here + "/not-there-x.txt"), sight("not-there-y.txt")});
+    EXPECT_EQ(said(jobs[0]), "");
+    EXPECT_NE(said(jobs[1]).find("is what line 1 writes"), std::string::npos) << said(jobs[1]);
+    EXPECT_NE(said(jobs[2]).find("is what line 1 writes"), std::string::npos) << said(jobs[2]);
+    EXPECT_EQ(said(jobs[3]), "");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "apps/commands/commands.h"
 #include "apps/commands/sight/sight_ground.h"
+#include "apps/options/observers_options.h"
 #include "apps/options/realisation_options.h"
 #include "tests/support/test_data.h"
 
@@ -52,7 +53,7 @@ TEST(SeenAround, IsWhatTheCommandPrintsAndWrites) {
         options.out = (folder / (bends ? "bent.tif" : "straight.tif")).string();
         options.quiet = true;
         testing::internal::CaptureStdout();
-        const Result<void> ran = run_viewshed(options, {});
+        const Result<void> ran = run_viewshed(options, {}, {});
         const std::string printed = testing::internal::GetCapturedStdout();
         ASSERT_TRUE(ran.ok()) << ran.error().line();
         EXPECT_EQ(printed, around->seen + "\nFrom: " + around->from + "\nLight: " + around->light + "\n");
@@ -87,7 +88,7 @@ TEST(SeenAround, WithACanopyIsWhatTheCommandWrites) {
     options.out = (folder / "command.tif").string();
     options.quiet = true;
     testing::internal::CaptureStdout();
-    const Result<void> ran = run_viewshed(options, {});
+    const Result<void> ran = run_viewshed(options, {}, {});
     const std::string printed = testing::internal::GetCapturedStdout();
     ASSERT_TRUE(ran.ok()) << ran.error().line();
     const auto cover = open_sight_cover(options.view);
@@ -141,7 +142,7 @@ TEST(SeenAround, WithErrorsOfHeightsIsWhatTheCommandWrites) {
     realisations.count = 6;
     realisations.le90_m = 10.0;
     testing::internal::CaptureStdout();
-    const Result<void> ran = run_viewshed(options, realisations);
+    const Result<void> ran = run_viewshed(options, realisations, {});
     const std::string printed = testing::internal::GetCapturedStdout();
     ASSERT_TRUE(ran.ok()) << ran.error().line();
     EXPECT_NE(printed.find(around->probable), std::string::npos) << printed << around->probable;
