@@ -84,6 +84,8 @@ set_tests_properties(
   DeviceChoice.TimesCountValidBitsAlone
   Environment.ChangesNothingThatAFileMeans
   Environment.DoctorPrintsNoControlCharacters
+  ExportParts.AKilledExportGoesOn
+  ExportParts.TilesOfPartsAreThoseOfOneGo
   FetchFile.GivesUpOnAServerThatDrips
   FilesFarApart.AreDrawnAgainAsTheyWere
   FilesFarApart.AreEachDrawnAsAlone
@@ -193,6 +195,8 @@ set_tests_properties(
   LibraryCalls.AThousandBadOnesEndWithErrors
   MadeHeights.NoiseHasNoGrainAndTheSpectrumOfItsGain
   Manual.HasEachOptionOfHelp
+  MeshTiles.GroundStaysAndVerticesAreWithinAMillimetre
+  MeshTiles.NothingLargerThanTheErrorIsMissing
   ModelOptions.AreSaidAndKeptAndDrawnAgain
   ModelOptions.BadValuesAreRefused
   ModelOptions.HalfTheHeightsHalfTheBytes
@@ -284,6 +288,7 @@ set_tests_properties(
   SeenProbability.OfFinerWorldsIsWhatIsSeen
   SeenProbability.OfTwoHundredWorldsIsWhatIsSeen
   Serve.OutlivesHostileAndSlowClients
+  ServeHostile.AGrammarOfRequestsGetsNothingFromOutside
   SeveralViews.AreDrawnOneAfterTheOther
   SeveralViews.MayBeAListInAFile
   SeveralViews.NeedNumberedNames
