@@ -289,6 +289,7 @@ set_tests_properties(
   SeenProbability.OfTwoHundredWorldsIsWhatIsSeen
   Serve.OutlivesHostileAndSlowClients
   ServeHostile.AGrammarOfRequestsGetsNothingFromOutside
+  ServeHostile.TwoHundredSlowClientsHoldUpNobody
   SeveralViews.AreDrawnOneAfterTheOther
   SeveralViews.MayBeAListInAFile
   SeveralViews.NeedNumberedNames

@@ -56,6 +56,9 @@ class Grammar {
                                  "%",          "%zz",        "%2",           "inner.json"};
         static const Texts ends{"",        "",  "",  "",  "/", "?x=../../secret.txt", "#..", "%00",
                                 "%00.png", "?", ".", " ", "\t"};
+        // One of ten is what a browser asks.
+        static const Texts sound{"/5/16/11.png", "/tiles.json", "/5/", "/%35/16/11.png", "/inner.json"};
+        if (std::uniform_int_distribution(0, 9)(random_) == 0) return one_of(sound);
         std::string text = one_of(begins);
         const int parts = std::uniform_int_distribution(0, 7)(random_);
         for (int i = 0; i < parts; ++i) text += (i > 0 ? one_of(separators) : "") + one_of(names);
@@ -104,7 +107,7 @@ class Grammar {
 TEST(ServeHostile, AGrammarOfRequestsGetsNothingFromOutside) {
     const Served served(folder_to_serve());
     // The server waits for the rest of what some requests announce; nobody waits for that here.
-    constexpr int clients = 8, requests = 50, patience_s = 2;
+    constexpr int clients = 8, requests = 50, patience_s = 1;
     std::atomic<int> given{0}, refused{0}, silent{0}, leaked{0};
     std::vector<std::thread> threads;
     for (unsigned client = 0; client < clients; ++client)
