@@ -84,6 +84,8 @@ set_tests_properties(
   DeviceChoice.TimesCountValidBitsAlone
   Environment.ChangesNothingThatAFileMeans
   Environment.DoctorPrintsNoControlCharacters
+  ExportParts.AKilledExportGoesOn
+  ExportParts.TilesOfPartsAreThoseOfOneGo
   FetchCommand.StoppedInAnyWayItGoesOn
   FetchFile.GivesUpOnAServerThatDrips
   FetchMissing.FromNothingToAPanoramaWithNames
@@ -196,6 +198,8 @@ set_tests_properties(
   LibraryCalls.AThousandBadOnesEndWithErrors
   MadeHeights.NoiseHasNoGrainAndTheSpectrumOfItsGain
   Manual.HasEachOptionOfHelp
+  MeshTiles.GroundStaysAndVerticesAreWithinAMillimetre
+  MeshTiles.NothingLargerThanTheErrorIsMissing
   ModelOptions.AreSaidAndKeptAndDrawnAgain
   ModelOptions.BadValuesAreRefused
   ModelOptions.HalfTheHeightsHalfTheBytes
@@ -288,6 +292,8 @@ set_tests_properties(
   SeenProbability.OfFinerWorldsIsWhatIsSeen
   SeenProbability.OfTwoHundredWorldsIsWhatIsSeen
   Serve.OutlivesHostileAndSlowClients
+  ServeHostile.AGrammarOfRequestsGetsNothingFromOutside
+  ServeHostile.TwoHundredSlowClientsHoldUpNobody
   SeveralViews.AreDrawnOneAfterTheOther
   SeveralViews.MayBeAListInAFile
   SeveralViews.NeedNumberedNames

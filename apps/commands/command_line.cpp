@@ -590,10 +590,9 @@ void add_export(CLI::App& app, ExportOptions& options) {
                 "Colour 3D Tiles by land cover: a raster of classes, as in shot --landcover. Also for "
                 "--canopy class.")
         .allow_extra_args(false);
-    written.option(
-        "--shard", options.shard, "PART",
-        "Make a part of the tiles, NUMBER/COUNT as in 2/4, and keep it in FOLDER.tiles. Without "
-        "it the tiles that are there are taken, and those that are missing are made.");
+    written.option("--shard", options.shard, "PART",
+                   "Make a part of the tiles, NUMBER/COUNT as in 2/4, and keep it in FOLDER.tiles. Without "
+                   "it the tiles that are there are taken, and those that are missing are made.");
     written.flag(
         "--no-normals", options.no_normals,
         "Leave normals out of 3D Tiles, a fifth of their size, where the viewer's shader makes its own.");

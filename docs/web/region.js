@@ -82,7 +82,8 @@ function plainLight() {
 async function showGlobe() {
   await loadCesium();
   const made = viewer({ globe: false, skyAtmosphere: false });
-  const tileset = await Cesium.Cesium3DTileset.fromUrl("globe/tileset.json", { maximumScreenSpaceError: pixels });
+  const folder = asked.get("tiles")?.match(/^[a-z0-9]+$/)?.[0] ?? "globe";
+  const tileset = await Cesium.Cesium3DTileset.fromUrl(`${folder}/tileset.json`, { maximumScreenSpaceError: pixels });
   if (asked.get("light") === "plain") tileset.customShader = plainLight();
   made.scene.primitives.add(tileset);
   if (!eyeAsked) await made.zoomTo(tileset);

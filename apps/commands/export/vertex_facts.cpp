@@ -56,8 +56,7 @@ Result<std::unique_ptr<ExportedFacts>> ExportedFacts::of(const ExportOptions& op
             facts->notes_.push_back(file + ": lies beside the elevation data");
     }
     if (!options.landcover.empty()) {
-        CoverChoice choice;
-        choice.files = options.landcover;
+        ORO_TRY(CoverChoice choice, cover_choice_from(options.landcover));
         ORO_TRY(facts->cover_, open_cover(choice, files));
         facts->notes_ = facts->cover_->notes();
     }

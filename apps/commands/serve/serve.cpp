@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -23,7 +24,10 @@
 namespace oro {
 namespace {
 
-constexpr std::size_t threads = 64;  // a client that is slow holds one
+// A client that is slow holds one of them, and so many may be: they are created at once.
+constexpr std::size_t threads = 320;
+// Of one request: more of them are no reader's, but ask for a file many times over.
+constexpr std::size_t most_ranges = 16;
 
 bool is_loopback(const std::string& host) {
     if (host == "localhost" || host == "::1" || host == "[::1]") return true;
@@ -45,6 +49,12 @@ void refuse(httplib::Response& response, int status, const char* words) {
     response.set_content(std::string(words) + "\n", "text/plain; charset=utf-8");
 }
 
+// Without words: the library would cut them into these ranges.
+void refuse_ranges(httplib::Response& response, std::uintmax_t bytes) {
+    response.status = 416;
+    response.set_header("Content-Range", "bytes */" + std::to_string(bytes));
+}
+
 // A file of any size, read as it is sent; ranges are the library's.
 void give_file(const std::filesystem::path& file, const httplib::Request& request,
                httplib::Response& response) {
@@ -52,8 +62,11 @@ void give_file(const std::filesystem::path& file, const httplib::Request& reques
     const std::uintmax_t bytes = std::filesystem::file_size(file, problem);
     const auto stream = std::make_shared<std::ifstream>(file, std::ios::binary);
     if (problem || !*stream) return refuse(response, 404, "there is no such file");
-    if (!request.ranges.empty() && request.ranges.front().first >= static_cast<std::int64_t>(bytes))
-        return refuse(response, 416, "the file ends before");
+    if (request.ranges.size() > most_ranges) return refuse_ranges(response, bytes);
+    const auto begins_beyond = [&](const auto& range) {
+        return range.first >= static_cast<std::int64_t>(bytes);
+    };
+    if (std::ranges::any_of(request.ranges, begins_beyond)) return refuse_ranges(response, bytes);
     if (bytes == 0) return response.set_content("", media_type_of(file));
     response.set_content_provider(static_cast<std::size_t>(bytes), media_type_of(file),
                                   [stream](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
