@@ -359,8 +359,9 @@ std::string note_of_mesh(const PlacedMesh& mesh) {
     left_out(mesh.degenerate, "without an area");
     if (mesh.lengthened > 0) {
         char text[120];
-        std::snprintf(text, sizeof text, "; walls of %zu buildings led down to the ground, by up to %.1f m",
-                      mesh.lengthened, mesh.most_lengthened_m);
+        std::snprintf(text, sizeof text, "; walls of %zu %s led down to the ground, by up to %.1f m",
+                      mesh.lengthened, mesh.lengthened == 1 ? "building" : "buildings",
+                      mesh.most_lengthened_m);
         note += text;
     }
     return mesh.note.empty() ? note : note + "; " + mesh.note;

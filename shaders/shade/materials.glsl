@@ -130,15 +130,15 @@ float dry_share(SurfacePoint point) {
     return broken(min(within_deg / 0.3, up), 1.0);
 }
 
-// Near meshes no forest grows and nothing is tilled: meadows and gardens, and beside buildings much is paved.
+// Near meshes no forest grows, and beside buildings nothing is tilled: meadows and gardens, and much is paved.
 void make_open(inout MaterialShares shares, vec2 distance_m) {
-    float open = broken(38.0 - distance_m.x, 9.0);
-    float woods = open * (shares.of[material_needle_forest] + shares.of[material_broad_forest] + shares.of[material_crops] + shares.of[material_shrub]);
-    shares.of[material_needle_forest] *= 1.0 - open;
-    shares.of[material_broad_forest] *= 1.0 - open;
-    shares.of[material_crops] *= 1.0 - open;
-    shares.of[material_shrub] *= 1.0 - open;
-    shares.of[material_meadow] += woods;
+    float woods = 1.0 - broken(38.0 - distance_m.x, 9.0), fields = 1.0 - broken(22.0 - distance_m.y, 6.0);
+    float before = shares.of[material_needle_forest] + shares.of[material_broad_forest] + shares.of[material_shrub] + shares.of[material_crops];
+    shares.of[material_needle_forest] *= woods;
+    shares.of[material_broad_forest] *= woods;
+    shares.of[material_shrub] *= woods;
+    shares.of[material_crops] *= fields;
+    shares.of[material_meadow] += before - shares.of[material_needle_forest] - shares.of[material_broad_forest] - shares.of[material_shrub] - shares.of[material_crops];
     float paved = shares.of[material_meadow] * patched(7.0 - distance_m.y, 4.0);
     shares.of[material_meadow] -= paved;
     shares.of[material_built] += paved;

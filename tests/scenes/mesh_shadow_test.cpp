@@ -164,5 +164,32 @@ TEST_F(MeshShadows, AreTheOracles) {
     EXPECT_LE(static_cast<double>(all.differ), 0.01 * static_cast<double>(all.asked));
 }
 
+// A frame without meshes has no map of the ground near them, and no casters; with meshes each grid has both.
+TEST_F(MeshShadows, WithoutMeshesNothingIsAsked) {
+    const Town town = made_town();
+    const Camera camera{{middle_lat_deg - 350.0 * north_deg_per_m, middle_lon_deg, town.ground_H_m + 160.0},
+                        {0.0, -24.0, 0.0},
+                        40.0,
+                        160,
+                        96};
+    for (const bool has_meshes : {false, true}) {
+        Region region = town.region;
+        if (!has_meshes) region.meshes.reset();
+        const auto cuts = cut_regions(region);
+        ASSERT_TRUE(cuts.ok()) << cuts.error().line();
+        Scene scene = test::scene_of_grids(*gpu_, region, *cuts, seam_between(region, *cuts, 1.0));
+        const auto plan = scene.settled_plan({camera, {0, 0, 160, 96, {0.5, 0.5}}, 1.0});
+        ASSERT_TRUE(plan.ok()) << plan.error().line();
+        EXPECT_EQ(plan->grids.size(), has_meshes ? 2U : 1U);
+        std::size_t with_casters = 0;
+        for (const GridPlan& grid : plan->grids) {
+            EXPECT_EQ(grid.constants.cleared.cells != gpu::uvec2(0U), has_meshes);
+            EXPECT_EQ(grid.constants.cleared.side != gpu::uvec2(0U), has_meshes);
+            with_casters += grid.mesh_casters != 0 && grid.mesh_nodes > 0 ? 1U : 0U;
+        }
+        EXPECT_EQ(with_casters, has_meshes ? 1U : 0U);
+    }
+}
+
 }  // namespace
 }  // namespace oro

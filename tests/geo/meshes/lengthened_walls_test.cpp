@@ -57,7 +57,7 @@ TEST(LengthenedWalls, EndBelowTheLowestGround) {
     EXPECT_TRUE(std::equal(before.triangles.begin(), before.triangles.end(), mesh.triangles.begin()));
     for (std::size_t i = before.vertices.size(); i < mesh.vertices.size(); ++i)
         EXPECT_NEAR(mesh.vertices[i].H_m, 493.5, 0.01) << "m";
-    EXPECT_NE(note_of_mesh(mesh).find("walls of 1 buildings led down to the ground, by up to 6.5 m"),
+    EXPECT_NE(note_of_mesh(mesh).find("walls of 1 building led down to the ground, by up to 6.5 m"),
               std::string::npos)
         << note_of_mesh(mesh);
 }

@@ -1,0 +1,121 @@
+// How meshes look, and terrain that is cut out under them, as users see it.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/apps/picture_pixels.h"
+#include "tests/apps/program.h"
+#include "tests/support/test_data.h"
+
+namespace {
+namespace fs = std::filesystem;
+using nlohmann::json;
+using oro::test::bundled;
+using oro::test::expect_refusal;
+using oro::test::joined;
+using oro::test::Outcome;
+using oro::test::Pixels;
+using oro::test::pixels_of;
+using oro::test::run_orograph;
+using oro::test::says;
+using oro::test::usage;
+using oro::test::view_in;
+using oro::test::Words;
+
+// A pit 89 m by 222 m whose floor is at 300 m above sea level; the ground around it is at about 350 m.
+const std::string pit_obj =
+    "v -84.1765 36.604 300\nv -84.1755 36.604 300\nv -84.1755 36.606 300\nv -84.1765 36.606 300\n"
+    "f 1 2 3\nf 1 3 4\n";
+// A roof over the same place, at 420 m.
+const std::string roof_obj =
+    "v -84.1765 36.604 420\nv -84.1755 36.604 420\nv -84.1755 36.606 420\nv -84.1765 36.606 420\n"
+    "f 1 2 3\nf 1 3 4\n";
+
+class MeshLook : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        oro::test::write_bytes(pit_, pit_obj);
+        oro::test::write_bytes(roof_, roof_obj);
+    }
+    // From 300 m above the ground, straight down.
+    [[nodiscard]] json shot(const Words& more) const {
+        const Outcome drawn =
+            run_orograph(joined({"shot", bundled(), "--at", "36.605,-84.176", "--altitude", "650", "--pitch",
+                                 "-90", "--size", "64x48", "--out", picture_, "--overwrite", "-q", "--json"},
+                                more));
+        EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+        return drawn.exit_code == 0 ? json::parse(drawn.out) : json::object();
+    }
+    // The middle of the last picture: red, green and blue.
+    [[nodiscard]] std::array<int, 3> middle() const {
+        const Pixels pixels = pixels_of(picture_);
+        const std::size_t at = 3 * (24 * 64 + 32);
+        return {pixels.rgb[at], pixels.rgb[at + 1], pixels.rgb[at + 2]};
+    }
+
+    const fs::path folder_ = oro::test::scratch_folder();
+    const std::string pit_ = (folder_ / "pit.obj").string(), roof_ = (folder_ / "roof.obj").string(),
+                      picture_ = (folder_ / "look.png").string();
+};
+
+// A level roof: grey where nobody knows what the file is of, gravel where it is built, green as ground.
+TEST_F(MeshLook, IsByTheFileOrAsAsked) {
+    const Words on{"--style", "natural", "--mesh-file", roof_, "--mesh-crs", "EPSG:4326"};
+    shot(on);
+    const std::array<int, 3> plain = middle();
+    EXPECT_LT(std::abs(plain[0] - plain[1]), 16) << "grey";
+    EXPECT_FALSE(json::parse(view_in(picture_))["meshes"].contains("look"));
+    shot(joined(on, {"--mesh-look", "built"}));
+    const std::array<int, 3> built = middle();
+    EXPECT_LT(built[0], plain[0]) << "gravel is darker";
+    EXPECT_EQ(json::parse(view_in(picture_))["meshes"]["look"], "built");
+    shot(joined(on, {"--mesh-look", "ground"}));
+    const std::array<int, 3> ground = middle();
+    EXPECT_GT(ground[1], ground[2] + 10) << "green";
+    expect_refusal(run_orograph({"shot", bundled(), "--mesh-look", "built", "-q", "--out", picture_}), usage,
+                   {"--mesh-look", "without --mesh-file"});
+    expect_refusal(
+        run_orograph(joined({"shot", bundled(), "-q", "--out", picture_, "--mesh-look", "wood"}, on)), usage,
+        {"--mesh-look", "wood"});
+}
+
+// Without the cut the terrain hides the pit; with it the floor is seen, and the picture draws itself again.
+TEST_F(MeshLook, APitIsSeenWhereTheTerrainIsCut) {
+    const Words on{"--mesh-file", pit_, "--mesh-crs", "EPSG:4326", "--mesh-look", "ground"};
+    EXPECT_FALSE(says(shot(on)["destination"].dump(), "pit.obj"));
+    const json said = shot(joined(on, {"--cut-under", "--verify"}));
+    EXPECT_TRUE(says(said["destination"].dump(), "pit.obj")) << said["destination"].dump();
+    EXPECT_LT(said["error"]["seen_px"]["max"].get<double>(), 1.05) << said["error"].dump();
+    const json view = json::parse(view_in(picture_));
+    EXPECT_EQ(view["meshes"]["cut_under"], true);
+    const std::string again = (folder_ / "again.png").string();
+    const Outcome redrawn = run_orograph({"shot", "--view", picture_, "--out", again, "--overwrite", "-q"});
+    ASSERT_EQ(redrawn.exit_code, 0) << redrawn.err;
+    EXPECT_EQ(json::parse(view_in(again))["fingerprints"]["pixels"], view["fingerprints"]["pixels"]);
+}
+
+// Out of the pit, whose floor is under the terrain: from 2 m over the floor to a place 170 m over the ground.
+TEST_F(MeshLook, SightGoesOutOfThePit) {
+    const Words line{"sight",       bundled(), "--from",          "36.605,-84.176", "--altitude",
+                     "302",         "--to",    "36.605,-84.1734", "--target",       "170",
+                     "--mesh-file", pit_,      "--mesh-crs",      "EPSG:4326",      "--mesh-look",
+                     "ground",      "-q",      "--json"};
+    const Outcome buried = run_orograph(line), seen = run_orograph(joined(line, {"--cut-under"}));
+    EXPECT_FALSE(buried.exit_code == 0 && json::parse(buried.out)["visible"] == true) << buried.out;
+    ASSERT_EQ(seen.exit_code, 0) << seen.err;
+    EXPECT_EQ(json::parse(seen.out)["visible"], true) << seen.out;
+}
+
+TEST_F(MeshLook, CutsAreRefusedInOneLine) {
+    const Words shot{"shot", bundled(), "--at", "36.605,-84.176", "-q", "--out", picture_, "--overwrite"};
+    expect_refusal(run_orograph(joined(shot, {"--cut-under"})), usage,
+                   {"--cut-under", "without --mesh-file"});
+    expect_refusal(
+        run_orograph(joined(shot, {"--cut-under", "--mesh-file", pit_, "--mesh-crs", "EPSG:4326"})), usage,
+        {"--cut-under", "needs a mesh that is ground"});
+}
+
+}  // namespace
