@@ -115,10 +115,7 @@ Result<void> run_compare(const CompareOptions& options) {
     ORO_TRY(GridPages pages, make_grid_pages(region, cuts, view.exaggeration,
                                              [&](double share) { bar.show(share, "measuring levels"); }));
     ORO_TRY(const std::optional<DrawnMeshes> meshes, drawn_meshes(region, view));
-    bool clusters = false;
-    if (!meshes) {
-        ORO_TRY(clusters, draws_clusters(region, view));
-    }
+    ORO_TRY(const bool clusters, meshes ? Result<bool>(false) : draws_clusters(region, view));
     ORO_TRY(RegionScene whole, scene_of_region(*gpu, region, cuts, std::move(pages),
                                                {view.exaggeration, memory_of_pages(view, options.memory),
                                                 view.heights, asks_for_means(style.frame), clusters,

@@ -83,7 +83,7 @@ TEST_F(MeshClusters, ArePicturesWithinTauOfTheWholeMesh) {
     EXPECT_LE(meshes["error_px"], 1.0);
     EXPECT_EQ(said["triangles"]["at_full_resolution"], whole["triangles"]["at_full_resolution"]);
     EXPECT_EQ(said["view"]["mesh"], "clusters");
-    for (const char* const part : {"seen_px", "skyline_px"})
+    for (const char* const part : {"surface_px", "skyline_px"})
         EXPECT_LE(said["error"][part]["max"], 1.0 + 0.05 + 1.0 / 64.0) << part;
     EXPECT_TRUE(says(said["destination"]["source"].dump(), "ball.obj"));
 }
