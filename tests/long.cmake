@@ -533,6 +533,8 @@ set_tests_properties(
   Footprint.LeavesAnglesOfLargePosts
   Footprint.ShadowsFollowTheSunInOneRenderer
   Footprint.ShadowsOfFarGroundAreNoSpeckle
+  ForestReference.HoldsLightAndShareByDistance
+  ForestReference.HoldsLightBySunEyeAndSlope
   GrassPictures.ShowTheSameBladesAtFullDetail
   GrassRule.CoverageStaysWhereBladesThin
   Halves.LeaveTheLowerIdWhereTrianglesAreAsNear

@@ -56,6 +56,7 @@ Stands stands_at(SitePlace place, SurfacePoint point) {
     pixel_noise = ground_noise(point.view, foot_m, 0.0005);
     // Crowns are wide: no tree stands beside a mesh, whatever a map says.
     if (mesh_distance_m(point.view).x < 9.0) return Stands(0.0, 0.0, 0.0);
+    find_pixel_parcel(point, slope_deg(point), foot_m);
     pixel_second = patched(0.0, 1.0);
     float known = 0.0;
     Stands by_map = Stands(0.0, 0.0, 0.0);
@@ -71,7 +72,7 @@ Stands stands_at(SitePlace place, SurfacePoint point) {
 // What of the sun's light falls on a closed canopy, which lies as its ground does: that on level ground is 1.
 float sun_on_canopy(SurfacePoint point) {
     vec3 sun = sun_at(point.view);
-    return clamp(dot(steeper(point.normal, FRAME.style.relief), sun) / max(sun.z, 0.15), 0.08, most_sun);
+    return sun_on_crowns(dot(steeper(point.normal, FRAME.style.relief), sun), sun.z);
 }
 
 // Of single trees, that have leaves: as the rule has forests.

@@ -129,12 +129,23 @@ Images images_over(SurfacePoint point) {
 }
 vec3 imaged_tint(Images images, inout SurfacePoint point) {
     vec3 colour = images.cover.rgb;
+#ifdef IN_AIR
+    rock_colour = sky_colour = vec3(0.0);
+#endif
     if (!draped || images.cover.a < 1.0) {
         vec3 by_rule = as_map || in_air ? ground_tint(point) : tint(point.mean_H_m);
         colour = draped ? mix(by_rule, colour, images.cover.a) : by_rule;
     }
 #ifdef IN_AIR
-    if (HAS_NET && of_materials && pixel_look.x > 0.0) colour = mesh_colour(point);
+    if (HAS_NET && of_materials && pixel_look.x > 0.0) {
+        colour = mesh_colour(point);
+        rock_colour = sky_colour = vec3(0.0);
+    }
+    if (draped) {
+        float by_rule = (1.0 - images.cover.a) * (1.0 - images.share);
+        rock_colour *= by_rule;
+        sky_colour *= by_rule;
+    }
 #endif
     if (images.share <= 0.0) return colour;
     point.normal = normalize(mix(point.normal, vec3(0.0, 0.0, 1.0), images.upright));
@@ -144,9 +155,17 @@ vec3 imaged_tint(Images images, inout SurfacePoint point) {
 #ifdef IN_AIR
 void add_place(inout GroundLight sum, Images images, SurfacePoint point, vec3 sun, float share) {
     vec3 albedo = share * imaged_tint(images, point), normal = steeper(point.normal, FRAME.style.relief);
+    float cosine = facing(normal, sun);
     sum.colour += albedo;
-    sum.lit += albedo * facing(normal, sun);
+    sum.lit += albedo * cosine;
     sum.open += albedo * (0.5 + 0.5 * normal.z);
+    if (of_materials) {
+        vec3 rock = share * rock_colour, sky = share * sky_colour;
+        sum.colour += sky;
+        sum.open += sky * (0.5 + 0.5 * normal.z);
+        sum.lit += rock * (cosine * lit_by_relief(pixel_relief, cosine));
+        sum.open += rock * clamp(pixel_relief.to_sky, -0.5, 0.5);
+    }
 }
 #else
 // In linear light, before any air.

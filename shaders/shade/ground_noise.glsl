@@ -6,15 +6,19 @@ struct GroundNoise {
     float patches;        // the same
     float patches_sharp;
     float grain;
+    float crowns;         // of a forest: most of it of the size of crowns
 };
 
 #include "shaders/shade/lattice_noise.glsl"
+
+// Crowns stand some 5 m apart; of larger areas, with their gaps and their ages, the mean differs less.
+const float crown_m = 6.0;
 
 // Of a place in view coordinates, as it is seen; foot_m: the side of a pixel on the ground; least: variance that borders have anyhow.
 GroundNoise ground_noise(vec3 view, float foot_m, float least) {
     if (FRAME.refraction_per_m != 0.0) view -= (0.5 * FRAME.refraction_per_m * squared_across(view)) * FRAME.up_view;
     vec3 at = (view * FRAME.view_from_ecef) / FRAME.noise[0].cell_m;
-    GroundNoise noise = GroundNoise(0.0, 0.0, 0.0, 0.0, 0.0);
+    GroundNoise noise = GroundNoise(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     vec2 left = vec2(1.0);  // variance
     for (uint i = 0u; i < noise_octaves; ++i) {
         // From two to three pixels long it fades in.
@@ -29,6 +33,7 @@ GroundNoise ground_noise(vec3 view, float foot_m, float least) {
         left -= 0.1603 * kept * kept * vec2(border * border, patches * patches);
         // Of the one kind where it moves no border much, so that grain and borders have nothing in common.
         noise.grain += FRAME.noise[i].grain * both.y;
+        noise.crowns += both.y * min(inversesqrt(FRAME.noise[i].cell_m / crown_m), 1.0);
         at = noise_lacunarity / 3.0 * vec3(2.0 * at.x - 2.0 * at.y + at.z, at.x + 2.0 * at.y + 2.0 * at.z, 2.0 * at.x + at.y - 2.0 * at.z);
     }
     vec2 sharp = inversesqrt(max(left, 0.0) + least);

@@ -3,8 +3,11 @@
 #ifdef IN_AIR
 #include "shaders/shade/ground_noise.glsl"
 #include "shaders/shade/parcels.glsl"
+#include "shaders/shade/rock_relief.glsl"
 #include "shaders/shared_meadow.h"
 #include "shaders/growth/reach.glsl"
+#include "shaders/shared_growth.h"
+#include "shaders/shade/forest_light.glsl"
 #include "shaders/growth/meadow_reach.glsl"
 
 // By number (material_rock and so on); together 1.
@@ -17,6 +20,11 @@ float pixel_second;        // the share of the second of two materials that a ma
 float pixel_rock;          // the share of bare ground that is rock
 float pixel_slope_deg;
 float pixel_H_m;
+RockRelief pixel_relief;
+Parcel pixel_parcel;
+vec3 pixel_forest_sky[2];  // what forests send back of the sky's light more than of the sun's: needles, leaves
+vec3 sky_colour;           // ... of the place that was coloured last
+vec3 rock_colour;  // of the place that was coloured last: what its rock has of the colour
 
 // The share of ground on the one side of a border: x from it, in units in which noise moves the border by `spread` (root mean square). Of noise
 // that a pixel is too large for the mean: shares of large areas are those of small ones.
@@ -26,16 +34,17 @@ float broken(float x, float spread, float noise, float sharp) {
 float broken(float x, float spread) { return broken(x, spread, pixel_noise.border, pixel_noise.border_sharp); }
 float patched(float x, float spread) { return broken(x, spread, pixel_noise.patches, pixel_noise.patches_sharp); }
 
-// Layers of rock, by height, bent by noise: of mean 0.
-float strata(float H_m, float foot_m) {
-    float bent_m = H_m + 22.0 * pixel_noise.border + 14.0 * pixel_noise.patches, sum = 0.0;
+// Layers of rock, by height, bent by noise: of mean 0. How light each is, and how far its edge stands out.
+vec2 strata(float H_m, float foot_m) {
+    float bent_m = H_m + 22.0 * pixel_noise.border + 14.0 * pixel_noise.patches;
+    vec2 sum = vec2(0.0);
     float thick_m = 170.0;
     for (int i = 0; i < 3; ++i) {
         thick_m *= 0.35;
         float kept = clamp(0.5 * thick_m / foot_m - 1.0, 0.0, 1.0);
         float layers = bent_m / thick_m, whole = floor(layers), on = smoothstep(0.25, 0.75, layers - whole);
         uint layer = uint(int(whole)) * 0x9e3779b1u + uint(i);
-        sum += kept * (2.0 * mix(at_lattice_point(layer).x, at_lattice_point(layer + 0x9e3779b1u).x, on) - 3.0);
+        sum += kept * (2.0 * mix(at_lattice_point(layer), at_lattice_point(layer + 0x9e3779b1u), on) - 3.0);
     }
     return sum;
 }
@@ -43,17 +52,21 @@ float strata(float H_m, float foot_m) {
 // Ground this steep is rock in half of all places.
 float half_rock_deg() { return 0.5 * (FRAME.style.cover.rock_from_deg + FRAME.style.cover.rock_to_deg); }
 
-const vec3 needles_in_light = vec3(-0.378, 1.091, 1.717), leaves_in_light = vec3(-0.618, 1.468, 1.969);
-const float crowns_in_shadow = 0.65;
+// What a pixel's far forest has of the sun's light and of the sky's, over ground of its colour; by kinds.
+struct ForestLight { vec2 lit, open; };  // needles, leaves
+ForestLight forest_light(vec3 to_eye, vec3 sun, vec3 normal) {
+    ForestAngles at = forest_angles(to_eye, sun, normal);
+    vec3 steep = steeper(normal, FRAME.style.relief);
+    float cosine = facing(steep, sun), on_crowns = sun_on_crowns(cosine, sun.z) / max(cosine, 0.02);
+    return ForestLight(on_crowns * crowns_lit(at), crowns_open(at) / (0.5 + 0.5 * steep.z));
+}
 
-// A forest's light where single trees are not drawn, beside that of level ground of its colour. Crowns between the eye and the sun show their
-// shaded sides, and crowns across from the sun their sunlit ones; the lower the sun, the more. Fitted to drawn trees on level ground
-// (docs/notes/2026-11-28-light-of-far-forests.md).
-float crowns_in_light(vec3 to_eye, vec3 sun, vec3 fitted) {
-    float facing_both = 0.5 + 0.5 * dot(to_eye, sun), both_up = max(sun.z, 0.0) + max(to_eye.z, 0.0) + 0.8;
-    float on_slopes = 1.1;  // where forests stand; drawn trees are lighter there than on level ground
-    float in_sun = on_slopes * max(fitted.x + (fitted.y + fitted.z * facing_both) / both_up, 0.3);
-    return mix(crowns_in_shadow, in_sun, sun_share());
+// How much rock rises and falls, for what its colour does.
+const float relief_of_grain = 1.9;
+
+void find_pixel_parcel(SurfacePoint point, float steep_deg, float foot_m) {
+    pixel_parcel = Parcel(vec2(0.0), hedge_mean, 0.0);
+    if (steep_deg < parcels_to_deg && foot_m < parcels_to_foot_m) pixel_parcel = parcel_at(point.view, foot_m, pixel_noise.border);
 }
 
 void find_pixel_materials(SurfacePoint point, vec3 sun) {
@@ -69,27 +82,52 @@ void find_pixel_materials(SurfacePoint point, vec3 sun) {
     pixel_noise = ground_noise(point.view, finest_m, point.parts > 0 ? 0.04 : 0.0005);
     pixel_slope_deg = slope_deg(point);
     float patches = clamp(pixel_noise.patches, -2.0, 2.0);
+    // Beside the sun crowns show their lit and their shaded sides, and with the sun behind the eye lit ones alone.
+    float crowns = pixel_noise.crowns * crowns_contrast(dot(to_eye, sun));
     for (uint i = 0u; i < material_count; ++i) {
         vec3 colour = FRAME.style.materials.of[i].colour + patches * FRAME.style.materials.of[i].patches;
-        pixel_materials[i] = colour * max(1.0 + FRAME.style.materials.of[i].grain * pixel_noise.grain, 0.1);
+        bool is_forest = i == material_needle_forest || i == material_broad_forest;
+        pixel_materials[i] = colour * max(1.0 + FRAME.style.materials.of[i].grain * (is_forest ? crowns : pixel_noise.grain), 0.1);
     }
+    // Where it is dry grass is straw, and where it is wet it is green.
+    pixel_materials[material_meadow] *= max(1.0 + 0.7 * FRAME.style.materials.of[material_meadow].grain * pixel_noise.grain * vec3(1.0, 0.2, -0.4), vec3(0.1));
+    pixel_forest_sky[0] = pixel_forest_sky[1] = vec3(0.0);
     if ((FRAME.style.materials.on & materials_with_trees) != 0u) {
         // Where trees stand their floor is seen, in their shade; the mean of both is the forest's colour.
         float trees = trees_at(length(point.view), tree_reach_m(FRAME.pixels_per_tangent, FRAME.tau_px));
-        pixel_materials[material_needle_forest] *= mix(crowns_in_light(to_eye, sun, needles_in_light), 0.65, trees);
-        pixel_materials[material_broad_forest] *= mix(crowns_in_light(to_eye, sun, leaves_in_light), 0.65, trees);
+        ForestLight light = forest_light(to_eye, sun, point.normal);
+        vec2 lit = mix(light.lit, vec2(0.65), trees), open = mix(light.open, vec2(0.65), trees);
+        // A map's colours have one light for the sun and the sky.
+        if (draped && has_cover()) lit = open = mix(open, 0.7 * lit + 0.3 * open, sun_share());
+        pixel_forest_sky[0] = (open.x - lit.x) * pixel_materials[material_needle_forest];
+        pixel_forest_sky[1] = (open.y - lit.y) * pixel_materials[material_broad_forest];
+        pixel_materials[material_needle_forest] *= lit.x;
+        pixel_materials[material_broad_forest] *= lit.y;
     }
 #ifndef GROWS_GRASS
     // What is seen between blades stands in their shade; the mean of both is the meadow's colour.
     if ((FRAME.style.materials.on & materials_with_grass) != 0u) pixel_materials[material_meadow] *= meadow_floor_at(length(point.view), dot(point.normal, to_eye));
 #endif
-    if (pixel_slope_deg < parcels_to_deg && foot_m < parcels_to_foot_m) {
-        vec2 parcel = parcels_at(point.view, foot_m, pixel_noise.border);
+    find_pixel_parcel(point, pixel_slope_deg, foot_m);
+    if (pixel_parcel.kept > 0.0) {
+        vec2 numbers = pixel_parcel.kept * pixel_parcel.numbers;
         vec3 hue = FRAME.style.materials.of[material_crops].patches;
-        pixel_materials[material_crops] = max(pixel_materials[material_crops] * (1.0 + 0.4 * parcel.x) + 1.6 * parcel.y * hue, vec3(0.0));
-        pixel_materials[material_meadow] *= 1.0 + 0.16 * parcel.x;
+        pixel_materials[material_crops] = max(pixel_materials[material_crops] * (1.0 + 0.4 * numbers.x) + 1.6 * numbers.y * hue, vec3(0.0));
+        pixel_materials[material_meadow] *= 1.0 + 0.16 * numbers.x * (1.0 - smoothstep(0.7 * parcels_to_deg, parcels_to_deg, pixel_slope_deg));
     }
-    pixel_materials[material_rock] *= 1.0 + 0.3 * strata(point.mean_H_m, foot_m);
+    vec2 layers = strata(point.mean_H_m, foot_m);
+    pixel_materials[material_rock] *= 1.0 + 0.3 * layers.x;
+    pixel_relief = RockRelief(0.0, 0.0);
+    if (pixel_slope_deg > 18.0 || point.mean_H_m - point.snow_line_m > FRAME.style.cover.forest_m) {
+        vec3 along = sun - dot(sun, point.normal) * point.normal;
+        mat3 axes = axes_at(point.view);
+        pixel_relief = rock_relief(point.view, axes[2], axes * along, point.mean_H_m, finest_m, by_means ? point.post_m : 30.0);
+        // Ledges look up.
+        pixel_relief.to_sun += layers.y * along.z;
+        float much = relief_of_grain * FRAME.style.materials.of[material_rock].grain;
+        pixel_relief.to_sun *= much;
+        pixel_relief.to_sky *= much;
+    }
     pixel_second = patched(0.0, 1.0);
     pixel_H_m = point.mean_H_m;
     pixel_rock = broken(pixel_slope_deg - half_rock_deg(), 7.0);
@@ -116,6 +154,8 @@ vec3 textured(vec3 colour, uint materials, uint limits) {
 vec3 colour_of_shares(MaterialShares shares) {
     vec3 colour = vec3(0.0);
     for (uint i = 0u; i < material_count; ++i) colour += shares.of[i] * pixel_materials[i];
+    sky_colour = shares.of[material_needle_forest] * pixel_forest_sky[0] + shares.of[material_broad_forest] * pixel_forest_sky[1];
+    rock_colour = shares.of[material_rock] * pixel_materials[material_rock] + 0.5 * shares.of[material_scree] * pixel_materials[material_scree];
     return colour;
 }
 
@@ -162,14 +202,21 @@ MaterialShares shares_by_rule(SurfacePoint point) {
     float grown = left * green * (1.0 - dry);
     float shrub = grown * patched(0.2 - abs(above_m - 0.85 * forest_m) / 120.0, 1.0);
     float crops = (grown - shrub) * patched(min(0.2 - 0.3 * (slope - 3.0), (2.0 * forest_m - above_m) / 300.0), 1.0);
+    // A parcel is of the one or of the other, and hedges are trees.
+    float meadow = grown - shrub - crops, tilled = crops / max(crops + meadow, 1.0e-4);
+    float in_parcel = smoothstep(-0.15, 0.15, 1.18 * tilled - 0.09 - (0.5 + 0.5 * pixel_parcel.numbers.y));
+    float parcels = (1.0 - smoothstep(0.5 * parcels_to_deg, parcels_to_deg, slope)) * (1.0 - smoothstep(1.25 * forest_m, 0.95 * forest_m, above_m));
+    crops = mix(crops, (crops + meadow) * in_parcel, pixel_parcel.kept * parcels);
+    float hedge = parcels * pixel_parcel.hedge * (grown - shrub);
+    crops *= 1.0 - parcels * pixel_parcel.hedge;
     float bare = left * green * dry;
     MaterialShares shares;
     shares.of[material_rock] = rock;
     shares.of[material_scree] = left - grown - bare;
-    shares.of[material_meadow] = grown - shrub - crops;
+    shares.of[material_meadow] = grown - shrub - crops - hedge;
     shares.of[material_shrub] = shrub;
     shares.of[material_needle_forest] = forest * (1.0 - broad);
-    shares.of[material_broad_forest] = forest * broad;
+    shares.of[material_broad_forest] = forest * broad + hedge;
     shares.of[material_crops] = crops;
     shares.of[material_bare] = bare;
     shares.of[material_snow] = snow;
