@@ -39,6 +39,8 @@ Result<MeshRequest> mesh_request(const RegionOptions& options) {
         return refused("--cut-under", "", "says nothing without --mesh-file FILE");
     if (meshes.building_height.empty() && !meshes.building_base.empty())
         return refused("--building-base", "", "says nothing without --building-height FIELD");
+    if (!meshes.look.empty() && meshes.look != "ground" && meshes.look != "built")
+        return refused("--mesh-look", meshes.look, "is none of ground, built");
     if (is_no_lod(meshes.lod)) return refused("--lod", meshes.lod, "is no level of detail: 1, 2, 2.2, say");
     return meshes;
 }

@@ -41,7 +41,7 @@ class MeshLook : public ::testing::Test {
         oro::test::write_bytes(roof_, roof_obj);
     }
     // From 300 m above the ground, straight down.
-    [[nodiscard]] json shot(const Words& more) const {
+    json shot(const Words& more) const {
         const Outcome drawn =
             run_orograph(joined({"shot", bundled(), "--at", "36.605,-84.176", "--altitude", "650", "--pitch",
                                  "-90", "--size", "64x48", "--out", picture_, "--overwrite", "-q", "--json"},
@@ -88,7 +88,9 @@ TEST_F(MeshLook, APitIsSeenWhereTheTerrainIsCut) {
     EXPECT_FALSE(says(shot(on)["destination"].dump(), "pit.obj"));
     const json said = shot(joined(on, {"--cut-under", "--verify"}));
     EXPECT_TRUE(says(said["destination"].dump(), "pit.obj")) << said["destination"].dump();
-    EXPECT_LT(said["error"]["seen_px"]["max"].get<double>(), 1.05) << said["error"].dump();
+    // Walls along the rim reach out by a pixel (SeamSkirt): a few pixels there show what is beside it.
+    EXPECT_LT(said["error"]["seen_px"]["mean"].get<double>(), 0.05) << said["error"].dump();
+    EXPECT_LT(said["error"]["surface_px"]["max"].get<double>(), 0.05) << said["error"].dump();
     const json view = json::parse(view_in(picture_));
     EXPECT_EQ(view["meshes"]["cut_under"], true);
     const std::string again = (folder_ / "again.png").string();
