@@ -4,7 +4,8 @@
 //     ?show=globe|terrain|map&eye=LAT,LON,H,HEADING,PITCH,FOV&error=PIXELS
 //
 // H is metres above the ellipsoid, FOV the angle of view from the bottom of the picture to its top, all angles are
-// degrees. Without an eye all of the region is shown. window.region has what was made, and when it is there.
+// degrees. Without an eye all of the region is shown. For 3D Tiles also: tiles=FOLDER, another than globe; light=plain,
+// for those without normals; time=2026-06-21T08:00:00Z, when the sun stands as it does in the picture (now). window.region has what was made, and when it is there.
 
 const kinds = {
   globe: { file: "globe/tileset.json", label: "3D Tiles", make: showGlobe },
@@ -53,6 +54,8 @@ function viewer(options) {
     sceneModePicker: false, navigationHelpButton: false, infoBox: false, selectionIndicator: false,
     contextOptions: { webgl: { preserveDrawingBuffer: true } }, ...options,
   });
+  // The sun stands as it does now, and below the horizon at night.
+  if (asked.has("time")) made.clock.currentTime = Cesium.JulianDate.fromIso8601(asked.get("time"));
   if (eyeAsked) {
     const [lat, lon, h, heading, pitch, fov] = eyeAsked;
     const { camera } = made;

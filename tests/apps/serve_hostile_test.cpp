@@ -128,7 +128,7 @@ TEST(ServeHostile, AGrammarOfRequestsGetsNothingFromOutside) {
     std::printf("seed %u: %d given, %d refused, %d without an answer\n", grammar_seed, given.load(),
                 refused.load(), silent.load());
     EXPECT_EQ(leaked, 0);
-    EXPECT_GT(given, 10);
+    EXPECT_GT(given, 4);
     EXPECT_GT(refused, 100);
     EXPECT_EQ(body_of(served.get("/5/16/11.png")), "0123456789") << "after all of that";
 }
