@@ -64,15 +64,15 @@ class MeshLook : public ::testing::Test {
 // A level roof: grey where nobody knows what the file is of, gravel where it is built, green as ground.
 TEST_F(MeshLook, IsByTheFileOrAsAsked) {
     const Words on{"--style", "natural", "--mesh-file", roof_, "--mesh-crs", "EPSG:4326"};
-    shot(on);
+    static_cast<void>(shot(on));
     const std::array<int, 3> plain = middle();
     EXPECT_LT(std::abs(plain[0] - plain[1]), 16) << "grey";
     EXPECT_FALSE(json::parse(view_in(picture_))["meshes"].contains("look"));
-    shot(joined(on, {"--mesh-look", "built"}));
+    static_cast<void>(shot(joined(on, {"--mesh-look", "built"})));
     const std::array<int, 3> built = middle();
     EXPECT_LT(built[0], plain[0]) << "gravel is darker";
     EXPECT_EQ(json::parse(view_in(picture_))["meshes"]["look"], "built");
-    shot(joined(on, {"--mesh-look", "ground"}));
+    static_cast<void>(shot(joined(on, {"--mesh-look", "ground"})));
     const std::array<int, 3> ground = middle();
     EXPECT_GT(ground[1], ground[2] + 10) << "green";
     expect_refusal(run_orograph({"shot", bundled(), "--mesh-look", "built", "-q", "--out", picture_}), usage,
