@@ -157,6 +157,8 @@ set_tests_properties(
   Help.ListsFirstWhatMostPeopleNeed
   HorizonCommand.LooksBeyondItsBox
   HorizonCommand.StoppedItLeavesBothFilesOrNone
+  JobFile.LinesByGrammar
+  TableObservers.WhatIsWrongIsSaidInOneLine
   HorizonCommand.WhatIsWrongIsSaidInOneLine
   HostileInput.AReaderThatHasReadEnough
   HostileInput.AnInterruptedPictureLeavesNothing
