@@ -547,6 +547,17 @@ void add_bake(CLI::App& app, BakePartOptions& options) {
                        "docs/commands/bake.md"});
 }
 
+void add_layers(OptionGroup& written, ExportOptions& options) {
+    written.choice("--layer", options.layer, {"H", "slope", "canopy"},
+                   "What the GeoTIFF has at each sample: heights above sea level (default), the slope of the "
+                   "ground in degrees by Horn's formula, or the heights of --canopy. Needs cog.");
+    written
+        .option("--canopy", options.canopy, "FILE",
+                "What --layer canopy takes: rasters of canopy heights in metres, or class: heights of the "
+                "classes of --landcover, which are invented.")
+        .allow_extra_args(false);
+}
+
 void add_export(CLI::App& app, ExportOptions& options) {
     CLI::App& command = *app.add_subcommand(
         "export", "Write the ground in formats of others: GeoTIFF, 3D Tiles, tiles for maps and globes");
@@ -557,14 +568,7 @@ void add_export(CLI::App& app, ExportOptions& options) {
                    "for globes, or one glTF model.");
     written.option("--out", options.out, "PATH",
                    "What to write: a file of cog (.tif) or gltf (.glb), a folder of the others.");
-    written.choice("--layer", options.layer, {"H", "slope", "canopy"},
-                   "What the GeoTIFF has at each sample: heights above sea level (default), the slope of the "
-                   "ground in degrees by Horn's formula, or the heights of --canopy. Needs cog.");
-    written
-        .option("--canopy", options.canopy, "FILE",
-                "What --layer canopy takes: rasters of canopy heights in metres, or class: heights of the "
-                "classes of --landcover, which are invented.")
-        .allow_extra_args(false);
+    add_layers(written, options);
     written.option("--zoom", options.zoom, "RANGE",
                    "Write these zooms of a web map, LOW:HIGH of 0 to 22, as in 5:12, or of a globe, 0:HIGH. "
                    "Default: up to the "

@@ -155,6 +155,24 @@ std::optional<Region> zurich() {
     return std::move(opened).value();
 }
 
+// The triangles of things one by one: by whom, how large, and how large their things are.
+struct TrianglesOfThings {
+    explicit TrianglesOfThings(const std::map<std::string, std::vector<Triangle>>& things) {
+        for (const auto& [name, thing] : things) {
+            diameters_m[name] = diameter_m(thing);
+            for (const Triangle& one : thing) {
+                all.push_back(&one);
+                names.push_back(&name);
+                areas.push_back(glm::length(glm::cross(one[1] - one[0], one[2] - one[0])));
+            }
+        }
+    }
+    std::vector<const Triangle*> all;
+    std::vector<const std::string*> names;
+    std::vector<double> areas;
+    std::map<std::string, double> diameters_m;
+};
+
 // 100,000 random places of the town's walls and roofs, by area, for each of several errors: the thing there
 // is drawn, within a millimetre, or is no larger than the error of the tiles that are not refined.
 TEST(MeshTiles, NothingLargerThanTheErrorIsMissing) {
@@ -170,18 +188,7 @@ TEST(MeshTiles, NothingLargerThanTheErrorIsMissing) {
     EXPECT_GT(town.written.meshes.tiles, 10U);
     EXPECT_GE(town.tiles.front().error_m, town.tiles[static_cast<std::size_t>(root)].error_m);
     expect_sound_tree(town.tiles, root);
-    std::vector<const Triangle*> all;
-    std::vector<const std::string*> names;
-    std::vector<double> areas;
-    std::map<std::string, double> diameters_m;
-    for (const auto& [name, thing] : things) {
-        diameters_m[name] = diameter_m(thing);
-        for (const Triangle& one : thing) {
-            all.push_back(&one);
-            names.push_back(&name);
-            areas.push_back(glm::length(glm::cross(one[1] - one[0], one[2] - one[0])));
-        }
-    }
+    auto [all, names, areas, diameters_m] = TrianglesOfThings(things);
     std::mt19937 random(town_seed);
     std::discrete_distribution<std::size_t> by_area(areas.begin(), areas.end());
     std::uniform_real_distribution<double> share;
