@@ -101,6 +101,7 @@ class CityJsonReader {
 
     Result<SourceMesh> all() {
         mesh_.format = "CityJSON";
+        mesh_.kind = MeshKind::city_model;
         ORO_CHECK(check_version());
         if (const auto metadata = member(root_, "metadata"))
             mesh_.crs = epsg_of(text_of_member(*metadata, "referenceSystem"));

@@ -219,7 +219,7 @@ Result<SourceMesh> buildings_on_footprints(const std::string& path, const Footpr
     for (const VectorLayer& layer : file.layers) reader.layer(layer);
     if (!fields.base.empty()) ORO_CHECK(lift_bases(lift, reader.footprints));
     SourceMesh mesh;
-    mesh.path = path, mesh.format = "footprints", mesh.crs = "EPSG:4326";
+    mesh.path = path, mesh.format = "footprints", mesh.kind = MeshKind::built, mesh.crs = "EPSG:4326";
     for (const Footprint& footprint : reader.footprints) {
         const std::optional<double> lowest_H_m = lowest_ground_H_m(footprint.rings, ground);
         if (!lowest_H_m) {

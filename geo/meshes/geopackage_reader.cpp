@@ -49,6 +49,7 @@ class GeoPackageReader {
 
     Result<SourceMesh> all() {
         mesh_.format = "GeoPackage";
+        mesh_.kind = MeshKind::built;
         for (int i = 0; i < GDALDatasetGetLayerCount(dataset_); ++i) {
             const OGRLayerH layer = GDALDatasetGetLayer(dataset_, i);
             if (layer != nullptr) ORO_CHECK(read_layer(layer));
@@ -57,7 +58,10 @@ class GeoPackageReader {
             return no_mesh(
                 "no triangles: its polygons have no heights (TIN Z, PolyhedralSurface Z and "
                 "MultiPolygon Z have)");
-        if (tins_ > 0 && others_ == 0) mesh_.format = "GeoPackage TIN";
+        if (tins_ > 0 && others_ == 0) {
+            mesh_.format = "GeoPackage TIN";
+            mesh_.kind = MeshKind::survey;
+        }
         return std::move(mesh_);
     }
 

@@ -101,6 +101,7 @@ Result<SourceMesh> read_landxml(std::string_view bytes) {
         return Error{ErrorKind::failed, "", "is no LandXML: it is " + shown_word(local_name(xml.root()))};
     LandXmlReader reader{bytes};
     reader.mesh.format = "LandXML";
+    reader.mesh.kind = MeshKind::survey;
     for (const pugi::xml_node system : child_named(xml.root(), "Units").children()) {
         if (const pugi::xml_attribute unit = system.attribute("linearUnit")) {
             reader.mesh.unit = unit.value();

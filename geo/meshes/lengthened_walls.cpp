@@ -102,7 +102,7 @@ void lead_down(const std::set<Side>& feet, double bottom_H_m, std::uint32_t feat
 }  // namespace
 
 void lengthen_walls(std::span<const HeightField* const> fields, PlacedMesh& mesh) {
-    if (mesh.format != "CityJSON" || mesh.feature_of.empty() || fields.empty()) return;
+    if (mesh.kind != MeshKind::city_model || mesh.feature_of.empty() || fields.empty()) return;
     std::vector<std::vector<std::size_t>> triangles_of(mesh.features.size());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) triangles_of[mesh.feature_of[i]].push_back(i);
     for (std::uint32_t feature = 0; feature < mesh.features.size(); ++feature) {

@@ -6,17 +6,15 @@
 #include <string_view>
 
 #include "core/base/checksum.h"
-#include "shaders/shared.h"
+#include "core/seam/cleared_map.h"  // gpu::mesh_look_...
 
 namespace oro {
 
 std::uint32_t look_of_mesh(const SourceMesh& mesh, const std::string& asked) {
-    if (asked == "ground" || mesh.format == "GeoPackage TIN" || mesh.format == "LandXML")
-        return asked == "built" ? gpu::mesh_look_built : gpu::mesh_look_ground;
-    constexpr std::array<std::string_view, 4> unknown{"OBJ", "PLY", "STL", "glTF"};
-    if (asked.empty() && std::ranges::find(unknown, mesh.format) != unknown.end())
-        return gpu::mesh_look_plain;
-    return gpu::mesh_look_built;
+    if (asked == "ground") return gpu::mesh_look_ground;
+    if (asked == "built") return gpu::mesh_look_built;
+    if (mesh.kind == MeshKind::survey) return gpu::mesh_look_ground;
+    return mesh.kind == MeshKind::unknown ? gpu::mesh_look_plain : gpu::mesh_look_built;
 }
 
 std::uint32_t look_of_type(const std::string& type) {

@@ -315,12 +315,12 @@ Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, 
                      places.error().what};
     ORO_TRY(const MeshScale scale, scale_of(source, crs, request.unit));
     PlacedMesh mesh;
-    mesh.path = source.path, mesh.format = source.format;
+    mesh.path = source.path, mesh.format = source.format, mesh.kind = source.kind;
     mesh.crs = places->name(), mesh.heights = "sea level (EGM96)", mesh.note = scale.note;
     for (const std::string& note : source.notes) add_note(mesh, note);
     mesh.features = source.features;
     mesh.look = look_of_mesh(source, request.look);
-    mesh.has_look_by_type = request.look.empty() && source.format == "CityJSON";
+    mesh.has_look_by_type = request.look.empty() && source.kind == MeshKind::city_model;
     mesh.in_file = source.triangles.size() + source.not_finite;
     mesh.not_finite = source.not_finite;
     mesh.fingerprint = fingerprint_of(source, crs, request.unit);

@@ -34,7 +34,8 @@ struct RimWall {
 // longest_side_m. Vertices at one place of the file are one vertex.
 struct PlacedMesh {
     std::string path;
-    std::string format;
+    std::string format;  // for people
+    MeshKind kind{MeshKind::unknown};
     std::string crs;      // "EPSG:2056 CH1903+ / LV95"
     std::string heights;  // what its heights are above: "sea level (EGM96)", "EPSG:5728 LN02 height"
     std::vector<PlacedVertex> vertices;

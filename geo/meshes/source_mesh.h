@@ -30,11 +30,20 @@ struct MeshFeature {
 
 using SourceTriangle = std::array<std::uint32_t, 3>;  // numbers of vertices, from 0
 
+// What a mesh is of, as far as its format tells.
+enum class MeshKind {
+    unknown,     // triangles of whatever there is
+    survey,      // ground
+    built,       // buildings, without types of their features
+    city_model,  // features with types: buildings, roads, water
+};
+
 // What a file of triangles holds. Each triangle's vertices are there, and are finite.
 struct SourceMesh {
     std::string path;
     std::string format;  // "OBJ", "PLY", "STL", "glTF", "LandXML", "GeoPackage", "GeoPackage TIN" (nothing
                          // else is in it), "CityJSON", "footprints"
+    MeshKind kind{MeshKind::unknown};
     std::vector<glm::dvec3> vertices;  // east (x), north (y), height, in the file's units
     std::vector<SourceTriangle> triangles;
     std::vector<MeshPart> parts;

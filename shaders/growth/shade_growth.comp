@@ -60,9 +60,6 @@ void keep_colour(ivec2 pixel, vec3 colour) {
 // A crown in the sun is lighter than a forest's mean, which holds the shade between crowns.
 const float needle_lighter = 3.3, broad_lighter = 1.25;
 
-// Bunches of leaves turn more of themselves to the sun than the smooth crown does that they are from far.
-const float of_leaves = 0.92;
-
 // What leaves send back of the sun's light and the sky's.
 GroundLight light_of_crown(Crown crown, CrownHit hit, uint stands, vec3 sun, vec3 to_eye, float pixel_m) {
     uint material = crown.kind == site_needle ? material_needle_forest : material_broad_forest;
@@ -77,7 +74,7 @@ GroundLight light_of_crown(Crown crown, CrownHit hit, uint stands, vec3 sun, vec
     // from leaf to leaf comes from above.
     vec3 smooth_normal = hit.is_stem ? normal : normal_of_crown(crown, hit.at, 0.0, vec2(0.0));
     normal = normalize(mix(smooth_normal, normal, 0.65) + vec3(0.0, 0.0, hit.is_stem ? 0.0 : 0.45));
-    if (!hit.is_stem) albedo *= (1.0 + detail * 0.7 * (leaf_noise(5.5 * hit.at, crown.hash + 4u) - 0.5)) * mix(1.0, of_leaves, detail);
+    if (!hit.is_stem) albedo *= 1.0 + detail * 0.7 * (leaf_noise(5.5 * hit.at, crown.hash + 4u) - 0.5);
     float up = clamp((hit.at.z - crown.low_m) / max(crown.high_m - crown.low_m, 0.1), 0.0, 1.0);
     bool in_forest = (stands & site_in_forest) != 0u;
     // Neighbours take light from the lower part of a crown, and leaves from what is inside.

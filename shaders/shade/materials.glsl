@@ -61,12 +61,40 @@ ForestLight forest_light(vec3 to_eye, vec3 sun, vec3 normal) {
     return ForestLight(on_crowns * crowns_lit(at), crowns_open(at) / (0.5 + 0.5 * steep.z));
 }
 
+// Drawn forests are some 20 % lighter than those of the reference (forest_reference.h) under each sun that was tried (TreePictures).
+const float as_drawn = 1.2;
+
 // How much rock rises and falls, for what its colour does.
 const float relief_of_grain = 1.9;
 
 void find_pixel_parcel(SurfacePoint point, float steep_deg, float foot_m) {
     pixel_parcel = Parcel(vec2(0.0), hedge_mean, 0.0);
     if (steep_deg < parcels_to_deg && foot_m < parcels_to_foot_m) pixel_parcel = parcel_at(point.view, foot_m, pixel_noise.border);
+}
+
+void colour_parcel() {
+    vec2 numbers = pixel_parcel.kept * pixel_parcel.numbers;
+    vec3 hue = FRAME.style.materials.of[material_crops].patches;
+    pixel_materials[material_crops] = max(pixel_materials[material_crops] * (1.0 + 0.4 * numbers.x) + 1.6 * numbers.y * hue, vec3(0.0));
+    pixel_materials[material_meadow] *= 1.0 + 0.16 * numbers.x * (1.0 - smoothstep(0.7 * parcels_to_deg, parcels_to_deg, pixel_slope_deg));
+}
+
+// Forest that is not drawn as trees, and the floor of what is.
+void light_far_forest(SurfacePoint point, vec3 sun, vec3 to_eye) {
+    pixel_forest_sky[0] = pixel_forest_sky[1] = vec3(0.0);
+    if ((FRAME.style.materials.on & materials_with_trees) == 0u) return;
+    // Where trees stand their floor is seen, in their shade; the mean of both is the forest's colour.
+    float trees = trees_at(length(point.view), tree_reach_m(FRAME.pixels_per_tangent, FRAME.tau_px));
+    ForestLight light = forest_light(to_eye, sun, point.normal);
+    light.lit *= as_drawn;
+    light.open *= as_drawn;
+    vec2 lit = mix(light.lit, vec2(0.65), trees), open = mix(light.open, vec2(0.65), trees);
+    // A map's colours have one light for the sun and the sky.
+    if (draped && has_cover()) lit = open = mix(open, 0.7 * lit + 0.3 * open, sun_share());
+    pixel_forest_sky[0] = (open.x - lit.x) * pixel_materials[material_needle_forest];
+    pixel_forest_sky[1] = (open.y - lit.y) * pixel_materials[material_broad_forest];
+    pixel_materials[material_needle_forest] *= lit.x;
+    pixel_materials[material_broad_forest] *= lit.y;
 }
 
 void find_pixel_materials(SurfacePoint point, vec3 sun) {
@@ -91,30 +119,13 @@ void find_pixel_materials(SurfacePoint point, vec3 sun) {
     }
     // Where it is dry grass is straw, and where it is wet it is green.
     pixel_materials[material_meadow] *= max(1.0 + 0.7 * FRAME.style.materials.of[material_meadow].grain * pixel_noise.grain * vec3(1.0, 0.2, -0.4), vec3(0.1));
-    pixel_forest_sky[0] = pixel_forest_sky[1] = vec3(0.0);
-    if ((FRAME.style.materials.on & materials_with_trees) != 0u) {
-        // Where trees stand their floor is seen, in their shade; the mean of both is the forest's colour.
-        float trees = trees_at(length(point.view), tree_reach_m(FRAME.pixels_per_tangent, FRAME.tau_px));
-        ForestLight light = forest_light(to_eye, sun, point.normal);
-        vec2 lit = mix(light.lit, vec2(0.65), trees), open = mix(light.open, vec2(0.65), trees);
-        // A map's colours have one light for the sun and the sky.
-        if (draped && has_cover()) lit = open = mix(open, 0.7 * lit + 0.3 * open, sun_share());
-        pixel_forest_sky[0] = (open.x - lit.x) * pixel_materials[material_needle_forest];
-        pixel_forest_sky[1] = (open.y - lit.y) * pixel_materials[material_broad_forest];
-        pixel_materials[material_needle_forest] *= lit.x;
-        pixel_materials[material_broad_forest] *= lit.y;
-    }
+    light_far_forest(point, sun, to_eye);
 #ifndef GROWS_GRASS
     // What is seen between blades stands in their shade; the mean of both is the meadow's colour.
     if ((FRAME.style.materials.on & materials_with_grass) != 0u) pixel_materials[material_meadow] *= meadow_floor_at(length(point.view), dot(point.normal, to_eye));
 #endif
     find_pixel_parcel(point, pixel_slope_deg, foot_m);
-    if (pixel_parcel.kept > 0.0) {
-        vec2 numbers = pixel_parcel.kept * pixel_parcel.numbers;
-        vec3 hue = FRAME.style.materials.of[material_crops].patches;
-        pixel_materials[material_crops] = max(pixel_materials[material_crops] * (1.0 + 0.4 * numbers.x) + 1.6 * numbers.y * hue, vec3(0.0));
-        pixel_materials[material_meadow] *= 1.0 + 0.16 * numbers.x * (1.0 - smoothstep(0.7 * parcels_to_deg, parcels_to_deg, pixel_slope_deg));
-    }
+    if (pixel_parcel.kept > 0.0) colour_parcel();
     vec2 layers = strata(point.mean_H_m, foot_m);
     pixel_materials[material_rock] *= 1.0 + 0.3 * layers.x;
     pixel_relief = RockRelief(0.0, 0.0);

@@ -112,8 +112,7 @@ TEST_F(TreePictures, ShowNoneAboveTheForest) {
 
 // A wooded slope from 500 m, with its trees and, by a tau that lets none be drawn, without: as light in the
 // mean, wherever the sun stands. Found: with the sun behind the eye drawn trees were three times as light as
-// ground of their colour, and against it half as light; later these trees, which stand 500 m away and have
-// leaves, 8 to 10 % lighter than the cones and ellipsoids to which far forest is held (ForestReference).
+// ground of their colour, and against it half as light; later 9 to 12 % lighter.
 TEST_F(TreePictures, AreAsLightAsTheirForestFromFar) {
     const Region region = slope(1100.0, 0.58);
     Camera from_south = camera(1100.0);

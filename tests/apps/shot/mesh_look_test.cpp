@@ -75,8 +75,9 @@ TEST_F(MeshLook, IsByTheFileOrAsAsked) {
     static_cast<void>(shot(joined(on, {"--mesh-look", "ground"})));
     const std::array<int, 3> ground = middle();
     EXPECT_GT(ground[1], ground[2] + 10) << "green";
-    expect_refusal(run_orograph({"shot", bundled(), "--mesh-look", "built", "-q", "--out", picture_}), usage,
-                   {"--mesh-look", "without --mesh-file"});
+    expect_refusal(
+        run_orograph({"shot", bundled(), "--mesh-look", "built", "-q", "--out", picture_, "--overwrite"}),
+        usage, {"--mesh-look", "without --mesh-file"});
     expect_refusal(
         run_orograph(joined({"shot", bundled(), "-q", "--out", picture_, "--mesh-look", "wood"}, on)), usage,
         {"--mesh-look", "wood"});
@@ -99,14 +100,24 @@ TEST_F(MeshLook, APitIsSeenWhereTheTerrainIsCut) {
     EXPECT_EQ(json::parse(view_in(again))["fingerprints"]["pixels"], view["fingerprints"]["pixels"]);
 }
 
-// Out of the pit, whose floor is under the terrain: from 2 m over the floor to a place 170 m over the ground.
+// Out of the pit, whose floor is under the terrain: from 2 m over the floor past its rim, which is 44.7 m
+// away and some 50 m higher, to places 233 m away. What the first of them lacks, 31.8 m, the second one has.
 TEST_F(MeshLook, SightGoesOutOfThePit) {
-    const Words line{"sight",       bundled(), "--from",          "36.605,-84.176", "--altitude",
-                     "302",         "--to",    "36.605,-84.1734", "--target",       "170",
+    const auto line = [&](const char* target_m) {
+        return Words{"sight",       bundled(), "--from",          "36.605,-84.176", "--altitude",
+                     "302",         "--to",    "36.605,-84.1734", "--target",       target_m,
                      "--mesh-file", pit_,      "--mesh-crs",      "EPSG:4326",      "--mesh-look",
                      "ground",      "-q",      "--json"};
-    const Outcome buried = run_orograph(line), seen = run_orograph(joined(line, {"--cut-under"}));
-    EXPECT_FALSE(buried.exit_code == 0 && json::parse(buried.out)["visible"] == true) << buried.out;
+    };
+    expect_refusal(run_orograph(line("203")), usage, {"47.0 m under the ground"});
+    const Outcome hidden = run_orograph(joined(line("170"), {"--cut-under"}));
+    ASSERT_EQ(hidden.exit_code, 0) << hidden.err;
+    const json found = json::parse(hidden.out);
+    EXPECT_EQ(found["visible"], false);
+    EXPECT_EQ(found["obstacle"]["mesh"], pit_) << "the wall at its rim";
+    EXPECT_NEAR(found["obstacle"]["distance_m"].get<double>(), 44.7, 0.1);
+    EXPECT_NEAR(found["target_missed_by_m"].get<double>(), 31.85, 0.1);
+    const Outcome seen = run_orograph(joined(line("203"), {"--cut-under"}));
     ASSERT_EQ(seen.exit_code, 0) << seen.err;
     EXPECT_EQ(json::parse(seen.out)["visible"], true) << seen.out;
 }

@@ -15,7 +15,7 @@ namespace {
 // roof.
 PlacedMesh box(const std::string& type) {
     PlacedMesh mesh;
-    mesh.format = "CityJSON";
+    mesh.kind = MeshKind::city_model;
     for (const double H_m : {500.0, 510.0})
         for (const auto& [north, east] : {std::pair{0.0, 0.0}, {0.0, 4.0}, {4.0, 4.0}, {4.0, 0.0}})
             mesh.vertices.push_back({46.95 + 1.0e-4 * north, 8.05 + 1.0e-4 * east, H_m});
@@ -72,7 +72,7 @@ TEST(LengthenedWalls, OnlyOfBuildingsThatFloat) {
         EXPECT_EQ(mesh.triangles.size(), box(type).triangles.size()) << type;
     }
     PlacedMesh other = box("Building");
-    other.format = "OBJ";
+    other.kind = MeshKind::unknown;
     lengthen_walls(fields, other);
     EXPECT_EQ(other.lengthened, 0U);
     PlacedMesh sunk = box("Building");
