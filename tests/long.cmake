@@ -200,6 +200,7 @@ set_tests_properties(
   LibraryCalls.AThousandBadOnesEndWithErrors
   MadeHeights.NoiseHasNoGrainAndTheSpectrumOfItsGain
   Manual.HasEachOptionOfHelp
+  MeshLook.IsByTheFileOrAsAsked
   MeshTiles.GroundStaysAndVerticesAreWithinAMillimetre
   MeshTiles.NothingLargerThanTheErrorIsMissing
   ModelOptions.AreSaidAndKeptAndDrawnAgain
