@@ -24,6 +24,12 @@
 #include "geo/sources/length_unit.h"
 
 namespace oro {
+
+Geodetic geodetic_of(const PlacedVertex& vertex, const UndulationField& undulation, double exaggeration) {
+    const double N_m = undulation.N_m.empty() ? 0.0 : undulation.at_m(vertex.lat_deg, vertex.lon_deg);
+    return {vertex.lat_deg, vertex.lon_deg, vertex.H_m * exaggeration + N_m};
+}
+
 namespace {
 
 // What turns a file's numbers into those of its CRS, and heights into metres.
@@ -188,11 +194,8 @@ using LatticeKey = std::array<std::int64_t, 3>;
 std::vector<LatticeKey> lattice_of(const UndulationField& undulation, const PlacedMesh& mesh) {
     std::vector<LatticeKey> lattice;
     lattice.reserve(mesh.vertices.size());
-    for (const PlacedVertex& vertex : mesh.vertices) {
-        const double N_m = undulation.N_m.empty() ? 0.0 : undulation.at_m(vertex.lat_deg, vertex.lon_deg);
-        lattice.push_back(
-            lattice_point(ecef_from_geodetic({vertex.lat_deg, vertex.lon_deg, vertex.H_m + N_m}).m).steps);
-    }
+    for (const PlacedVertex& vertex : mesh.vertices)
+        lattice.push_back(lattice_point(ecef_from_geodetic(geodetic_of(vertex, undulation, 1.0)).m).steps);
     return lattice;
 }
 

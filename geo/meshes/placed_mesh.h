@@ -21,6 +21,8 @@ namespace oro {
 struct PlacedVertex {
     double lat_deg{}, lon_deg{}, H_m{};
 };
+// Where it is drawn, before that is rounded to a lattice. undulation: N of the region; empty: 0.
+Geodetic geodetic_of(const PlacedVertex& vertex, const UndulationField& undulation, double exaggeration);
 
 // Upright ground along the rim of what a mesh cuts out of the terrain, by numbers of vertices: from one
 // surface to the other; the terrain that is left lies on the right hand of the way from cut[0] to cut[1].

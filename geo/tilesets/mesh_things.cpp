@@ -92,10 +92,8 @@ std::vector<std::uint32_t> joined_by_vertices(const PlacedMesh& mesh) {
 std::vector<glm::dvec3> vertices_of_mesh(const PlacedMesh& mesh, const UndulationField& undulation) {
     std::vector<glm::dvec3> vertices_m;
     vertices_m.reserve(mesh.vertices.size());
-    for (const PlacedVertex& vertex : mesh.vertices) {
-        const double N_m = undulation.N_m.empty() ? 0.0 : undulation.at_m(vertex.lat_deg, vertex.lon_deg);
-        vertices_m.push_back(ecef_from_geodetic({vertex.lat_deg, vertex.lon_deg, vertex.H_m + N_m}).m);
-    }
+    for (const PlacedVertex& vertex : mesh.vertices)
+        vertices_m.push_back(ecef_from_geodetic(geodetic_of(vertex, undulation, 1.0)).m);
     return vertices_m;
 }
 

@@ -15,6 +15,7 @@
 
 #include "core/base/parallel.h"
 #include "core/earth/ellipsoid.h"
+#include "core/terrain/drawn_heights.h"
 #include "geo/files/plain_file.h"
 #include "geo/tilesets/mesh_things.h"
 #include "geo/together/mesh_surface.h"
@@ -23,7 +24,6 @@ namespace oro {
 namespace {
 namespace fs = std::filesystem;
 
-constexpr double mesh_step_m = 1.0 / 2048.0;
 // Half a step along three axes, and what doubles and the outlines of boxes add.
 constexpr double rounding_m = 0.5e-3;
 // Things of a tile lie so far from each other at most: float32 has whole steps up to 4,096 m.
@@ -222,7 +222,7 @@ GroundMesh MeshTileWriter::mesh_of(const Node& node, VertexFacts& facts) const {
     made.centre_m = 0.5 * (low + high);
     const Geodetic centre = geodetic_from_ecef({made.centre_m});
     made.ecef_from_mesh = ecef_from_enu(centre.lat_deg, centre.lon_deg);
-    made.step_m = mesh_step_m;
+    made.step_m = height_step_m;
     const glm::dmat3 to_mesh = glm::transpose(made.ecef_from_mesh);
     std::vector<std::uint16_t> rows = std::move(facts.features);
     facts.features.clear();

@@ -17,11 +17,10 @@ std::vector<SeamCorner> drawn_vertices(const PlacedMesh& mesh, const UndulationF
     std::vector<SeamCorner> corners;
     corners.reserve(mesh.vertices.size());
     for (const PlacedVertex& vertex : mesh.vertices) {
-        const double N_m = undulation.N_m.empty() ? 0.0 : undulation.at_m(vertex.lat_deg, vertex.lon_deg);
+        const Geodetic at = geodetic_of(vertex, undulation, exaggeration);
         SeamCorner corner;
-        corner.h_m = vertex.H_m * exaggeration + N_m;
-        const LatticePoint point =
-            lattice_point(ecef_from_geodetic({vertex.lat_deg, vertex.lon_deg, corner.h_m}).m);
+        corner.h_m = at.h_m;
+        const LatticePoint point = lattice_point(ecef_from_geodetic(at).m);
         for (int axis = 0; axis < 3; ++axis)
             corner.at.m[axis] =
                 static_cast<double>(point.steps[static_cast<std::size_t>(axis)]) * gpu::height_step_m;

@@ -8,6 +8,7 @@
 
 #include "core/base/parallel.h"
 #include "geo/files/plain_file.h"
+#include "geo/web_maps/each_web_tile.h"
 #include "geo/web_maps/random_places.h"
 
 namespace oro {
@@ -122,18 +123,10 @@ KeptWebTile quantized_tile(const TrueGround& ground, const GeographicTile& tile,
     return made;
 }
 
-// The one that is kept, or made now and kept.
 Result<KeptWebTile> tile_of(const TrueGround& ground, const GeographicTile& tile,
                             const QuantizedTilesRequest& request) {
-    const KeptWebTiles* const kept = request.share.kept;
-    if (kept == nullptr) return quantized_tile(ground, tile, request, false);
-    ORO_TRY(std::optional<KeptWebTile> known, kept->read(tile.zoom, tile.x, tile.y));
-    if (known) return std::move(*known);
-    KeptWebTile one = quantized_tile(ground, tile, request, false);
-    // Of posts that cannot be read nothing is kept.
-    ORO_CHECK(ground.health());
-    ORO_CHECK(kept->write(tile.zoom, tile.x, tile.y, one));
-    return one;
+    return kept_or_made(request.share.kept, ground, tile,
+                        [&] { return Result<KeptWebTile>(quantized_tile(ground, tile, request, false)); });
 }
 
 // Writes the tiles of one zoom after another, the finest first.
@@ -264,20 +257,11 @@ Result<std::uint64_t> keep_quantized_tiles(const TrueGround& ground, const Quant
     for (int zoom = 0; zoom <= request.highest_zoom; ++zoom)
         for (const GeographicTile& tile : tiles_to_try(ground, zoom))
             if (request.share.holds(number++)) own.push_back(tile);
-    std::mutex mutex;
-    Result<void> fault;
-    const std::size_t at_once = std::size_t{32} * static_cast<std::size_t>(request.threads);
-    for (std::size_t first = 0; first < own.size() && fault.ok(); first += at_once) {
-        const std::size_t now = std::min(at_once, own.size() - first);
-        in_parallel(static_cast<int>(now), request.threads, [&](int i) {
-            const auto one = tile_of(ground, own[first + static_cast<std::size_t>(i)], request);
-            const std::scoped_lock lock(mutex);
-            if (!one.ok() && fault.ok()) fault = one.error();
-        });
-        if (progress) progress(static_cast<double>(first + now) / static_cast<double>(own.size()));
-    }
-    ORO_CHECK(fault);
-    ORO_CHECK(ground.health());
+    ORO_CHECK(each_web_tile(ground, own.size(), request.threads, progress,
+                            [&](std::size_t number_of_own) -> Result<void> {
+                                ORO_TRY(const KeptWebTile one, tile_of(ground, own[number_of_own], request));
+                                return {};
+                            }));
     return std::uint64_t{own.size()};
 }
 

@@ -6,13 +6,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
-#include <mutex>
 #include <span>
 #include <system_error>
 
 #include "core/base/parallel.h"
 #include "geo/files/plain_file.h"
 #include "geo/pictures/png_bytes.h"
+#include "geo/web_maps/each_web_tile.h"
 #include "geo/web_maps/random_places.h"
 
 namespace oro {
@@ -72,40 +72,10 @@ Result<KeptWebTile> made_tile(const TrueGround& ground, const MercatorTile& tile
     return made;
 }
 
-// The one that is kept, or made now and kept.
 Result<KeptWebTile> tile_of(const TrueGround& ground, const MercatorTile& tile,
                             const TerrainTilesRequest& request) {
-    const KeptWebTiles* const kept = request.share.kept;
-    if (kept == nullptr) return made_tile(ground, tile, request.hole_H_m);
-    ORO_TRY(std::optional<KeptWebTile> known, kept->read(tile.zoom, tile.x, tile.y));
-    if (known) return std::move(*known);
-    ORO_TRY(KeptWebTile one, made_tile(ground, tile, request.hole_H_m));
-    // Of posts that cannot be read nothing is kept.
-    ORO_CHECK(ground.health());
-    ORO_CHECK(kept->write(tile.zoom, tile.x, tile.y, one));
-    return one;
-}
-
-// Calls work(number) for each tile on several threads, in parts, so that progress is told between them.
-// Errors: the first that a call has; posts that cannot be read.
-template <class Work>
-Result<void> each_tile_of(const TrueGround& ground, std::size_t count, int threads,
-                          const TilesProgress& progress, const Work& work) {
-    std::mutex mutex;
-    Result<void> fault;
-    const std::size_t at_once = std::size_t{32} * static_cast<std::size_t>(threads);
-    for (std::size_t first = 0; first < count && fault.ok(); first += at_once) {
-        const std::size_t now = std::min(at_once, count - first);
-        in_parallel(static_cast<int>(now), threads, [&](int i) {
-            const Result<void> done = work(first + static_cast<std::size_t>(i));
-            if (done.ok()) return;
-            const std::scoped_lock lock(mutex);
-            if (fault.ok()) fault = done;
-        });
-        if (progress) progress(static_cast<double>(first + now) / static_cast<double>(count));
-    }
-    ORO_CHECK(fault);
-    return ground.health();
+    return kept_or_made(request.share.kept, ground, tile,
+                        [&] { return made_tile(ground, tile, request.hole_H_m); });
 }
 
 std::vector<MercatorTile> tiles_of(const TrueGround& ground, const ZoomRange& zooms) {
@@ -208,7 +178,7 @@ Result<TerrainTilesWritten> write_terrain_tiles(const std::string& folder, const
     const std::vector<MercatorTile> columns = columns_of(tiles);
     ORO_CHECK(make_folders(folder, columns));
     std::atomic<std::uint64_t> written{0}, bytes{0}, holes{0};
-    ORO_CHECK(each_tile_of(
+    ORO_CHECK(each_web_tile(
         ground, tiles.size(), request.threads, progress, [&](std::size_t number) -> Result<void> {
             const MercatorTile& tile = tiles[number];
             ORO_TRY(const KeptWebTile one, tile_of(ground, tile, request));
@@ -227,13 +197,13 @@ Result<std::uint64_t> keep_terrain_tiles(const TrueGround& ground, const Terrain
                                          const TilesProgress& progress) {
     const std::vector<MercatorTile> tiles = tiles_of(ground, request.zooms);
     std::atomic<std::uint64_t> own{0};
-    ORO_CHECK(each_tile_of(ground, tiles.size(), request.threads, progress,
-                           [&](std::size_t number) -> Result<void> {
-                               if (!request.share.holds(number)) return {};
-                               ++own;
-                               ORO_TRY(const KeptWebTile one, tile_of(ground, tiles[number], request));
-                               return {};
-                           }));
+    ORO_CHECK(each_web_tile(ground, tiles.size(), request.threads, progress,
+                            [&](std::size_t number) -> Result<void> {
+                                if (!request.share.holds(number)) return {};
+                                ++own;
+                                ORO_TRY(const KeptWebTile one, tile_of(ground, tiles[number], request));
+                                return {};
+                            }));
     return own.load();
 }
 
