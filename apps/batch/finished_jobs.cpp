@@ -150,7 +150,7 @@ Result<std::vector<WrittenByJob>> written_by_job(const BatchJob& job, const std:
         ORO_TRY(WrittenByJob one, checked_file(file));
         all.push_back(std::move(one));
     }
-    for (const std::string& folder : job.writes) {
+    for (const auto& [option, folder] : job.writes) {
         if (!is_folder(folder)) continue;
         const std::string inside = (fs::path(folder) / "").string();
         const bool has_files =

@@ -69,28 +69,26 @@ class Conflicts {
 
     // Nothing where a job may do what it shall.
     std::optional<Error> fault_of(const BatchJob& job) {
-        const auto fault = [](const std::string& file, const std::string& what) {
-            return Error{ErrorKind::usage, "--out " + file, what};
-        };
         std::set<std::string> own;
-        for (const std::string& file : job.writes) {
+        for (const auto& [option, file] : job.writes) {
+            const std::string named = option + " " + file;
+            const auto fault = [&](const std::string& what) { return Error{ErrorKind::usage, named, what}; };
             const std::string& place = names_.place_of(file);
-            if (spared_.contains(place))
-                return fault(file, "would replace the list of jobs, or what it has of it");
+            if (spared_.contains(place)) return fault("would replace the list of jobs, or what it has of it");
             const auto reader = readers_.find(place);
             if (reader != readers_.end())
-                return fault(file, reader->second == job.line
-                                       ? "would replace what the job itself reads"
-                                       : "is what " + line_words(reader->second) +
-                                             " reads: lines do not wait for each other, so put that one into "
-                                             "another list");
+                return fault(reader->second == job.line
+                                 ? "would replace what the job itself reads"
+                                 : "is what " + line_words(reader->second) +
+                                       " reads: lines do not wait for each other, so put that one into "
+                                       "another list");
             if (const auto folder = folder_around(file))
-                return fault(file, "would be among the elevation data that " + line_words(*folder) +
-                                       " reads from its folder: write it elsewhere");
-            if (!own.insert(place).second) return fault(file, "is named twice");
+                return fault("would be among the elevation data that " + line_words(*folder) +
+                             " reads from its folder: write it elsewhere");
+            if (!own.insert(place).second) return fault("is named twice");
             const auto [writer, is_first] = writers_.emplace(place, job.line);
             if (!is_first && !writes_into_folder(job, file))
-                return fault(file, "is what " + line_words(writer->second) + " writes");
+                return fault("is what " + line_words(writer->second) + " writes");
         }
         return std::nullopt;
     }

@@ -110,18 +110,18 @@ void read_words(BatchJob& job) {
         const bool is_written = std::ranges::find(written_options, option) != written_options.end();
         if (is_written && job.command == "horizon") {
             const HorizonFiles files = horizon_files_of(value);
-            job.writes.insert(job.writes.end(), {files.horizon, files.sky_view});
+            job.writes.insert(job.writes.end(), {{option, files.horizon}, {option, files.sky_view}});
             continue;
         }
         if (is_written) {
-            job.writes.push_back(value);
+            job.writes.push_back({option, value});
             continue;
         }
         if (!value.empty()) job.reads.push_back(value);
         if (option.empty() || option == "--view" || says_region(option))
             job.region += option + "=" + value + "\n";
     }
-    if (!job.print.empty()) job.writes.push_back(job.print);
+    if (!job.print.empty()) job.writes.push_back({"print", job.print});
 }
 
 std::string command_in(const json& object) {

@@ -11,6 +11,12 @@
 
 namespace oro {
 
+// A file or a folder that a line names to be written, and the option that names it: "--out", or "print".
+struct NamedOutput {
+    std::string option;
+    std::string file;
+};
+
 // One line of a list.
 struct BatchJob {
     std::size_t line{};  // of the file, from 1
@@ -18,7 +24,7 @@ struct BatchJob {
     std::string command;
     std::vector<std::string> words;   // of the command line, without the program's name
     std::string print;                // the file that takes what the command prints; "": none
-    std::vector<std::string> writes;  // files and folders that the words name to be written, and `print`
+    std::vector<NamedOutput> writes;  // what the words name to be written, and `print`
     std::vector<std::string> reads;   // all other values of its options, and its PATHs: some are files
     std::string region;               // which data it opens, as far as words tell: the same of the same
     std::optional<Error> fault;       // it cannot be understood: all but `line` says nothing then

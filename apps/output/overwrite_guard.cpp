@@ -78,7 +78,8 @@ Result<void> check_may_write(const std::string& file, bool overwrite) {
     return {};
 }
 
-Result<void> spare_inputs(const std::vector<std::string>& written, const std::vector<FilesToSpare>& inputs) {
+Result<void> spare_inputs(const std::vector<std::string>& written, const std::vector<FilesToSpare>& inputs,
+                          const std::string& option) {
     for (const std::string& file : written) {
         const bool is_on_network = is_network_path(file);
         ORO_TRY(const bool there, is_there(file));
@@ -90,7 +91,7 @@ Result<void> spare_inputs(const std::vector<std::string>& written, const std::ve
                     ORO_TRY(same, is_same_file(file, input));
                 }
                 if (same)
-                    return Error{ErrorKind::usage, "--out",
+                    return Error{ErrorKind::usage, option,
                                  "would replace " + input + ", " + some.what_they_are};
             }
         }

@@ -29,8 +29,10 @@ FilesToSpare files_of_view(const std::string& view_file);
 Result<void> check_may_write(const std::string& file, bool overwrite);
 // ... and once it is known what the command reads: that none of the files it will write, side outputs among
 // them, is one of `inputs` or one that it has read so far (core/base/files_read.h; what it reads later is
-// asked about when a file gets its name). Files are told by themselves and not by their names: links of both
-// kinds are seen through. Errors: usage; failed where the system cannot tell.
-Result<void> spare_inputs(const std::vector<std::string>& written, const std::vector<FilesToSpare>& inputs);
+// asked about when a file gets its name). A message begins with `option`, which names them. Files are told by
+// themselves and not by their names: links of both kinds are seen through. Errors: usage; failed where the
+// system cannot tell.
+Result<void> spare_inputs(const std::vector<std::string>& written, const std::vector<FilesToSpare>& inputs,
+                          const std::string& option = "--out");
 
 }  // namespace oro

@@ -106,8 +106,9 @@ void pass_on(const Batch& batch, std::string printed, LineReport& line) {
 
 // Frames in a folder are looked at by film itself: it keeps those that are whole.
 bool keeps_its_own_record(const BatchJob& job) {
-    return job.command == "film" &&
-           std::ranges::none_of(job.writes, [](const std::string& file) { return file.ends_with(".mp4"); });
+    return job.command == "film" && std::ranges::none_of(job.writes, [](const NamedOutput& one) {
+               return one.file.ends_with(".mp4");
+           });
 }
 
 Result<void> record(const Batch& batch, const BatchJob& job, LineReport& line) {

@@ -202,10 +202,11 @@ Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptio
     ORO_TRY(const SightCover cover, open_sight_cover(options.view));
     ProgressBar bar(options.quiet);
     ORO_TRY(const auto ground, open_sight_ground(options.region, bar.progress(), cover));
-    std::vector<std::string> written{options.out};
-    if (!of_table.table.empty()) written.push_back(of_table.table);
-    ORO_CHECK(spare_inputs(written, {files_of_ground(options.region.paths, ground->region),
-                                     {files_of_cover(cover), "which is land cover or a canopy"}}));
+    std::vector<FilesToSpare> inputs{files_of_ground(options.region.paths, ground->region),
+                                     {files_of_cover(cover), "which is land cover or a canopy"}};
+    if (!of_table.file.empty()) inputs.push_back({{of_table.file}, "which the observers are in"});
+    ORO_CHECK(spare_inputs({options.out}, inputs));
+    if (!of_table.table.empty()) ORO_CHECK(spare_inputs({of_table.table}, inputs, "--table"));
     Standpoints standpoints;
     ORO_CHECK(find_ground(of_table.file, *ground, observers.all));
     const std::vector<Standing> standings =

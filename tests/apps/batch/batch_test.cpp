@@ -224,12 +224,14 @@ TEST_F(Batch, LinesThatGetInEachOthersWay) {
                  {"to", "cog"},
                  {"out", "data.tif"},
                  {"overwrite", true}},
-                picture(36.6, "jobs.jsonl", {{"overwrite", true}})});
+                picture(36.6, "jobs.jsonl", {{"overwrite", true}}),
+                {{"command", "info"}, {"path", bundled()}, {"print", "a.png"}}});
     const Outcome outcome = batch({"-q", "--overwrite"});
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_TRUE(says(outcome.err, "line 2: --out a.png: is what line 1 writes")) << outcome.err;
     EXPECT_TRUE(says(outcome.err, "line 3: --out data.tif: is what line 1 reads")) << outcome.err;
     EXPECT_TRUE(says(outcome.err, "line 4: --out jobs.jsonl: would replace the list of jobs")) << outcome.err;
+    EXPECT_TRUE(says(outcome.err, "line 5: print a.png: is what line 1 writes")) << outcome.err;
     EXPECT_TRUE(file("data.tif") == data);
 }
 

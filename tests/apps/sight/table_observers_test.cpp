@@ -125,7 +125,7 @@ TEST_F(TableObservers, WhatIsWrongIsSaidInOneLine) {
     // It is not replaced by what is made of it.
     expect_refusal(run_orograph({"viewshed", bundled(), "--observers", masts, "--table", masts, "--overwrite",
                                  "--radius", "1", "--out", file("all.tif")}),
-                   usage, {masts});
+                   usage, {"--table: would replace " + masts + ", which the observers are in"});
     EXPECT_EQ(bytes_of(masts), "lat,lon\n36.55,-84.25\n");
 }
 
