@@ -407,21 +407,29 @@ set_tests_properties(
   Commands/FailedAllocations.AllFromOneOn/Info
   Commands/FailedAllocations.AllFromOneOn/Shot
   Commands/FailedAllocations.AllFromOneOn/ShotOfBaked
+  Commands/FailedAllocations.AllFromOneOn/InfoOfMesh
   Commands/FailedAllocations.AllFromOneOn/Viewshed
+  Commands/FailedAllocations.AllFromOneOn/ViewshedOfTable
   Commands/FailedAllocations.OfAll/Bake
   Commands/FailedAllocations.OfAll/Info
   Commands/FailedAllocations.OfAll/Shot
   Commands/FailedAllocations.OfAll/ShotOfBaked
+  Commands/FailedAllocations.OfAll/InfoOfMesh
   Commands/FailedAllocations.OfAll/Viewshed
+  Commands/FailedAllocations.OfAll/ViewshedOfTable
   Commands/FailedAllocations.OfTheProgram/Bake
   Commands/FailedAllocations.OfTheProgram/Info
   Commands/FailedAllocations.OfTheProgram/Shot
   Commands/FailedAllocations.OfTheProgram/ShotOfBaked
+  Commands/FailedAllocations.OfTheProgram/InfoOfMesh
   Commands/FailedAllocations.OfTheProgram/Viewshed
+  Commands/FailedAllocations.OfTheProgram/ViewshedOfTable
   Commands/FailedAllocations.OneInSix/Bake
   Commands/FailedAllocations.OneInSix/Shot
   Commands/FailedAllocations.OneInSix/ShotOfBaked
+  Commands/FailedAllocations.OneInSix/InfoOfMesh
   Commands/FailedAllocations.OneInSix/Viewshed
+  Commands/FailedAllocations.OneInSix/ViewshedOfTable
   Commands/FailedAllocationsOfC.ForTheProgram/Bake
   Commands/FailedAllocationsOfC.ForTheProgram/Shot
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Bake
@@ -432,7 +440,9 @@ set_tests_properties(
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Profile
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Shot
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/ShotOfBaked
+  Commands/FailedSystemCalls.AllOfAKindFromOneOn/InfoOfMesh
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Viewshed
+  Commands/FailedSystemCalls.AllOfAKindFromOneOn/ViewshedOfTable
   Commands/FailedSystemCalls.OfAll/Bake
   Commands/FailedSystemCalls.OfAll/BakeAgain
   Commands/FailedSystemCalls.OfAll/Info
@@ -441,7 +451,9 @@ set_tests_properties(
   Commands/FailedSystemCalls.OfAll/Profile
   Commands/FailedSystemCalls.OfAll/Shot
   Commands/FailedSystemCalls.OfAll/ShotOfBaked
+  Commands/FailedSystemCalls.OfAll/InfoOfMesh
   Commands/FailedSystemCalls.OfAll/Viewshed
+  Commands/FailedSystemCalls.OfAll/ViewshedOfTable
   Commands/FailedSystemCalls.OfTheProgram/Bake
   Commands/FailedSystemCalls.OfTheProgram/BakeAgain
   Commands/FailedSystemCalls.OfTheProgram/Info
@@ -450,7 +462,9 @@ set_tests_properties(
   Commands/FailedSystemCalls.OfTheProgram/Profile
   Commands/FailedSystemCalls.OfTheProgram/Shot
   Commands/FailedSystemCalls.OfTheProgram/ShotOfBaked
+  Commands/FailedSystemCalls.OfTheProgram/InfoOfMesh
   Commands/FailedSystemCalls.OfTheProgram/Viewshed
+  Commands/FailedSystemCalls.OfTheProgram/ViewshedOfTable
   Commands/FailedSystemCalls.OfWriting/Bake
   Commands/FailedSystemCalls.OfWriting/BakeAgain
   Commands/FailedSystemCalls.OfWriting/Info
@@ -459,7 +473,9 @@ set_tests_properties(
   Commands/FailedSystemCalls.OfWriting/Profile
   Commands/FailedSystemCalls.OfWriting/Shot
   Commands/FailedSystemCalls.OfWriting/ShotOfBaked
+  Commands/FailedSystemCalls.OfWriting/InfoOfMesh
   Commands/FailedSystemCalls.OfWriting/Viewshed
+  Commands/FailedSystemCalls.OfWriting/ViewshedOfTable
   Commands/FailedThreads.EachAndAllFromOneOn/Bake
   Commands/FailedThreads.EachAndAllFromOneOn/Shot
   Commands/FailedThreads.EachAndAllFromOneOn/ShotOfBaked

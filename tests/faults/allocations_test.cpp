@@ -43,7 +43,8 @@ TEST_P(FailedAllocations, OneInSix) {
 }
 
 std::string name_of(const testing::TestParamInfo<Command (*)()>& info) {
-    const std::vector<std::string> names{"Info", "Bake", "Shot", "ShotOfBaked", "Viewshed"};
+    const std::vector<std::string> names{
+        "Info", "Bake", "Shot", "ShotOfBaked", "Viewshed", "ViewshedOfTable", "InfoOfMesh"};
     return names[info.index];
 }
 
@@ -80,7 +81,8 @@ INSTANTIATE_TEST_SUITE_P(Commands, FailedAllocationsOfC,
 INSTANTIATE_TEST_SUITE_P(Commands, FailedAllocations,
                          testing::Values(oro::test::info_of_tiles, oro::test::bake_new,
                                          oro::test::shot_of_tiles, oro::test::shot_of_baked,
-                                         oro::test::viewshed_of_tiles),
+                                         oro::test::viewshed_of_tiles, oro::test::viewshed_of_table,
+                                         oro::test::info_of_mesh),
                          name_of);
 
 }  // namespace

@@ -72,6 +72,16 @@ const std::string& baked() {
     return bytes;
 }
 
+// A triangle on the tile, in metres of UTM zone 16 north; y is up in glTF, and south is z.
+constexpr const char* mesh = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0, "translation": [731700, 300, -4067600]}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                   "min": [0, 0, -40], "max": [40, 30, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri":
+        "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAAAgQgAAAAAAAAAAAAAAAAAA8EEAACDC"}]})";
+
 Command shot_of(const std::string& name, const std::string& bytes, const std::string& style = "default",
                 const std::string& size = "32x24") {
     const std::vector<std::string> words{"shot",   name, "-q",    "--overwrite", "--pipeline", "mesh",
@@ -87,6 +97,12 @@ Command info_of_tiles() {
 
 Command info_of_baked() {
     return {"info --check tile.oro", {"info", "--check", "tile.oro"}, {{"tile.oro", baked()}}, {}, false};
+}
+
+Command info_of_mesh() {
+    const std::vector<std::string> words{"info",   "tile.tif",   "--mesh-file",
+                                         "m.gltf", "--mesh-crs", "EPSG:32616"};
+    return {"info --mesh-file m.gltf", words, {{"tile.tif", tile()}, {"m.gltf", mesh}}, {}, false};
 }
 
 Command bake_new() {
@@ -115,6 +131,17 @@ Command viewshed_of_tiles() {
     const std::vector<std::string> words{"viewshed",       "tile.tif", "-q",  "--overwrite", "--at",
                                          "36.725,-84.405", "--radius", "0.6", "--out",       "s.tif"};
     return {"viewshed tile.tif", words, {{"tile.tif", tile()}}, {{"s.tif", there_before}}, false};
+}
+
+Command viewshed_of_table() {
+    const std::vector<std::string> words{"viewshed",    "tile.tif",  "-q",      "--overwrite",
+                                         "--observers", "masts.csv", "--table", "t.csv",
+                                         "--radius",    "0.6",       "--out",   "s.tif"};
+    return {"viewshed --observers masts.csv",
+            words,
+            {{"tile.tif", tile()}, {"masts.csv", "lat,lon\n36.725,-84.405\n36.724,-84.404\n"}},
+            {{"s.tif", there_before}, {"t.csv", "another of before"}},
+            false};
 }
 
 Command horizon_of_tiles() {

@@ -5,16 +5,18 @@
 
 namespace oro::test {
 
-// info of a GeoTIFF and of a baked region; bake; shot of both, with a picture there already or none; what is
-// seen from a place, horizons (two files), a line's profile, and heights as a Cloud Optimized GeoTIFF, with
-// files there already.
+// info of a GeoTIFF, of one with a mesh on it (glTF) and of a baked region; bake; shot of both, with a
+// picture there already or none; what is seen from a place and from each of a table (two files), horizons
+// (two files), a line's profile, and heights as a Cloud Optimized GeoTIFF, with files there already.
 Command info_of_tiles();
 Command info_of_baked();
+Command info_of_mesh();
 Command bake_new();
 Command bake_again();
 Command shot_of_tiles();
 Command shot_of_baked();
 Command viewshed_of_tiles();
+Command viewshed_of_table();
 Command horizon_of_tiles();
 Command profile_of_tiles();
 Command export_of_tiles();

@@ -80,8 +80,9 @@ TEST(FailedQuestions, LetNoInputBeReplaced) {
 }
 
 std::string name_of(const testing::TestParamInfo<Command (*)()>& info) {
-    const std::vector<std::string> names{"Info",        "InfoOfBaked", "Bake",    "BakeAgain", "Shot",
-                                         "ShotOfBaked", "Viewshed",    "Profile", "Export",    "Horizon"};
+    const std::vector<std::string> names{
+        "Info",    "InfoOfBaked", "Bake",    "BakeAgain",       "Shot",      "ShotOfBaked", "Viewshed",
+        "Profile", "Export",      "Horizon", "ViewshedOfTable", "InfoOfMesh"};
     return names[info.index];
 }
 INSTANTIATE_TEST_SUITE_P(Commands, FailedSystemCalls,
@@ -89,7 +90,8 @@ INSTANTIATE_TEST_SUITE_P(Commands, FailedSystemCalls,
                                          oro::test::bake_new, oro::test::bake_again, oro::test::shot_of_tiles,
                                          oro::test::shot_of_baked, oro::test::viewshed_of_tiles,
                                          oro::test::profile_of_tiles, oro::test::export_of_tiles,
-                                         oro::test::horizon_of_tiles),
+                                         oro::test::horizon_of_tiles, oro::test::viewshed_of_table,
+                                         oro::test::info_of_mesh),
                          name_of);
 
 }  // namespace
