@@ -50,7 +50,8 @@ std::string eye_line(const View& view, const Region& region) {
     const double H_m = eye.h_m - region.grids.front().field.undulation.at_m(eye.lat_deg, eye.lon_deg);
     std::string line =
         "Eye: " + place_text(eye.lat_deg, eye.lon_deg) + ", " + height_text(H_m) + " above sea level";
-    const auto ground_m = ground_h_m(grid_at(region, eye.lat_deg, eye.lon_deg).field, eye.lat_deg, eye.lon_deg, view.exaggeration);
+    const auto ground_m = ground_h_m(grid_at(region, eye.lat_deg, eye.lon_deg).field, eye.lat_deg,
+                                     eye.lon_deg, view.exaggeration);
     const double canopy_m =
         canopy_over_ground_m(region.grids.front(), eye.lat_deg, eye.lon_deg).value_or(0.0);
     if (ground_m && eye.h_m >= *ground_m)
@@ -126,6 +127,9 @@ std::vector<std::string> legend_lines(const View& view, const Region& region, co
         lines.emplace_back(view.cover ? "Ground cover: of " + view.cover->table().title +
                                             "; where that holds nothing invented, by a rule"
                                       : "Ground cover: invented, by a rule of height, slope and latitude");
+    if (style.frame.materials.on != 0)
+        lines.emplace_back(view.cover ? "Colours within a class, and clefts of rock: invented, by a rule"
+                                      : "Fields with hedges, and clefts of rock: invented, by a rule");
     if ((style.frame.materials.on & gpu::materials_with_trees) != 0)
         lines.emplace_back("Trees: invented, by a rule, where the ground cover is forest");
     if ((style.frame.materials.on & gpu::materials_with_grass) != 0)

@@ -253,6 +253,12 @@ TEST_F(MeadowPictures, AreSaidToBeInvented) {
     };
     EXPECT_EQ(says(true), 1);
     EXPECT_EQ(says(false), 0);
+    Style style{};
+    style.frame = natural(region, {.grass = true});
+    const std::string fields = "Fields with hedges, and clefts of rock: invented, by a rule";
+    EXPECT_EQ(std::ranges::count(legend_lines(view, region, style), fields), 1);
+    style.frame.materials.on = 0;
+    EXPECT_EQ(std::ranges::count(legend_lines(view, region, style), fields), 0);
 }
 
 TEST_F(MeadowPictures, AreAskedForByAStyle) {

@@ -151,6 +151,10 @@ void put_style(const ShotResult& shot, const Style& style, ordered_json& json) {
     // What says which materials the ground's colours are of; null: they are of none.
     json["cover"] = nullptr;
     if (style.frame.colour_by == gpu::colour_by_cover) json["cover"] = shot.view.cover ? "files" : "rule";
+    if (style.frame.materials.on != 0)
+        json["materials"] = shot.view.cover
+                                ? "invented, by a rule: colours within a class, clefts and ledges of rock"
+                                : "invented, by a rule: fields with hedges, clefts and ledges of rock";
     if ((style.frame.materials.on & gpu::materials_with_trees) != 0)
         json["growth"]["trees"] = "invented, by a rule, where the ground cover is forest";
     if ((style.frame.materials.on & gpu::materials_with_grass) != 0)
