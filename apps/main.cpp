@@ -30,7 +30,11 @@ namespace {
 constexpr const char* about =
     "Orograph draws real terrain at its true place on the Earth, and says how accurate each picture is.";
 
+// What a library says when it has no memory may pass for a mistake of the user: PROJ knows no way then.
 int reported(const oro::Error& error) {
+    if (error.kind != oro::ErrorKind::failed) {
+        if (const auto sound = oro::libraries_are_sound(); !sound.ok()) return reported(sound.error());
+    }
     std::fprintf(stderr, "orograph: %s\n", error.line().c_str());
     return static_cast<int>(error.kind);
 }

@@ -8,6 +8,7 @@
 
 #include "core/base/files_read.h"
 #include "core/earth/ellipsoid.h"
+#include "geo/files/library_faults.h"
 
 namespace oro {
 namespace {
@@ -105,6 +106,7 @@ std::string file_names(const std::vector<std::string>& paths) {
 
 LiftingOperation find_lifting_operation(PJ_CONTEXT* context, const PJ* from, const BoundingBox& unwrapped) {
     LiftingOperation found;
+    const EndsWithoutMemory in_proj;
     const ProjObject to(proj_create(context, "EPSG:4979"));
     // A "ballpark" operation is the one that leaves heights as they are: never acceptable here.
     for (const ProjObject& operation : operations_between(context, from, to.get(), unwrapped, false)) {

@@ -17,9 +17,11 @@ namespace {
 
 std::atomic<bool> memory_ran_out{false};
 std::atomic<bool> database_failed{false};
+thread_local int calls_that_hang = 0;
 
 void on_failed_allocation() {
     memory_ran_out = true;
+    if (calls_that_hang > 0) end_out_of_memory();
     throw std::bad_alloc();
 }
 
@@ -78,6 +80,14 @@ Result<void> libraries_are_sound() {
         return Error{ErrorKind::failed, "PROJ's database (proj.db)",
                      "could not be read to its end; what PROJ says may be wrong"};
     return {};
+}
+
+EndsWithoutMemory::EndsWithoutMemory() {
+    ++calls_that_hang;
+}
+
+EndsWithoutMemory::~EndsWithoutMemory() {
+    --calls_that_hang;
 }
 
 int tell_out_of_memory() noexcept {

@@ -17,6 +17,17 @@ void watch_libraries();
 // For those who take GDAL's messages for themselves.
 void note_gdal_message(bool is_fatal, bool for_want_of_memory) noexcept;
 
+// While one lives, memory that its thread cannot have ends the program (end_out_of_memory()): for calls of
+// libraries that never return after such a fault. PROJ 9.1 keeps its grids' mutex locked, and waits for it.
+// Without watch_libraries() it does nothing.
+class EndsWithoutMemory {
+  public:
+    EndsWithoutMemory();
+    ~EndsWithoutMemory();
+    EndsWithoutMemory(const EndsWithoutMemory&) = delete;
+    EndsWithoutMemory& operator=(const EndsWithoutMemory&) = delete;
+};
+
 // Ends the program for want of memory: one line that was written before there was a want, unfinished files
 // removed, exit code 1. Allocates nothing.
 [[noreturn]] void end_out_of_memory() noexcept;
