@@ -569,6 +569,7 @@ set_tests_properties(
   LayersOfPictures.OfMadeTerrainAreTheOracles
   LayersOfPictures.OfRealTerrainAreTheOracles
   Markers.AreWhereTheMeasureSaysTheyAre
+  MaterialPictures.HaveRockReliefThatMakesNoLight
   MaterialPictures.HaveTheTablesMeanColour
   MeadowPictures.AreAsLightAsTheirMeadow
   MeadowPictures.AreNoGround

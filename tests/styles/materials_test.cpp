@@ -117,11 +117,13 @@ TEST_F(MaterialPictures, HaveTheTablesMeanColour) {
     }
 }
 
-// A wall of rock, whose relief takes from the one place what it gives to the other: 128 x 128 px are as light
-// in the mean as without, whatever the sun. Seen level, as walls are. They are 1.4 to 2.0 codes apart by each of
-// three suns alike; the colour's own grain, whose waves are as wide as the picture, is taken for that.
+// A wall of rock, whose relief takes from the one place what it gives to the other: it is as light in the
+// mean as without, whatever the sun. Seen level, as walls are. Seven pictures side by side, 768 m each: of
+// one alone the colour's own grain, whose waves are up to 400 m long, is 1.4 to 2.0 codes off by each of the
+// suns alike.
 TEST_F(MaterialPictures, HaveRockReliefThatMakesNoLight) {
-    constexpr double rise = 1.2, distance_m = 2500.0;
+    constexpr double rise = 1.2, distance_m = 2500.0, wide_m = picture_px * 6.0;
+    constexpr int pictures = 7;
     const Region region = slope(90.0, rise);
     for (const SunDirection& sun :
          {SunDirection{180.0, 30.0}, SunDirection{180.0, 65.0}, SunDirection{250.0, 40.0}}) {
@@ -133,24 +135,27 @@ TEST_F(MaterialPictures, HaveRockReliefThatMakesNoLight) {
         }
         gpu::FrameStyle without = with;
         for (gpu::Material& material : without.materials.of) material.grain = 0.0F;
-        // Six metres a pixel, the wall's middle in the picture's.
-        Camera camera = down(region, 1.0);
-        camera.attitude = {0.0, 0.0, 0.0};
-        camera.eye.h_m = 1200.0;
-        camera.eye.lat_deg -= distance_m / test::metres_per_degree(46.5, 1200.0).lat;
-        camera.vertical_fov_deg =
-            2.0 * std::atan(0.5 * picture_px * 6.0 / distance_m) * 180.0 / std::numbers::pi;
-        const auto relief = picture(region, camera, with), smooth = picture(region, camera, without);
-        std::array<double, 3> one = mean_light(relief), other = mean_light(smooth);
-        for (std::size_t c = 0; c < 3; ++c) {
-            one[c] = code_of(one[c]);
-            other[c] = code_of(other[c]);
+        std::array<double, 3> one{}, other{};
+        for (int i = 0; i < pictures; ++i) {
+            // Six metres a pixel, the wall's middle in the picture's.
+            Camera camera = down(region, 1.0);
+            camera.attitude = {0.0, 0.0, 0.0};
+            camera.eye.h_m = 1200.0;
+            const auto degree_m = test::metres_per_degree(46.5, 1200.0);
+            camera.eye.lat_deg -= distance_m / degree_m.lat;
+            camera.eye.lon_deg += (i - pictures / 2) * wide_m / degree_m.lon;
+            camera.vertical_fov_deg = 2.0 * std::atan(0.5 * wide_m / distance_m) * 180.0 / std::numbers::pi;
+            const auto relief = picture(region, camera, with), smooth = picture(region, camera, without);
+            EXPECT_GT(contrast(relief), contrast(smooth) + 6.0) << "codes";
+            for (std::size_t c = 0; c < 3; ++c) {
+                one[c] += mean_light(relief)[c] / pictures;
+                other[c] += mean_light(smooth)[c] / pictures;
+            }
         }
-        std::printf("sun %.0f,%.0f: %.2f %.2f %.2f, without relief %.2f %.2f %.2f; contrast %.2f and %.2f\n",
-                    sun.azimuth_deg, sun.elevation_deg, one[0], one[1], one[2], other[0], other[1], other[2],
-                    contrast(relief), contrast(smooth));
-        for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(one[c], other[c], 2.5) << "codes";
-        EXPECT_GT(contrast(relief), contrast(smooth) + 6.0) << "codes";
+        std::printf("sun %.0f,%.0f: %.2f %.2f %.2f, without relief %.2f %.2f %.2f\n", sun.azimuth_deg,
+                    sun.elevation_deg, code_of(one[0]), code_of(one[1]), code_of(one[2]), code_of(other[0]),
+                    code_of(other[1]), code_of(other[2]));
+        for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(code_of(one[c]), code_of(other[c]), 1.0) << "codes";
     }
 }
 
