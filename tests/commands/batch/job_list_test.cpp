@@ -37,7 +37,9 @@ TEST(JobList, NamesAreOptionsAndListsOfNumbersOneValue) {
     EXPECT_EQ(job.words,
               (Words{"shot", "alps", "--above=2.5", "--at=46.5,-8.25", "--legend", "--look-at=46,8",
                      "--out=a.png", "--size=1920x1080", "--view=a.json", "--view=b.json", "--tau", "2"}));
-    EXPECT_EQ(job.writes, (Words{"a.png"}));
+    ASSERT_EQ(job.writes.size(), 1U);
+    EXPECT_EQ(job.writes[0].option, "--out");
+    EXPECT_EQ(job.writes[0].file, "a.png");
 }
 
 TEST(JobList, SeveralObserversAreListsInAList) {
