@@ -69,6 +69,39 @@ void aim(const Cylinder& around, const Geodetic& eye, CylinderTile& tile) {
                             0.5 * (high_deg + low_deg), 0.0};
 }
 
+// unroll() looks within the tile, so what it reads ends where the tile's borders are seen. Around that: half
+// a pixel to either side between pixels, one that a ridge line looks at, and one for the way between corners.
+Tile part_of(const Cylinder& around, const CylinderTile& tile) {
+    constexpr int beside_px = 3;
+    const Camera& camera = tile.camera;
+    const glm::dmat3 turn = view_from_enu(camera);
+    const glm::dvec2 half_px = 0.5 * glm::dvec2(camera.width_px, camera.height_px),
+                     scale_px = half_px / camera.half_fov_tangent();
+    glm::dvec2 low = 2.0 * half_px, high(0.0);
+    const auto see = [&](int x_px, int y_px) {
+        const glm::dvec3 seen = turn * around.enu_at(glm::dvec2(x_px, y_px));
+        const glm::dvec2 place = half_px + scale_px * glm::dvec2(seen.x, -seen.y) / -seen.z;
+        low = glm::min(low, place);
+        high = glm::max(high, place);
+    };
+    for (int x = tile.x_px; x <= tile.x_px + tile.width_px; ++x) {
+        see(x, tile.y_px);
+        see(x, tile.y_px + tile.height_px);
+    }
+    for (int y = tile.y_px; y <= tile.y_px + tile.height_px; ++y) {
+        see(tile.x_px, y);
+        see(tile.x_px + tile.width_px, y);
+    }
+    const auto begin = [&](double px) { return std::max(0, static_cast<int>(px) - beside_px); };
+    const auto end = [&](double px, int last) {
+        return std::min(last, static_cast<int>(px) + 1 + beside_px);
+    };
+    Tile part{begin(low.x), begin(low.y)};
+    part.width_px = end(high.x, camera.width_px) - part.x_px;
+    part.height_px = end(high.y, camera.height_px) - part.y_px;
+    return part;
+}
+
 }  // namespace
 
 std::vector<CylinderTile> cylinder_tiles(const Cylinder& around, const Geodetic& eye,
@@ -83,11 +116,8 @@ std::vector<CylinderTile> cylinder_tiles(const Cylinder& around, const Geodetic&
     glm::dvec2 largest_px(0.0);
     for (std::size_t row = 0; row + 1 < rows.size(); ++row) {
         for (std::size_t column = 0; column + 1 < columns.size(); ++column) {
-            CylinderTile tile{columns[column],
-                              rows[row],
-                              columns[column + 1] - columns[column],
-                              rows[row + 1] - rows[row],
-                              {}};
+            CylinderTile tile{columns[column],           rows[row], columns[column + 1] - columns[column],
+                              rows[row + 1] - rows[row], {},        {}};
             aim(around, eye, tile);
             // Rows lie closer together, in angle, the farther they are from the level line.
             const double top_deg = std::abs(around.elevation_deg_at(tile.y_px)),
@@ -104,6 +134,7 @@ std::vector<CylinderTile> cylinder_tiles(const Cylinder& around, const Geodetic&
         camera.width_px = 2 * (static_cast<int>(std::ceil(largest_px.x)) + margin_px);
         camera.height_px = 2 * (static_cast<int>(std::ceil(largest_px.y)) + margin_px);
         camera.vertical_fov_deg = 2.0 * std::atan(0.5 * camera.height_px / scales_px[i]) / rad_per_deg;
+        tiles[i].part = part_of(around, tiles[i]);
     }
     return tiles;
 }

@@ -17,6 +17,8 @@ struct CylinderTile {
     int width_px{};
     int height_px{};
     Camera camera;
+    // What of the camera's picture unroll() reads, and the pixels beside it that ridge lines look at.
+    Tile part;
 };
 
 // How a cylinder is cut.

@@ -170,7 +170,9 @@ struct GroundMeans::Bands {
     static void put_row(const GroundMeans& means, int row, int first, int count, float weight,
                         PostRow& posts);
     friend class GroundMeans;
-    [[nodiscard]] Sums of_posts(int row, int column, const PostRow& upper, const PostRow& lower) const;
+    static Sums of_posts(int row, int column, const GroundMeans& means, const PostRow& upper,
+                         const PostRow& lower);
+    static void put_page_of_posts(const GroundMeans& means, const PageIndex& index, gpu::PageMeans& page);
     template <class Square>
     static Sums of_squares(int row, int column, const Level& finer, const Square& square);
     void add_band(int band, int top, std::vector<Sums>& sums_of_top);
@@ -194,15 +196,15 @@ void GroundMeans::Bands::put_row(const GroundMeans& means, int row, int first, i
 void GroundMeans::Bands::add_levels(int threads) {
     const int last = static_cast<int>(means.levels_.size()) - 1, top = std::min(band_levels, last);
     if (top == 0) return;
-    std::vector<Sums> below(means.levels_[static_cast<std::size_t>(top)].squares.size());
-    in_parallel(means.levels_[static_cast<std::size_t>(top)].rows, threads,
-                [&](int band) { add_band(band, top, below); });
+    const Level& of_top = means.levels_[static_cast<std::size_t>(top)];
+    std::vector<Sums> below(static_cast<std::size_t>(of_top.rows) * static_cast<std::size_t>(of_top.columns));
+    in_parallel(of_top.rows, threads, [&](int band) { add_band(band, top, below); });
     for (int level = top + 1; level <= last; ++level) add_level(level, below);
 }
 
 // Four posts make a square of level 1.
-GroundMeans::Sums GroundMeans::Bands::of_posts(int row, int column, const PostRow& upper,
-                                               const PostRow& lower) const {
+GroundMeans::Sums GroundMeans::Bands::of_posts(int row, int column, const GroundMeans& means,
+                                               const PostRow& upper, const PostRow& lower) {
     Sums sums;
     sums.add(upper.at(2 * column));
     sums.add(upper.at(2 * column + 1));
@@ -247,12 +249,12 @@ void GroundMeans::Bands::add_band(int band, int top, std::vector<Sums>& sums_of_
                     put_row(means, 2 * row + 1, 0, posts, neighbour_weight, lower);
             }
             Sums* const to = sums.data() + static_cast<std::size_t>(row - first) * columns;
-            gpu::MeansSquare* const squares = level.squares.data() + static_cast<std::size_t>(row) * columns;
-            for (int column = 0; column < level.columns; ++column) {
-                to[column] = number == 1 ? of_posts(row, column, upper, lower)
+            for (int column = 0; column < level.columns; ++column)
+                to[column] = number == 1 ? of_posts(row, column, means, upper, lower)
                                          : of_squares(row, column, finer, of_band);
-                squares[column] = packed(to[column]);
-            }
+            if (number < means.first_kept_) continue;
+            gpu::MeansSquare* const squares = level.squares.data() + static_cast<std::size_t>(row) * columns;
+            for (int column = 0; column < level.columns; ++column) squares[column] = packed(to[column]);
         }
         std::swap(below, sums);
     }
@@ -282,7 +284,8 @@ GroundMeans::GroundMeans(const PostGrid& grid, const DrawnHeights& heights, doub
     : grid_(grid),
       heights_(heights),
       exaggeration_(static_cast<float>(exaggeration)),
-      wraps_longitude_(grid.wraps_longitude()) {
+      wraps_longitude_(grid.wraps_longitude()),
+      first_kept_(wraps_longitude_ ? 1 : 2) {
     for (int row = 0; !grid.net && row < grid.rows(); ++row) {
         const double lat_deg = row_lat_deg(grid, row);
         const double down_m = meridian_radius_m(lat_deg) * radians_from_deg(grid.lat.spacing_deg()).rad;
@@ -296,6 +299,7 @@ GroundMeans::GroundMeans(const PostGrid& grid, const DrawnHeights& heights, doub
     for (int level = 1; level < level_count(grid); ++level) {
         const int rows = (levels_.back().rows + 1) / 2, columns = (levels_.back().columns + 1) / 2;
         levels_.push_back({rows, columns, {}});
+        if (level < first_kept_) continue;
         levels_.back().squares.resize(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
     }
     Bands{*this}.add_levels(threads);
@@ -405,25 +409,56 @@ std::uint32_t GroundMeans::packed_spread(const Sums& sums) {
            static_cast<std::uint32_t>(steps(correlation, gpu::means_correlation_steps)) << 22U;
 }
 
+std::size_t GroundMeans::kept_squares() const {
+    std::size_t count = 0;
+    for (const Level& level : levels_) count += level.squares.size();
+    return count;
+}
+
+// A page of level 0 or 1, of a region that does not go round the Earth, from its posts. Single posts are
+// sharper than those that squares are made of.
+void GroundMeans::Bands::put_page_of_posts(const GroundMeans& means, const PageIndex& index,
+                                           gpu::PageMeans& page) {
+    constexpr int apron = static_cast<int>(gpu::means_apron), stride = static_cast<int>(gpu::means_stride);
+    const Level& level = means.levels_[static_cast<std::size_t>(index.level)];
+    const int first_row = index.row * static_cast<int>(gpu::page_quads) - apron;
+    const int first_column = index.column * static_cast<int>(gpu::page_quads) - apron;
+    const int from = std::max(0, -first_column), to = std::min(stride, level.columns - first_column);
+    if (from >= to) return;
+    const int first_post = (first_column + from) << index.level;
+    const int posts = std::min((to - from) << index.level, means.levels_.front().columns - first_post);
+    PostRow upper(posts), lower(posts);
+    for (int i = std::max(0, -first_row); i < std::min(stride, level.rows - first_row); ++i) {
+        gpu::MeansSquare* const squares = page.squares + i * stride + from;
+        const int row = first_row + i;
+        if (index.level == 0) {
+            put_row(means, row, first_post, posts, 0.0F, upper);
+            for (int j = 0; j < to - from; ++j) squares[j] = packed(upper.at(j));
+            continue;
+        }
+        put_row(means, 2 * row, first_post, posts, neighbour_weight, upper);
+        if (2 * row + 1 < means.grid_.rows())
+            put_row(means, 2 * row + 1, first_post, posts, neighbour_weight, lower);
+        for (int j = 0; j < to - from; ++j) squares[j] = packed(of_posts(row, j, means, upper, lower));
+    }
+}
+
 void GroundMeans::page(const PageIndex& index, gpu::PageMeans& means) const {
     constexpr int apron = static_cast<int>(gpu::means_apron), stride = static_cast<int>(gpu::means_stride);
     const Level& level = levels_[static_cast<std::size_t>(index.level)];
     const int first_row = index.row * static_cast<int>(gpu::page_quads) - apron;
     const int first_column = index.column * static_cast<int>(gpu::page_quads) - apron;
+    std::ranges::fill(means.squares, gpu::MeansSquare{});
+    if (index.level < first_kept_ && !wraps_longitude_) {
+        Bands::put_page_of_posts(*this, index, means);
+        return;
+    }
     // Round the Earth columns go on at the other side.
     const int from = wraps_longitude_ ? 0 : std::max(0, -first_column);
     const int to = wraps_longitude_ ? stride : std::min(stride, level.columns - first_column);
-    PostRow posts(stride);
-    for (int i = 0; i < stride; ++i) {
+    for (int i = std::max(0, -first_row); i < std::min(stride, level.rows - first_row); ++i) {
         const int row = first_row + i;
         gpu::MeansSquare* const squares = means.squares + i * stride;
-        std::fill_n(squares, stride, gpu::MeansSquare{});
-        if (row < 0 || row >= level.rows || from >= to) continue;
-        if (index.level == 0 && !wraps_longitude_) {
-            Bands::put_row(*this, row, first_column + from, to - from, 0.0F, posts);
-            for (int j = from; j < to; ++j) squares[j] = packed(posts.at(j - from));
-            continue;
-        }
         for (int j = from; j < to; ++j) {
             const int column =
                 wraps_longitude_ ? (first_column + j + level.columns) % level.columns : first_column + j;

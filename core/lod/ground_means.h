@@ -2,6 +2,7 @@
 // the few that happen to lie under it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -17,19 +18,22 @@ namespace oro {
 // up from square to square. Source: M. Olano, D. Baker, LEAN mapping, I3D 2010.
 class GroundMeans {
   public:
-    // The work is shared between `threads` (at least 1), with one result for any number. Keeps 4 bytes a
-    // post, and works in bands of rows. `grid` and `heights` must outlive it.
+    // The work is shared between `threads` (at least 1), with one result for any number. Keeps 1 byte a
+    // post, 4 round the Earth, and works in bands of rows. `grid` and `heights` must outlive it.
     GroundMeans(const PostGrid& grid, const DrawnHeights& heights, double exaggeration, int threads);
 
-    // Puts the means of a page into `means`; squares without a post have 0.
+    // Puts the means of a page into `means`; squares without a post have 0. Those of the finest levels are
+    // made of the page's posts at each call.
     void page(const PageIndex& index, gpu::PageMeans& means) const;
+    // How many squares it keeps, of all levels.
+    [[nodiscard]] std::size_t kept_squares() const;
 
   private:
     struct Sums;
     struct Level {
         int rows{};
         int columns{};
-        std::vector<gpu::MeansSquare> squares;  // none of level 0: its squares are the posts
+        std::vector<gpu::MeansSquare> squares;  // none of levels that are not kept
     };
     static gpu::MeansSquare packed(const Sums& sums);
     static std::uint32_t packed_spread(const Sums& sums);
@@ -44,6 +48,7 @@ class GroundMeans {
     const DrawnHeights& heights_;
     float exaggeration_;
     bool wraps_longitude_;
+    int first_kept_;  // level; those below it are made page by page
     struct RowScale {
         float down_per_m;   // 1 / metres from a post to the next one south, times the height step
         float right_per_m;  // ... east

@@ -214,9 +214,11 @@ class Survey {
     explicit Survey(double sign)
         : sign_(sign), base_m_(sign > 0.0 ? lowest_plausible_m : -highest_plausible_m) {}
     void add(float height_m, bool is_calm) {
-        const std::size_t bin = bin_of(sign_ * static_cast<double>(height_m));
-        ++all_[bin];
-        calm_[bin] += is_calm;
+        ++(is_calm ? calm_ : all_)[bin_of(sign_ * static_cast<double>(height_m))];
+    }
+    // Once all heights are added.
+    void end() {
+        for (std::size_t bin = 0; bin < bins; ++bin) all_[bin] += calm_[bin];
     }
     void add_plateau(float height_m) {
         constexpr std::size_t most = 1U << 16U;
@@ -247,7 +249,7 @@ class Survey {
   private:
     static constexpr std::size_t bins = 21002;
     double sign_, base_m_;
-    std::vector<std::uint64_t> all_ = std::vector<std::uint64_t>(bins);
+    std::vector<std::uint64_t> all_ = std::vector<std::uint64_t>(bins);  // before end(): those not calm
     std::vector<std::uint64_t> calm_ = std::vector<std::uint64_t>(bins);
     std::map<float, std::uint64_t> plateaus_;
     std::uint64_t beyond_{};
@@ -353,15 +355,6 @@ struct Surveys {
     Survey high{-1.0};
 };
 
-// The height that all four posts of a square have, or void_height_m.
-float plateau_at(const PostBlock& block, std::size_t post, std::size_t columns) {
-    const float height_m = block.height_m[post];
-    if ((post + 1) % columns == 0 || post + columns >= block.height_m.size()) return void_height_m;
-    const bool all = block.height_m[post + 1] == height_m && block.height_m[post + columns] == height_m &&
-                     block.height_m[post + columns + 1] == height_m;
-    return all ? height_m : void_height_m;
-}
-
 // The largest step between a post and its four neighbours.
 double step_to_neighbours_m(const PostBlock& block, std::size_t post, std::size_t columns) {
     double largest_m = 0.0;
@@ -414,16 +407,23 @@ void add_to_surveys(const PostBlock& block, double rim_m, Surveys& surveys) {
     surveys.low.add_beyond(block);
     surveys.high.add_beyond(block);
     std::vector<unsigned char> marks(columns);
-    for (std::size_t post = 0; post < block.height_m.size(); ++post) {
-        const float height_m = block.height_m[post];
-        if (post % columns == 0) mark_near_steps(block, post / columns, columns, rim_m, marks);
-        if (is_void(height_m)) continue;
-        const bool is_calm = marks[post % columns] == 0 || step_to_neighbours_m(block, post, columns) < rim_m;
-        surveys.low.add(height_m, is_calm);
-        surveys.high.add(height_m, is_calm);
-        if (const float level_m = plateau_at(block, post, columns); !is_void(level_m)) {
-            surveys.low.add_plateau(level_m);
-            surveys.high.add_plateau(level_m);
+    const std::size_t posts = block.height_m.size();
+    for (std::size_t first = 0; first < posts; first += columns) {
+        mark_near_steps(block, first / columns, columns, rim_m, marks);
+        const float* const here_m = block.height_m.data() + first;
+        const float* const below_m = first + columns < posts ? here_m + columns : nullptr;
+        for (std::size_t i = 0; i < columns; ++i) {
+            const float height_m = here_m[i];
+            if (is_void(height_m)) continue;
+            const bool is_calm = marks[i] == 0 || step_to_neighbours_m(block, first + i, columns) < rim_m;
+            surveys.low.add(height_m, is_calm);
+            surveys.high.add(height_m, is_calm);
+            // A square of four posts that have one height.
+            if (below_m != nullptr && i + 1 < columns && here_m[i + 1] == height_m &&
+                below_m[i] == height_m && below_m[i + 1] == height_m) {
+                surveys.low.add_plateau(height_m);
+                surveys.high.add_plateau(height_m);
+            }
         }
     }
 }
@@ -496,6 +496,8 @@ Result<std::vector<NoHeights>> no_heights_of_file(const Source& source, const Po
     const double rim_m = calm_step_m(source);
     ORO_CHECK(for_all_posts(source, block, read,
                             [&](const PostBlock& part) { add_to_surveys(part, rim_m, surveys); }));
+    surveys.low.end();
+    surveys.high.end();
     const std::vector<float> suspects = suspects_in(source, surveys.ends);
     std::vector<CutSteps> cuts;
     for (const Cut& cut : surveys.low.cuts(source)) cuts.push_back({1.0, cut, {}});

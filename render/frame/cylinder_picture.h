@@ -17,17 +17,21 @@ using OverTile = std::function<Result<void>(const CylinderTile& tile, std::vecto
 struct CylinderExtras {
     bool ridges{true};  // lines where nearer ground ends (core/frame/ridge_lines.h)
     OverTile over;      // after them
+    // Once pages take more on the GPU, they are let go of after each column of tiles: one column of a region
+    // of 12 tiles of SRTM takes some 60 MB, and all together 430 MB.
+    std::uint64_t kept_page_bytes{48'000'000};
 };
 
 struct CylinderPicture {
     PictureReport report;           // sums over all tiles
     std::vector<std::uint8_t> rgb;  // rows from the top, sRGB
     int tiles{};
+    std::uint64_t page_bytes{};  // the most that buffers of pages took on the GPU
 };
 
 // Draws what an eye sees on a cylinder. tau_px of the options is in pixels of the cylinder, and so is the
-// width of contour lines. Memory: the picture, and one tile at a time. Errors: those of the device and of
-// `over`.
+// width of contour lines. Memory: the picture, one tile at a time, and on the GPU the pages of one column of
+// tiles. Errors: those of the device and of `over`.
 Result<CylinderPicture> render_cylinder(const Gpu& gpu, Scene& scene, const Geodetic& eye,
                                         const Cylinder& around, const CylinderCut& cut,
                                         const gpu::FrameStyle& style, const PictureOptions& options,

@@ -80,6 +80,11 @@ class FrameRenderer {
     Result<FrameReport> draw(FramePlan plan, const gpu::FrameStyle& style, std::uint32_t sample_index = 0,
                              std::uint32_t sample_count = 1, std::vector<DrapeStore*> drapes = {});
 
+    // From the next frame on only a part of a frame's picture is coloured: what it shows there is the same to
+    // the bit, and the rest means nothing, nor do its depths. Places and sizes in pixels of the frame's own
+    // picture; trees and shadows are still looked for everywhere. Nothing: all of it.
+    void colour_only(const std::optional<VkRect2D>& part) { part_ = part; }
+
     // Several frames under way: submit() begins one of one sample as draw() does and does not wait for it;
     // finish() waits for the one that was begun first. At most frames_in_flight may be under way, and none
     // where draw() or what reads a picture is called. All that is submitted to the device afterwards sees the
@@ -194,6 +199,7 @@ class FrameRenderer {
     enum class GrowthPass { shade, smooth };
     void record_growth_pixels(VkCommandBuffer commands, const FramePlan& plan, GrowthPass pass) const;
     void record_show(VkCommandBuffer commands, const FramePlan& plan) const;
+    void dispatch_pixels(VkCommandBuffer commands, const FramePlan& plan) const;
     void record_ids_alone(VkCommandBuffer commands) const;
     void record_tile_feedback(VkCommandBuffer commands, const FramePlan& plan) const;
     Result<void> ask_again(const GridFrame& grid, const GridPlan& plan, std::uint32_t seed);
@@ -223,6 +229,7 @@ class FrameRenderer {
     Buffer counts_;  // on the device
     Buffer recorded_;
     std::uint32_t last_width_px_{};
+    std::optional<VkRect2D> part_;              // colour_only()
     std::vector<char> last_grids_;              // of the last frame: 1 where a grid had pages in it
     std::size_t slot_{};                        // of the frame that is being begun
     std::vector<std::size_t> under_way_;        // slots of frames, in their order

@@ -109,7 +109,7 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
         grid.bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
         if (grid.growth.is_on()) grid.growth.push(commands, *pipelines_);
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-        vkCmdDispatch(commands, tiles_of(plan.view.width_px()), tiles_of(plan.view.height_px()), 1);
+        dispatch_pixels(commands, plan);
         before = true;
     };
     for (std::size_t i = 0; i < plan.grids.size(); ++i) {
@@ -120,6 +120,26 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
     for (std::size_t i = 0; options_.smooth_edges && i < plan.grids.size(); ++i) pass(grids_[i], edges_);
     record_growth_pixels(commands, plan, GrowthPass::smooth);
     if (options_.show != gpu::show_colours) record_show(commands, plan);
+}
+
+// A program of shade.comp or edges.comp over the frame's pixels, or those of its part and the tiles beside
+// it, whose colours and depths edges depend on.
+void FrameRenderer::dispatch_pixels(VkCommandBuffer commands, const FramePlan& plan) const {
+    const std::uint32_t columns = tiles_of(plan.view.width_px()), rows = tiles_of(plan.view.height_px());
+    if (!part_) {
+        vkCmdDispatch(commands, columns, rows, 1);
+        return;
+    }
+    const auto first = [](std::int32_t px) {
+        return std::max(static_cast<std::uint32_t>(px) / tile_px, 1U) - 1U;
+    };
+    const auto last = [](std::int32_t px, std::uint32_t count_px, std::uint32_t most) {
+        return std::min(tiles_of(static_cast<std::uint32_t>(px) + count_px) + 1U, most);
+    };
+    const std::uint32_t left = first(part_->offset.x), top = first(part_->offset.y),
+                        right = last(part_->offset.x, part_->extent.width, columns),
+                        bottom = last(part_->offset.y, part_->extent.height, rows);
+    vkCmdDispatchBase(commands, left, top, 0, right - left, bottom - top, 1);
 }
 
 // What draws each pixel, over its colours.

@@ -116,6 +116,22 @@ std::vector<std::uint8_t> inner_pixels(const std::vector<std::uint8_t>& rgba, co
     return inner;
 }
 
+// What two rectangles of a picture share; of no size, or less, where that is nothing.
+Tile common_to(const Tile& a, const Tile& b) {
+    Tile common = a;
+    common.x_px = std::max(a.x_px, b.x_px);
+    common.y_px = std::max(a.y_px, b.y_px);
+    common.width_px = std::min(a.x_px + a.width_px, b.x_px + b.width_px) - common.x_px;
+    common.height_px = std::min(a.y_px + a.height_px, b.y_px + b.height_px) - common.y_px;
+    return common;
+}
+
+// Where a part of a tile is in it.
+VkRect2D rectangle_in(const Tile& tile, const Tile& part) {
+    return {{part.x_px - tile.x_px, part.y_px - tile.y_px},
+            {static_cast<std::uint32_t>(part.width_px), static_cast<std::uint32_t>(part.height_px)}};
+}
+
 // A tile with its margin, as far as the picture goes.
 Tile with_margin(const Tile& own, int margin_px, const Camera& camera) {
     Tile drawn = own;
@@ -193,6 +209,12 @@ Result<void> PictureRenderer::keep_depths(const Tile& drawn, const Tile& own, in
 
 Result<PictureReport> PictureRenderer::draw(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
                                             const RowSink& sink, const RenderProgress& progress) {
+    return draw_part(scene, camera, {0, 0, camera.width_px, camera.height_px}, style, sink, progress);
+}
+
+Result<PictureReport> PictureRenderer::draw_part(Scene& scene, const Camera& camera, const Tile& part,
+                                                 const gpu::FrameStyle& style, const RowSink& sink,
+                                                 const RenderProgress& progress) {
     int tile_width = static_cast<int>(renderer_.extent().width);
     int tile_height = static_cast<int>(renderer_.extent().height);
     const int margin_px = options_.samples == 1 ? margin_of(style) : 0;
@@ -206,32 +228,35 @@ Result<PictureReport> PictureRenderer::draw(Scene& scene, const Camera& camera, 
     if (options_.keep_depths)
         depths_.assign(static_cast<std::size_t>(camera.width_px) * static_cast<std::size_t>(camera.height_px),
                        0.0F);
-    std::vector<std::uint8_t> band(std::size_t{3} * static_cast<std::size_t>(camera.width_px) *
-                                   static_cast<std::size_t>(tile_height));
+    const std::size_t row_bytes = std::size_t{3} * static_cast<std::size_t>(part.width_px);
+    std::vector<std::uint8_t> band(row_bytes * static_cast<std::size_t>(tile_height));
     for (int y = 0; y < camera.height_px; y += tile_height) {
-        const int rows = std::min(tile_height, camera.height_px - y);
+        const int height_px = std::min(tile_height, camera.height_px - y);
+        int rows = 0;
         for (int x = 0; x < camera.width_px; x += tile_width) {
-            Tile tile;
-            tile.x_px = x;
-            tile.y_px = y;
-            tile.width_px = std::min(tile_width, camera.width_px - x);
-            tile.height_px = rows;
+            const Tile tile{x, y, std::min(tile_width, camera.width_px - x), height_px};
+            const Tile own = common_to(tile, part);
+            if (own.width_px <= 0 || own.height_px <= 0) continue;
+            rows = own.height_px;
             const Tile drawn = with_margin(tile, margin_px, camera);
-            ORO_CHECK(draw_tile(scene, camera, style, options_, drawn, renderer_, report));
+            if (own.width_px < tile.width_px || own.height_px < tile.height_px)
+                renderer_.colour_only(rectangle_in(drawn, own));
+            const Result<void> done = draw_tile(scene, camera, style, options_, drawn, renderer_, report);
+            renderer_.colour_only({});
+            ORO_CHECK(done);
             ORO_TRY(const std::vector<std::uint8_t> pixels,
                     renderer_.read_picture(static_cast<std::uint32_t>(drawn.width_px),
                                            static_cast<std::uint32_t>(drawn.height_px)));
-            if (options_.keep_depths) ORO_CHECK(keep_depths(drawn, tile, camera.width_px));
-            const std::vector<std::uint8_t> rgba = inner_pixels(pixels, drawn, tile);
+            if (options_.keep_depths) ORO_CHECK(keep_depths(drawn, own, camera.width_px));
+            const std::vector<std::uint8_t> rgba = inner_pixels(pixels, drawn, own);
             report.ground_px += ground_pixels(rgba);
-            copy_rgb(rgba, tile, camera.width_px, band);
+            copy_rgb(rgba, {own.x_px - part.x_px, 0, own.width_px, own.height_px}, part.width_px, band);
         }
-        const std::size_t row_bytes = std::size_t{3} * static_cast<std::size_t>(camera.width_px);
         for (int i = 0; i < rows; ++i) {
             ORO_CHECK(sink(std::span<const std::uint8_t>(band).subspan(
                 static_cast<std::size_t>(i) * row_bytes, row_bytes)));
         }
-        if (progress) progress(static_cast<double>(y + rows) / camera.height_px);
+        if (progress) progress(static_cast<double>(y + height_px) / camera.height_px);
     }
     return report;
 }

@@ -19,8 +19,8 @@ struct PictureOptions {
     RasterPath path{RasterPath::mesh};
     double tau_px{1.0};  // 0: full resolution
     WorldModel model{};
-    bool keep_depths{false};  // for PictureRenderer::depths()
-    gpu::uint show{};         // gpu::show_..., of pictures of one sample
+    bool keep_depths{false};                           // for PictureRenderer::depths()
+    gpu::uint show{};                                  // gpu::show_..., of pictures of one sample
     OcclusionUse occlusion{OcclusionUse::if_it_pays};  // the picture is the same
 };
 
@@ -62,6 +62,12 @@ class PictureRenderer {
     // Draws a picture as render_picture() does.
     Result<PictureReport> draw(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
                                const RowSink& sink, const RenderProgress& progress = {});
+    // Draws a part of a picture: its pixels are those that draw() gives, to the bit, and cost no more than
+    // they do there. The sink gets the part's rows, and depths() has the whole picture's, 0 outside the part.
+    // part: its place and size in the camera's picture, within it.
+    Result<PictureReport> draw_part(Scene& scene, const Camera& camera, const Tile& part,
+                                    const gpu::FrameStyle& style, const RowSink& sink,
+                                    const RenderProgress& progress = {});
     // With keep_depths, of the last picture: reversed depths of its pixels (of their last samples), row by
     // row; 0 for the sky.
     [[nodiscard]] const std::vector<float>& depths() const { return depths_; }

@@ -84,7 +84,8 @@ Result<VkPipeline> shading_for(const Gpu& gpu, RasterPath path, const ShadingKin
     for (std::uint32_t i = 0; i < entries.size(); ++i)
         entries[i] = {i, i * std::uint32_t{sizeof(VkBool32)}, sizeof(VkBool32)};
     const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof(values), values.data()};
-    ORO_TRY(shade, create_compute_pipeline(gpu, pipelines, shade_words(kind), "shade", &constants));
+    ORO_TRY(shade, create_compute_pipeline(gpu, pipelines, shade_words(kind), "shade", &constants,
+                                           VK_PIPELINE_CREATE_DISPATCH_BASE_BIT));
     return shade.get();
 }
 
@@ -98,7 +99,8 @@ Result<VkPipeline> edges_for(const Gpu& gpu, RasterPath path, const ShadingKind&
     const VkSpecializationInfo constants{entries.size(), entries.data(), sizeof(values), values.data()};
     const std::span<const std::uint32_t> words =
         kind.on_clusters ? std::span<const std::uint32_t>(edges_clusters_comp_spirv) : edges_comp_spirv;
-    ORO_TRY(edges, create_compute_pipeline(gpu, pipelines, words, "smooth edges", &constants));
+    ORO_TRY(edges, create_compute_pipeline(gpu, pipelines, words, "smooth edges", &constants,
+                                           VK_PIPELINE_CREATE_DISPATCH_BASE_BIT));
     return edges.get();
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 #include "core/frame/region_pages.h"
@@ -99,6 +100,31 @@ TEST_F(CylinderPictureTest, HasNoSeams) {
         }
     }
     EXPECT_LT(over, 1.5 * near + 100.0);
+}
+
+// Letting go of the pages of columns that are drawn costs no pixel, and their buffers take no more for it.
+TEST_F(CylinderPictureTest, IsTheSameWithPagesOfOneColumnAtATime) {
+    const HeightField field = test::rough_field(46.9, 8.1, 900, 900);
+    const Geodetic eye{46.53, 8.47, *ground_h_m(field, 46.53, 8.47, 1.0) + 30.0};
+    const Cylinder around = cylinder_around(0.0, 360.0, -20.0, 6.0, 400);
+    const auto draw = [&](std::uint64_t kept_page_bytes) {
+        auto scene = Scene::create(*gpu_, pages_in_memory(field, 1.0, 2));
+        EXPECT_TRUE(scene.ok());
+        PictureOptions options;
+        options.path = RasterPath::compute;
+        CylinderExtras extras;
+        extras.kept_page_bytes = kept_page_bytes;
+        auto picture = render_cylinder(*gpu_, *scene, eye, around, {}, shaded(), options, extras);
+        EXPECT_TRUE(picture.ok());
+        const std::uint64_t sent = scene->grids().front().store().bytes_sent();
+        return std::pair(std::move(*picture), sent);
+    };
+    const auto [all, sent_once] = draw(std::uint64_t{1} << 40U);
+    const auto [by_column, sent_again] = draw(0);
+    EXPECT_EQ(all.rgb, by_column.rgb);
+    EXPECT_GT(sent_again, sent_once) << "pages of several columns come more than once";
+    EXPECT_LE(by_column.page_bytes, all.page_bytes);
+    EXPECT_GT(by_column.page_bytes, 0U);
 }
 
 }  // namespace

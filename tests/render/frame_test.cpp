@@ -239,6 +239,64 @@ TEST_P(Frame, TilesJoinIntoTheSamePicture) {
     }
 }
 
+// A part of a picture has its bytes and depths, whatever tiles it is drawn in, with edges that depend on the
+// pixels beside it.
+TEST_P(Frame, PartsHaveThePicturesPixels) {
+    constexpr unsigned seed = 20261129;
+    std::printf("seed %u\n", seed);
+    std::mt19937 random(seed);
+    Camera camera = random_camera(random, 100.0, 400.0, -25.0, -10.0);
+    camera.width_px = 150;
+    camera.height_px = 100;
+    gpu::FrameStyle style = plain_style();
+    style.smooth_edges = 1;
+    for (const int tile_px : {0, 64}) {
+        PictureOptions options;
+        options.largest_tile_px = tile_px;
+        options.path = GetParam();
+        options.keep_depths = true;
+        auto renderer = PictureRenderer::create(*gpu_, camera, style, options);
+        ASSERT_TRUE(renderer.ok()) << renderer.error().line();
+        const auto pixels = [&](const Tile& part) {
+            std::vector<std::uint8_t> rows;
+            const auto report =
+                renderer->draw_part(*scene_, camera, part, style, [&](std::span<const std::uint8_t> rgb) {
+                    EXPECT_EQ(rgb.size(), 3 * static_cast<std::size_t>(part.width_px));
+                    rows.insert(rows.end(), rgb.begin(), rgb.end());
+                    return Result<void>();
+                });
+            EXPECT_TRUE(report.ok()) << report.error().line();
+            return rows;
+        };
+        const Tile all{0, 0, camera.width_px, camera.height_px};
+        const std::vector<std::uint8_t> whole = pixels(all);
+        const std::vector<float> depths = renderer->depths();
+        const auto [darkest, lightest] = std::ranges::minmax(whole);
+        ASSERT_GT(lightest - darkest, 30) << "a picture of something";
+        for (int i = 0; i < 8; ++i) {
+            const auto any = [&](int most) {
+                return static_cast<int>(random() % static_cast<unsigned>(most + 1));
+            };
+            Tile part{any(140), any(90)};
+            part.width_px = i == 0 ? 1 : 1 + any(149 - part.x_px);
+            part.height_px = 1 + any(99 - part.y_px);
+            const std::vector<std::uint8_t> rows = pixels(part);
+            ASSERT_EQ(rows.size(), std::size_t{3} * static_cast<std::size_t>(part.width_px) *
+                                       static_cast<std::size_t>(part.height_px));
+            std::size_t at = 0, different = 0;
+            for (int y = part.y_px; y < part.y_px + part.height_px; ++y) {
+                for (int x = part.x_px; x < part.x_px + part.width_px; ++x) {
+                    const auto pixel = static_cast<std::size_t>(y * camera.width_px + x);
+                    for (std::size_t k = 0; k < 3; ++k) different += rows[at++] != whole[3 * pixel + k];
+                    different += renderer->depths()[pixel] != depths[pixel];
+                }
+            }
+            EXPECT_EQ(different, 0U) << part.x_px << ", " << part.y_px << ": " << part.width_px << " x "
+                                     << part.height_px << ", tiles of " << tile_px;
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Paths, Frame, ::testing::Values(RasterPath::mesh, RasterPath::compute),
                          [](const auto& path) {
                              return path.param == RasterPath::mesh ? "mesh" : "compute";

@@ -74,6 +74,42 @@ TEST(CylinderTiles, SeeWhatTheyAreForFinely) {
     }
 }
 
+// Of a tile's picture unroll() reads its part alone, and of the part's rim nothing: ridge lines there lack a
+// neighbour.
+TEST(CylinderTiles, AreUnrolledFromTheirParts) {
+    for (const Cylinder& around : cylinders()) {
+        const std::size_t bytes =
+            3 * static_cast<std::size_t>(around.width_px) * static_cast<std::size_t>(around.height_px());
+        std::vector<std::uint8_t> whole(bytes), of_parts(bytes);
+        double all_px = 0.0, part_px = 0.0;
+        for (const CylinderTile& tile : cylinder_tiles(around, cylinder_eye, {2.0, 512, 45.0, 0.0})) {
+            const Camera& camera = tile.camera;
+            EXPECT_GE(std::min(tile.part.x_px, tile.part.y_px), 0);
+            EXPECT_LE(tile.part.x_px + tile.part.width_px, camera.width_px);
+            EXPECT_LE(tile.part.y_px + tile.part.height_px, camera.height_px);
+            std::vector<std::uint8_t> drawn, in_part;
+            for (int y = 0; y < camera.height_px; ++y) {
+                for (int x = 0; x < camera.width_px; ++x) {
+                    const auto value = static_cast<std::uint8_t>((7 * x + 13 * y + x * y / 5) % 200);
+                    const bool is_within = x > tile.part.x_px &&
+                                           x + 1 < tile.part.x_px + tile.part.width_px &&
+                                           y > tile.part.y_px && y + 1 < tile.part.y_px + tile.part.height_px;
+                    for (int i = 0; i < 3; ++i) {
+                        drawn.push_back(value);
+                        in_part.push_back(is_within ? value : 255);
+                    }
+                }
+            }
+            unroll(around, tile, drawn, whole, 2);
+            unroll(around, tile, in_part, of_parts, 2);
+            all_px += static_cast<double>(camera.width_px) * camera.height_px;
+            part_px += static_cast<double>(tile.part.width_px) * tile.part.height_px;
+        }
+        EXPECT_EQ(whole, of_parts) << around.width_px;
+        EXPECT_LT(part_px, 1.0001 * all_px);
+    }
+}
+
 // A scene whose colours are its directions: each pixel has the colour of its own direction, within a code for
 // the rounding of the drawn pictures and one for its own; on both sides of every border, too.
 TEST(CylinderTiles, UnrollToTheColoursOfTheirDirections) {

@@ -172,6 +172,23 @@ TEST(GroundMeans, AreBitByBitThoseOfPostsOneByOne) {
     EXPECT_GT(empty, 10U);
 }
 
+// Squares of single posts and of 2 x 2 are made page by page: what is kept are those of 4 x 4 and larger.
+TEST(GroundMeans, KeepNoSquaresOfFewPosts) {
+    const HeightField field = test::rough_field(46.9, 8.1, 300, 420);
+    const DrawnHeights heights = drawn_heights(field, 1.0, 1);
+    const GroundMeans means(field.grid, heights, 1.0, 2);
+    std::size_t expected = 0;
+    int rows = 75, columns = 105;  // of level 2
+    for (int level = 2; level < level_count(field.grid); ++level) {
+        expected += static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
+        rows = (rows + 1) / 2;
+        columns = (columns + 1) / 2;
+    }
+    ASSERT_GT(level_count(field.grid), 2);
+    EXPECT_EQ(means.kept_squares(), expected);
+    EXPECT_LT(means.kept_squares(), field.grid.post_count() / 11);
+}
+
 // Squares beyond a page's rim are those of the page beside it.
 TEST(GroundMeans, PagesAgreeBesideEachOther) {
     const HeightField field = test::rough_field(46.9, 8.1, 300, 420);
