@@ -1,10 +1,14 @@
 #include "core/lod/ground_means.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
 #include <cmath>
 #include <glm/packing.hpp>
 
 #include "core/base/parallel.h"
+#include "core/base/wide.h"
 #include "core/earth/ellipsoid.h"
 #include "core/terrain/level_grid.h"
 
@@ -68,7 +72,79 @@ void measure_slopes(const std::int32_t* north, const std::int32_t* here, const s
                      is_none(south[c]) | is_none(south[c + 1]);
 }
 
+// All bits, or none. (By masks: of a choice GCC 12 makes no vector code.)
+std::uint32_t where(bool holds) {
+    return static_cast<std::uint32_t>(-static_cast<std::int32_t>(holds));
+}
+
+// A number as glm::packHalf2x16() packs it, without a branch: to the nearest, halves away from 0. Within what
+// a half can hold.
+std::uint32_t half_of(float value) {
+    constexpr std::uint32_t least_normal = 0x38800000U;  // 2^-14
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    const std::uint32_t sign = bits >> 16U & 0x8000U, size = bits & 0x7fffffffU;
+    const auto small =
+        static_cast<std::uint32_t>(rounded(std::min(std::bit_cast<float>(size) * 16777216.0F, 2048.0F)));
+    const std::uint32_t normal = ((size + 0x1000U) >> 13U) - (112U << 10U);
+    const std::uint32_t is_small = where(size < least_normal);
+    return sign | (small & is_small) | (normal & ~is_small);
+}
+
+// Columns of sums of squares, number by number.
+struct SumColumns {
+    const float *x, *y, *z, *xx, *xy, *yy, *h_m, *hh_m2, *posts;
+};
+
 }  // namespace
+
+// What GroundMeans::packed() gives of each of `count` squares, bit by bit.
+ORO_WIDE void pack_normals(const SumColumns& sums, std::size_t count, std::uint32_t* normals,
+                           std::uint32_t* spreads) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const float all = sums.posts[i], posts = all + static_cast<float>(all == 0.0F);
+        const std::uint32_t is_any = where(all != 0.0F);
+        const float x = sums.x[i] / posts, y = sums.y[i] / posts;
+        const auto east = static_cast<std::uint32_t>(rounded(x * gpu::means_normal_steps)),
+                   north = static_cast<std::uint32_t>(rounded(y * gpu::means_normal_steps));
+        const std::int32_t up = rounded(sums.z[i] / posts * gpu::means_normal_steps);
+        const std::uint32_t normal =
+            (east & 0x7ffU) | (north & 0x7ffU) << 11U | static_cast<std::uint32_t>(up > 1 ? up : 1) << 22U;
+        const float squared_x = sums.xx[i] / posts - x * x, squared_y = sums.yy[i] / posts - y * y;
+        const float along_x = std::sqrt(squared_x > 0.0F ? squared_x : 0.0F),
+                    along_y = std::sqrt(squared_y > 0.0F ? squared_y : 0.0F), both = along_x * along_y;
+        const float found = (sums.xy[i] / posts - x * y) / (both + static_cast<float>(!(both > 1.0e-6F)));
+        const float correlation =
+            std::bit_cast<float>(std::bit_cast<std::uint32_t>(found) & where(both > 1.0e-6F));
+        const float most_x = along_x < 1.0F ? along_x : 1.0F, most_y = along_y < 1.0F ? along_y : 1.0F;
+        const float above = correlation > -1.0F ? correlation : -1.0F, most = above < 1.0F ? above : 1.0F;
+        const std::uint32_t spread =
+            static_cast<std::uint32_t>(rounded(most_x * gpu::means_spread_steps)) |
+            static_cast<std::uint32_t>(rounded(most_y * gpu::means_spread_steps)) << 11U |
+            static_cast<std::uint32_t>(rounded(most * gpu::means_correlation_steps)) << 22U;
+        normals[i] = normal & is_any;
+        spreads[i] = spread & is_any;
+    }
+}
+ORO_WIDE void pack_heights(const SumColumns& sums, std::size_t count, std::uint32_t* heights) {
+    constexpr float most_m = 65000.0F;  // of a half
+    for (std::size_t i = 0; i < count; ++i) {
+        const float all = sums.posts[i], posts = all + static_cast<float>(all == 0.0F);
+        const std::uint32_t is_any = where(all != 0.0F);
+        const float h_m = sums.h_m[i] / posts, squared = sums.hh_m2[i] / posts - h_m * h_m;
+        const float spread_m = std::sqrt(squared > 0.0F ? squared : 0.0F);
+        const float above = h_m > -most_m ? h_m : -most_m;
+        const std::uint32_t height =
+            half_of(above < most_m ? above : most_m) | half_of(spread_m < most_m ? spread_m : most_m) << 16U;
+        heights[i] = height & is_any;
+    }
+}
+// Sums of neighbours of a row, two and two, in the order in which GroundMeans::Sums are added; then, where
+// there is another row, of its.
+ORO_WIDE void add_pairs(const float* upper, const float* lower, std::size_t count, float* sums) {
+    for (std::size_t i = 0; i < count; ++i) sums[i] = 0.0F + upper[2 * i] + upper[2 * i + 1];
+    for (std::size_t i = 0; lower != nullptr && i < count; ++i)
+        sums[i] = sums[i] + lower[2 * i] + lower[2 * i + 1];
+}
 
 // Sums over the posts of a square.
 struct GroundMeans::Sums {
@@ -119,6 +195,10 @@ struct GroundMeans::PostRow {
     }
     std::vector<float> x, y, z, xx, xy, yy, h_m, hh_m2, posts;
     RowSlopes slopes;
+    // The squares of two rows of posts; lower: null where there is none.
+    void add_rows(const PostRow& upper, const PostRow* lower, std::size_t count);
+    // The first of them, packed.
+    void pack(std::size_t count, gpu::MeansSquare* squares) const;
 
     // Of `count` posts from column `first` on, put from number `at` on, none of them at the region's rim:
     // what GroundMeans::post() gives of each, bit by bit, where neither it nor one beside it is void.
@@ -157,6 +237,23 @@ void GroundMeans::PostRow::measure(const GroundMeans& means, int row, int first,
         to_hh_m2[c] = to_h_m[c] * to_h_m[c];
     }
     std::fill_n(posts.data() + at, count, 1.0F);
+}
+
+void GroundMeans::PostRow::add_rows(const PostRow& upper, const PostRow* lower, std::size_t count) {
+    for (const auto part : {&PostRow::x, &PostRow::y, &PostRow::z, &PostRow::xx, &PostRow::xy, &PostRow::yy,
+                            &PostRow::h_m, &PostRow::hh_m2, &PostRow::posts})
+        add_pairs((upper.*part).data(), lower == nullptr ? nullptr : (lower->*part).data(), count,
+                  (this->*part).data());
+}
+
+void GroundMeans::PostRow::pack(std::size_t count, gpu::MeansSquare* squares) const {
+    std::array<std::uint32_t, gpu::means_stride> normals, heights, spreads;
+    assert(count <= normals.size());
+    const SumColumns sums{x.data(),  y.data(),   z.data(),     xx.data(),   xy.data(),
+                          yy.data(), h_m.data(), hh_m2.data(), posts.data()};
+    pack_normals(sums, count, normals.data(), spreads.data());
+    pack_heights(sums, count, heights.data());
+    for (std::size_t i = 0; i < count; ++i) squares[i] = {normals[i], heights[i], spreads[i]};
 }
 
 // How squares come of posts: in bands of rows, from the finest level on.
@@ -427,19 +524,21 @@ void GroundMeans::Bands::put_page_of_posts(const GroundMeans& means, const PageI
     if (from >= to) return;
     const int first_post = (first_column + from) << index.level;
     const int posts = std::min((to - from) << index.level, means.levels_.front().columns - first_post);
-    PostRow upper(posts), lower(posts);
+    PostRow upper(posts), lower(posts), sums(to - from);
+    const auto count = static_cast<std::size_t>(to - from);
     for (int i = std::max(0, -first_row); i < std::min(stride, level.rows - first_row); ++i) {
         gpu::MeansSquare* const squares = page.squares + i * stride + from;
         const int row = first_row + i;
         if (index.level == 0) {
             put_row(means, row, first_post, posts, 0.0F, upper);
-            for (int j = 0; j < to - from; ++j) squares[j] = packed(upper.at(j));
+            upper.pack(count, squares);
             continue;
         }
         put_row(means, 2 * row, first_post, posts, neighbour_weight, upper);
-        if (2 * row + 1 < means.grid_.rows())
-            put_row(means, 2 * row + 1, first_post, posts, neighbour_weight, lower);
-        for (int j = 0; j < to - from; ++j) squares[j] = packed(of_posts(row, j, means, upper, lower));
+        const bool has_lower = 2 * row + 1 < means.grid_.rows();
+        if (has_lower) put_row(means, 2 * row + 1, first_post, posts, neighbour_weight, lower);
+        sums.add_rows(upper, has_lower ? &lower : nullptr, count);
+        sums.pack(count, squares);
     }
 }
 

@@ -142,8 +142,10 @@ TEST(GroundMeans, AreBitByBitThoseOfPostsOneByOne) {
                 H_m = void_height_m;
             else if (random() % 50U == 0)
                 H_m += static_cast<float>(random() % 3000U);
+            // Heights and spreads that halves have few digits for.
+            if (one_void_in == 7 && H_m != void_height_m) H_m = 1.0e-5F * (H_m - 1500.0F);
         }
-        const double exaggeration = one_void_in == 40 ? 1.7 : 1.0;
+        const double exaggeration = one_void_in == 40 ? 1.7 : one_void_in == 7 ? 300.0 : 1.0;
         const DrawnHeights heights = drawn_heights(field, exaggeration, 1);
         const GroundMeans means(field.grid, heights, exaggeration, 3);
         const test::OldGroundMeans old(field.grid, heights, static_cast<float>(exaggeration));
