@@ -18,6 +18,7 @@ struct PostWork {
     std::uint32_t row_count, column_count, first_post, pole_rows;
 };
 constexpr std::uint32_t posts_a_group = 64;
+constexpr std::uint32_t posts_a_dispatch = 65535 * posts_a_group;  // every device starts so many workgroups
 constexpr VkBufferUsageFlags read_by_shaders =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
 
@@ -80,26 +81,36 @@ Result<void> MadePosts::send_places() {
     return {};
 }
 
-void MadePosts::record(VkCommandBuffer commands, std::span<const MadeRectangle> rectangles) const {
-    vkCmdResetQueryPool(commands, timestamps_.get(), 0, 2);
+void MadePosts::record_rectangle(VkCommandBuffer commands, const MadeRectangle& rectangle,
+                                 VkDeviceAddress heights) const {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program_.get());
-    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 0);
     const std::int64_t pole = 90 * terrain_.posts_per_deg;
-    VkDeviceAddress heights = made_.address;
-    for (const MadeRectangle& one : rectangles) {
-        const std::int64_t north = terrain_.north - one.first_row, south = north - one.rows + 1;
+    const int rows_at_once = std::max(1, static_cast<int>(posts_a_dispatch) / rectangle.columns);
+    for (int first = 0; first < rectangle.rows; first += rows_at_once) {
+        const int rows = std::min(rows_at_once, rectangle.rows - first);
+        const std::int64_t north = terrain_.north - rectangle.first_row - first, south = north - rows + 1;
         const PostWork work{
             rule_.address,
-            rows_.address + static_cast<std::size_t>(one.first_row) * sizeof(MadeRow),
-            columns_.address + static_cast<std::size_t>(one.first_column) * sizeof(MadeColumn),
-            heights,
-            static_cast<std::uint32_t>(one.rows),
-            static_cast<std::uint32_t>(one.columns),
-            static_cast<std::uint32_t>(north + terrain_.west + one.first_column),
+            rows_.address + static_cast<std::size_t>(rectangle.first_row + first) * sizeof(MadeRow),
+            columns_.address + static_cast<std::size_t>(rectangle.first_column) * sizeof(MadeColumn),
+            heights + static_cast<std::size_t>(first) * static_cast<std::size_t>(rectangle.columns) *
+                          sizeof(std::int32_t),
+            static_cast<std::uint32_t>(rows),
+            static_cast<std::uint32_t>(rectangle.columns),
+            static_cast<std::uint32_t>(north + terrain_.west + rectangle.first_column),
             (north == pole ? 1U : 0U) | (south == -pole ? 2U : 0U)};
         vkCmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof work, &work);
-        vkCmdDispatch(commands, static_cast<std::uint32_t>((one.count() + posts_a_group - 1) / posts_a_group),
-                      1, 1);
+        const auto posts = static_cast<std::uint32_t>(rows) * static_cast<std::uint32_t>(rectangle.columns);
+        vkCmdDispatch(commands, (posts + posts_a_group - 1) / posts_a_group, 1, 1);
+    }
+}
+
+void MadePosts::record(VkCommandBuffer commands, std::span<const MadeRectangle> rectangles) const {
+    vkCmdResetQueryPool(commands, timestamps_.get(), 0, 2);
+    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 0);
+    VkDeviceAddress heights = made_.address;
+    for (const MadeRectangle& one : rectangles) {
+        record_rectangle(commands, one, heights);
         heights += one.count() * sizeof(std::int32_t);
     }
     vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, timestamps_.get(), 1);

@@ -35,6 +35,15 @@ class MadePosts {
     // took, by its timestamps, without the way to the host. Errors: the device.
     Result<double> make(std::span<const MadeRectangle> rectangles, std::span<std::int32_t> steps);
 
+    // Records the making of one rectangle's posts into memory of the device, row by row, H in 2^-11 m; as
+    // many dispatches as a device's limit asks for. Whoever records waits for what is written (compute,
+    // storage). heights: a device address, a multiple of 4, with room for them.
+    void record_rectangle(VkCommandBuffer commands, const MadeRectangle& rectangle,
+                          VkDeviceAddress heights) const;
+    // Device addresses of the places of all rows (MadeRow) and columns (MadeColumn).
+    [[nodiscard]] VkDeviceAddress rows_address() const { return rows_.address; }
+    [[nodiscard]] VkDeviceAddress columns_address() const { return columns_.address; }
+
   private:
     explicit MadePosts(const Gpu& gpu, const MadeTerrain& terrain) : gpu_(&gpu), terrain_(terrain) {}
     Result<void> create_program();

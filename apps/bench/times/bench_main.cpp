@@ -9,6 +9,7 @@
 #include "apps/bench/times/bench_grass.h"
 #include "apps/bench/times/bench_made.h"
 #include "apps/bench/times/bench_moving.h"
+#include "apps/bench/times/bench_patches.h"
 #include "apps/bench/times/bench_random.h"
 #include "apps/bench/times/bench_region.h"
 #include "apps/bench/times/bench_tables.h"
@@ -329,6 +330,12 @@ Result<void> run_made(const BenchOptions& options, int side) {
     return print_made(*gpu, {side, options.frames, options.json});
 }
 
+Result<void> run_patches(const CLI::App& app, BenchOptions options, int most) {
+    if (app.count("--warm-up") == 0) options.warm_up_s = 0.1;
+    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
+    return print_patches(*gpu, {options, most});
+}
+
 Result<void> run_grass(const CLI::App& app, const BenchOptions& options, GrassBenchOptions grass) {
 #ifndef NDEBUG
     return Error{ErrorKind::failed, "orograph-bench",
@@ -363,6 +370,16 @@ int main(int argc, char** argv) {
            "Make so many by so many posts of each kind of made terrain on the GPU, 3163 for some 10^7, "
            "hold them to the processor's bits, and time a page. Takes --frames and --json, too")
         ->check(CLI::Range(1100, 16000));
+    int patches = 0;
+    app.add_option(
+           "--fixed-patches", patches,
+           "Time made terrain by patches of fixed size, with 2, 3, 5 or 9 posts a side or chosen by "
+           "distance, "
+           "and by levels: squares of 64, 128, 256, 512 and 640 patches a side up to so many, or of so many "
+           "where that is fewer; noise, choice and drawing apart. Takes --frames, --warm-up, --size, --tau "
+           "and "
+           "--json, too")
+        ->check(CLI::Range(8, 640));
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -383,6 +400,7 @@ int main(int argc, char** argv) {
     if (done.ok())
         done = grass.grass     ? oro::run_grass(app, options, grass.options)
                : made_side > 0 ? oro::run_made(options, made_side)
+               : patches > 0   ? oro::run_patches(app, options, patches)
                                : oro::run_bench(options);
     if (done.ok()) return 0;
     std::fprintf(stderr, "orograph-bench: %s\n", done.error().line().c_str());
