@@ -781,6 +781,7 @@ set_tests_properties(
   ClusterGraph.ASeaIsNotOneGroup
   ClusterGraph.DoesNotDependOnThreads
   Core/NodeDeviationsOnRoughGround.AreTheWorstOfEveryPlaceAndStitching/WithoutVoids
+  CracksOfMade.NoneAtManyCameras
   Crs/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/UTMattheedgeofazone
   Crs/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/degreesonanotherdatum
   Crs/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/thenorthpole

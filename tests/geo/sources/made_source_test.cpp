@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <random>
+#include <string>
 #include <vector>
 
 #include "core/made/made_heights.h"
@@ -115,6 +118,137 @@ TEST(MadeWords, WhatIsNoTerrainIsRefusedInOneLine) {
         EXPECT_EQ(made.error().line().find('\n'), std::string::npos) << text;
         EXPECT_GT(made.error().what.size(), 10U) << text;
     }
+}
+
+// A value of a key: often one that somebody would write, else hostile.
+std::string any_value(std::mt19937& random) {
+    static const std::vector<std::string> values{"1",
+                                                 "7",
+                                                 "9",
+                                                 "0.5",
+                                                 "1000",
+                                                 "-200:4000",
+                                                 "0:1",
+                                                 "3s",
+                                                 "1s",
+                                                 "0.1deg",
+                                                 "2min",
+                                                 "8,46,9,47",
+                                                 "45",
+                                                 "",
+                                                 "nan",
+                                                 "NaN",
+                                                 "-nan",
+                                                 "inf",
+                                                 "-inf",
+                                                 "1e308",
+                                                 "-1e308",
+                                                 "1e309",
+                                                 "1e-320",
+                                                 "1000000000",
+                                                 "-1",
+                                                 "0",
+                                                 "99999999999999999999999999",
+                                                 "-99999999999999999999",
+                                                 "0x10",
+                                                 "1,2",
+                                                 "1:2:3",
+                                                 "nan:nan",
+                                                 "-inf:inf",
+                                                 "8192:8193",
+                                                 "-9000:9000",
+                                                 ":",
+                                                 ",,,",
+                                                 "8,46,nan,47",
+                                                 "-1e9,-1e9,1e9,1e9",
+                                                 "181,91,182,92",
+                                                 "0,0,0,0",
+                                                 "-180,-90,180,90",
+                                                 "1s1s",
+                                                 "s",
+                                                 "infs",
+                                                 "1e-300s",
+                                                 "\n",
+                                                 "a\nb",
+                                                 "\t",
+                                                 "\x7f",
+                                                 "\xff\xfe",
+                                                 "%00",
+                                                 "..",
+                                                 "/etc/passwd",
+                                                 "=",
+                                                 "==",
+                                                 "&",
+                                                 "?",
+                                                 "\"",
+                                                 "'",
+                                                 "1 ",
+                                                 " 1",
+                                                 "+1",
+                                                 "1.",
+                                                 ".5",
+                                                 "1e",
+                                                 "\xe2\x80\xae"};
+    return values[random() % values.size()];
+}
+// By a grammar: made: KIND [? KEY=VALUE [& KEY=VALUE ...]], each part now and then another one than it
+// should.
+std::string any_text(std::mt19937& random) {
+    static const std::vector<std::string> kinds{
+        "fbm", "ridged", "plane", "cone", "sine", "step", "sphere", "checker", "", "FBM", "fb", "nan", "\n"};
+    static const std::vector<std::string> keys{"seed",   "octaves", "gain",    "feature", "azimuth", "length",
+                                               "radius", "H",       "spacing", "box",     "",        "h",
+                                               "Seed",   "octave",  "\n",      "%",       "seed\n"};
+    std::string text = "made:" + kinds[random() % (random() % 4 == 0 ? kinds.size() : 8)];
+    const std::uint64_t count = random() % 5;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        text += i == 0 ? "?" : "&";
+        text += keys[random() % (random() % 6 == 0 ? keys.size() : 10)];
+        if (random() % 20 != 0) text += "=";
+        text += any_value(random);
+    }
+    if (random() % 30 == 0) text += "&";
+    if (random() % 200 == 0) text += std::string(70000, '9');
+    return text;
+}
+
+// 30,000 texts by that grammar: each is a terrain within the bounds that it promises, or one clear line.
+TEST(MadeWords, AnyTextByTheGrammarIsATerrainOrOneLine) {
+    constexpr unsigned seed = 20261129;
+    std::mt19937 random(seed);
+    int refused = 0;
+    for (int i = 0; i < 30000; ++i) {
+        const std::string text = any_text(random);
+        const auto made = made_terrain_of(text);
+        if (!made.ok()) {
+            ++refused;
+            EXPECT_EQ(made.error().kind, ErrorKind::usage) << text;
+            const std::string line = made.error().line();
+            EXPECT_TRUE(std::ranges::none_of(line, [](char c) { return (c >= 0 && c < 32) || c == 127; }))
+                << line;
+            EXPECT_GT(made.error().what.size(), 10U) << text;
+            continue;
+        }
+        EXPECT_LT(made->low, made->high) << text;
+        EXPECT_GE(made->low, -8192 * 2048) << text;
+        EXPECT_LE(made->high, 8192 * 2048) << text;
+        EXPECT_GE(made->octaves, 1U) << text;
+        EXPECT_LE(made->octaves, 24U) << text;
+        EXPECT_GE(made->posts_per_deg, 1) << text;
+        EXPECT_GE(made->south, -90 * made->posts_per_deg) << text;
+        EXPECT_LE(made->north, 90 * made->posts_per_deg) << text;
+        EXPECT_GE(made->north - made->south, 1) << text;
+        EXPECT_GE(made->east - made->west, 1) << text;
+        EXPECT_LE(made->east - made->west, 360 * made->posts_per_deg) << text;
+        // A post of it: whatever else it says, made_rule and the rule hold.
+        const gpu::MadeRule rule = made_rule(*made);
+        std::vector<std::int32_t> steps(1);
+        made_row_heights(*made, rule, 0, 0, made_columns(*made, 0, 1), steps);
+        EXPECT_GE(steps[0], made->low) << text;
+        EXPECT_LE(steps[0], made->high) << text;
+    }
+    EXPECT_GT(refused, 10000) << "seed " << seed;
+    EXPECT_LT(refused, 29000) << "seed " << seed;
 }
 
 TEST(MadeSource, ItsPostsAreTheRegionsPosts) {
