@@ -139,9 +139,13 @@ set_tests_properties(
   GridsOverEachOther.AreToldWhereOneHasFarCloserPosts
   GridsOverEachOther.HaveARimThatIsForetold
   GridsOverEachOther.StandInPanoramasWithNames
+  GridsTileset.AFinerOneOnTheLinesOfTheOtherIsOneGround
+  GridsTileset.ThreeThatLieOverEachOtherAreOneGround
+  GridsTileset.TwoThatMeetInALineAreOneGround
   GridsUnderImages.LieOnTheSamePlaces
   GroundModel.IsWithinItsErrorAndWithoutGaps
   ExportCommand.A3dTilesetHasTheProvenErrors
+  ExportParts.AKilledFileIsWholeOrAbsent
   ExportCommand.A3dTilesetIsColouredByAnImage
   ExportCommand.A3dTilesetIsMadeInParts
   GroundTileset.OfPartsHasTheBytesOfOneGo

@@ -9,6 +9,7 @@
 
 #include "geo/tilesets/clipped_triangle.h"
 #include "geo/tilesets/post_place.h"
+#include "geo/tilesets/tile_boxes.h"
 
 namespace oro {
 namespace {
@@ -20,7 +21,7 @@ constexpr double unset = 1.0e9;
 class MeshBuilder {
   public:
     MeshBuilder(const ClusteredGround& ground, const TilesetLayout& layout, const LevelCut& cut,
-                const TileIndex& tile, std::span<const glm::vec3> normals);
+                const CutRims& rims, const TileIndex& tile, std::span<const glm::vec3> normals);
     GroundMesh build(const TileWalls& walls);
 
   private:
@@ -29,10 +30,13 @@ class MeshBuilder {
         double row, column;
         glm::dvec3 ecef_m, up;
         double lat_deg, lon_deg;
-        glm::vec3 normal;                                           // ECEF
-        std::array<std::uint32_t, 4> feet{none, none, none, none};  // of the walls along the four edges
+        glm::vec3 normal;         // ECEF
+        glm::dvec3 rim_out{0.0};  // away from the ground, as CutRims::outwards()
+        // Of the walls along the four edges and along rims.
+        std::array<std::uint32_t, 5> feet{none, none, none, none, none};
     };
-    // Two corners with the ground on the left hand, and the edge of the tile that they lie on.
+    // Two corners with the ground on the left hand, and the edge of the tile that they lie on, or
+    // TileWalls::rim.
     struct Rim {
         std::uint32_t from, to;
         std::size_t edge;
@@ -58,13 +62,14 @@ class MeshBuilder {
     std::uint32_t add_vertex(const Vertex& vertex);
     void widen_box_to(const Vertex& vertex);
     void find_rims(std::span<const std::uint32_t> polygon);
+    void find_rims_of_grid(std::span<const ClippedCorner> polygon, const VertexTriangle& triangle);
     void add_wall(const Rim& rim, double down_m, double out_m);
     std::uint32_t foot(std::uint32_t top, std::size_t edge, double down_m, double out_m);
     [[nodiscard]] glm::dvec3 outwards(const Vertex& vertex, std::size_t edge) const;
-    void widen_box(double down_m, double out_m);
 
     const ClusteredGround& ground_;
     const LevelCut& cut_;
+    const CutRims& cut_rims_;
     std::span<const std::uint32_t> triangles_;
     std::span<const glm::vec3> normals_;
     TilesetLayout::Lines lines_;
@@ -80,9 +85,10 @@ class MeshBuilder {
 };
 
 MeshBuilder::MeshBuilder(const ClusteredGround& ground, const TilesetLayout& layout, const LevelCut& cut,
-                         const TileIndex& tile, std::span<const glm::vec3> normals)
+                         const CutRims& rims, const TileIndex& tile, std::span<const glm::vec3> normals)
     : ground_(ground),
       cut_(cut),
+      cut_rims_(rims),
       triangles_(cut.tiles[layout.number(tile)]),
       normals_(normals),
       lines_(layout.lines(tile)) {
@@ -194,12 +200,41 @@ void MeshBuilder::find_rims(std::span<const std::uint32_t> polygon) {
     }
 }
 
+// The corners in polygon_ on the sides of a triangle where another grid goes on. Corners that divide a side
+// lean across it; those of the triangle as its neighbours on the rim do.
+void MeshBuilder::find_rims_of_grid(std::span<const ClippedCorner> polygon, const VertexTriangle& triangle) {
+    for (std::int8_t side = 0; side < 3; ++side) {
+        const auto next = static_cast<std::int8_t>((side + 1) % 3);
+        const auto number = [&](int corner) { return triangle[static_cast<std::size_t>(corner)]; };
+        if (!cut_rims_.has(number(side), number(next))) continue;
+        const auto on_side = [&](const ClippedCorner& corner) {
+            if (corner.line == ClippedCorner::inner) return false;
+            if (corner.line == ClippedCorner::post) return corner.a == side || corner.a == next;
+            return (corner.a == side && corner.b == next) || (corner.a == next && corner.b == side);
+        };
+        const auto at = [&](int corner) {
+            return ground_.ecef(corners_[static_cast<std::size_t>(corner)]).m;
+        };
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+            const std::size_t j = (i + 1) % polygon.size();
+            if (!on_side(polygon[i]) || !on_side(polygon[j])) continue;
+            for (const std::size_t end : {i, j})
+                vertices_[polygon_[end]].rim_out = polygon[end].line == ClippedCorner::post
+                                                       ? cut_rims_.outwards(number(polygon[end].a))
+                                                       : level_away(at(side), at(next), at((side + 2) % 3));
+            // Clockwise from i to j.
+            rims_.push_back({polygon_[j], polygon_[i], TileWalls::rim});
+        }
+    }
+}
+
 void MeshBuilder::add_triangle(std::uint32_t number) {
     const VertexTriangle& triangle = cut_.triangles[number];
     for (std::size_t i = 0; i < 3; ++i) corners_[i] = ground_.surface().vertex(triangle[i]);
     polygon_.clear();
-    for (const ClippedCorner& corner : clip_.clip(corners_, triangle, lines_))
-        polygon_.push_back(vertex(corner, triangle));
+    const std::vector<ClippedCorner>& clipped = clip_.clip(corners_, triangle, lines_);
+    for (const ClippedCorner& corner : clipped) polygon_.push_back(vertex(corner, triangle));
+    find_rims_of_grid(clipped, triangle);
     // What is clockwise on the map is so from above.
     std::ranges::reverse(polygon_);
     for (std::size_t i = 2; i < polygon_.size(); ++i)
@@ -227,7 +262,8 @@ glm::dvec3 MeshBuilder::outwards(const Vertex& vertex, std::size_t edge) const {
 std::uint32_t MeshBuilder::foot(std::uint32_t top, std::size_t edge, double down_m, double out_m) {
     if (vertices_[top].feet[edge] != none) return vertices_[top].feet[edge];
     Vertex vertex = vertices_[top];
-    vertex.ecef_m += out_m * outwards(vertex, edge) - down_m * vertex.up;
+    const glm::dvec3 out = edge == TileWalls::rim ? vertex.rim_out : outwards(vertex, edge);
+    vertex.ecef_m += out_m * out - down_m * vertex.up;
     const std::uint32_t number = add_vertex(vertex);
     vertices_[top].feet[edge] = number;
     return number;
@@ -240,47 +276,24 @@ void MeshBuilder::add_wall(const Rim& rim, double down_m, double out_m) {
     mesh_.indices.insert(mesh_.indices.end(), {rim.from, from_foot, to_foot, rim.from, to_foot, rim.to});
 }
 
-// Flat triangles and walls reach beyond their posts: down by the walls' depth, and sideways. A flat triangle
-// is nowhere higher than its highest corner, as what lies below a height above the ellipsoid is convex.
-void MeshBuilder::widen_box(double down_m, double out_m) {
-    TileBox& box = mesh_.box;
-    // A chord is off the arc above it by less than this; and off a meridian or a parallel.
-    const double farthest_deg = std::max(std::abs(box.south_deg), std::abs(box.north_deg));
-    const double bend = farthest_deg > 89.0 ? 60.0 : 1.0 + std::tan(radians_from_deg(farthest_deg).rad);
-    const double sag_m = bend * longest_edge_m_ * longest_edge_m_ / wgs84_b_m + mesh_.step_m + 0.01;
-    box.lowest_h_m -= down_m + sag_m;
-    box.highest_h_m += mesh_.step_m + 0.01;
-    const double aside_deg = deg_from_radians(Radians{(out_m + sag_m) / (0.99 * wgs84_b_m)});
-    box.south_deg = std::max(-90.0, box.south_deg - aside_deg);
-    box.north_deg = std::min(90.0, box.north_deg + aside_deg);
-    const double outer_deg = std::max(std::abs(box.south_deg), std::abs(box.north_deg));
-    if (outer_deg > 89.0 || box.east_deg - box.west_deg > 180.0) {
-        // Around a pole, or so wide that one may lie within it.
-        box.west_deg = -180.0, box.east_deg = 180.0;
-        if (box.north_deg >= -box.south_deg) box.north_deg = 90.0;
-        if (box.south_deg <= -box.north_deg) box.south_deg = -90.0;
-        return;
-    }
-    const double lon_aside_deg = aside_deg * (1.0 + std::tan(radians_from_deg(outer_deg).rad)) /
-                                 std::cos(radians_from_deg(outer_deg).rad);
-    box.west_deg -= lon_aside_deg;
-    box.east_deg += lon_aside_deg;
-}
-
 GroundMesh MeshBuilder::build(const TileWalls& walls) {
     for (const std::uint32_t number : triangles_) add_triangle(number);
     mesh_.ground_triangles = mesh_.indices.size() / 3;
     for (const Rim& rim : rims_)
         if (walls.down_m[rim.edge] > 0.0) add_wall(rim, walls.down_m[rim.edge], walls.out_m[rim.edge]);
-    widen_box(*std::ranges::max_element(walls.down_m), *std::ranges::max_element(walls.out_m));
+    std::array<double, 5> out_m = walls.out_m;
+    out_m[TileWalls::rim] *= CutRims::longest_outwards;
+    widen_for_flat(mesh_.box, longest_edge_m_, *std::ranges::max_element(walls.down_m),
+                   *std::ranges::max_element(out_m), mesh_.step_m);
     return std::move(mesh_);
 }
 
 }  // namespace
 
 GroundMesh ground_mesh(const ClusteredGround& ground, const TilesetLayout& layout, const LevelCut& cut,
-                       const TileIndex& tile, const TileWalls& walls, std::span<const glm::vec3> normals) {
-    return MeshBuilder(ground, layout, cut, tile, normals).build(walls);
+                       const CutRims& rims, const TileIndex& tile, const TileWalls& walls,
+                       std::span<const glm::vec3> normals) {
+    return MeshBuilder(ground, layout, cut, rims, tile, normals).build(walls);
 }
 
 }  // namespace oro

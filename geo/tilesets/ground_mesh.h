@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "geo/tilesets/cut_rims.h"
 #include "geo/tilesets/level_cut.h"
 #include "geo/tilesets/tile_bounds.h"
 
@@ -43,8 +44,9 @@ struct GroundMesh {
 };
 
 // What a tile has of a cut, divided along the tile's edges, and its walls; each corner in its place in double
-// before it is rounded. normals: of each vertex of the surface (normals_of()), or none.
+// before it is rounded. rims: of the cut. normals: of each vertex of the surface (normals_of()), or none.
 GroundMesh ground_mesh(const ClusteredGround& ground, const TilesetLayout& layout, const LevelCut& cut,
-                       const TileIndex& tile, const TileWalls& walls, std::span<const glm::vec3> normals);
+                       const CutRims& rims, const TileIndex& tile, const TileWalls& walls,
+                       std::span<const glm::vec3> normals);
 
 }  // namespace oro

@@ -31,6 +31,9 @@ class KeptTiles {
     // Errors: those of KeptParts::open().
     static Result<KeptTiles> open(const std::string& folder, const std::string& key);
 
+    // Those of one grid among several, in the same folder: NAME-LEVEL-ROW-COLUMN.tile. "": of one alone.
+    [[nodiscard]] KeptTiles of(const std::string& name) const;
+
     // Nothing where the tile is not there. Errors (failed): a file that is none of these.
     [[nodiscard]] Result<std::optional<KeptTile>> read(const TileIndex& tile) const;
     [[nodiscard]] bool has(const TileIndex& tile) const;
@@ -40,7 +43,22 @@ class KeptTiles {
   private:
     explicit KeptTiles(KeptParts parts) : parts_(std::move(parts)) {}
 
+    [[nodiscard]] std::string name_of(const TileIndex& tile) const;
+
     KeptParts parts_;
+    std::string before_;  // a tile's own name
 };
+
+// The tile that is kept, or what make() gives as a Result<KeptTile>, which is kept then. kept: null for
+// nowhere. Errors: those of make() and of `kept`.
+template <class Make>
+Result<KeptTile> kept_or_made(const KeptTiles* kept, const TileIndex& tile, const Make& make) {
+    if (kept == nullptr) return make();
+    ORO_TRY(std::optional<KeptTile> known, kept->read(tile));
+    if (known) return std::move(*known);
+    ORO_TRY(KeptTile one, make());
+    ORO_CHECK(kept->write(tile, one));
+    return one;
+}
 
 }  // namespace oro

@@ -38,9 +38,9 @@ double TileBounds::added_m(const PostGrid& grid, double highest_h_m, double rise
            rounded_share * step_m;
 }
 
-TileBounds::Bound TileBounds::bound_of(const ClusteredGround& ground, const LevelCut& cut,
-                                       const TileIndex& tile) const {
-    Bound bound;
+EdgeBound TileBounds::bound_of(const ClusteredGround& ground, const LevelCut& cut,
+                               const TileIndex& tile) const {
+    EdgeBound bound;
     Largest largest;
     double error_m = -1.0;
     for (const std::uint32_t number : cut.tiles[layout_->number(tile)]) {
@@ -75,12 +75,7 @@ TileBounds::Bound TileBounds::bound_of(const ClusteredGround& ground, const Leve
         const TileIndex child{2 * tile.row + i / 2, 2 * tile.column + i % 2, tile.level - 1};
         if (child.row >= layout_->rows(child.level) || child.column >= layout_->columns(child.level))
             continue;
-        const Bound& below = at(child);
-        bound.error_m = std::max(bound.error_m, below.error_m);
-        bound.beside_m = std::max(bound.beside_m, below.beside_m);
-        bound.steepness = std::max(bound.steepness, below.steepness);
-        bound.lowest_h_m = std::min(bound.lowest_h_m, below.lowest_h_m);
-        bound.highest_h_m = std::max(bound.highest_h_m, below.highest_h_m);
+        bound.widen(at(child));
     }
     return bound;
 }
@@ -90,7 +85,7 @@ TileBounds TileBounds::of(const ClusteredGround& ground, const TilesetLayout& la
     TileBounds bounds(layout);
     bounds.wraps_longitude_ = ground.grid().wraps_longitude();
     for (int level = 0; level < layout.levels(); ++level) {
-        std::vector<Bound>& all = bounds.levels_.emplace_back();
+        std::vector<EdgeBound>& all = bounds.levels_.emplace_back();
         all.reserve(layout.count(level));
         for (std::size_t number = 0; number < layout.count(level); ++number)
             all.push_back(
@@ -118,28 +113,43 @@ std::optional<TileIndex> TileBounds::across(const TileIndex& tile, int level, st
     return other;
 }
 
-TileWalls TileBounds::walls(const TileIndex& tile) const {
+WallReach wall_reach(const EdgeBound& own, const EdgeBound& other) {
+    WallReach reach;
+    reach.out_m = 2.0 * (own.beside_m + other.beside_m);
+    reach.down_m = own.error_m + other.error_m +
+                   std::min(1.5 * reach.out_m * other.steepness,
+                            std::max(0.0, own.highest_h_m - other.lowest_h_m) + other.beside_m);
+    return reach;
+}
+
+TileWalls TileBounds::walls(const TileIndex& tile, const EdgeBound* other_grids) const {
     TileWalls walls;
-    const Bound& own = at(tile);
+    const EdgeBound& own = at(tile);
     if (own.error_m < 0.0) return walls;
-    for (std::size_t edge = 0; edge < walls.down_m.size(); ++edge) {
-        Bound other;
+    const auto set = [&](std::size_t edge, const EdgeBound& other) {
+        if (other.error_m < 0.0) return;
+        const WallReach reach = wall_reach(own, other);
+        walls.down_m[edge] = reach.down_m;
+        walls.out_m[edge] = reach.out_m;
+    };
+    for (std::size_t edge = 0; edge < TileWalls::rim; ++edge) {
+        EdgeBound other;
         for (int level = tile.level; level < layout_->levels(); ++level) {
             const std::optional<TileIndex> index = across(tile, level, edge);
             if (!index) break;
-            const Bound& one = at(*index);
-            other.error_m = std::max(other.error_m, one.error_m);
-            other.beside_m = std::max(other.beside_m, one.beside_m);
-            other.steepness = std::max(other.steepness, one.steepness);
-            other.lowest_h_m = std::min(other.lowest_h_m, one.lowest_h_m);
+            other.widen(at(*index));
         }
-        if (other.error_m < 0.0) continue;
-        walls.out_m[edge] = 2.0 * (own.beside_m + other.beside_m);
-        walls.down_m[edge] = own.error_m + other.error_m +
-                             std::min(1.5 * walls.out_m[edge] * other.steepness,
-                                      std::max(0.0, own.highest_h_m - other.lowest_h_m) + other.beside_m);
+        set(edge, other);
     }
+    if (other_grids != nullptr) set(TileWalls::rim, *other_grids);
     return walls;
+}
+
+EdgeBound TileBounds::whole() const {
+    EdgeBound whole;
+    for (const std::vector<EdgeBound>& level : levels_)
+        for (const EdgeBound& bound : level) whole.widen(bound);
+    return whole;
 }
 
 }  // namespace oro

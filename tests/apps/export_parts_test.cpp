@@ -31,10 +31,14 @@ std::map<std::string, std::string> files_in(const fs::path& folder) {
 
 // layer.json and tiles.json name their folder: both exports have the same name, in different places.
 struct TileFormat {
-    const char *name, *zooms, *index;
+    const char* name;
+    Words choice;
+    const char* index;
+    Words other_choice;
 };
-constexpr TileFormat formats[]{{"terrain-rgb", "9:12", "tiles.json"},
-                               {"quantized-mesh", "0:10", "layer.json"}};
+const TileFormat formats[]{{"terrain-rgb", {"--zoom", "9:12"}, "tiles.json", {"--hole-height", "7"}},
+                           {"quantized-mesh", {"--zoom", "0:10"}, "layer.json", {"--hole-height", "7"}},
+                           {"3dtiles", {"--max-error", "4"}, "tileset.json", {"--no-normals"}}};
 
 oro::test::Circumstances in_folder(const fs::path& folder) {
     oro::test::Circumstances there;
@@ -44,7 +48,8 @@ oro::test::Circumstances in_folder(const fs::path& folder) {
 
 Words tiles_words(const TileFormat& format, const Words& more = {}) {
     return oro::test::joined(
-        {"export", bundled(), "-q", "--json", "--to", format.name, "--zoom", format.zooms, "--out", "globe"},
+        oro::test::joined({"export", bundled(), "-q", "--json", "--to", format.name, "--out", "globe"},
+                          format.choice),
         more);
 }
 
@@ -61,7 +66,7 @@ TEST(ExportParts, TilesOfPartsAreThoseOfOneGo) {
             EXPECT_FALSE(fs::exists(parts / "globe"));
         }
         EXPECT_GE(kept, whole["tiles"].get<std::uint64_t>());
-        expect_refusal(run_orograph(tiles_words(format, {"--hole-height", "7"}), in_folder(parts)),
+        expect_refusal(run_orograph(tiles_words(format, format.other_choice), in_folder(parts)),
                        oro::test::failed, {"globe.tiles: holds tiles of other data, options"});
         const auto joined = oro::test::one_object(run_orograph(tiles_words(format), in_folder(parts)).out);
         EXPECT_EQ(joined, whole);
@@ -100,6 +105,67 @@ TEST(ExportParts, AKilledExportGoesOn) {
         EXPECT_TRUE(files_in(killed / "globe") == files_in(one / "globe")) << format.name;
         EXPECT_FALSE(fs::exists(killed / "globe.tiles"));
     }
+}
+
+// One file: killed at any moment it is not there under its name, or all of it is.
+TEST(ExportParts, AKilledFileIsWholeOrAbsent) {
+    for (const Words& format : {Words{"cog", "h.tif"}, Words{"gltf", "h.glb"}}) {
+        const fs::path one = oro::test::scratch_folder(), killed = oro::test::scratch_folder();
+        const Words words{"export", bundled(), "-q", "--to", format[0], "--out", format[1]};
+        ASSERT_EQ(run_orograph(words, in_folder(one)).exit_code, 0);
+        const std::string whole = bytes_of(one / format[1]);
+        int kills = 0;
+        for (double lives_s = 0.02; !fs::exists(killed / format[1]) && lives_s < 20.0; lives_s *= 1.15) {
+            auto there = in_folder(killed);
+            there.signal = SIGKILL;
+            there.signal_after_s = lives_s;
+            kills += run_orograph(words, there).exit_code == 128 + SIGKILL ? 1 : 0;
+        }
+        std::printf("%s: %d kills\n", format[0].c_str(), kills);
+        EXPECT_GT(kills, 0);
+        EXPECT_TRUE(bytes_of(killed / format[1]) == whole) << format[0];
+        // What was on its way has names of its own, which no program takes for the file.
+        for (const std::string& name : names_in(killed))
+            EXPECT_TRUE(name == format[1] || name.starts_with(".") || name.ends_with(".partial")) << name;
+    }
+}
+
+// 30 m of a UTM zone over a part of 3": a tree of tiles each, and what is between them.
+TEST(ExportParts, SeveralGridsMakeOneTileset) {
+    const fs::path folder = oro::test::scratch_folder(), fine = folder / "fine.tif";
+    const auto made = oro::test::run_program({"gdalwarp", "-q", "-t_srs", "EPSG:32616", "-tr", "30", "30",
+                                              "-te", "745000", "4045000", "748000", "4047400", "-r", "cubic",
+                                              "-ot", "Float32", bundled(), fine.string()});
+    if (made.exit_code == 127) GTEST_SKIP() << "needs gdalwarp";
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+    const Words words{"export", bundled(), fine.string(), "-q",   "--json", "--bbox=-84.3,36.48,-84.2,36.58",
+                      "--to",   "3dtiles", "--out",       "globe"};
+    const fs::path one = folder / "one", parts = folder / "parts";
+    fs::create_directories(one);
+    fs::create_directories(parts);
+    const auto said = oro::test::one_object(run_orograph(words, in_folder(one)).out);
+    ASSERT_EQ(said["grids"].size(), 2U) << said;
+    EXPECT_FALSE(said.contains("levels"));
+    std::uint64_t tiles = said["between"]["tiles"];
+    EXPECT_GT(said["between"]["triangles"].get<int>(), 200);
+    EXPECT_LT(said["between"]["largest_error_m"].get<double>(), 0.1);
+    for (const auto& grid : said["grids"])
+        for (const auto& level : grid["levels"]) tiles += level["tiles"].get<std::uint64_t>();
+    EXPECT_EQ(said["tiles"], tiles);
+    // A fifth of the way between posts of each grid, with the equator's radius: 3" and 30 m.
+    EXPECT_LE(said["grids"][0]["levels"].back()["largest_error_m"].get<double>(), 18.5533);
+    EXPECT_LE(said["grids"][1]["levels"].back()["largest_error_m"].get<double>(), 6.1);
+    const auto files = files_in(one / "globe");
+    EXPECT_EQ(files.size(), tiles + 1);
+    EXPECT_TRUE(files.contains("2/0/0/0.glb") && files.contains("between/0.glb"));
+    for (const char* const shard : {"1/2", "2/2"})
+        EXPECT_EQ(run_orograph(oro::test::joined(words, {"--shard", shard}), in_folder(parts)).exit_code, 0);
+    const auto joined = oro::test::one_object(run_orograph(words, in_folder(parts)).out);
+    EXPECT_EQ(joined, said);
+    EXPECT_TRUE(files_in(parts / "globe") == files);
+    // --overwrite takes it for a tileset.
+    EXPECT_EQ(run_orograph(oro::test::joined(words, {"--overwrite"}), in_folder(one)).exit_code, 0);
+    EXPECT_TRUE(files_in(one / "globe") == files);
 }
 
 TEST(ExportParts, WhatHasNoTilesHasNoParts) {

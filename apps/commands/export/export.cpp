@@ -79,7 +79,9 @@ Result<void> check_folder(const std::string& out, bool overwrite, const std::str
                           const std::string& index) {
     std::error_code ignored;
     if (overwrite && std::filesystem::is_directory(out, ignored))
-        ORO_CHECK(check_holds_tiles_alone(out, extension, index, extension == ".glb" ? "meshes" : ""));
+        ORO_CHECK(check_holds_tiles_alone(out, extension, index,
+                                          extension == ".glb" ? std::vector<std::string>{"between", "meshes"}
+                                                              : std::vector<std::string>{}));
     // Whether it can be written at all.
     ORO_TRY(const WholeFolder trial, WholeFolder::create(out, overwrite));
     return {};

@@ -32,8 +32,8 @@ Result<void> export_cog(const ExportOptions& options, const Region& region, cons
 // on standard output. Errors (usage): zooms that are none, or too many tiles; those of WholeFolder and
 // write_terrain_tiles().
 Result<void> export_terrain_rgb(const ExportOptions& options, const Region& region, ProgressBar& bar);
-// Writes the ground of a region's one grid as 3D Tiles whose errors are proven, and tells them on standard
-// output. Errors (usage): several grids, or too many tiles; those of WholeFolder and write_tileset().
+// Writes the ground of a region as 3D Tiles whose errors are proven, and tells them on standard output.
+// Errors (usage): too many posts; those of WholeFolder, RegionTiles::of() and write_tileset().
 Result<void> export_3d_tiles(const ExportOptions& options, const Region& region, ProgressBar& bar);
 // Writes the ground of a region's one grid as one model, and tells how far it is from it at most. Errors
 // (usage): several grids, too many triangles; what WholeFile says.

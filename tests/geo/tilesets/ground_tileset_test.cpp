@@ -13,6 +13,7 @@
 #include "core/truth/triangle_bvh.h"
 #include "core/truth/true_surface.h"
 #include "tests/geo/tilesets/read_tileset.h"
+#include "tests/geo/tilesets/tile_geometry.h"
 #include "tests/support/net_terrain.h"
 #include "tests/support/rough_terrain.h"
 #include "tests/support/test_data.h"
@@ -24,19 +25,25 @@ using test::ReadTile;
 
 constexpr unsigned tiles_seed = 20261128;
 
+TilesetGrid grid_of(const HeightField& field, double finest_error_m, int threads) {
+    TilesetGrid grid;
+    grid.posts = &field.grid;
+    grid.ground = [&field, threads] { return ClusteredGround::of(field, nullptr, threads); };
+    grid.finest_error_m = finest_error_m;
+    return grid;
+}
+
 // A field's tileset, written and read back.
 struct Exported {
     explicit Exported(HeightField made, double finest_error_m = 5.0, int threads = 2)
         : field(std::move(made)), surface(field, 1.0, 2), folder(test::scratch_folder()) {
         TilesetRequest request;
-        request.finest_error_m = finest_error_m;
         request.tile_quads = 64;
-        request.look = {{0.5, 0.4, 0.3},
-                        {{"a.hgt", "nobody", "EGM96", 92.5, 16.0}, {"b.tif", "", "", 1.0, -1.0}},
-                        "nobody",
-                        "test"};
+        request.look = {{0.5, 0.4, 0.3}, {}, "nobody", "test"};
+        TilesetGrid grid = grid_of(field, finest_error_m, threads);
+        grid.sources = {{"a.hgt", "nobody", "EGM96", 92.5, 16.0}, {"b.tif", "", "", 1.0, -1.0}};
         // West and east, of different colours.
-        request.facts = [](int, std::span<const VertexPlace> places) {
+        grid.facts = [](int, std::span<const VertexPlace> places) {
             VertexFacts facts;
             for (const VertexPlace& place : places) {
                 const bool east = place.column >= 100.0;
@@ -47,8 +54,7 @@ struct Exported {
         };
         request.metadata = {{"heights", "made \"up\""}};
         request.threads = threads;
-        auto done = write_tileset(folder, field.grid,
-                                  [&] { return ClusteredGround::of(field, nullptr, threads); }, request, {});
+        auto done = write_tileset(folder, {{std::move(grid)}, {}}, request, {});
         EXPECT_TRUE(done.ok()) << done.error().line();
         if (!done.ok()) return;
         written = done.value();
@@ -60,25 +66,6 @@ struct Exported {
     TilesetWritten written;
     std::vector<ReadTile> tiles;
 };
-
-// How far a place is from a triangle. Source: C. Ericson, Real-Time Collision Detection, 5.1.5.
-double distance_to(const glm::dvec3& place, const std::array<glm::dvec3, 3>& triangle) {
-    const glm::dvec3 &a = triangle[0], &b = triangle[1], &c = triangle[2];
-    const glm::dvec3 normal = glm::cross(b - a, c - a);
-    const double twice = glm::length(normal);
-    const auto beside = [&](const glm::dvec3& from, const glm::dvec3& to) {
-        return glm::dot(glm::cross(to - from, place - from), normal) >= 0.0;
-    };
-    if (twice > 0.0 && beside(a, b) && beside(b, c) && beside(c, a))
-        return std::abs(glm::dot(place - a, normal)) / twice;
-    const auto to_edge = [&](const glm::dvec3& from, const glm::dvec3& to) {
-        const glm::dvec3 along = to - from;
-        const double whole = glm::dot(along, along);
-        const double share = whole > 0.0 ? std::clamp(glm::dot(place - from, along) / whole, 0.0, 1.0) : 0.0;
-        return glm::distance(place, from + share * along);
-    };
-    return std::min({to_edge(a, b), to_edge(b, c), to_edge(c, a)});
-}
 
 // The ground triangles of a tile by where their corners lie on the map.
 class TileInPosts {
@@ -141,8 +128,9 @@ class TileInPosts {
         if (cell_there == cells_.end()) return nearest_m;
         for (const std::size_t number : cell_there->second) {
             const auto& of = tile_->triangles[number];
-            nearest_m = std::min(nearest_m, distance_to(at_m, {tile_->posts_m[of[0]], tile_->posts_m[of[1]],
-                                                               tile_->posts_m[of[2]]}));
+            nearest_m = std::min(
+                nearest_m, test::distance_to(
+                               at_m, {tile_->posts_m[of[0]], tile_->posts_m[of[1]], tile_->posts_m[of[2]]}));
         }
         return nearest_m;
     }
@@ -242,7 +230,7 @@ HeightField turned_field() {
 TEST(GroundTileset, ErrorHoldsAtEveryPlace) {
     const Exported exported(test::rough_field(47.0, 8.0, 420, 390));
     EXPECT_EQ(exported.tiles.size(), 49U + 16U + 4U + 1U);
-    EXPECT_LE(exported.written.levels.back().largest_error_m, 5.0);
+    EXPECT_LE(exported.written.grids.front().back().largest_error_m, 5.0);
     const HeldToErrors held = held_to_errors(exported, 100000);
     EXPECT_GE(held.places, 100000);
     EXPECT_EQ(held.above, 0);
@@ -268,13 +256,14 @@ TEST(GroundTileset, ErrorHoldsOnANetAndBesideVoids) {
 // Each post is drawn where no error is allowed; what is left is rounding.
 TEST(GroundTileset, TakesEveryPostWhereNothingMayBeOff) {
     const Exported exported(test::rough_field(47.0, 8.0, 140, 201), 0.0);
-    const TilesetLevel& finest = exported.written.levels.back();
+    const TilesetLevel& finest = exported.written.grids.front().back();
     EXPECT_EQ(finest.triangles, 2U * 139U * 200U);
     EXPECT_LT(finest.largest_error_m, 0.1);
     EXPECT_EQ(held_to_errors(exported, 20000).above, 0);
     // Fewer and fewer triangles.
-    for (std::size_t i = 1; i < exported.written.levels.size(); ++i)
-        EXPECT_LT(2 * exported.written.levels[i - 1].triangles, exported.written.levels[i].triangles);
+    for (std::size_t i = 1; i < exported.written.grids.front().size(); ++i)
+        EXPECT_LT(2 * exported.written.grids.front()[i - 1].triangles,
+                  exported.written.grids.front()[i].triangles);
 }
 
 // 180 E is in the middle; the pole is inside a turned one.
@@ -291,16 +280,6 @@ TEST(GroundTileset, RegionsHoldAcrossTheAntimeridianAndAPole) {
     expect_sound_tree(pole.tiles);
     EXPECT_EQ(held_to_errors(pole, 5000).above, 0);
     EXPECT_NEAR(pole.tiles.front().region[3], 0.5 * std::numbers::pi, 1e-12);
-}
-
-// A cut below a tile: it is drawn, or all below it are.
-void random_cut(const std::vector<ReadTile>& tiles, int number, std::mt19937& random, std::vector<int>& cut) {
-    const ReadTile& tile = tiles[static_cast<std::size_t>(number)];
-    if (!tile.uri.empty() && (tile.children.empty() || random() % 2 == 0)) {
-        cut.push_back(number);
-        return;
-    }
-    for (const int child : tile.children) random_cut(tiles, child, random, cut);
 }
 
 // Whether a line to a place is above all ground on its way: one at a low angle may come in below the rim,
@@ -335,7 +314,7 @@ Gaps gaps_between_tiles(const Exported& exported, int cuts, int lines) {
     for (int i = 0; i < cuts; ++i) {
         std::vector<int> cut;
         for (const int child : exported.tiles.front().children)
-            random_cut(exported.tiles, child, random, cut);
+            test::random_cut(exported.tiles, child, random, cut);
         std::array<std::vector<std::array<glm::dvec3, 3>>, 2> triangles;  // without walls, with them
         for (const int number : cut) {
             const ReadTile& tile = exported.tiles[static_cast<std::size_t>(number)];
@@ -454,15 +433,15 @@ TEST(GroundTileset, OfPartsHasTheBytesOfOneGo) {
     const HeightField field = test::rough_field(47.0, 8.0, 150, 170);
     const fs::path scratch = test::scratch_folder();
     int asked = 0;
-    const GroundSourceOfTiles ground = [&] {
+    TilesetGround ground{{grid_of(field, 5.0, 2)}, {}};
+    ground.grids.front().ground = [&] {
         ++asked;
         return ClusteredGround::of(field, nullptr, 2);
     };
     TilesetRequest request;
     request.tile_quads = 64;
-    request.finest_error_m = 5.0;
     fs::create_directory(scratch / "whole");
-    ASSERT_TRUE(write_tileset(scratch / "whole", field.grid, ground, request, {}).ok());
+    ASSERT_TRUE(write_tileset(scratch / "whole", ground, request, {}).ok());
     const auto kept = KeptTiles::open(scratch / "kept", "key");
     ASSERT_TRUE(kept.ok());
     request.kept = &kept.value();
@@ -470,7 +449,7 @@ TEST(GroundTileset, OfPartsHasTheBytesOfOneGo) {
     std::uint64_t tiles = 0;
     for (const int part : {2, 0, 2, 1}) {
         request.part = part;
-        const auto made = make_tiles(field.grid, ground, request, {});
+        const auto made = make_tiles(ground, request, {});
         ASSERT_TRUE(made.ok()) << made.error().line();
         if (part != 2 || tiles == 0) tiles += made.value();
     }
@@ -479,7 +458,7 @@ TEST(GroundTileset, OfPartsHasTheBytesOfOneGo) {
     request.part = 0;
     request.parts = 1;
     fs::create_directory(scratch / "joined");
-    ASSERT_TRUE(write_tileset(scratch / "joined", field.grid, ground, request, {}).ok());
+    ASSERT_TRUE(write_tileset(scratch / "joined", ground, request, {}).ok());
     EXPECT_EQ(asked, 1 + 3);
     std::size_t files = 0;
     for (const auto& entry : fs::recursive_directory_iterator(scratch / "whole")) {
@@ -493,7 +472,7 @@ TEST(GroundTileset, OfPartsHasTheBytesOfOneGo) {
     // A tile that was cut is no tile.
     fs::resize_file(scratch / "kept" / "0-1-1.tile", 500);
     fs::create_directory(scratch / "again");
-    const auto cut = write_tileset(scratch / "again", field.grid, ground, request, {});
+    const auto cut = write_tileset(scratch / "again", ground, request, {});
     ASSERT_FALSE(cut.ok());
     EXPECT_NE(cut.error().line().find("0-1-1.tile"), std::string::npos);
     fs::copy_file(scratch / "whole" / "tileset.json", scratch / "kept" / "mine.json");
@@ -504,8 +483,7 @@ TEST(GroundTileset, OfPartsHasTheBytesOfOneGo) {
 
 TEST(GroundTileset, AFullDiskIsTold) {
     const HeightField field = test::rough_field(47.0, 8.0, 60, 60);
-    const auto done = write_tileset("/dev/full", field.grid,
-                                    [&] { return ClusteredGround::of(field, nullptr, 1); }, {}, {});
+    const auto done = write_tileset("/dev/full", {{grid_of(field, 0.0, 1)}, {}}, {}, {});
     ASSERT_FALSE(done.ok());
     EXPECT_EQ(done.error().kind, ErrorKind::failed);
 }

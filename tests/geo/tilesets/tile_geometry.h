@@ -1,0 +1,45 @@
+// What viewers may draw of a tileset, and how far places are from it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+#include <vector>
+
+#include "tests/geo/tilesets/read_tileset.h"
+
+namespace oro::test {
+
+// How far a place is from a triangle. Source: C. Ericson, Real-Time Collision Detection, 5.1.5.
+inline double distance_to(const glm::dvec3& place, const std::array<glm::dvec3, 3>& triangle) {
+    const glm::dvec3 &a = triangle[0], &b = triangle[1], &c = triangle[2];
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const double twice = glm::length(normal);
+    const auto beside = [&](const glm::dvec3& from, const glm::dvec3& to) {
+        return glm::dot(glm::cross(to - from, place - from), normal) >= 0.0;
+    };
+    if (twice > 0.0 && beside(a, b) && beside(b, c) && beside(c, a))
+        return std::abs(glm::dot(place - a, normal)) / twice;
+    const auto to_edge = [&](const glm::dvec3& from, const glm::dvec3& to) {
+        const glm::dvec3 along = to - from;
+        const double whole = glm::dot(along, along);
+        const double share = whole > 0.0 ? std::clamp(glm::dot(place - from, along) / whole, 0.0, 1.0) : 0.0;
+        return glm::distance(place, from + share * along);
+    };
+    return std::min({to_edge(a, b), to_edge(b, c), to_edge(c, a)});
+}
+
+// A cut below a tile: it is drawn, or all below it are.
+inline void random_cut(const std::vector<ReadTile>& tiles, int number, std::mt19937& random,
+                       std::vector<int>& cut) {
+    const ReadTile& tile = tiles[static_cast<std::size_t>(number)];
+    if (!tile.uri.empty() && (tile.children.empty() || random() % 2 == 0)) {
+        cut.push_back(number);
+        return;
+    }
+    for (const int child : tile.children) random_cut(tiles, child, random, cut);
+}
+
+}  // namespace oro::test
