@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
-#include <limits>
 #include <memory>
 #include <utility>
 
 #include "core/base/parallel.h"
 #include "core/mesh_graph/distance_cover.h"
+#include "core/mesh_graph/group_sphere.h"
 #include "core/mesh_graph/mesh_groups.h"
 #include "core/mesh_graph/nearest_triangles.h"
 #include "core/mesh_graph/original_pieces.h"
@@ -84,7 +83,6 @@ class MeshGraphBuilder {
     void add_clusters_of(std::size_t first, std::size_t last);
     void add_cluster(std::span<const std::uint32_t> triangles, std::uint32_t used_by);
     void end_level(std::size_t triangles_before);
-    void set_sphere(ClusterGroup& group) const;
 
     static constexpr std::uint32_t unseen = ~std::uint32_t{0}, shared = unseen - 1;
 
@@ -171,7 +169,7 @@ void MeshGraphBuilder::begin_groups(int level) {
         group.first_member = static_cast<std::uint32_t>(graph.members.size());
         group.members = static_cast<std::uint32_t>(members_[i].size());
         graph.members.insert(graph.members.end(), members_[i].begin(), members_[i].end());
-        set_sphere(group);
+        set_sphere(graph, vertices_, origin_m_, group);
         graph.groups.push_back(group);
         graph.groups.back().error_m = largest_member_error_m(graph, graph.groups.back());
     }
@@ -179,40 +177,6 @@ void MeshGraphBuilder::begin_groups(int level) {
     for (std::size_t i = 0; i < live_.size(); ++i)
         for (const std::uint32_t corner : live_[i].corners)
             seen_[corner] = seen_[corner] == unseen || seen_[corner] == group_[i] ? group_[i] : shared;
-}
-
-// A ball around what it uses, and the balls of those that made it.
-void MeshGraphBuilder::set_sphere(ClusterGroup& group) const {
-    const ClusterGraph& graph = graph_.clusters;
-    constexpr double endless = std::numeric_limits<double>::infinity();
-    glm::dvec3 low(endless), high(-endless);
-    std::vector<std::uint32_t> below;
-    for (const std::uint32_t member : graph.members_of(group)) {
-        const Cluster& cluster = graph.clusters[member];
-        for (const VertexTriangle& triangle : graph.triangles_of(cluster))
-            for (const std::uint32_t corner : triangle)
-                low = glm::min(low, vertices_[corner]), high = glm::max(high, vertices_[corner]);
-        if (cluster.made_by != no_group && (below.empty() || below.back() != cluster.made_by))
-            below.push_back(cluster.made_by);
-    }
-    for (const std::uint32_t one : below) {
-        const ClusterGroup& other = graph.groups[one];
-        low = glm::min(low, other.centre.m - origin_m_ - other.radius_m);
-        high = glm::max(high, other.centre.m - origin_m_ + other.radius_m);
-    }
-    const glm::dvec3 middle = 0.5 * (low + high);
-    double radius = 0.0;
-    for (const std::uint32_t member : graph.members_of(group))
-        for (const VertexTriangle& triangle : graph.triangles_of(graph.clusters[member]))
-            for (const std::uint32_t corner : triangle)
-                radius = std::max(radius, glm::distance(middle, vertices_[corner]));
-    group.centre = Ecef{origin_m_ + middle};
-    for (const std::uint32_t one : below) {
-        const ClusterGroup& other = graph.groups[one];
-        radius = std::max(radius, glm::distance(group.centre.m, other.centre.m) + other.radius_m);
-    }
-    // Of places as far from the Earth's middle as it is wide, double rounds 1 nm.
-    group.radius_m = radius + 1.0e-6;
 }
 
 void MeshGraphBuilder::simplify(double more) {

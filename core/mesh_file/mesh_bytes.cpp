@@ -1,0 +1,438 @@
+#include "core/mesh_file/mesh_bytes.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/base/little_endian.h"
+#include "core/mesh_file/group_maps.h"
+#include "core/mesh_file/leaf_code.h"
+#include "core/mesh_graph/group_sphere.h"
+
+// The order of the bytes: MeshNumbers; groups of each level, 4 bytes each; then, range coded, the leaves,
+// each with its count, its triangles and its user; and level by level the groups, each with the count of its
+// clusters, its maps, its error and its clusters' users.
+namespace oro {
+namespace {
+
+constexpr std::uint32_t most_levels = 80, most_used_triangles = 4096;
+
+struct MeshNumbers {
+    LatticeSteps origin{}, least{};
+    std::uint32_t vertices{}, triangles{}, labels{}, leaves{}, clusters{}, levels{};
+    std::uint32_t graph_triangles{};  // of all levels
+};
+
+template <class Visit>
+void visit_numbers(Visit& visit, auto& numbers) {
+    for (auto& step : numbers.origin) visit(step);
+    for (auto& step : numbers.least) visit(step);
+    visit(numbers.vertices), visit(numbers.triangles), visit(numbers.labels), visit(numbers.leaves);
+    visit(numbers.clusters), visit(numbers.levels), visit(numbers.graph_triangles);
+}
+
+// What no mesh has; "" where all is well.
+std::string implausible(const MeshNumbers& numbers) {
+    // The Earth and 100 km around it.
+    constexpr std::int64_t most_steps = 6600000LL * 2048;
+    for (const LatticeSteps& at : {numbers.origin, numbers.least})
+        for (const std::int64_t step : at)
+            if (step < -2 * most_steps || step > most_steps) return "lies outside of the Earth";
+    if (numbers.triangles == 0 || numbers.triangles > most_stored_triangles)
+        return "has " + std::to_string(numbers.triangles) + " triangles, expected 1 to 2,000,000";
+    if (numbers.vertices < 3 || numbers.vertices > 3 * numbers.triangles)
+        return "has " + std::to_string(numbers.vertices) + " vertices, which its triangles do not have";
+    if (numbers.levels == 0 || numbers.levels > most_levels)
+        return "has " + std::to_string(numbers.levels) + " levels, expected 1 to 80";
+    if (numbers.graph_triangles < numbers.triangles || numbers.graph_triangles > most_graph_triangles)
+        return "has " + std::to_string(numbers.graph_triangles) + " triangles at all levels";
+    if (numbers.leaves == 0 || numbers.leaves > numbers.triangles || numbers.clusters < numbers.leaves ||
+        numbers.clusters > numbers.graph_triangles)
+        return "has " + std::to_string(numbers.clusters) + " clusters, which its triangles do not fill";
+    if (numbers.labels > numbers.triangles + 1U + 2U * most_stored_triangles) return "has too many labels";
+    return "";
+}
+
+// Both ways: a decoder fills `mesh`, and an encoder, too, from `source`.
+template <class Coder>
+class MeshBytesCode {
+  public:
+    MeshBytesCode(Coder& coder, const MeshNumbers& numbers, std::vector<std::uint32_t> groups,
+                  const MeshToStore* source, StoredMesh& mesh)
+        : coder_(coder),
+          numbers_(numbers),
+          groups_(std::move(groups)),
+          source_(source),
+          mesh_(mesh),
+          leaf_(numbers.least, numbers.vertices, numbers.labels),
+          maps_(numbers.vertices) {}
+
+    // "" where all is well.
+    std::string code() {
+        if (std::string wrong = leaves(); !wrong.empty()) return wrong;
+        for (std::uint32_t i = 0; i < mesh_.places.size(); ++i) vertices_m_.push_back(mesh_.from_origin_m(i));
+        for (std::uint32_t i = 0; i < numbers_.levels; ++i)
+            if (std::string wrong = level(i); !wrong.empty()) return wrong;
+        if (graph().clusters.size() != numbers_.clusters ||
+            graph().triangles.size() != numbers_.graph_triangles)
+            return "has " + std::to_string(graph().clusters.size()) + " clusters of " +
+                   std::to_string(graph().triangles.size()) + " triangles, expected " +
+                   std::to_string(numbers_.clusters) + " of " + std::to_string(numbers_.graph_triangles);
+        return "";
+    }
+
+  private:
+    [[nodiscard]] ClusterGraph& graph() { return mesh_.graph.clusters; }
+    [[nodiscard]] const ClusterGraph& given() const { return source_->graph.clusters; }
+    [[nodiscard]] bool is_cut_off() const {
+        if constexpr (Coder::writes)
+            return false;
+        else
+            return coder_.is_wrong();
+    }
+    std::string leaves();
+    std::string leaf(std::uint32_t number);
+    std::string used_by(std::size_t number, std::uint32_t groups_above, std::uint32_t first_above);
+    std::string level(std::uint32_t number);
+    void begin_groups(std::uint32_t number, std::uint32_t first_group);
+    std::vector<char> borders(std::uint32_t first_group) const;
+    std::string group(std::uint32_t number, const std::vector<char>& is_border, std::uint32_t groups_above,
+                      std::uint32_t first_above);
+    std::vector<GroupMaps::Left> left_of(std::uint32_t number,
+                                         std::span<const std::uint32_t> originals) const;
+    std::string clusters_of(std::uint32_t number, std::uint32_t made, std::span<const GroupMaps::Left> left,
+                            std::span<const std::uint32_t> originals);
+    std::string error(ClusterGroup& group, double least_m);
+    [[nodiscard]] std::string too_full(const Cluster& cluster);
+
+    Coder& coder_;
+    MeshNumbers numbers_;
+    std::vector<std::uint32_t> groups_;  // by level
+    const MeshToStore* source_;
+    StoredMesh& mesh_;
+    LeafCode leaf_;
+    GroupMaps maps_;
+    std::vector<glm::dvec3> vertices_m_;
+    // An encoder's, by triangles of the mesh: which it was given, and which of its corners comes first.
+    std::vector<std::uint32_t> given_original_;
+    std::vector<std::uint8_t> turn_;
+    SmallNumber leaf_room_, made_;
+    NearZero user_;
+    std::uint32_t last_user_{};
+    std::uint32_t first_live_{};  // the first cluster of the level below
+};
+
+template <class Coder>
+std::string MeshBytesCode<Coder>::too_full(const Cluster& cluster) {
+    std::vector<std::uint32_t> corners;
+    for (const VertexTriangle& triangle : graph().triangles_of(cluster))
+        corners.insert(corners.end(), triangle.begin(), triangle.end());
+    std::sort(corners.begin(), corners.end());
+    const auto vertices = std::unique(corners.begin(), corners.end()) - corners.begin();
+    graph().clusters.back().vertices = static_cast<std::uint32_t>(vertices);
+    if (cluster.triangles >= 1 && cluster.triangles <= most_cluster_triangles &&
+        vertices <= static_cast<std::ptrdiff_t>(most_cluster_vertices))
+        return "";
+    return "has a cluster of " + std::to_string(cluster.triangles) + " triangles and " +
+           std::to_string(vertices) + " vertices";
+}
+
+// The group of the next level that makes a cluster coarser.
+template <class Coder>
+std::string MeshBytesCode<Coder>::used_by(std::size_t number, std::uint32_t groups_above,
+                                          std::uint32_t first_above) {
+    if (groups_above == 0) return "";
+    std::uint32_t user = 0;
+    if constexpr (Coder::writes) user = given().clusters[number].used_by - first_above;
+    const auto step = static_cast<std::int32_t>(user - last_user_);
+    user = last_user_ + static_cast<std::uint32_t>(user_.code(coder_, step));
+    if (user >= groups_above) return "whose clusters a group of another level uses";
+    last_user_ = user;
+    graph().clusters[number].used_by = first_above + user;
+    return "";
+}
+
+template <class Coder>
+std::string MeshBytesCode<Coder>::leaf(std::uint32_t number) {
+    LeafSource source;
+    std::vector<std::uint32_t> labels;
+    std::uint32_t count = 0;
+    if constexpr (Coder::writes) {
+        const Cluster& cluster = given().clusters[number];
+        count = cluster.triangles;
+        source.triangles = given().triangles_of(cluster);
+        if (numbers_.labels > 0)
+            for (std::uint32_t i = 0; i < count; ++i)
+                labels.push_back(source_->labels[source_->graph.original_of[cluster.first_triangle + i]]);
+        source.labels = labels;
+    }
+    constexpr auto most = static_cast<std::uint32_t>(most_cluster_triangles);
+    const std::uint32_t room = leaf_room_.code(coder_, most - count);
+    if (room >= most) return "has an empty leaf";
+    count = most - room;
+    const auto first = static_cast<std::uint32_t>(graph().triangles.size());
+    if (count > numbers_.triangles - first) return "has more triangles in its leaves than it states";
+    std::span<const LatticeSteps> places;
+    if constexpr (Coder::writes) places = source_->places;
+    if (!leaf_.code(coder_, count, source, places, graph().triangles, mesh_))
+        return "has a triangle that is none";
+    for (std::uint32_t i = 0; i < count; ++i) mesh_.graph.original_of.push_back(first + i);
+    if constexpr (Coder::writes)
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const std::uint32_t told = given().clusters[number].first_triangle + leaf_.told()[i];
+            given_original_.push_back(source_->graph.original_of[told]);
+            std::uint8_t turn = 0;
+            while (leaf_.number_of(given().triangles[told][turn]) != graph().triangles[first + i][0]) ++turn;
+            turn_.push_back(turn);
+        }
+    graph().clusters.push_back({first, count, 0, no_group, no_group});
+    if (std::string wrong = too_full(graph().clusters.back()); !wrong.empty()) return wrong;
+    if (std::string wrong = used_by(number, groups_[0], 0); !wrong.empty()) return "has a leaf " + wrong;
+    return "";
+}
+
+template <class Coder>
+std::string MeshBytesCode<Coder>::leaves() {
+    for (std::uint32_t i = 0; i < numbers_.leaves; ++i) {
+        if (std::string wrong = leaf(i); !wrong.empty()) return wrong;
+        if (is_cut_off()) return "is cut off in its leaves";
+    }
+    if (graph().triangles.size() != numbers_.triangles || mesh_.places.size() != numbers_.vertices)
+        return "has " + std::to_string(graph().triangles.size()) + " triangles and " +
+               std::to_string(mesh_.places.size()) + " vertices, expected " +
+               std::to_string(numbers_.triangles) + " and " + std::to_string(numbers_.vertices);
+    return "";
+}
+
+// Groups of a level, with what each uses of the level below.
+template <class Coder>
+void MeshBytesCode<Coder>::begin_groups(std::uint32_t number, std::uint32_t first_group) {
+    std::vector<std::vector<std::uint32_t>> members(groups_[number]);
+    for (std::uint32_t i = first_live_; i < graph().clusters.size(); ++i)
+        members[graph().clusters[i].used_by - first_group].push_back(i);
+    for (const std::vector<std::uint32_t>& of_group : members) {
+        ClusterGroup group{};
+        group.level = number + 1, group.complete = true;
+        group.first_member = static_cast<std::uint32_t>(graph().members.size());
+        group.members = static_cast<std::uint32_t>(of_group.size());
+        graph().members.insert(graph().members.end(), of_group.begin(), of_group.end());
+        set_sphere(graph(), vertices_m_, mesh_.origin_ecef_m(), group);
+        graph().groups.push_back(group);
+    }
+}
+
+// Whether each vertex is one of several groups.
+template <class Coder>
+std::vector<char> MeshBytesCode<Coder>::borders(std::uint32_t first_group) const {
+    const ClusterGraph& all = mesh_.graph.clusters;
+    std::vector<std::uint32_t> seen(mesh_.places.size(), no_group);
+    std::vector<char> is_border(mesh_.places.size(), 0);
+    for (std::uint32_t i = first_group; i < all.groups.size(); ++i)
+        for (const std::uint32_t member : all.members_of(all.groups[i]))
+            for (const VertexTriangle& triangle : all.triangles_of(all.clusters[member]))
+                for (const std::uint32_t corner : triangle) {
+                    if (seen[corner] != no_group && seen[corner] != i) is_border[corner] = 1;
+                    seen[corner] = i;
+                }
+    return is_border;
+}
+
+// An encoder's: what a group has left, by the numbers of what it uses here.
+template <class Coder>
+std::vector<GroupMaps::Left> MeshBytesCode<Coder>::left_of(std::uint32_t number,
+                                                           std::span<const std::uint32_t> originals) const {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> numbers;  // of originals
+    for (std::uint32_t i = 0; i < originals.size(); ++i)
+        numbers.emplace_back(given_original_[originals[i]], i);
+    std::sort(numbers.begin(), numbers.end());
+    std::vector<GroupMaps::Left> left;
+    const ClusterGroup& group = given().groups[number];
+    for (std::uint32_t i = 0; i < group.made; ++i) {
+        const Cluster& cluster = given().clusters[group.first_made + i];
+        for (std::uint32_t k = cluster.first_triangle; k < cluster.first_triangle + cluster.triangles; ++k) {
+            const std::uint32_t original = source_->graph.original_of[k];
+            const auto found = std::lower_bound(numbers.begin(), numbers.end(), std::pair{original, 0U});
+            if (found == numbers.end() || found->first != original) return {};
+            GroupMaps::Left one{found->second, {}, i};
+            for (std::size_t corner = 0; corner < 3; ++corner)
+                one.corners[corner] =
+                    leaf_.number_of(given().triangles[k][(corner + turn_[originals[found->second]]) % 3]);
+            left.push_back(one);
+        }
+    }
+    std::sort(left.begin(), left.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+    return left;
+}
+
+template <class Coder>
+std::string MeshBytesCode<Coder>::error(ClusterGroup& group, double least_m) {
+    auto bits = std::bit_cast<std::uint64_t>(group.error_m);
+    std::uint64_t told = 0;
+    for (unsigned shift = 0; shift < 64; shift += 16)
+        told |= std::uint64_t{coder_.uniform(1U << 16U, static_cast<std::uint32_t>(bits >> shift & 0xffffU))}
+                << shift;
+    group.error_m = std::bit_cast<double>(told);
+    constexpr double most_m = 1.0e7;
+    if (std::isfinite(group.error_m) && group.error_m >= least_m && group.error_m <= most_m) return "";
+    char text[120];
+    std::snprintf(text, sizeof text, "has an error of %g m over one of %g m", group.error_m, least_m);
+    return text;
+}
+
+template <class Coder>
+std::string MeshBytesCode<Coder>::clusters_of(std::uint32_t number, std::uint32_t made,
+                                              std::span<const GroupMaps::Left> left,
+                                              std::span<const std::uint32_t> originals) {
+    ClusterGroup& group = graph().groups[number];
+    group.first_made = static_cast<std::uint32_t>(graph().clusters.size());
+    group.made = made;
+    std::vector<std::vector<std::uint32_t>> of_cluster(made);
+    for (std::uint32_t i = 0; i < left.size(); ++i) of_cluster[left[i].cluster].push_back(i);
+    for (const std::vector<std::uint32_t>& of_one : of_cluster) {
+        graph().clusters.push_back({static_cast<std::uint32_t>(graph().triangles.size()),
+                                    static_cast<std::uint32_t>(of_one.size()), 0, number, no_group});
+        for (const std::uint32_t one : of_one) {
+            graph().triangles.push_back(left[one].corners);
+            mesh_.graph.original_of.push_back(originals[left[one].number]);
+        }
+        if (std::string wrong = too_full(graph().clusters.back()); !wrong.empty()) return wrong;
+    }
+    return "";
+}
+
+template <class Coder>
+std::string MeshBytesCode<Coder>::group(std::uint32_t number, const std::vector<char>& is_border,
+                                        std::uint32_t groups_above, std::uint32_t first_above) {
+    const std::string name = "has a group " + std::to_string(number) + " ";
+    std::vector<VertexTriangle> triangles;
+    std::vector<std::uint32_t> originals;
+    for (const std::uint32_t member : graph().members_of(graph().groups[number])) {
+        const Cluster& cluster = graph().clusters[member];
+        const auto of_cluster = graph().triangles_of(cluster);
+        triangles.insert(triangles.end(), of_cluster.begin(), of_cluster.end());
+        for (std::uint32_t i = 0; i < cluster.triangles; ++i)
+            originals.push_back(mesh_.graph.original_of[cluster.first_triangle + i]);
+    }
+    if (triangles.empty() || triangles.size() > most_used_triangles)
+        return name + "of " + std::to_string(triangles.size()) + " triangles, expected 1 to 4,096";
+    std::uint32_t made = 0;
+    std::vector<GroupMaps::Left> left;
+    if constexpr (Coder::writes) {
+        made = given().groups[number].made;
+        left = left_of(number, originals);
+        graph().groups[number].error_m = given().groups[number].error_m;
+    }
+    made = made_.code(coder_, made);
+    if (made > triangles.size()) return name + "of more clusters than triangles";
+    if (!maps_.code(coder_, triangles, is_border, made, left)) return name + "whose vertices lead nowhere";
+    const double least_m = largest_member_error_m(graph(), graph().groups[number]);
+    if (std::string wrong = error(graph().groups[number], least_m); !wrong.empty()) return wrong;
+    const std::size_t first = graph().clusters.size();
+    if (std::string wrong = clusters_of(number, made, left, originals); !wrong.empty()) return wrong;
+    const std::size_t end = graph().clusters.size();
+    for (std::size_t i = first; i < end; ++i)
+        if (std::string wrong = used_by(i, groups_above, first_above); !wrong.empty()) return name + wrong;
+    return "";
+}
+
+template <class Coder>
+std::string MeshBytesCode<Coder>::level(std::uint32_t number) {
+    const auto first_group = static_cast<std::uint32_t>(graph().groups.size());
+    const auto first_cluster = static_cast<std::uint32_t>(graph().clusters.size());
+    const std::size_t first_triangle = graph().triangles.size();
+    begin_groups(number, first_group);
+    GraphLevel facts;
+    facts.groups = groups_[number];
+    const std::vector<char> is_border = borders(first_group);
+    facts.locked = static_cast<std::size_t>(std::count(is_border.begin(), is_border.end(), 1));
+    const std::uint32_t above = number + 1 < numbers_.levels ? groups_[number + 1] : 0;
+    for (std::uint32_t i = first_group; i < first_group + facts.groups; ++i) {
+        const std::size_t before = graph().triangles.size();
+        if (std::string wrong = group(i, is_border, above, first_group + groups_[number]); !wrong.empty())
+            return wrong;
+        if (is_cut_off() || graph().triangles.size() > numbers_.graph_triangles)
+            return "is cut off in group " + std::to_string(i);
+        std::size_t used = 0;
+        for (const std::uint32_t member : graph().members_of(graph().groups[i]))
+            used += graph().clusters[member].triangles;
+        const std::size_t out = graph().triangles.size() - before;
+        facts.triangles_in += used, facts.triangles_out += out;
+        facts.largest_group = std::max(facts.largest_group, used);
+        facts.stuck_groups += static_cast<double>(out) > stuck_share * static_cast<double>(used) ? 1U : 0U;
+        facts.clusters_out += graph().groups[i].made;
+        facts.largest_error_m = std::max(facts.largest_error_m, graph().groups[i].error_m);
+    }
+    if (graph().triangles.size() - first_triangle > facts.triangles_in) return "grows from level to level";
+    graph().levels.push_back(facts);
+    first_live_ = first_cluster;
+    return "";
+}
+
+MeshNumbers numbers_of(const MeshToStore& mesh) {
+    const ClusterGraph& graph = mesh.graph.clusters;
+    MeshNumbers numbers;
+    numbers.origin = mesh.origin;
+    constexpr std::int64_t far = std::numeric_limits<std::int64_t>::max();
+    numbers.least = {far, far, far};
+    for (const LatticeSteps& at : mesh.places)
+        for (std::size_t i = 0; i < 3; ++i) numbers.least[i] = std::min(numbers.least[i], at[i]);
+    numbers.vertices = static_cast<std::uint32_t>(mesh.places.size());
+    numbers.labels = mesh.label_count;
+    numbers.clusters = static_cast<std::uint32_t>(graph.clusters.size());
+    for (const Cluster& cluster : graph.clusters) {
+        if (cluster.made_by != no_group) break;
+        ++numbers.leaves, numbers.triangles += cluster.triangles;
+    }
+    numbers.levels = graph.groups.empty() ? 0 : graph.groups.back().level;
+    numbers.graph_triangles = static_cast<std::uint32_t>(graph.triangles.size());
+    return numbers;
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> mesh_to_bytes(const MeshToStore& mesh) {
+    const MeshNumbers numbers = numbers_of(mesh);
+    if (const std::string wrong = implausible(numbers); !wrong.empty())
+        return Error{ErrorKind::failed, "", "the mesh " + wrong};
+    std::vector<std::uint32_t> groups(numbers.levels, 0);
+    for (const ClusterGroup& group : mesh.graph.clusters.groups) ++groups[group.level - 1];
+    NumberWriter writer;
+    visit_numbers(writer, numbers);
+    for (const std::uint32_t count : groups) writer(count);
+    RangeEncoder coder;
+    StoredMesh stored;
+    stored.origin = mesh.origin, stored.label_count = mesh.label_count;
+    MeshBytesCode<RangeEncoder> code(coder, numbers, groups, &mesh, stored);
+    if (const std::string wrong = code.code(); !wrong.empty())
+        return Error{ErrorKind::failed, "", "the mesh " + wrong};
+    const std::vector<std::byte> coded = coder.finish();
+    writer.bytes.insert(writer.bytes.end(), coded.begin(), coded.end());
+    return std::move(writer.bytes);
+}
+
+std::optional<std::string> mesh_from_bytes(std::span<const std::byte> bytes, StoredMesh& mesh) {
+    mesh = {};
+    NumberReader reader(bytes);
+    MeshNumbers numbers;
+    visit_numbers(reader, numbers);
+    if (reader.rest().empty()) return "is cut off";
+    if (std::string wrong = implausible(numbers); !wrong.empty()) return wrong;
+    std::vector<std::uint32_t> groups(numbers.levels);
+    for (std::uint32_t& count : groups) {
+        reader(count);
+        if (count == 0 || count > numbers.clusters)
+            return "has a level of " + std::to_string(count) + " groups";
+    }
+    mesh.origin = numbers.origin, mesh.label_count = numbers.labels;
+    RangeDecoder coder(reader.rest());
+    MeshBytesCode<RangeDecoder> code(coder, numbers, groups, nullptr, mesh);
+    if (std::string wrong = code.code(); !wrong.empty()) return wrong;
+    if (coder.is_wrong()) return "is cut off";
+    if (!coder.at_end()) return "goes on after its last group";
+    return std::nullopt;
+}
+
+}  // namespace oro

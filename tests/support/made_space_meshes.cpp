@@ -1,0 +1,83 @@
+#include "tests/support/made_space_meshes.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace oro::test {
+
+glm::dvec3 on_lattice(const glm::dvec3& at) {
+    return {std::round(at.x * 2048.0) / 2048.0, std::round(at.y * 2048.0) / 2048.0,
+            std::round(at.z * 2048.0) / 2048.0};
+}
+
+SpaceMesh hilly_ball(std::uint32_t n, double radius_m) {
+    SpaceMesh mesh;
+    const std::uint32_t around = 2 * n;
+    mesh.vertices = {{0.0, 0.0, radius_m}, {0.0, 0.0, -radius_m}};
+    for (std::uint32_t i = 1; i < n; ++i)
+        for (std::uint32_t k = 0; k < around; ++k) {
+            const double a = std::numbers::pi * i / n, b = std::numbers::pi * k / n;
+            const double r = radius_m * (1.0 + 0.05 * std::sin(9.0 * a) * std::cos(7.0 * b));
+            mesh.vertices.push_back(
+                on_lattice({r * std::sin(a) * std::cos(b), r * std::sin(a) * std::sin(b), r * std::cos(a)}));
+        }
+    const auto at = [&](std::uint32_t i, std::uint32_t k) { return 2 + i * around + k % around; };
+    for (std::uint32_t k = 0; k < around; ++k) {
+        mesh.triangles.push_back({0, at(0, k), at(0, k + 1)});
+        mesh.triangles.push_back({1, at(n - 2, k + 1), at(n - 2, k)});
+        for (std::uint32_t i = 0; i + 2 < n; ++i) {
+            mesh.triangles.push_back({at(i, k), at(i + 1, k), at(i, k + 1)});
+            mesh.triangles.push_back({at(i, k + 1), at(i + 1, k), at(i + 1, k + 1)});
+        }
+    }
+    return mesh;
+}
+
+SpaceMesh box_town(std::uint32_t rows) {
+    SpaceMesh mesh;
+    for (std::uint32_t row = 0; row < rows; ++row)
+        for (std::uint32_t column = 0; column < rows; ++column) {
+            const double height = 4.0 + static_cast<double>((7 * row + 5 * column) % 13);
+            const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+            for (int i = 0; i < 8; ++i)
+                mesh.vertices.push_back({20.0 * row + ((i & 1) != 0 ? 9.0 : 0.0),
+                                         20.0 * column + ((i & 2) != 0 ? 7.0 : 0.0),
+                                         (i & 4) != 0 ? height : 0.0});
+            constexpr std::array<std::array<std::uint32_t, 3>, 12> sides{{{0, 2, 1},
+                                                                          {1, 2, 3},
+                                                                          {4, 5, 6},
+                                                                          {5, 7, 6},
+                                                                          {0, 1, 4},
+                                                                          {1, 5, 4},
+                                                                          {2, 6, 3},
+                                                                          {3, 6, 7},
+                                                                          {0, 4, 2},
+                                                                          {2, 4, 6},
+                                                                          {1, 3, 5},
+                                                                          {3, 7, 5}}};
+            for (const auto& [a, b, c] : sides) mesh.triangles.push_back({first + a, first + b, first + c});
+        }
+    return mesh;
+}
+
+SpaceMesh folded_sheet(std::uint32_t n) {
+    SpaceMesh mesh;
+    for (std::uint32_t i = 0; i <= n; ++i)
+        for (std::uint32_t k = 0; k <= n; ++k) {
+            const double along = 60.0 * i / n, turn = std::fmod(along, 20.0),
+                         layer = std::floor(along / 20.0);
+            const double x = static_cast<int>(layer) % 2 == 0 ? turn : 20.0 - turn;
+            mesh.vertices.push_back(
+                on_lattice({x, 40.0 * k / n, 0.5 * layer + 0.2 * std::sin(0.7 * along) * std::cos(0.3 * k)}));
+        }
+    for (std::uint32_t i = 0; i < n; ++i)
+        for (std::uint32_t k = 0; k < n; ++k) {
+            const std::uint32_t a = i * (n + 1) + k, b = a + n + 1;
+            mesh.triangles.push_back({a, b, a + 1});
+            mesh.triangles.push_back({a + 1, b, b + 1});
+        }
+    return mesh;
+}
+
+}  // namespace oro::test

@@ -1,0 +1,19 @@
+// Meshes in space that tests make: closed ones, a town, a folded sheet.
+#pragma once
+
+#include <cstdint>
+
+#include "tests/support/mesh_cuts.h"
+
+namespace oro::test {
+
+// On the lattice of 2^-11 m, as meshes are.
+glm::dvec3 on_lattice(const glm::dvec3& at);
+// A ball with hills: closed, 4 n (n - 1) triangles.
+SpaceMesh hilly_ball(std::uint32_t n, double radius_m);
+// Boxes that touch nothing, 12 triangles each: closed.
+SpaceMesh box_town(std::uint32_t rows);
+// A sheet that is folded over itself like a letter, layers half a metre apart: open, no height field.
+SpaceMesh folded_sheet(std::uint32_t n);
+
+}  // namespace oro::test
