@@ -204,6 +204,7 @@ set_tests_properties(
   LibraryCalls.AThousandBadOnesEndWithErrors
   MadeHeights.NoiseHasNoGrainAndTheSpectrumOfItsGain
   Manual.HasEachOptionOfHelp
+  MeshCheckByGrammar.ChangedMeshesAreRefusedOrTrue
   MeshLook.IsByTheFileOrAsAsked
   MeshTiles.GroundStaysAndVerticesAreWithinAMillimetre
   MeshTiles.NothingLargerThanTheErrorIsMissing

@@ -16,11 +16,20 @@ Result<std::vector<BakedGrid>> open_baked_file(const std::string& path) {
         grids.push_back({std::make_shared<const RegionFile>(std::move(region)), nullptr, chunk.grid});
     }
     if (grids.empty()) return Error{ErrorKind::failed, path, "holds no grid of posts"};
+    std::uint32_t meshes = 0;
+    while (container->find(ChunkType::mesh_facts, meshes)) ++meshes;
     // Each number below their count once, as no chunk is there twice; and nobody else's chunks.
-    for (const Chunk& chunk : chunks)
+    for (const Chunk& chunk : chunks) {
+        if (chunk.type == ChunkType::mesh_facts || chunk.type == ChunkType::mesh_triangles) {
+            if (chunk.grid >= meshes)
+                return file.damaged(chunk.offset, "a chunk of mesh " + std::to_string(chunk.grid) +
+                                                      ", which is none of its " + std::to_string(meshes));
+            continue;
+        }
         if (chunk.grid >= grids.size() || chunk.type == ChunkType::window || chunk.type == ChunkType::blocks)
             return file.damaged(chunk.offset, "a chunk of grid " + std::to_string(chunk.grid) +
                                                   ", which is none of its " + std::to_string(grids.size()));
+    }
     // Nobody reads clusters without the outline that says what they are.
     for (const Chunk& chunk : chunks)
         if ((chunk.type == ChunkType::groups || chunk.type == ChunkType::meshes) &&

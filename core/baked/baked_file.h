@@ -1,4 +1,5 @@
-// A baked file as a whole: it holds one grid of posts or several, and of a grid its cluster graph, too.
+// A baked file as a whole: it holds one grid of posts or several, and of a grid its cluster graph, too;
+// and meshes that lie on them, which geo reads.
 #pragma once
 
 #include <cstdint>

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
 
@@ -74,6 +75,7 @@ class MeshBytesCode {
     std::string code() {
         if (std::string wrong = leaves(); !wrong.empty()) return wrong;
         for (std::uint32_t i = 0; i < mesh_.places.size(); ++i) vertices_m_.push_back(mesh_.from_origin_m(i));
+        if (has_flat(0)) return "has a triangle without an area";
         for (std::uint32_t i = 0; i < numbers_.levels; ++i)
             if (std::string wrong = level(i); !wrong.empty()) return wrong;
         if (graph().clusters.size() != numbers_.clusters ||
@@ -107,6 +109,14 @@ class MeshBytesCode {
                             std::span<const std::uint32_t> originals);
     std::string error(ClusterGroup& group, double least_m);
     [[nodiscard]] std::string too_full(const Cluster& cluster);
+    // Whether a triangle of the graph, that or a later one, has no area.
+    [[nodiscard]] bool has_flat(std::size_t first) const {
+        const std::vector<VertexTriangle>& all = mesh_.graph.clusters.triangles;
+        return std::any_of(all.begin() + static_cast<std::ptrdiff_t>(first), all.end(), [&](const auto& one) {
+            return glm::cross(vertices_m_[one[1]] - vertices_m_[one[0]],
+                              vertices_m_[one[2]] - vertices_m_[one[0]]) == glm::dvec3(0.0);
+        });
+    }
 
     Coder& coder_;
     MeshNumbers numbers_;
@@ -331,7 +341,9 @@ std::string MeshBytesCode<Coder>::group(std::uint32_t number, const std::vector<
     const double least_m = largest_member_error_m(graph(), graph().groups[number]);
     if (std::string wrong = error(graph().groups[number], least_m); !wrong.empty()) return wrong;
     const std::size_t first = graph().clusters.size();
+    const std::size_t first_triangle = graph().triangles.size();
     if (std::string wrong = clusters_of(number, made, left, originals); !wrong.empty()) return wrong;
+    if (has_flat(first_triangle)) return name + "that made a triangle without an area";
     const std::size_t end = graph().clusters.size();
     for (std::size_t i = first; i < end; ++i)
         if (std::string wrong = used_by(i, groups_above, first_above); !wrong.empty()) return name + wrong;

@@ -12,7 +12,7 @@ namespace oro {
 
 // A place in whole steps of 2^-11 m along the axes of ECEF (core/terrain/page_on_net.h, lattice_point()).
 using LatticeSteps = std::array<std::int64_t, 3>;
-inline constexpr double steps_per_m = 2048.0;
+inline constexpr double lattice_steps_per_m = 2048.0;
 
 // A mesh with its graph. The mesh's triangles are those of the graph's leaves, in their order, and its
 // vertices are numbered as these meet them. Triangles of a group lie in the order in which it uses them.
@@ -28,13 +28,14 @@ struct StoredMesh {
     // Where a vertex is, metres from the origin: exact.
     [[nodiscard]] glm::dvec3 from_origin_m(std::uint32_t vertex) const {
         const LatticeSteps& at = places[vertex];
-        return {static_cast<double>(at[0] - origin[0]) / steps_per_m,
-                static_cast<double>(at[1] - origin[1]) / steps_per_m,
-                static_cast<double>(at[2] - origin[2]) / steps_per_m};
+        return {static_cast<double>(at[0] - origin[0]) / lattice_steps_per_m,
+                static_cast<double>(at[1] - origin[1]) / lattice_steps_per_m,
+                static_cast<double>(at[2] - origin[2]) / lattice_steps_per_m};
     }
     [[nodiscard]] glm::dvec3 origin_ecef_m() const {
-        return {static_cast<double>(origin[0]) / steps_per_m, static_cast<double>(origin[1]) / steps_per_m,
-                static_cast<double>(origin[2]) / steps_per_m};
+        return {static_cast<double>(origin[0]) / lattice_steps_per_m,
+                static_cast<double>(origin[1]) / lattice_steps_per_m,
+                static_cast<double>(origin[2]) / lattice_steps_per_m};
     }
 };
 
