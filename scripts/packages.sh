@@ -7,7 +7,7 @@ build_packages=(
   libglm-dev libglfw3-dev libimgui-dev libcli11-dev nlohmann-json3-dev
   libpng-dev libjpeg-dev libtiff-dev libexif-dev libfreetype-dev libharfbuzz-dev fonts-dejavu-core
   libzstd-dev libxxhash-dev liberfa-dev libpugixml-dev libutfcpp-dev libcpp-httplib-dev libssl-dev
-  libcurl4-openssl-dev zlib1g-dev libmeshoptimizer-dev
+  libcurl4-openssl-dev zlib1g-dev libdeflate-dev libmeshoptimizer-dev
 )
 
 # To tell a GPU with mesh shaders from one without; only where there is a GPU.

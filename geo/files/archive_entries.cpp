@@ -1,6 +1,7 @@
 #include "geo/files/archive_entries.h"
 
 #include <cpl_vsi.h>
+#include <libdeflate.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -320,7 +321,70 @@ class TarWalk {
     std::string long_name_;
 };
 
+// Where a packed entry of a .zip lies, what it takes there, and its CRC-32.
+struct PackedEntry {
+    std::uint64_t header{}, packed{};
+    std::uint32_t checksum{};
+};
+std::optional<PackedEntry> packed_entry(const Archive& archive, const std::string& name,
+                                        std::uint64_t bytes) {
+    const Result<ZipDirectory> directory = zip_directory(archive);
+    if (!directory.ok() || directory->entries > most_archive_entries) return std::nullopt;
+    const std::uint64_t begin = directory->end - directory->bytes;
+    const Result<std::vector<unsigned char>> list = archive.read(begin, directory->bytes);
+    if (!list.ok()) return std::nullopt;
+    std::optional<PackedEntry> found;
+    for (std::size_t at = 0; at + entry_bytes <= list->size();) {
+        const std::uint64_t length = number_at(*list, at + 28, 2);
+        const std::uint64_t all =
+            entry_bytes + length + number_at(*list, at + 30, 2) + number_at(*list, at + 32, 2);
+        if (number_at(*list, at, 4) != 0x02014b50 || all > list->size() - at) return std::nullopt;
+        if (plain_name(text_at(*list, at + entry_bytes, length)) == name) {
+            const bool is_plain =
+                (number_at(*list, at + 8, 2) & 1U) == 0 && number_at(*list, at + 10, 2) == 8;
+            const std::uint64_t packed = number_at(*list, at + 20, 4), place = number_at(*list, at + 42, 4);
+            // One name twice, a place or a size of 64 bits: GDAL knows which and where.
+            if (found || !is_plain || number_at(*list, at + 24, 4) != bytes || packed == in_zip64_32 ||
+                place == in_zip64_32)
+                return std::nullopt;
+            found = PackedEntry{begin - directory->offset + place, packed,
+                                static_cast<std::uint32_t>(number_at(*list, at + 16, 4))};
+        }
+        at += all;
+    }
+    return found;
+}
+
+struct FreeDecompressor {
+    void operator()(libdeflate_decompressor* one) const { libdeflate_free_decompressor(one); }
+};
+
 }  // namespace
+
+std::optional<std::vector<unsigned char>> unpacked_at_once(const std::string& file, const std::string& name,
+                                                           std::uint64_t bytes) {
+    constexpr std::uint64_t most_bytes = std::uint64_t{1} << 28U;
+    constexpr std::uint64_t local_bytes = 30;
+    if (bytes == 0 || bytes > most_bytes) return std::nullopt;
+    const GdalMessages messages;
+    Result<Archive> archive = open_archive(file, file);
+    if (!archive.ok() || VSIFSeekL(archive->file.get(), 0, SEEK_END) != 0) return std::nullopt;
+    archive->size = VSIFTellL(archive->file.get());
+    const std::optional<PackedEntry> entry = packed_entry(*archive, name, bytes);
+    if (!entry || entry->packed > archive->size) return std::nullopt;
+    const auto local = archive->read(entry->header, local_bytes);
+    if (!local.ok() || number_at(*local, 0, 4) != 0x04034b50) return std::nullopt;
+    const auto packed = archive->read(
+        entry->header + local_bytes + number_at(*local, 26, 2) + number_at(*local, 28, 2), entry->packed);
+    const std::unique_ptr<libdeflate_decompressor, FreeDecompressor> unpacks(libdeflate_alloc_decompressor());
+    if (!packed.ok() || !unpacks) return std::nullopt;
+    std::vector<unsigned char> all(bytes);
+    if (libdeflate_deflate_decompress(unpacks.get(), packed->data(), packed->size(), all.data(), all.size(),
+                                      nullptr) != LIBDEFLATE_SUCCESS ||
+        libdeflate_crc32(0, all.data(), all.size()) != entry->checksum)
+        return std::nullopt;
+    return all;
+}
 
 Result<std::vector<ArchiveEntry>> archive_entries(const std::string& file, const std::string& shown,
                                                   ArchiveKind kind) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,5 +34,11 @@ Result<std::vector<ArchiveEntry>> archive_entries(const std::string& file, const
 
 // All bytes of an entry of a .zip. Errors: one that is unreadable, or is damaged.
 Result<std::string> unpacked(const std::string& file, const std::string& shown, const ArchiveEntry& entry);
+
+// All bytes of an entry of a .zip, in a third of the time: those of a plain entry, packed by Deflate, of so
+// many bytes (256 MiB at most), whose checksum holds. Nothing where anything is another way, or cannot be
+// read: what is wrong with it GDAL tells. `file` is a real path, `name` what GDAL calls the entry.
+std::optional<std::vector<unsigned char>> unpacked_at_once(const std::string& file, const std::string& name,
+                                                           std::uint64_t bytes);
 
 }  // namespace oro

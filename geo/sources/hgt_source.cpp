@@ -9,12 +9,14 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <system_error>
 
 #include "core/earth/ellipsoid.h"
 #include "core/terrain/post_grid.h"
+#include "geo/files/archive_entries.h"
 #include "geo/files/guarded_files.h"
 #include "geo/files/letter_case.h"
 #include "geo/files/raster_library.h"
@@ -129,6 +131,15 @@ void add_row(const HgtRow& row, std::span<const unsigned char> stored, PostBlock
     }
 }
 
+// All bytes of a tile in a .zip, where they are as plain as usual.
+std::optional<std::vector<unsigned char>> whole_tile(const Source& source, std::uint64_t bytes) {
+    constexpr std::string_view zip = "/vsizip/{";
+    const std::size_t end = source.file.rfind("}/");
+    if (!source.file.starts_with(zip) || end == std::string::npos) return std::nullopt;
+    return unpacked_at_once(source.file.substr(zip.size(), end - zip.size()), source.file.substr(end + 2),
+                            bytes);
+}
+
 std::string srtm_attribution(const SourcePath& path) {
     const std::string names = lower_case(path.name + " " + path.archive);
     if (names.find("srtmgl1") != std::string::npos) return "NASA SRTM v3 (SRTMGL1), public domain";
@@ -212,9 +223,11 @@ Result<PostBlock> read_hgt(const Source& source, const PostWindow& window) {
     const auto side = static_cast<std::size_t>(source.lat_axis.count);
     const GdalMessages messages;
     const FileWatch watch(reading_limit_s + 1e-6 * static_cast<double>(side) * static_cast<double>(side));
+    const bool is_whole = window.row == 0 && window.rows == source.lat_axis.count;
+    const auto whole = is_whole ? whole_tile(source, 2 * side * side) : std::nullopt;
     errno = 0;
-    const File file(VSIFOpenL(source.file.c_str(), "rb"));
-    if (!file) {
+    const File file(whole ? nullptr : VSIFOpenL(source.file.c_str(), "rb"));
+    if (!file && !whole) {
         const std::string reason = std::generic_category().message(errno != 0 ? errno : ENOENT);
         return Error{ErrorKind::failed, source.report.path, "cannot be opened: " + messages.last(reason)};
     }
@@ -223,11 +236,14 @@ Result<PostBlock> read_hgt(const Source& source, const PostWindow& window) {
     const auto columns = static_cast<std::size_t>(window.columns);
     block.height_m.resize(static_cast<std::size_t>(window.rows) * columns);
     std::vector<unsigned char> row(2 * side);
-    const std::span stored = std::span(row).subspan(2 * static_cast<std::size_t>(window.column), 2 * columns);
     ByteOrder order;
-    VSIFSeekL(file.get(), static_cast<vsi_l_offset>(window.row) * row.size(), SEEK_SET);
+    if (!whole) VSIFSeekL(file.get(), static_cast<vsi_l_offset>(window.row) * row.size(), SEEK_SET);
     for (int r = 0; r < window.rows; ++r) {
-        const std::size_t got = VSIFReadL(row.data(), 1, row.size(), file.get());
+        const std::size_t got = whole ? row.size() : VSIFReadL(row.data(), 1, row.size(), file.get());
+        const std::span stored =
+            (whole ? std::span(*whole).subspan(static_cast<std::size_t>(r) * row.size(), row.size())
+                   : std::span<const unsigned char>(row))
+                .subspan(2 * static_cast<std::size_t>(window.column), 2 * columns);
         if (got != row.size())
             return Error{ErrorKind::failed, source.report.path,
                          !watch.fault().empty()
@@ -245,7 +261,7 @@ Result<PostBlock> read_hgt(const Source& source, const PostWindow& window) {
                      "its bytes seem to be in the other order: a .hgt tile has the high byte of each height "
                      "first, and this one is a surface only with the low byte first"};
     const std::uint64_t bytes_left = row.size() * (side - static_cast<std::size_t>(window.row + window.rows));
-    if (source.file.starts_with("/vsi"))
+    if (!whole && source.file.starts_with("/vsi"))
         ORO_CHECK(check_packing(file.get(), bytes_left, messages, source.report.path));
     if (!watch.fault().empty()) return Error{ErrorKind::failed, source.report.path, watch.fault()};
     return block;

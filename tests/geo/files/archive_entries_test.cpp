@@ -117,6 +117,47 @@ TEST_F(DamagedArchive, ZipWhoseListIsDamaged) {
     expect_errors("b.zip", damaged);
 }
 
+// What is unpacked at once is what GDAL unpacks, or nothing: each byte of the packed entry and of its headers
+// is changed in turn, many of them, and the archive cut.
+TEST_F(DamagedArchive, UnpacksAtOnceWhatIsSound) {
+    const std::string archive = (folder / "b.zip").string(), name = "N46E008.hgt";
+    write_bytes("/vsizip/" + archive + "/" + name, tile);
+    const std::string whole = content_of(archive);
+    EXPECT_EQ(unpacked_at_once(archive, name, tile.size()), tile);
+    EXPECT_FALSE(unpacked_at_once(archive, "N46E009.hgt", tile.size()));
+    EXPECT_FALSE(unpacked_at_once(archive, name, tile.size() - 2));
+    EXPECT_FALSE(unpacked_at_once((folder / "none.zip").string(), name, tile.size()));
+    // What stands before an archive moves its places.
+    put(archive, std::string(1000, '#') + whole);
+    EXPECT_EQ(unpacked_at_once(archive, name, tile.size()), tile);
+    for (const std::string& cut : cuts_of(whole)) {
+        put(archive, cut);
+        EXPECT_FALSE(unpacked_at_once(archive, name, tile.size())) << cut.size();
+    }
+    std::size_t refused = 0;
+    for (std::size_t at = 0; at < whole.size(); at += at < 60 || at + 160 > whole.size() ? 1 : 997) {
+        std::string changed = whole;
+        changed[at] ^= '\x21';
+        put(archive, changed);
+        const auto found = unpacked_at_once(archive, name, tile.size());
+        if (found) EXPECT_EQ(*found, tile) << "byte " << at;
+        refused += !found;
+    }
+    EXPECT_GT(refused, 100U);
+    // One name twice: GDAL knows which.
+    fs::remove(archive);
+    write_bytes("/vsizip/" + archive + "/" + name, tile);
+    const std::string one = content_of(archive);
+    const std::size_t list = one.rfind("PK\1\2"), end = one.rfind("PK\5\6");
+    std::string twice = one.substr(0, end) + one.substr(list, end - list) + one.substr(end);
+    const std::size_t tail = twice.rfind("PK\5\6");
+    twice[tail + 8] = twice[tail + 10] = '\2';
+    const auto bytes = static_cast<std::uint32_t>(2 * (end - list));
+    for (unsigned i = 0; i < 4; ++i) twice[tail + 12 + i] = static_cast<char>(bytes >> (8 * i) & 255U);
+    put(archive, twice);
+    EXPECT_FALSE(unpacked_at_once(archive, name, tile.size()));
+}
+
 TEST_F(DamagedArchive, CutTar) {
     const std::string tar = tar_of("N46E008.hgt", tile);
     put(folder / "b.tar", tar);
