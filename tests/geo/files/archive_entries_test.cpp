@@ -135,15 +135,15 @@ TEST_F(DamagedArchive, UnpacksAtOnceWhatIsSound) {
         EXPECT_FALSE(unpacked_at_once(archive, name, tile.size())) << cut.size();
     }
     std::size_t refused = 0;
-    for (std::size_t at = 0; at < whole.size(); at += at < 60 || at + 160 > whole.size() ? 1 : 997) {
+    for (std::size_t at = 0; at < whole.size(); at += at < 60 || at + 160 > whole.size() ? 1 : 97) {
         std::string changed = whole;
         changed[at] ^= '\x21';
         put(archive, changed);
         const auto found = unpacked_at_once(archive, name, tile.size());
-        if (found) EXPECT_EQ(*found, tile) << "byte " << at;
+        EXPECT_TRUE(!found || *found == tile) << "byte " << at;
         refused += !found;
     }
-    EXPECT_GT(refused, 100U);
+    EXPECT_GT(refused, 30U);
     // One name twice: GDAL knows which.
     fs::remove(archive);
     write_bytes("/vsizip/" + archive + "/" + name, tile);
