@@ -15,36 +15,16 @@ const uint directions = 16u;
 const uint rings = 8u;  // 2, 4, 8, 16, ... posts away
 const float mean_earth_radius_m = 6371000.0;
 
-// Levels that rings are looked for on, from that of the page on; and of each the pages around what the page lies in. Away from the poles
-// a ring is eight posts of its level wide, so these are all that are asked for.
-const uint ring_levels = rings - 2u, pages_around = 9u;
-shared uvec2 blocks[ring_levels * pages_around];
-
 // From where the sky is looked for.
 struct OpenPlace {
-    ivec2 page;   // its first post
     ivec2 post;   // of the region
     int height;
     uint level;
     vec2 post_m;  // from one of the region's posts to the next: south, east
 };
 
-// The page of a level that a page lies in, or of its own: row and column.
-ivec2 page_at(ivec2 first_post, uint level) { return first_post >> int(level + 7u); }
-
-void find_around(uint number) {
-    uint i = gl_LocalInvocationIndex;
-    if (number >= FRAME.page_count || i >= ring_levels * pages_around) return;
-    FramePage page = frame_pages().at[number];
-    uint level = min(page.level + i / pages_around, CASTERS.level_count - 1u), around = i % pages_around, found = no_page;
-    ivec2 at = page_at(ivec2(page.first_row, page.first_column), level) + ivec2(around / 3u, around % 3u) - 1;
-    if (all(greaterThanEqual(at, ivec2(0)))) found = caster_page(level, at << int(level + 7u));
-    blocks[i] = uvec2(0u);
-    if (found != no_page) blocks[i] = CasterPages(CASTERS.pages).at[found].block;
-}
-
-// Height of the nearest post of a level to a place, steps; void_height where there is none. Of a coarser level where the page is not here.
-int coarser_height(uint level, vec2 place, out ivec2 post) {
+// Height of the nearest post of a level to a place, steps; void_height where there is none.
+int caster_height(inout uint level, vec2 place, out ivec2 post) {
     ivec2 last = ivec2(FRAME.last_row, FRAME.last_column);
     for (; level < CASTERS.level_count; ++level) {
         post = ivec2(round(place / float(1u << level))) << level;
@@ -58,26 +38,15 @@ int coarser_height(uint level, vec2 place, out ivec2 post) {
     return void_height;
 }
 
-// The same of a level of a ring.
-int caster_height(OpenPlace at, uint ring_level, vec2 place, out ivec2 post) {
-    uint level = min(at.level + ring_level, CASTERS.level_count - 1u);
-    post = ivec2(round(place / float(1u << level))) << level;
-    if (any(lessThan(post, ivec2(0))) || any(greaterThan(post, ivec2(FRAME.last_row, FRAME.last_column)))) return void_height;
-    ivec2 beside = page_at(post, level) - page_at(at.page, level) + 1;
-    uvec2 block = uvec2(0u);
-    if (all(lessThan(uvec2(beside), uvec2(3u)))) block = blocks[ring_level * pages_around + uint(beside.x) * 3u + uint(beside.y)];
-    if (block == uvec2(0u)) return coarser_height(level, place, post);
-    return post_height(PageBlocks(block), uvec2(post) >> level & 127u);
-}
-
 // The tangent of the horizon's angle in a direction (south, east), 0 where it is level or lower.
 float horizon_tangent(OpenPlace at, vec2 direction) {
     float highest = 0.0;
     float row_m = at.post_m.x * float(1u << at.level);
     for (uint ring = 0u; ring < rings; ++ring) {
         float away_m = row_m * float(2u << ring);
+        uint level = min(at.level + uint(max(int(ring) - 2, 0)), CASTERS.level_count - 1u);
         ivec2 post;
-        int height = caster_height(at, uint(max(int(ring) - 2, 0)), vec2(at.post) + direction * away_m / at.post_m, post);
+        int height = caster_height(level, vec2(at.post) + direction * away_m / at.post_m, post);
         vec2 to_m = vec2(post - at.post) * at.post_m;
         float squared = dot(to_m, to_m);
         if (height == void_height || squared <= 0.0) continue;
@@ -103,14 +72,11 @@ void keep(uint place, float open) { CasterShares(CASTERS.openness).at[place] = o
 void main() {
     uint group = folded(gl_WorkGroupID), number = group / open_groups_a_page;
     uint corner = group % open_groups_a_page * 64u + gl_LocalInvocationID.x;
-    find_around(number);
-    barrier();
     if (number >= FRAME.page_count || corner >= open_corners * open_corners) return;
     FramePage page = frame_pages().at[number];
     PageBlocks block = PageBlocks(page.block);
     uvec2 within = uvec2(corner / open_corners, corner % open_corners) * meshlet_quads;
     OpenPlace at;
-    at.page = ivec2(page.first_row, page.first_column);
     at.post = ivec2(uvec2(page.first_row, page.first_column) + (within << page.level));
     at.height = post_height(block, within);
     at.level = page.level;
