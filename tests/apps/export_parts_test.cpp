@@ -148,7 +148,9 @@ TEST(ExportParts, SeveralGridsMakeOneTileset) {
     EXPECT_FALSE(said.contains("levels"));
     std::uint64_t tiles = said["between"]["tiles"];
     EXPECT_GT(said["between"]["triangles"].get<int>(), 200);
-    EXPECT_LT(said["between"]["largest_error_m"].get<double>(), 0.1);
+    // Places there are rounded along three axes to a sixteenth of the finer grid's 6.03 m: by sqrt(3) / 2 of
+    // that, and triangles of 3" sag by less than a millimetre.
+    EXPECT_LT(said["between"]["largest_error_m"].get<double>(), 0.34);
     for (const auto& grid : said["grids"])
         for (const auto& level : grid["levels"]) tiles += level["tiles"].get<std::uint64_t>();
     EXPECT_EQ(said["tiles"], tiles);
