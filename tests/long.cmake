@@ -202,7 +202,10 @@ set_tests_properties(
   LabelsOfShots.AreTheSameFromABakedRegion
   LabelsOfShots.AreToldAndDrawnAgain
   LibraryCalls.AThousandBadOnesEndWithErrors
+  Made/MadePagesTest.AreThoseInMemoryWithErrorsThatAreNoSmallerAndNested/Number0
+  Made/MadePagesTest.AreThoseInMemoryWithErrorsThatAreNoSmallerAndNested/Number2
   MadeHeights.NoiseHasNoGrainAndTheSpectrumOfItsGain
+  MadeTerrain.OfAWholeWorldIsDrawnWithinItsCertificate
   Manual.HasEachOptionOfHelp
   MeshCheckByGrammar.ChangedMeshesAreRefusedOrTrue
   MeshLook.IsByTheFileOrAsAsked
@@ -868,6 +871,8 @@ set_tests_properties(
   NetFile.SurvivesRandomNumbers
   NetViewshed.IsTheLookoutsTurnedOverTheAntimeridianAndAPole
   NetViewshed.WindowsHoldTheCircle
+  NoiseBounds.AreNearWhatThereIs
+  NoiseBounds.AreProvenByIntervals
   Observer.TenThousandPairsAreTheMarchedLines
   Oracle.TenThousandRaysOntoASphere
   OwnPosts.OfSeveralLatticesAreResampled

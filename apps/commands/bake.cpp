@@ -33,6 +33,7 @@
 #include "core/base/parallel.h"
 #include "geo/files/letter_case.h"
 #include "geo/files/source_paths.h"
+#include "geo/opening/made_world.h"
 #include "geo/opening/open_region.h"
 #include "geo/region/region_description.h"
 #include "geo/region/region_fingerprints.h"
@@ -143,6 +144,7 @@ void tell(const BakingOptions& options, const BakeResult& baked) {
 // Reads the posts of what is baked already, to be baked anew.
 Result<void> take_into_memory(Region& region) {
     for (RegionGrid& grid : region.grids) {
+        ORO_CHECK(check_not_made_world(grid, "bake"));
         if (!grid.file) continue;
         ORO_TRY(grid.field, field_in_memory(*grid.file));
         grid.posts_hash = posts_hash(grid.field);

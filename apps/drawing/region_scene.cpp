@@ -11,6 +11,7 @@
 #include "core/base/parallel.h"
 #include "core/cluster_frame/region_clusters.h"
 #include "core/lod/ground_means.h"
+#include "core/made_pages/made_pages.h"
 #include "core/seam/seam_pages.h"
 
 namespace oro {
@@ -20,6 +21,13 @@ namespace {
 // from, need levels of their own, and to measure these, all posts in memory.
 Result<std::unique_ptr<RegionPages>> pages_of(const RegionGrid& grid, double exaggeration,
                                               const RenderProgress& progress, const std::stop_token& stop) {
+    if (const auto* const made = dynamic_cast<const MadePostSource*>(grid.field.posts.get())) {
+        if (exaggeration == 1.0) return made->pages(grid.field);
+        return Error{
+            ErrorKind::usage, "--exaggeration",
+            "is not for made terrain whose posts are made where they are looked at; narrow the region "
+            "with --bbox"};
+    }
     if (!grid.file) return pages_in_memory(grid.field, exaggeration, thread_count(), progress, stop);
     const bool own_geoid = grid.field.undulation.N_m.size() == grid.file->outline().undulation.N_m.size();
     if (own_geoid && exaggeration == 1.0) return pages_of_file(grid.file);

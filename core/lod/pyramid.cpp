@@ -11,24 +11,13 @@
 #include "core/base/parallel.h"
 #include "core/lod/levels_gpu.h"
 #include "core/lod/node_deviations.h"
+#include "core/lod/page_sums.h"
 #include "core/lod/row_deviations.h"
 
 namespace oro {
 namespace {
 
 constexpr int side = static_cast<int>(gpu::meshlets_per_side);
-// From a level to the next, errors and radii grow by this much beyond what they must hold: more than rounding
-// in float takes from a page's place, a sphere's distance and the formulas of shaders/choose/levels.glsl.
-constexpr double error_growth = 1.0 + 1.0e-5;
-constexpr double radius_growth = 1.0 + 1.0e-4;
-
-float rounded_up(double value) {
-    const float nearest = static_cast<float>(value);
-    return static_cast<double>(nearest) < value
-               ? std::nextafter(nearest, std::numeric_limits<float>::infinity())
-               : nearest;
-}
-
 // A node's stitched edges among those of its level: by its page, and its number there.
 std::array<float, 4>& of_node(std::vector<StitchedDeviations>& deviations, const LevelGrid& grid, int row,
                               int column) {
@@ -70,8 +59,6 @@ class LevelBuilder {
     [[nodiscard]] RowDeviations deviations_of(const PageIndex& page, int row) const;
     void finish_node(int node_row, int node_column, const PageSummary& page, const RowDeviations& measured,
                      gpu::MeshletBounds& bounds);
-    void sum_up(PyramidPage& page) const;
-    static void sum_up_quarter(PyramidPage& page, int number);
     void hold_pages_below(PyramidPage& page) const;
     template <class Visit>
     void visit_nodes_below(int node_row, int node_column, const Visit& visit) const;
@@ -146,49 +133,6 @@ void LevelBuilder::finish_node(int node_row, int node_column, const PageSummary&
     bounds.lod_radius = rounded_up(level_ == 0 ? radius_m : radius_growth * radius_m);
 }
 
-void LevelBuilder::sum_up(PyramidPage& page) const {
-    PageSummary& summary = page.summary;
-    double radius_m = 0.0;
-    double largest_m = 0.0;
-    for (const gpu::MeshletBounds& node : page.nodes) {
-        largest_m = std::max(largest_m, static_cast<double>(node.error_m));
-        if (node.radius < 0.0F) continue;
-        radius_m = std::max(radius_m, glm::distance(summary.centre_m, glm::dvec3(node.centre)) +
-                                          static_cast<double>(node.lod_radius));
-    }
-    summary.largest_error_m = std::min(rounded_up(error_growth * largest_m), gpu::unfit_error_m);
-    summary.lod_radius_m = radius_growth * radius_m;
-}
-
-void LevelBuilder::sum_up_quarter(PyramidPage& page, int number) {
-    PageQuarter& quarter = page.quarters[static_cast<std::size_t>(number)];
-    const int first_row = number / 2 * (side / 2);
-    const int first_column = number % 2 * (side / 2);
-    const auto for_each_node = [&](const auto& visit) {
-        for (int i = 0; i < side * side / 4; ++i)
-            visit(page.nodes[static_cast<std::size_t>((first_row + i / (side / 2)) * side + first_column +
-                                                      i % (side / 2))]);
-    };
-    double largest_m = 0.0;
-    glm::dvec3 low(std::numeric_limits<double>::infinity());
-    glm::dvec3 high(-low);
-    for_each_node([&](const gpu::MeshletBounds& node) {
-        largest_m = std::max(largest_m, static_cast<double>(node.error_m));
-        if (node.radius < 0.0F) return;
-        low = glm::min(low, glm::dvec3(node.centre));
-        high = glm::max(high, glm::dvec3(node.centre));
-    });
-    quarter.largest_error_m = std::min(rounded_up(error_growth * largest_m), gpu::unfit_error_m);
-    if (low.x > high.x) return;
-    quarter.centre_m = 0.5 * (low + high);
-    for_each_node([&](const gpu::MeshletBounds& node) {
-        if (node.radius < 0.0F) return;
-        const double reach_m =
-            glm::distance(quarter.centre_m, glm::dvec3(node.centre)) + static_cast<double>(node.lod_radius);
-        quarter.lod_radius_m = std::max(quarter.lod_radius_m, radius_growth * reach_m);
-    });
-}
-
 void LevelBuilder::hold_pages_below(PyramidPage& page) const {
     const PageSummary& summary = page.summary;
     const bool drawn = summary.triangles > 0;
@@ -237,8 +181,7 @@ void LevelBuilder::build(std::size_t number, const PyramidHooks& hooks, int thre
     });
     std::copy(std::begin(block.meshlets), std::end(block.meshlets), page.nodes.begin());
     std::copy(std::begin(block.boxes), std::end(block.boxes), page.boxes.begin());
-    sum_up(page);
-    for (int quarter = 0; quarter < 4; ++quarter) sum_up_quarter(page, quarter);
+    sum_up_nodes(page);
     hold_pages_below(page);
 }
 

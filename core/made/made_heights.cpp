@@ -40,12 +40,13 @@ struct MadeRun {
     std::array<std::int32_t, run_posts> x, y, z, sum, weight;
 };
 
-ORO_WIDE void add_fbm(const gpu::MadeOctave& octave, MadeRun& run) {
-    for (std::size_t i = 0; i < run_posts; ++i)
+// count: a multiple of 16.
+ORO_WIDE void add_fbm(const gpu::MadeOctave& octave, MadeRun& run, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
         run.sum[i] += gpu::made_fbm_octave(octave, run.x[i], run.y[i], run.z[i]);
 }
-ORO_WIDE void add_ridged(const gpu::MadeOctave& octave, MadeRun& run) {
-    for (std::size_t i = 0; i < run_posts; ++i)
+ORO_WIDE void add_ridged(const gpu::MadeOctave& octave, MadeRun& run, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
         run.sum[i] += gpu::made_ridged_octave(octave, run.x[i], run.y[i], run.z[i], run.weight[i]);
 }
 
@@ -96,10 +97,12 @@ void made_row_heights(const MadeTerrain& terrain, const gpu::MadeRule& rule, int
                                      parity_of(terrain, lat_post, lon_post + static_cast<std::int64_t>(i)));
             continue;
         }
+        const std::size_t whole = (count + 15) / 16 * 16;
         run.sum.fill(0);
         run.weight.fill(1 << 28);
         for (std::uint32_t k = 0; k < rule.octaves; ++k)
-            rule.kind == gpu::made_fbm ? add_fbm(rule.octave[k], run) : add_ridged(rule.octave[k], run);
+            rule.kind == gpu::made_fbm ? add_fbm(rule.octave[k], run, whole)
+                                       : add_ridged(rule.octave[k], run, whole);
         for (std::size_t i = 0; i < count; ++i) steps[first + i] = gpu::made_octaves_height(rule, run.sum[i]);
     }
 }

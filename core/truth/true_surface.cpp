@@ -16,6 +16,7 @@ namespace {
 
 constexpr int chunk_level = 5;                                        // of whole chunks
 constexpr int chunk_cells = TrueSurface::block_cells << chunk_level;  // 128
+constexpr double slack_m = 1.0e-3;                                    // of layers
 
 using Layer = TrueSurface::Layer;
 constexpr Layer no_layer{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
@@ -202,15 +203,14 @@ Layer TrueSurface::scanned_layer(int chunk_row, int chunk_column) const {
 }
 
 void TrueSurface::measure_above(int threads) {
+    // Of posts that are read when they are asked for, one layer holds all.
+    if (field_.posts) return;
     const auto [down, across] = blocks(chunk_level);
     std::vector<Layer> chunks(chunks_.size());
-    const HeightRange range = field_.posts ? height_range(field_) : HeightRange{};
     const int columns = across;
     in_parallel(down, threads, [&](int row) {
         for (int column = 0; column < columns; ++column) {
-            Layer layer{range.lowest_m * exaggeration_, range.highest_m * exaggeration_};
-            if (!field_.posts) layer = scanned_layer(row, column);
-            constexpr double slack_m = 1.0e-3;
+            Layer layer = scanned_layer(row, column);
             layer.lowest_h_m += N_range_m_.lowest_h_m - slack_m;
             layer.highest_h_m += N_range_m_.highest_h_m + slack_m;
             chunks[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
@@ -320,6 +320,11 @@ Layer TrueSurface::layer(const Block& block) const {
         const int in_chunk = chunk_level - block.level, mask = (1 << in_chunk) - 1;
         return chunk(block.row >> in_chunk, block.column >> in_chunk)
             .at(block.level, block.row & mask, block.column & mask);
+    }
+    if (above_.empty()) {
+        const HeightRange range = height_range(field_);
+        return {static_cast<double>(range.lowest_m) * exaggeration_ + N_range_m_.lowest_h_m - slack_m,
+                static_cast<double>(range.highest_m) * exaggeration_ + N_range_m_.highest_h_m + slack_m};
     }
     const int across = blocks(block.level).second;
     return above_[static_cast<std::size_t>(block.level - chunk_level)]

@@ -22,7 +22,10 @@ namespace {
 Result<void> load_into_memory(RegionGrid& grid) {
     HeightField& field = grid.field;
     if (field.posts) {
-        assert(grid.file);
+        if (!grid.file)
+            return Error{ErrorKind::usage, "--canopy",
+                         "raises all posts, and these are made where they are looked at; narrow the region "
+                         "with --bbox"};
         ORO_TRY(HeightField in_memory, field_in_memory(*grid.file));
         field.H_m = std::move(in_memory.H_m);
         field.posts.reset();

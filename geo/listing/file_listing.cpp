@@ -14,6 +14,7 @@
 #include "geo/files/source_paths.h"
 #include "geo/listing/header_cache.h"
 #include "geo/opening/companions.h"
+#include "geo/opening/made_world.h"
 #include "geo/opening/region_sources.h"
 #include "geo/posts/own_posts.h"
 #include "geo/region/region_grid.h"
@@ -149,6 +150,7 @@ std::optional<Error> fault_of_grid(std::span<const Source> sources, const Region
         if (!own) return own.error();
         if (own->why_not.empty()) return std::nullopt;
     }
+    if (is_made_world(sources, extent)) return std::nullopt;
     const auto grid = region_grid(sources, extent);
     if (grid.ok()) return std::nullopt;
     return grid.error();

@@ -19,6 +19,7 @@
 #include "geo/opening/grid_choice.h"
 #include "geo/opening/grid_describing.h"
 #include "geo/opening/grid_mosaic.h"
+#include "geo/opening/made_world.h"
 #include "geo/opening/region_files.h"
 #include "geo/opening/region_sources.h"
 #include "geo/region/region_grid.h"
@@ -85,6 +86,7 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
             if (progress) progress(before + share / count, what);
         };
         const auto read = [&]() -> Result<RegionGrid> {
+            if (is_made_world(one)) return made_world(one, request, notes);
             ORO_TRY(LaidGrid laid, lay_grid(std::move(one), request,
                                             grids.empty() ? notes : std::vector<std::string>(), part));
             return describe_grid(std::move(laid), request);

@@ -230,6 +230,11 @@ Result<void> add_detail(Region& region, const DetailRequest& request,
     const RegionGrid* const data = ground_at(region, request.lat_deg, request.lon_deg);
     if (data == nullptr)
         return Error{ErrorKind::no_data, "--detail", "there is no ground at the eye to put posts between"};
+    if (data->field.posts && !data->file)
+        return Error{
+            ErrorKind::usage, "--detail",
+            "lies between posts of data that are all here, and these are made where they are looked at; "
+            "narrow the region with --bbox"};
     GridDetail detail;
     detail.halvings = request.halvings;
     detail.lat_deg = request.lat_deg;

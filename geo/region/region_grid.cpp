@@ -348,6 +348,11 @@ double posts_of_region(std::span<const Source> sources, const RegionExtent& exte
 Result<PostGrid> region_grid(std::span<const Source> sources, const RegionExtent& extent) {
     const WorldPosts posts = world_posts(sources, extent);
     ORO_CHECK(check_size(posts.rows(), posts.columns(), extent.box, sources));
+    return grid_over(sources, extent);
+}
+
+PostGrid grid_over(std::span<const Source> sources, const RegionExtent& extent) {
+    const WorldPosts posts = world_posts(sources, extent);
     PostGrid grid;
     grid.lat = {posts.lat.per_deg, posts.lat.phase_deg, posts.north, -1, static_cast<int>(posts.rows())};
     grid.lon = {posts.lon.per_deg, posts.lon.phase_deg, posts.west, +1, static_cast<int>(posts.columns())};

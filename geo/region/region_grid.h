@@ -59,5 +59,8 @@ double posts_of_region(std::span<const Source> sources, const RegionExtent& exte
 // source's); otherwise posts at whole parts of a degree. The poles are never passed. Error: more posts than
 // this machine's memory holds.
 Result<PostGrid> region_grid(std::span<const Source> sources, const RegionExtent& extent);
+// The same grid, whatever memory holds: for posts that are made when they are asked for. An axis has fewer than
+// 2^31 of them.
+PostGrid grid_over(std::span<const Source> sources, const RegionExtent& extent);
 
 }  // namespace oro

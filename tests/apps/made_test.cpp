@@ -30,8 +30,51 @@ TEST(MadeTerrain, ABadWordIsOneLineAndExitCode2) {
         for (const char* command : {"info", "plan"})
             expect_refusal(run_orograph({command, text}), oro::test::usage, {text});
     // More posts than there is memory for, as of files.
-    expect_refusal(run_orograph({"info", "made:fbm?box=-180,-90,180,90&spacing=0.1s"}), oro::test::failed,
-                   {"region too large"});
+    for (const char* text : {"made:fbm?box=-180,-90,180,90&spacing=0.1s", "made:ridged?box=-180,-90,180,90"})
+        expect_refusal(run_orograph({"info", text}), oro::test::failed, {"region too large"});
+}
+
+// Nearly the whole Earth, a second apart: 432,001 x 1,288,801 posts, of which those are made that are asked
+// for.
+const std::string world = "made:fbm?seed=7&octaves=12&H=-200:4000&spacing=1s&box=-179,-60,179,60";
+
+TEST(MadeTerrain, OfAWholeWorldIsThereWhereOneLooks) {
+    const auto info = run_orograph({"info", world});
+    EXPECT_EQ(info.exit_code, 0) << info.err;
+    EXPECT_NE(info.out.find("1288801 x 432001"), std::string::npos) << info.out;
+    // The same ground as of a small box with the same posts.
+    const std::string part = "made:fbm?seed=7&octaves=12&H=-200:4000&spacing=1s&box=8.4,46.4,8.6,46.6";
+    const auto along = [](const std::string& text) {
+        return object_said_by({"profile", text, "--along", "46.45,8.45;46.55,8.52", "--json"});
+    };
+    const auto whole = along(world), small = along(part);
+    EXPECT_NEAR(whole["ascent_m"].get<double>(), small["ascent_m"].get<double>(), 1e-6) << whole.dump();
+    EXPECT_NEAR(whole["descent_m"].get<double>(), small["descent_m"].get<double>(), 1e-6);
+    const fs::path folder = oro::test::scratch_folder();
+    expect_refusal(run_orograph({"bake", world, "--out", folder / "w.oro"}), oro::test::usage,
+                   {"bake", "--bbox"});
+    EXPECT_FALSE(fs::exists(folder / "w.oro"));
+}
+
+// Pictures of it are certified as any: what is drawn is within tau of the surface that is asked at each
+// pixel.
+TEST(MadeTerrain, OfAWholeWorldIsDrawnWithinItsCertificate) {
+    const fs::path folder = oro::test::scratch_folder();
+    for (const auto& [at, name] : {std::pair{"46.5,8.3", "inside.png"}, {"0.01,178.999", "edge.png"}}) {
+        const auto shot =
+            object_said_by({"shot", world, "--at", at, "--above", "1500", "--heading", "80", "--pitch", "-25",
+                            "--size", "120x80", "--verify", "--out", folder / name, "--json"});
+        const auto& error = shot["error"];
+        EXPECT_LE(error["largest_px"].get<double>(), 1.0 + error["slack_px"].get<double>()) << error.dump();
+        EXPECT_GT(error["largest_px"].get<double>(), 0.0);
+        EXPECT_EQ(shot["settled"], true);
+    }
+    expect_refusal(run_orograph({"shot", world, "--at", "46.5,8.3", "--above", "1500", "--detail", "2",
+                                 "--out", folder / "d.png"}),
+                   oro::test::usage, {"--detail", "--bbox"});
+    expect_refusal(run_orograph({"shot", world, "--at", "46.5,8.3", "--above", "1500", "--exaggeration", "2",
+                                 "--out", folder / "e.png"}),
+                   oro::test::usage, {"--exaggeration", "--bbox"});
 }
 
 // 1,000 m over 10,000 m to the east, from the middle: 767.6 m over the 7,676 m of the line, by hand.

@@ -1,0 +1,43 @@
+// How far levels of made terrain can be from its full resolution at most, wherever they are: proven from its
+// rule, not measured.
+#pragma once
+
+#include <vector>
+
+#include "core/made/made_terrain.h"
+#include "core/terrain/post_grid.h"
+
+namespace oro {
+
+// Largest values of the noise of one octave (shaders/made/made_heights.glsl) for any gradients at the corners
+// of a cell, a cell being 1 wide: of itself, of its slope along a line, and of its second derivative along a
+// line. tests/core/made_pages proves them by interval arithmetic.
+inline constexpr double noise_most = 1.06;
+inline constexpr double noise_slope_most = 4.3;
+inline constexpr double noise_bend_most = 19.0;
+
+// Of one level, metres. Each of the two holds where no height is cut off at the terrain's lowest or highest
+// one (`free`), and where some may be (`cut`).
+struct MadeLevelBound {
+    struct Of {
+        double free{};
+        double cut{};
+        [[nodiscard]] double where(bool may_cut) const { return may_cut ? cut : free; }
+    };
+    Of rule;       // between H by the rule and H of the level's triangles, at any place
+    Of triangles;  // in space, between the level's flat triangles and those of level 0
+    // ... the same of triangles that are drawn as they are, and of all levels below; grows as the next;
+    Of own;
+    // ... the same of triangles that are drawn, stitched to a coarser level or not; grows from level to level
+    // by more than 1e-4 of itself.
+    Of drawn;
+};
+
+// Bounds of the levels of an fbm terrain on a grid of latitudes and longitudes, finest first. The grid has
+// the terrain's spacing. Source: the error of linear interpolation over a triangle is at most a half of the
+// bound of second derivatives times the mean square distance to its corners (S. Waldron, SIAM J. Numer. Anal.
+// 35, 1998).
+std::vector<MadeLevelBound> made_level_bounds(const MadeTerrain& terrain, const PostGrid& grid,
+                                              const UndulationField& undulation);
+
+}  // namespace oro

@@ -1,0 +1,276 @@
+#include "core/made_pages/made_pages.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <mutex>
+#include <numbers>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/earth/culling.h"
+#include "core/lod/page_sums.h"
+#include "core/made/made_heights.h"
+#include "core/made_pages/measured_block.h"
+#include "core/terrain/page_posts.h"
+
+namespace oro {
+namespace {
+
+constexpr int page_side = static_cast<int>(gpu::meshlets_per_side);
+constexpr int stride = static_cast<int>(gpu::height_stride);
+
+// The terrain whose outermost posts are a grid's.
+MadeTerrain terrain_on(const MadeTerrain& terrain, const PostGrid& grid) {
+    MadeTerrain part = terrain;
+    part.north = grid.lat.first;
+    part.south = grid.lat.first - (grid.rows() - 1);
+    part.west = grid.lon.first;
+    part.east = grid.lon.first + (grid.columns() - 1);
+    return part;
+}
+
+RegionShape shape_of(const MadeRegion& region) {
+    const auto& N_m = region.undulation.N_m;
+    const double lowest_N_m = N_m.empty() ? 0.0 : static_cast<double>(*std::ranges::min_element(N_m));
+    const double spacing_m =
+        radians_from_deg(region.grid.lat.spacing_deg()).rad * 1.01 * wgs84_a_m * std::numbers::sqrt2;
+    return {occluder_below(std::min(0.0, made_step_m * region.terrain.low + lowest_N_m - 0.01), spacing_m),
+            1.0};
+}
+
+class MadePages : public RegionPages {
+  public:
+    MadePages(RegionFacts facts, MadeRegion region)
+        : RegionPages(std::move(facts)),
+          region_(std::move(region)),
+          measured_to_(highest_measured_level(region_)) {
+        for (const float N_m : region_.undulation.N_m)
+            highest_N_m_ = std::max(highest_N_m_, static_cast<double>(N_m));
+    }
+
+    [[nodiscard]] Result<PageRecord> record(const PageIndex& page) const override {
+        const std::uint64_t number = number_of(page);
+        {
+            const std::scoped_lock lock(mutex_);
+            const auto found = records_.find(number);
+            if (found != records_.end()) return found->second;
+        }
+        const auto block = std::make_unique<gpu::PageBlock>();
+        const auto whole = std::make_unique<PyramidPage>();
+        whole->summary = make_block(page, thread_count(), *block);
+        std::copy(std::begin(block->meshlets), std::end(block->meshlets), whole->nodes.begin());
+        sum_up_nodes(*whole);
+        hold_pages_below(*whole);
+        const std::scoped_lock lock(mutex_);
+        if (records_.size() >= records_kept) records_.clear();
+        records_.emplace(number, static_cast<const PageRecord&>(*whole));
+        return PageRecord(*whole);
+    }
+
+    Result<void> load(const PageIndex& page, gpu::PageBlock& block) const override {
+        make_block(page, 1, block);
+        return {};
+    }
+
+  private:
+    static constexpr std::size_t records_kept = 65536;  // 40 MB
+    static constexpr std::size_t blocks_kept = 1024;    // 64 MB
+
+    [[nodiscard]] static std::uint64_t number_of(const PageIndex& page) {
+        return static_cast<std::uint64_t>(page.level) << 48U | static_cast<std::uint64_t>(page.row) << 24U |
+               static_cast<std::uint64_t>(page.column);
+    }
+    PageSummary make_block(const PageIndex& page, int threads, gpu::PageBlock& block) const;
+    [[nodiscard]] PageElevations elevations(const PageIndex& page, int threads) const;
+    [[nodiscard]] std::shared_ptr<const MeasuredBlock> measured_block(const PageIndex& page,
+                                                                      int threads) const;
+    void hold_pages_below(PyramidPage& page) const;
+
+    MadeRegion region_;
+    int measured_to_;
+    double highest_N_m_{};
+    mutable std::mutex mutex_;
+    mutable std::mutex measuring_;  // one block at a time: it takes all threads
+    mutable std::unordered_map<std::uint64_t, PageRecord> records_;
+    mutable std::unordered_map<std::uint64_t, std::shared_ptr<const MeasuredBlock>> blocks_;
+};
+
+PageElevations MadePages::elevations(const PageIndex& page, int threads) const {
+    const PagePosts posts(facts().grid, page);
+    std::array<int, gpu::height_stride> of_region = posts.region_columns();
+    // The post after a last column that is the first one (PageElevations).
+    const LevelAxis& across = posts.level().column;
+    const int after = across.quads + 1 - posts.first_column();
+    if (wraps_longitude() && after < stride - 1)
+        of_region[static_cast<std::size_t>(after + 1)] = across.region_post(1);
+    std::vector<MadeColumn> columns;
+    for (const int column : of_region)
+        columns.push_back(
+            made_column(region_.terrain.west + std::max(0, column), region_.terrain.posts_per_deg));
+    PageElevations elevations;
+    in_parallel(stride, threads, [&](int i) {
+        const std::span<float> H_m =
+            std::span(elevations.H_m).subspan(static_cast<std::size_t>(i * stride), gpu::height_stride);
+        const int row = posts.region_row(i - 1);
+        std::ranges::fill(H_m, void_height_m);
+        if (row < 0) return;
+        std::array<float, gpu::height_stride> made{};
+        made_posts_of_row(region_, row, columns, made);
+        for (std::size_t j = 0; j < H_m.size(); ++j)
+            if (of_region[j] >= 0) H_m[j] = made[j];
+    });
+    return elevations;
+}
+
+std::shared_ptr<const MeasuredBlock> MadePages::measured_block(const PageIndex& page, int threads) const {
+    const int top = block_top(page.level), up = top - page.level;
+    const PageIndex of_top{page.row >> up, page.column >> up, top};
+    const std::uint64_t number = number_of(of_top);
+    const auto known = [&]() -> std::shared_ptr<const MeasuredBlock> {
+        const std::scoped_lock lock(mutex_);
+        const auto found = blocks_.find(number);
+        return found == blocks_.end() ? nullptr : found->second;
+    };
+    if (auto there = known()) return there;
+    const std::scoped_lock measuring(measuring_);
+    if (auto there = known()) return there;
+    auto made = std::make_shared<const MeasuredBlock>(region_, of_top, std::max(threads, thread_count()));
+    const std::scoped_lock lock(mutex_);
+    if (blocks_.size() >= blocks_kept) blocks_.clear();
+    blocks_.emplace(number, made);
+    return made;
+}
+
+PageSummary MadePages::make_block(const PageIndex& page, int threads, gpu::PageBlock& block) const {
+    const auto made = std::make_unique<PageElevations>(elevations(page, threads));
+    const auto heights =
+        std::make_unique<PageHeights>(page_heights(facts().grid, region_.undulation, 1.0, *made, page));
+    const PageSummary summary = build_page(facts().grid, facts().shape, *heights, page, block);
+    if (page.level == 0) {
+        for (gpu::MeshletBounds& node : block.meshlets) node.lod_radius = node.radius;
+        return summary;
+    }
+    const bool is_measured = page.level <= measured_to_;
+    const auto measured = is_measured ? measured_block(page, threads) : nullptr;
+    const MadeNode unmeasured = unmeasured_node(region_, page.level);
+    for (int i = 0; i < page_side * page_side; ++i) {
+        gpu::MeshletBounds& node = block.meshlets[i];
+        if (node.radius < 0.0F) continue;
+        const MadeNode known = is_measured ? measured->node(page.level, page.row * page_side + i / page_side,
+                                                            page.column * page_side + i % page_side)
+                                           : unmeasured;
+        node.error_m = known.error_m;
+        node.lod_radius = std::max(known.lod_radius_m, node.radius);
+    }
+    return summary;
+}
+
+// What all pages below a page lie in, by what they can be at most.
+void MadePages::hold_pages_below(PyramidPage& page) const {
+    PageSummary& summary = page.summary;
+    const HorizonOccluder& occluder = facts().shape.occluder;
+    page.reach_m = -1.0;
+    page.horizon = {glm::normalize(occluder.scaled(summary.origin_ecef)), 0.0};
+    if (summary.triangles == 0) return;
+    const double off_m = page.summary.index.level == 0
+                             ? 0.0
+                             : region_.bounds[static_cast<std::size_t>(summary.index.level)].drawn.cut;
+    page.reach_m = summary.radius_m + off_m;
+    if (page.summary.index.level == 0) {
+        page.horizon = summary.horizon;
+        return;
+    }
+    // All of the sphere, as high as ground can be.
+    const glm::dvec3 centre =
+        occluder.scaled({summary.origin_ecef.m + summary.ecef_from_page * summary.centre_m});
+    const double smallest_axis_m = std::min(occluder.radii_m.x, occluder.radii_m.z);
+    const double across = 1.001 * page.reach_m / smallest_axis_m;
+    const double depth_m = wgs84_a_m - occluder.radii_m.x;
+    const double highest =
+        1.001 * (made_step_m * region_.terrain.high + highest_N_m_ + depth_m + 1.0) / smallest_axis_m;
+    page.horizon.direction = glm::normalize(centre);
+    page.horizon.angle_rad = across < glm::length(centre)
+                                 ? std::asin(across / glm::length(centre)) +
+                                       std::atan(std::sqrt(std::max(0.0, highest * (2.0 + highest))))
+                                 : 4.0;
+}
+
+}  // namespace
+
+bool makes_pages(const MadeTerrain& terrain) {
+    return terrain.kind == MadeKind::fbm;
+}
+
+// Tiles of posts, each in the place that its number gives it.
+struct MadePostSource::Tiles {
+    static constexpr int side = 128;
+    static constexpr std::size_t places = 1024;
+    struct Tile {
+        std::int64_t number{-1};
+        std::vector<float> H_m;
+    };
+    MadeRegion region;
+    std::mutex mutex;
+    std::vector<Tile> tiles{places};
+
+    const Tile& at(int row, int column) {
+        const std::int64_t tile_row = row / side, tile_column = column / side;
+        const std::int64_t across = (region.grid.columns() + side - 1) / side;
+        const std::int64_t number = tile_row * across + tile_column;
+        Tile& tile = tiles[static_cast<std::size_t>(tile_row * 32 + tile_column % 32) % places];
+        if (tile.number != number) make(tile_row, tile_column, number, tile);
+        return tile;
+    }
+    void make(std::int64_t tile_row, std::int64_t tile_column, std::int64_t number, Tile& tile) const {
+        tile.number = number;
+        tile.H_m.resize(std::size_t{side} * side);
+        const auto first_row = static_cast<int>(tile_row * side),
+                   first_column = static_cast<int>(tile_column * side);
+        std::vector<MadeColumn> columns;
+        for (int i = 0; i < std::min(side, region.grid.columns() - first_column); ++i)
+            columns.push_back(
+                made_column(region.terrain.west + first_column + i, region.terrain.posts_per_deg));
+        for (int i = 0; i < std::min(side, region.grid.rows() - first_row); ++i)
+            made_posts_of_row(
+                region, first_row + i, columns,
+                std::span(tile.H_m).subspan(static_cast<std::size_t>(i * side), columns.size()));
+    }
+};
+
+MadePostSource::MadePostSource(const MadeTerrain& terrain, const PostGrid& grid)
+    : terrain_(terrain_on(terrain, grid)), tiles_(std::make_unique<Tiles>()) {
+    tiles_->region.terrain = terrain_;
+    tiles_->region.rule = made_rule(terrain_);
+    tiles_->region.grid = grid;
+}
+MadePostSource::~MadePostSource() = default;
+
+float MadePostSource::H_m(int row, int column) const {
+    const std::scoped_lock lock(tiles_->mutex);
+    return tiles_->at(row, column)
+        .H_m[static_cast<std::size_t>(row % Tiles::side * Tiles::side + column % Tiles::side)];
+}
+
+std::unique_ptr<RegionPages> MadePostSource::pages(const HeightField& field) const {
+    MadeRegion region = made_region(terrain_, field.grid, field.undulation);
+    const auto quads = [](int posts) { return static_cast<std::uint64_t>(posts - 1); };
+    RegionFacts facts{field.grid, field.undulation, shape_of(region),
+                      2 * quads(field.grid.rows()) * quads(field.grid.columns())};
+    return std::make_unique<MadePages>(std::move(facts), std::move(region));
+}
+
+HeightField made_field(const MadeTerrain& terrain, const PostGrid& grid, const UndulationField& undulation) {
+    HeightField field;
+    field.grid = grid;
+    field.undulation = undulation;
+    field.range = HeightRange{static_cast<float>(made_step_m * terrain.low),
+                              static_cast<float>(made_step_m * terrain.high), 0};
+    field.posts = std::make_shared<MadePostSource>(terrain, grid);
+    return field;
+}
+
+}  // namespace oro

@@ -1,0 +1,42 @@
+// Made terrain of any size: its posts, and the pages of its levels, made when they are asked for.
+#pragma once
+
+#include <memory>
+
+#include "core/frame/region_pages.h"
+#include "core/made/made_terrain.h"
+#include "core/terrain/post_grid.h"
+
+namespace oro {
+
+// Whether such terrain has levels that are made when they are asked for: fbm alone.
+bool makes_pages(const MadeTerrain& terrain);
+
+// Posts of made terrain on a grid of its spacing, which it holds; each is made with its neighbours when it is
+// asked for, and some 60 MB of them are kept. Safe to ask from several threads.
+class MadePostSource : public PostSource {
+  public:
+    // terrain: one that makes_pages(); its outermost posts become the grid's.
+    MadePostSource(const MadeTerrain& terrain, const PostGrid& grid);
+    ~MadePostSource() override;
+
+    [[nodiscard]] float H_m(int row, int column) const override;
+    [[nodiscard]] Result<void> health() const override { return {}; }
+
+    // The pages of all levels, whose undulation is the field's, of which this is the source. Heights and
+    // nodes' errors are made when they are asked for; errors are measured three levels deep and bounded by
+    // proven constants below (core/made_pages/level_bounds.h), so they are never less than those that
+    // pages_in_memory() has, and levels are chosen by the same rule. Keeps 64 KB for each block of levels
+    // that was asked for. Needs an exaggeration of 1.
+    [[nodiscard]] std::unique_ptr<RegionPages> pages(const HeightField& field) const;
+
+  private:
+    struct Tiles;
+    MadeTerrain terrain_;
+    std::unique_ptr<Tiles> tiles_;
+};
+
+// A field whose posts are those of a made terrain, made when they are asked for.
+HeightField made_field(const MadeTerrain& terrain, const PostGrid& grid, const UndulationField& undulation);
+
+}  // namespace oro

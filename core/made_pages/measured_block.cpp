@@ -1,0 +1,356 @@
+#include "core/made_pages/measured_block.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/base/parallel.h"
+#include "core/earth/ellipsoid.h"
+#include "core/lod/levels_gpu.h"
+#include "core/lod/node_deviations.h"
+#include "core/lod/page_sums.h"
+#include "core/made/made_heights.h"
+#include "core/terrain/drawn_heights.h"
+
+namespace oro {
+namespace {
+
+constexpr int node_quads = static_cast<int>(gpu::meshlet_quads);
+constexpr int page_quads_a_side = static_cast<int>(gpu::page_quads);
+// As levels grow (core/lod/pyramid.cpp), and what heights of two grids' angles may differ by.
+constexpr double block_growth = 1.0 + 2.0e-5, height_slack_m = 0.002;
+// Larger than the radii of curvature of WGS84 with heights on it.
+constexpr double largest_radius_m = 6'412'000.0;
+
+double node_width_m(const MadeRegion& region, int level) {
+    return std::ldexp(node_quads * radians_from_deg(region.grid.lat.spacing_deg()).rad * largest_radius_m,
+                      level);
+}
+// Of lod spheres: a node's holds those of the nodes below it and beside these. Their middles are at most 1.07
+// widths and `rise_m` away, and theirs are half as wide.
+double lod_radius_m(const MadeRegion& region, int level, double rise_m) {
+    return 2.2 * node_width_m(region, level) + (level + 1) * rise_m;
+}
+
+// The part of a region's posts that a block is measured on: every 2^base-th, with a node of the top level
+// more on each side where the region goes on.
+struct PartAxis {
+    int base{};
+    int start{}, last{};  // posts of the region; last: of the region itself
+    int count{};          // posts of the part
+    bool goes_on_before{}, goes_on_after{};
+
+    PartAxis(int top_level, int page, int posts, bool wraps)
+        : base(measured_against(top_level)), last(posts - 1) {
+        const std::int64_t page_posts = std::int64_t{page_quads_a_side} << top_level;
+        const std::int64_t margin = std::int64_t{node_quads} << top_level;
+        start = static_cast<int>(std::max<std::int64_t>(0, page * page_posts - margin));
+        const auto end = static_cast<int>(std::min<std::int64_t>(last, (page + 1) * page_posts + margin));
+        count = ((end - start + (1 << base) - 1) >> base) + 1;
+        goes_on_before = start > 0 || wraps;
+        goes_on_after = end < last || wraps;
+    }
+    [[nodiscard]] int region_post(int i) const {
+        return static_cast<int>(std::min<std::int64_t>(last, start + (std::int64_t{i} << base)));
+    }
+    // Of a level: the number in the region of the part's first node.
+    [[nodiscard]] int first_node(int level) const { return start / (node_quads << level); }
+};
+
+// Whether a level's last quad is narrower than the others: then the part's posts are not evenly apart there.
+bool ends_within_quad(int last, int level) {
+    return (last & ((1 << level) - 1)) != 0;
+}
+
+// Heights over a node's ground: H, and what is drawn.
+struct NodeRange {
+    float lowest_H_m{std::numeric_limits<float>::infinity()};
+    float highest_H_m{-std::numeric_limits<float>::infinity()};
+    std::int32_t lowest{std::numeric_limits<std::int32_t>::max()};
+    std::int32_t highest{std::numeric_limits<std::int32_t>::min()};
+
+    void take(const NodeRange& other) {
+        lowest_H_m = std::min(lowest_H_m, other.lowest_H_m);
+        highest_H_m = std::max(highest_H_m, other.highest_H_m);
+        lowest = std::min(lowest, other.lowest);
+        highest = std::max(highest, other.highest);
+    }
+};
+
+// The nodes of one level of the part.
+struct PartLevel {
+    int rows{}, columns{};
+    std::vector<NodeRange> ranges;
+    std::vector<double> error_m;
+    std::vector<std::array<double, 4>> stitched_m;
+    std::vector<char> may_cut;  // heights may be cut off there, or beside it
+    std::vector<double> rise_m;
+
+    [[nodiscard]] std::size_t at(int row, int column) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+               static_cast<std::size_t>(column);
+    }
+    [[nodiscard]] bool has(int row, int column) const {
+        return row >= 0 && column >= 0 && row < rows && column < columns;
+    }
+};
+
+class PartMeasurement {
+  public:
+    PartMeasurement(const MadeRegion& region, const PageIndex& top, int threads)
+        : region_(region),
+          base_(measured_against(top.level)),
+          threads_(threads),
+          down_(top.level, top.row, region.grid.rows(), false),
+          across_(top.level, top.column, region.grid.columns(), region.grid.wraps_longitude()) {
+        make_posts();
+        heights_ = drawn_heights(part_, 1.0, threads);
+        levels_.resize(static_cast<std::size_t>(top.level - base_ + 1));
+        for (int i = 0; i <= top.level - base_; ++i) measure_level(i);
+    }
+    // Number i counts from the level that is measured against.
+    [[nodiscard]] const PartLevel& level(int i) const { return levels_[static_cast<std::size_t>(i)]; }
+    [[nodiscard]] int base() const { return base_; }
+    [[nodiscard]] const PartAxis& down() const { return down_; }
+    [[nodiscard]] const PartAxis& across() const { return across_; }
+
+  private:
+    void make_posts();
+    void measure_level(int i);
+    void take_ranges(int i, PartLevel& level) const;
+    void look_around(PartLevel& level) const;
+    [[nodiscard]] double node_error_m(int i, const PartLevel& level, int row, int column, double own_m) const;
+    [[nodiscard]] double error_below_m(int i, int row, int column, bool may_cut) const;
+    [[nodiscard]] const MadeLevelBound& bound(int i) const {
+        const std::size_t level = static_cast<std::size_t>(base_ + i);
+        return region_.bounds[std::min(level, region_.bounds.size() - 1)];
+    }
+
+    const MadeRegion& region_;
+    int base_;
+    int threads_;
+    PartAxis down_, across_;
+    HeightField part_;
+    DrawnHeights heights_;
+    std::vector<PartLevel> levels_;
+};
+
+void PartMeasurement::make_posts() {
+    const PostGrid& grid = region_.grid;
+    const double per_deg = std::ldexp(grid.lat.posts_per_deg, -base_);
+    part_.grid.lat = {per_deg, grid.lat.at_deg(down_.start), 0, -1, down_.count};
+    part_.grid.lon = {per_deg, grid.lon.at_deg(across_.start), 0, 1, across_.count};
+    part_.undulation = region_.undulation;
+    std::vector<MadeColumn> columns;
+    for (int i = 0; i < across_.count; ++i)
+        columns.push_back(
+            made_column(region_.terrain.west + across_.region_post(i), region_.terrain.posts_per_deg));
+    part_.H_m.resize(static_cast<std::size_t>(down_.count) * columns.size());
+    in_parallel(down_.count, threads_, [&](int row) {
+        made_posts_of_row(
+            region_, down_.region_post(row), columns,
+            std::span(part_.H_m).subspan(static_cast<std::size_t>(row) * columns.size(), columns.size()));
+    });
+}
+
+void PartMeasurement::take_ranges(int i, PartLevel& level) const {
+    level.ranges.resize(static_cast<std::size_t>(level.rows) * static_cast<std::size_t>(level.columns));
+    const int width = node_quads << i;
+    in_parallel(level.rows, threads_, [&](int row) {
+        for (int column = 0; column < level.columns; ++column) {
+            NodeRange& range = level.ranges[level.at(row, column)];
+            for (int r = row * width; r <= std::min((row + 1) * width, down_.count - 1); ++r) {
+                const std::size_t first =
+                    static_cast<std::size_t>(r) * static_cast<std::size_t>(across_.count);
+                for (int c = column * width; c <= std::min((column + 1) * width, across_.count - 1); ++c) {
+                    const float H_m = part_.H_m[first + static_cast<std::size_t>(c)];
+                    const std::int32_t steps = heights_.steps[first + static_cast<std::size_t>(c)];
+                    range.take({H_m, H_m, steps, steps});
+                }
+            }
+        }
+    });
+}
+
+// What may be over a node's ground and that of its neighbours, between the part's posts, too.
+void PartMeasurement::look_around(PartLevel& level) const {
+    level.may_cut.resize(level.ranges.size());
+    level.rise_m.resize(level.ranges.size());
+    // Of all levels that blocks below are measured against: so that none of these finds more.
+    double off_m = 0.0, cut_off_m = 0.0;
+    for (int of = base_; of > 0; of -= levels_of_block) {
+        const MadeLevelBound& base = region_.bounds[static_cast<std::size_t>(of)];
+        off_m += base.rule.free;
+        cut_off_m += base.triangles.cut;
+    }
+    const double low_m = made_step_m * region_.terrain.low, high_m = made_step_m * region_.terrain.high;
+    const double whole_m = high_m - low_m + region_.undulation_range_m;
+    for (int row = 0; row < level.rows; ++row) {
+        for (int column = 0; column < level.columns; ++column) {
+            NodeRange range;
+            bool all = true;
+            for (int r = row - 1; r <= row + 1; ++r)
+                for (int c = column - 1; c <= column + 1; ++c) {
+                    if (level.has(r, c))
+                        range.take(level.ranges[level.at(r, c)]);
+                    else
+                        all = all &&
+                              !((r < 0 && down_.goes_on_before) || (r >= level.rows && down_.goes_on_after) ||
+                                (c < 0 && across_.goes_on_before) ||
+                                (c >= level.columns && across_.goes_on_after));
+                }
+            const bool may_cut = !all || static_cast<double>(range.highest_H_m) + off_m >= high_m ||
+                                 static_cast<double>(range.lowest_H_m) - off_m <= low_m;
+            const double rise_m = height_step_m * (static_cast<double>(range.highest) - range.lowest) +
+                                  4.0 * (may_cut ? cut_off_m : 1.2 * off_m);
+            level.may_cut[level.at(row, column)] = may_cut ? 1 : 0;
+            level.rise_m[level.at(row, column)] = all ? std::min(rise_m, whole_m) : whole_m;
+        }
+    }
+}
+
+// Of the nodes of the level before that a node must not be better than (LevelBuilder::visit_nodes_below), and
+// of their triangles that are stitched to it.
+double PartMeasurement::error_below_m(int i, int row, int column, bool may_cut) const {
+    const PartLevel& below = level(i - 1);
+    const double unknown_m = block_growth * bound(i - 1).drawn.cut;
+    const double not_measured_m = bound(0).triangles.where(may_cut);
+    double error_m = 0.0;
+    constexpr std::size_t north_edge = 0, east_edge = 1, south_edge = 2, west_edge = 3, no_edge = 4;
+    const auto take = [&](int r, int c, std::size_t edge) {
+        if (!below.has(r, c)) {
+            const bool goes_on =
+                (r < 0 && down_.goes_on_before) || (r >= below.rows && down_.goes_on_after) ||
+                (c < 0 && across_.goes_on_before) || (c >= below.columns && across_.goes_on_after);
+            if (goes_on) error_m = std::max(error_m, unknown_m);
+            return;
+        }
+        const std::size_t at = below.at(r, c);
+        error_m = std::max(error_m, block_growth * below.error_m[at]);
+        if (edge != no_edge)
+            error_m = std::max(error_m, below.stitched_m[at][edge] + not_measured_m + height_slack_m);
+    };
+    for (int r = 2 * row; r < 2 * row + 2; ++r) {
+        for (int c = 2 * column; c < 2 * column + 2; ++c) take(r, c, no_edge);
+        take(r, 2 * column - 1, east_edge);
+        take(r, 2 * column + 2, west_edge);
+    }
+    for (int c = 2 * column; c < 2 * column + 2; ++c) {
+        take(2 * row - 1, c, south_edge);
+        take(2 * row + 2, c, north_edge);
+    }
+    return error_m;
+}
+
+double PartMeasurement::node_error_m(int i, const PartLevel& level, int row, int column, double own_m) const {
+    const bool may_cut = level.may_cut[level.at(row, column)] != 0;
+    const double most_m = bound(i).drawn.where(may_cut);
+    const int of_level = base_ + i;
+    if (of_level == 0) return 0.0;
+    const LevelGrid all = level_grid(region_.grid, of_level);
+    const bool odd_end =
+        (row + down_.first_node(of_level) == all.row.nodes() - 1 && ends_within_quad(down_.last, of_level)) ||
+        (column + across_.first_node(of_level) == all.column.nodes() - 1 &&
+         ends_within_quad(across_.last, of_level));
+    if (odd_end) return most_m;
+    // What the others are measured against is not measured itself.
+    if (i == 0) return bound(0).own.where(may_cut);
+    const double measured_m = own_m + bound(0).triangles.where(may_cut) + of_level * height_slack_m;
+    return std::min(std::max(measured_m, error_below_m(i, row, column, may_cut)), most_m);
+}
+
+void PartMeasurement::measure_level(int i) {
+    PartLevel& level = levels_[static_cast<std::size_t>(i)];
+    const LevelGrid nodes = level_grid(part_.grid, i);
+    level.rows = nodes.row.nodes();
+    level.columns = nodes.column.nodes();
+    take_ranges(i, level);
+    look_around(level);
+    const NodeDeviations deviations(part_.grid, heights_, i);
+    level.error_m.resize(level.ranges.size());
+    level.stitched_m.resize(level.ranges.size());
+    in_parallel(level.rows, threads_, [&](int row) {
+        for (int column = 0; column < level.columns; ++column) {
+            const NodeDeviation found = deviations.deviation(row, column);
+            std::array<double, 4>& stitched_m = level.stitched_m[level.at(row, column)];
+            for (std::size_t edge = 0; edge < 4; ++edge) stitched_m[edge] = found.stitched_m[edge];
+            level.error_m[level.at(row, column)] = node_error_m(i, level, row, column, found.own_m);
+        }
+    });
+}
+
+}  // namespace
+
+MadeRegion made_region(const MadeTerrain& terrain, const PostGrid& grid, const UndulationField& undulation) {
+    MadeRegion region{
+        terrain, made_rule(terrain), grid, undulation, made_level_bounds(terrain, grid, undulation), 0.0};
+    if (!undulation.N_m.empty()) {
+        const auto [lowest, highest] = std::ranges::minmax(undulation.N_m);
+        region.undulation_range_m = static_cast<double>(highest) - static_cast<double>(lowest);
+    }
+    return region;
+}
+
+void made_posts_of_row(const MadeRegion& region, int row, std::span<const MadeColumn> columns,
+                       std::span<float> H_m) {
+    std::vector<std::int32_t> steps(columns.size());
+    made_row_heights(region.terrain, region.rule, row, 0, columns, steps);
+    // Exact: heights have at most 24 bits.
+    std::ranges::transform(steps, H_m.begin(), [](std::int32_t step) {
+        return static_cast<float>(static_cast<double>(step) * made_step_m);
+    });
+}
+
+MadeNode unmeasured_node(const MadeRegion& region, int level) {
+    const double rise_m =
+        made_step_m * (region.terrain.high - region.terrain.low) + region.undulation_range_m;
+    return {rounded_up(region.bounds[static_cast<std::size_t>(level)].drawn.cut),
+            rounded_up(lod_radius_m(region, level, rise_m))};
+}
+
+int highest_measured_level(const MadeRegion& region) {
+    const double first_cell_m = std::ldexp(1.0, static_cast<int>(region.rule.octave[0].shift)) / 192.0;
+    const double spacing_deg = region.grid.lat.spacing_deg();
+    int level = 0;
+    while (level < static_cast<int>(region.bounds.size())) {
+        const int next = level + levels_of_block;
+        // Coarser triangles know nothing of the terrain any more; a part is no larger than a quarter turn.
+        // The first block is exact, and always worth it.
+        if (next > 21 || std::ldexp(spacing_deg * 144.0, next) > 90.0 ||
+            (level > 0 && 3.0 * node_width_m(region, next) / node_quads > first_cell_m))
+            break;
+        level = next;
+    }
+    return level;
+}
+
+MeasuredBlock::MeasuredBlock(const MadeRegion& region, const PageIndex& top, int threads) : top_(top) {
+    const PartMeasurement measured(region, top, threads);
+    constexpr int nodes_a_page = static_cast<int>(gpu::meshlets_per_side);
+    for (int level = top.level; level > top.level - levels_of_block; --level) {
+        const PartLevel& part = measured.level(level - measured.base());
+        Level& kept = levels_.emplace_back();
+        const int side = nodes_a_page << (top.level - level);
+        kept.first_row = top.row * side;
+        kept.first_column = top.column * side;
+        const int row_before = kept.first_row - measured.down().first_node(level);
+        const int column_before = kept.first_column - measured.across().first_node(level);
+        kept.rows = std::min(side, part.rows - row_before);
+        kept.columns = std::min(side, part.columns - column_before);
+        for (int row = 0; row < kept.rows; ++row)
+            for (int column = 0; column < kept.columns; ++column) {
+                const std::size_t at = part.at(row_before + row, column_before + column);
+                kept.nodes.push_back(
+                    {rounded_up(part.error_m[at]), rounded_up(lod_radius_m(region, level, part.rise_m[at]))});
+            }
+    }
+}
+
+std::uint64_t MeasuredBlock::bytes() const {
+    std::uint64_t nodes = 0;
+    for (const Level& level : levels_) nodes += level.nodes.size();
+    return nodes * sizeof(MadeNode) + sizeof(MeasuredBlock);
+}
+
+}  // namespace oro

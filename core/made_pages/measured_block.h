@@ -1,0 +1,79 @@
+// Errors of the nodes of some levels of made terrain over a part of it, measured against posts a few levels
+// finer and bounded by proven constants below those.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/made/made_rule.h"
+#include "core/made_pages/level_bounds.h"
+#include "core/terrain/level_grid.h"
+#include "core/terrain/page.h"
+#include "core/terrain/post_grid.h"
+
+namespace oro {
+
+// Made terrain as its pages need it: its rule, its grid and what holds for each of its levels.
+struct MadeRegion {
+    MadeTerrain terrain;  // fbm; its outermost posts are the grid's
+    gpu::MadeRule rule;
+    PostGrid grid;
+    UndulationField undulation;
+    std::vector<MadeLevelBound> bounds;
+    double undulation_range_m{};
+};
+MadeRegion made_region(const MadeTerrain& terrain, const PostGrid& grid, const UndulationField& undulation);
+
+// H of posts of one row, each metres, as made terrain has them: of the region's columns whose places are
+// `columns`. row: of the region. Any thread.
+void made_posts_of_row(const MadeRegion& region, int row, std::span<const MadeColumn> columns,
+                       std::span<float> H_m);
+
+// Error and lod sphere of a node, as MeshletBounds has them.
+struct MadeNode {
+    float error_m{};
+    float lod_radius_m{};
+};
+// Of a node for which nothing is measured.
+MadeNode unmeasured_node(const MadeRegion& region, int level);
+
+// Three levels are measured together: 1 to 3 against level 0, which is exact, 4 to 6 against level 2, 7 to 9
+// against level 5, and so on.
+inline constexpr int levels_of_block = 3;
+inline int measured_against(int top_level) {
+    return top_level <= levels_of_block ? 0 : top_level - levels_of_block - 1;
+}
+inline int block_top(int level) {
+    return (level + levels_of_block - 1) / levels_of_block * levels_of_block;
+}
+// The highest level that is measured; 0: none is.
+int highest_measured_level(const MadeRegion& region);
+
+// The nodes of the levels of a block over the ground of one page of its top level.
+class MeasuredBlock {
+  public:
+    // top: a page whose level is a multiple of levels_of_block and at most highest_measured_level(); it may
+    // be beyond the levels that the region has. Takes some 1.3 million posts, above level 3 5.3
+    // million, and 20 bytes for each while it works.
+    MeasuredBlock(const MadeRegion& region, const PageIndex& top, int threads);
+
+    // A node by its place among those of its level, which is one of the block's; over the block's page.
+    [[nodiscard]] const MadeNode& node(int level, int row, int column) const {
+        const Level& at = levels_[static_cast<std::size_t>(top_.level - level)];
+        return at.nodes[static_cast<std::size_t>(row - at.first_row) * static_cast<std::size_t>(at.columns) +
+                        static_cast<std::size_t>(column - at.first_column)];
+    }
+    // Bytes that it keeps.
+    [[nodiscard]] std::uint64_t bytes() const;
+
+  private:
+    struct Level {
+        int first_row{}, first_column{}, rows{}, columns{};
+        std::vector<MadeNode> nodes;  // row by row
+    };
+    PageIndex top_;
+    std::vector<Level> levels_;  // the top first
+};
+
+}  // namespace oro
