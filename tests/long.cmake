@@ -162,6 +162,9 @@ set_tests_properties(
   HorizonCommand.LooksBeyondItsBox
   HorizonCommand.StoppedItLeavesBothFilesOrNone
   JobFile.LinesByGrammar
+  MeshBake.HasPanoramasByClusters
+  MeshBake.IsDrawnAsTheFilesAre
+  MeshBake.IsFilmedByClusters
   TableObservers.WhatIsWrongIsSaidInOneLine
   HorizonCommand.WhatIsWrongIsSaidInOneLine
   HostileInput.AReaderThatHasReadEnough

@@ -1,7 +1,7 @@
 #include "apps/baking/cluster_bake.h"
 
-#include <array>
 #include <optional>
+#include <vector>
 
 #include "apps/report/figures.h"
 #include "core/baked/region_file.h"
@@ -66,7 +66,8 @@ Result<BakeReport> bake_part(const HeightField& field, const BakeOptions& how, c
 }
 
 Result<ClusterBakeReport> bake_clusters(const HeightField& field, const BakeOptions& how,
-                                        const std::function<void(double, const char*)>& on_progress) {
+                                        const std::function<void(double, const char*)>& on_progress,
+                                        std::span<const ContainerPart> beside) {
     const std::string clusters_path = path_of_clusters(how.path);
     ORO_TRY(const BakeHold hold, BakeHold::take(how.path, how.overwrite));
     ORO_CHECK(check_path_of_part(clusters_path));
@@ -89,8 +90,9 @@ Result<ClusterBakeReport> bake_clusters(const HeightField& field, const BakeOpti
     report.levels = clusters->outline().levels.size();
     report.triangles = static_cast<std::size_t>(clusters->outline().triangles);
     clusters.reset();
-    ORO_CHECK(join_parts(how.path, how.overwrite,
-                         std::array<ContainerPart, 2>{{{grid.path, 0}, {clusters_path, 0}}}));
+    std::vector<ContainerPart> parts{{grid.path, 0}, {clusters_path, 0}};
+    parts.insert(parts.end(), beside.begin(), beside.end());
+    ORO_CHECK(join_parts(how.path, how.overwrite, parts));
     return report;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <string>
 
 #include "core/baked/bake.h"
@@ -33,7 +34,9 @@ Result<BakeReport> bake_part(const HeightField& field, const BakeOptions& how, c
 
 // Bakes the region as bake_region() does, then its graph, and puts both into how.path. What is done already
 // of a bake that was broken off is not done again. on_progress: how far it is, 0..1, and what is being done.
+// beside: files that go into it, too, and are removed.
 Result<ClusterBakeReport> bake_clusters(const HeightField& field, const BakeOptions& how,
-                                        const std::function<void(double, const char*)>& on_progress);
+                                        const std::function<void(double, const char*)>& on_progress,
+                                        std::span<const ContainerPart> beside = {});
 
 }  // namespace oro

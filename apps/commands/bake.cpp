@@ -9,6 +9,7 @@
 
 #include "apps/baking/bake_place.h"
 #include "apps/baking/cluster_bake.h"
+#include "apps/baking/mesh_bake.h"
 #include "apps/baking/shared_bake.h"
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
@@ -21,6 +22,7 @@
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
+#include "apps/view/mesh_request.h"
 #include "apps/view/view.h"
 #include "core/baked/bake.h"
 #include "core/baked/file_pages.h"
@@ -34,6 +36,7 @@
 #include "geo/files/letter_case.h"
 #include "geo/files/source_paths.h"
 #include "geo/opening/made_world.h"
+#include "geo/meshes/placed_mesh.h"
 #include "geo/opening/open_region.h"
 #include "geo/region/region_description.h"
 #include "geo/region/region_fingerprints.h"
@@ -46,9 +49,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Files that the paths name or hold, and all that these are made of: for an archive the archive itself.
-Result<std::vector<std::string>> input_files(const std::vector<std::string>& paths) {
-    std::vector<std::string> files = paths;
+// Files that the paths name or hold, and all that these are made of: for an archive the archive itself; and
+// meshes.
+Result<std::vector<std::string>> input_files(const RegionOptions& region) {
+    const std::vector<std::string> paths = terrain_paths(region);
+    std::vector<std::string> files = region.paths;
+    files.insert(files.end(), region.mesh_files.begin(), region.mesh_files.end());
     ORO_TRY(const std::vector<SourcePath> sources, find_sources(paths));
     for (const SourcePath& source : sources) {
         files.push_back(local_file_of(source.file));
@@ -67,9 +73,10 @@ Result<void> check_out(const BakingOptions& options) {
     if (!lower_case(out).ends_with(".oro")) return refused("--out", out, "the file's name must end in .oro");
     // What a bake writes on its way is no less lost than what it replaces.
     std::vector<std::string> written = files_of_bake(out);
-    for (const std::string& part : {path_of_clusters(out), path_of_grid(out, 0)}) written.push_back(part);
+    for (const std::string& part : {path_of_clusters(out), path_of_grid(out, 0), path_of_mesh(out, 0)})
+        written.push_back(part);
     if (std::ranges::any_of(written, [](const auto& file) { return access(file.c_str(), F_OK) == 0; })) {
-        ORO_TRY(const std::vector<std::string> inputs, input_files(options.region.paths));
+        ORO_TRY(const std::vector<std::string> inputs, input_files(options.region));
         ORO_CHECK(spare_inputs(written, {{inputs, "which is to be baked"}}));
     }
     ORO_CHECK(check_may_write(out, options.overwrite));
@@ -97,6 +104,8 @@ struct BakeResult {
     std::size_t grids{1};
     BakeReport report;
     std::optional<ClusterBakeReport> clusters;
+    std::vector<std::string> mesh_names;
+    std::vector<BakedMeshReport> meshes;
     double read_s{};
     double build_s{};
     std::vector<std::string> notes;  // of the region
@@ -105,6 +114,18 @@ struct BakeResult {
         return static_cast<double>(bytes) / static_cast<double>(posts);
     }
 };
+
+nlohmann::ordered_json meshes_json_of(const BakeResult& baked) {
+    nlohmann::ordered_json meshes = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < baked.meshes.size(); ++i) {
+        const BakedMeshReport& mesh = baked.meshes[i];
+        meshes.push_back(json_object("name", baked.mesh_names[i], "triangles", mesh.triangles, "levels",
+                                     mesh.levels, "triangles_at_all_levels", mesh.graph_triangles, "bytes",
+                                     mesh.bytes, "bytes_of_features", mesh.fact_bytes, "build_s",
+                                     mesh.build_s));
+    }
+    return meshes;
+}
 
 void tell(const BakingOptions& options, const BakeResult& baked) {
     const BakeReport& report = baked.report;
@@ -124,6 +145,8 @@ void tell(const BakingOptions& options, const BakeResult& baked) {
                                " levels above the grid, " + grouped(baked.clusters->triangles) +
                                " triangles, " + built);
     }
+    for (std::size_t i = 0; i < baked.meshes.size(); ++i)
+        say(options.quiet, words_of(baked.mesh_names[i], baked.meshes[i]));
     if (!options.json) return;
     nlohmann::ordered_json json = nlohmann::ordered_json::object();
     json["file"] = baked.file;
@@ -136,6 +159,7 @@ void tell(const BakingOptions& options, const BakeResult& baked) {
     if (baked.clusters)
         json["clusters"] = json_object("levels", baked.clusters->levels, "triangles",
                                        baked.clusters->triangles, "build_s", baked.clusters->build_s);
+    if (!baked.meshes.empty()) json["meshes"] = meshes_json_of(baked);
     json["times_s"] = json_object("read", baked.read_s, "build_and_write", baked.build_s);
     json["notes"] = baked.notes;
     std::printf("%s\n", json_text(json, true).c_str());
@@ -180,8 +204,9 @@ Result<std::optional<MeasuredParts>> parts_for(const BakePartOptions& options, c
     return parts;
 }
 
-// Each grid by itself, then all of them into one file.
-Result<BakeReport> bake_grids(const Region& region, const BakePartOptions& options, ProgressBar& bar) {
+// Each grid by itself, then all of them into one file, with the meshes.
+Result<BakeReport> bake_grids(const Region& region, const BakePartOptions& options, ProgressBar& bar,
+                              std::vector<BakedMeshReport>& reports) {
     const std::vector<RegionGrid>& grids = region.grids;
     BakeReport report;
     ORO_TRY(const BakeHold hold, BakeHold::take(options.out, options.overwrite));
@@ -203,13 +228,17 @@ Result<BakeReport> bake_grids(const Region& region, const BakePartOptions& optio
         parts.push_back({how.path, static_cast<std::uint32_t>(std::ranges::count_if(grids, before))});
         if (of_grid) measured.push_back(std::move(*of_grid));
     }
+    ORO_TRY(MeshBake meshes, bake_meshes(region, options.out));
+    parts.insert(parts.end(), meshes.parts.begin(), meshes.parts.end());
+    reports = std::move(meshes.reports);
     ORO_CHECK(join_parts(options.out, options.overwrite, parts));
     for (const MeasuredParts& of_grid : measured) remove_parts(of_grid);
     return report;
 }
 
-Result<BakeReport> bake_grid(const RegionGrid& grid, const BakePartOptions& options, ProgressBar& bar,
-                             std::optional<ClusterBakeReport>& clusters) {
+Result<BakeReport> bake_grid(const Region& region, const BakePartOptions& options, ProgressBar& bar,
+                             BakeResult& baked) {
+    const RegionGrid& grid = region.grids.front();
     ORO_TRY(BakeOptions how, options_for(grid, options.out, options.overwrite));
     const bool has_clusters = options.mesh == "clusters";
     BakeOptions of_parts = how;
@@ -218,9 +247,13 @@ Result<BakeReport> bake_grid(const RegionGrid& grid, const BakePartOptions& opti
     how.parts = parts ? &*parts : nullptr;
     BakeReport report;
     if (has_clusters) {
-        ORO_TRY(clusters, bake_clusters(grid.field, how,
-                                        [&](double share, const char* what) { bar.show(share, what); }));
-        report = clusters->region;
+        ORO_TRY(MeshBake meshes, bake_meshes(region, options.out));
+        baked.meshes = std::move(meshes.reports);
+        ORO_TRY(baked.clusters,
+                bake_clusters(
+                    grid.field, how, [&](double share, const char* what) { bar.show(share, what); },
+                    meshes.parts));
+        report = baked.clusters->region;
     } else {
         ORO_TRY(report, bake_region(grid.field, how, [&](double share) {
                     bar.show(share, "baking");
@@ -232,9 +265,10 @@ Result<BakeReport> bake_grid(const RegionGrid& grid, const BakePartOptions& opti
 }
 
 Result<BakeReport> bake_all(const Region& region, const BakePartOptions& options, ProgressBar& bar,
-                            std::optional<ClusterBakeReport>& clusters) {
-    if (region.grids.size() > 1) return bake_grids(region, options, bar);
-    return bake_grid(region.grids.front(), options, bar, clusters);
+                            BakeResult& baked) {
+    if (region.grids.size() > 1 || (region.meshes && options.mesh != "clusters"))
+        return bake_grids(region, options, bar, baked.meshes);
+    return bake_grid(region, options, bar, baked);
 }
 
 BakePart part_of(const Shard& shard) {
@@ -314,7 +348,10 @@ Result<void> bake_at(const BakePlace& place, const BakePartOptions& options) {
     if (options.join) ORO_CHECK(place.fetch_parts());
     baked.notes = all_notes(region);
     const auto building = Clock::now();
-    ORO_TRY(baked.report, bake_all(region, options, bar, baked.clusters));
+    ORO_TRY(baked.report, bake_all(region, options, bar, baked));
+    if (region.meshes)
+        for (const PlacedMesh& mesh : *region.meshes)
+            baked.mesh_names.push_back(fs::path(mesh.path).filename().string());
     baked.build_s = seconds_since(building);
     bar.clear();
     for (const RegionGrid& grid : region.grids) baked.posts += grid.field.grid.post_count();
@@ -332,8 +369,8 @@ Result<void> bake_at(const BakePlace& place, const BakePartOptions& options) {
 }  // namespace
 
 Result<void> run_bake(const BakePartOptions& options) {
-    ORO_CHECK(
-        check_without_meshes(options.region, "lies on terrain that is read: a .oro file holds no meshes"));
+    if (options.region.cut_under)
+        return refused("--cut-under", "", "is of terrain that is read: a .oro file holds it whole");
     ORO_TRY(const BakePlace place, BakePlace::of(options.out, options.overwrite));
     BakePartOptions there = options;
     there.out = place.path();

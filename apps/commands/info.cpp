@@ -68,11 +68,15 @@ Result<FileListing> listing_of(const RegionRequest& request, ProgressBar& bar) {
     return list_files(request, {cache_folder().string(), program_fingerprint()}, bar.progress());
 }
 
-std::string checked_words(const RegionGrid& grid) {
+std::string checked_words(const Region& region) {
+    const RegionGrid& grid = region.grids.front();
     if (!grid.file) return "every post was read, as always without a whole .oro";
     const std::string words = "every page was read, and is as it was written";
-    if (!grid.clusters) return words;
-    return words + "; so " + counted(grid.clusters->outline().groups, "group", "groups") + " of clusters";
+    const std::string of_meshes =
+        region.meshes ? "; the errors of its meshes were measured again, and are bounds" : "";
+    if (!grid.clusters) return words + of_meshes;
+    return words + "; so " + counted(grid.clusters->outline().groups, "group", "groups") + " of clusters" +
+           of_meshes;
 }
 
 // That each grid which is a whole baked file, or one of its grids, is what was written, and what the file
@@ -108,10 +112,14 @@ Result<void> run_info(const InfoOptions& options) {
     Region region = std::move(*opened);
     leave_listed_notes_out(region);
     // Of tiles, and of a part of a baked region, all posts are in memory by now.
-    if (options.check) ORO_CHECK(check_grids(region));
+    if (options.check) {
+        ORO_CHECK(check_grids(region));
+        ORO_CHECK(check_baked_meshes(region));
+    }
     const RegionGrid& first = region.grids.front();
     if (options.json) {
         nlohmann::ordered_json json = info_json(region, options.check);
+        if (region.meshes) json["meshes"] = baked_meshes_json(region);
         json["passed_over"] = files_json(listing.files, false);
         std::printf("%s\n", json_text(json, true).c_str());
         return {};
@@ -121,8 +129,9 @@ Result<void> run_info(const InfoOptions& options) {
                     region.grids.size(), request.listed_first ? "the one named first" : "the finest");
     for (const RegionGrid& grid : region.grids)
         std::printf("%s%s", &grid == &first ? "" : "\n", info_text(grid).c_str());
+    std::printf("%s", baked_meshes_text(region).c_str());
     std::printf("%s", unread_files_text(listing).c_str());
-    if (options.check) std::printf("check: %s\n", one_line(checked_words(first)).c_str());
+    if (options.check) std::printf("check: %s\n", one_line(checked_words(region)).c_str());
     return {};
 }
 

@@ -2,17 +2,21 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 #include "apps/command_line/refusals.h"
+#include "apps/commands/mesh_levels.h"
 #include "apps/options/region_option_table.h"
 #include "apps/report/feature_words.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
 #include "core/base/one_line.h"
+#include "core/base/parallel.h"
 #include "geo/files/letter_case.h"
 #include "geo/meshes/mesh_census.h"
 #include "geo/meshes/mesh_file.h"
+#include "geo/meshes/source_mesh_graph.h"
 
 namespace oro {
 namespace {
@@ -107,15 +111,21 @@ bool names_meshes(const std::vector<std::string>& paths) {
 Result<void> run_mesh_info(const InfoOptions& options) {
     if (const char* option = first_given_of_region(options.region); option != nullptr)
         return refused(option, "", "says nothing of a mesh: it is for elevation data");
-    if (options.check) return refused("--check", "", "says nothing of a mesh: meshes are always read whole");
     nlohmann::ordered_json meshes = nlohmann::ordered_json::array();
     for (const std::string& path : options.region.paths) {
         ORO_TRY(const SourceMesh mesh, read_mesh(path));
         const MeshCensus census = census_of(mesh);
-        if (options.json)
+        std::optional<MeshGraph> graph;
+        if (options.check) {
+            ORO_TRY(graph, graph_of_source(mesh, thread_count()));
+        }
+        if (options.json) {
             meshes.push_back(mesh_json(mesh, census));
-        else
-            print_mesh(mesh, census);
+            if (graph) meshes.back()["levels"] = mesh_levels_json(*graph);
+            continue;
+        }
+        print_mesh(mesh, census);
+        if (graph) std::printf("  clusters:\n%s", mesh_levels_text(*graph, 15).c_str());
     }
     if (options.json) std::printf("%s\n", json_text(json_object("meshes", std::move(meshes)), true).c_str());
     return {};

@@ -1,19 +1,28 @@
 // orograph info of files of triangle meshes.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "apps/commands/options.h"
 #include "core/base/result.h"
+#include "geo/region/region.h"
 
 namespace oro {
 
 // Whether there are paths, and all are files of meshes (is_mesh_file()), or GeoPackages of surfaces.
 bool names_meshes(const std::vector<std::string>& paths);
 
-// Prints what each mesh holds, in its own coordinates: as text, or with options.json as one JSON object.
-// Errors: an option of elevation data is given (usage); the first mesh that cannot be read.
+// Prints what each mesh holds, in its own coordinates: as text, or with options.json as one JSON object. With
+// options.check its cluster graph is built, and told level by level. Errors: coordinates in degrees, with
+// options.check; an option of elevation data is given (usage); the first mesh that cannot be read.
 Result<void> run_mesh_info(const InfoOptions& options);
+
+// The same of the meshes in a baked region (Region::meshes), which have their graphs.
+std::string baked_meshes_text(const Region& region);
+nlohmann::ordered_json baked_meshes_json(const Region& region);
+// Measures the errors of their graphs again. Errors: one that is no bound.
+Result<void> check_baked_meshes(const Region& region);
 
 }  // namespace oro

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "apps/drawing/mesh_choice.h"
 #include "apps/report/figures.h"
 #include "core/base/elapsed.h"
 #include "core/base/parallel.h"
@@ -19,16 +20,34 @@ Result<bool> draws_mesh_clusters(const Region& region, const View& view) {
     return true;
 }
 
-Result<std::optional<DrawnMeshes>> drawn_meshes(const Region& region, const View& view) {
+Result<bool> draws_terrain_clusters(const Region& region, View& view) {
+    ORO_TRY(const bool of_meshes, draws_mesh_clusters(region, view));
+    if (!of_meshes) return draws_clusters(region, view);
+    view.mesh = "clusters";
+    return false;
+}
+
+Result<std::shared_ptr<const MeshDetail>> mesh_detail_of(const Region& region, const View& view) {
     ORO_TRY(const bool draws, draws_mesh_clusters(region, view));
-    if (!draws) return std::optional<DrawnMeshes>();
-    const auto start = Clock::now();
-    const MeshDetail detail = MeshDetail::of(region, view.exaggeration, thread_count());
-    DrawnMeshes drawn;
-    drawn.graph_s = seconds_since(start);
+    if (!draws) return std::shared_ptr<const MeshDetail>();
+    return std::make_shared<const MeshDetail>(MeshDetail::of(region, view.exaggeration, thread_count()));
+}
+
+MeshCut mesh_cut_of(const MeshDetail& detail, const View& view, std::span<const Camera> cameras,
+                    const MeshCut* before) {
     std::optional<std::uint32_t> level;
     if (view.mesh_level) level = static_cast<std::uint32_t>(*view.mesh_level);
-    drawn.cut = detail.cut(view.camera, view.tau_px, view.model.air, level);
+    return detail.cut(cameras, view.tau_px, view.model.air, level, before);
+}
+
+Result<std::optional<DrawnMeshes>> drawn_meshes(const Region& region, const View& view) {
+    const auto start = Clock::now();
+    ORO_TRY(const std::shared_ptr<const MeshDetail> detail, mesh_detail_of(region, view));
+    if (!detail) return std::optional<DrawnMeshes>();
+    DrawnMeshes drawn;
+    drawn.graph_s = seconds_since(start);
+    drawn.built = detail->built();
+    drawn.cut = mesh_cut_of(*detail, view, std::span(&view.camera, 1));
     return std::optional(std::move(drawn));
 }
 
@@ -42,6 +61,7 @@ std::string words_of(const DrawnMeshes& meshes) {
         std::snprintf(text, sizeof text, " (%.3g px)", meshes.cut.error_px);
         words += text;
     }
+    if (meshes.built == 0) return words + "; graph of the file";
     std::snprintf(text, sizeof text, "; graph built in %.1f s", meshes.graph_s);
     return words + text;
 }

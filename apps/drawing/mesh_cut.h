@@ -1,7 +1,10 @@
 // Whether a view's meshes are drawn at the detail that it needs, and what that is.
 #pragma once
 
+#include <cstddef>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "apps/view/view.h"
@@ -13,12 +16,23 @@ namespace oro {
 // What is drawn in the place of a view's meshes, and what choosing it took.
 struct DrawnMeshes {
     MeshCut cut;
-    double graph_s{};  // building the graphs
+    double graph_s{};     // building the graphs
+    std::size_t built{};  // of them; the others lie in a baked file
 };
 
 // True where meshes lie on the region and the view asks for clusters (--mesh clusters, --mesh-level); the
 // terrain is then drawn by blocks. Errors: the view asks, and is a map, or not drawn on the ellipsoid.
 Result<bool> draws_mesh_clusters(const Region& region, const View& view);
+
+// Whether the view's clusters are those of the terrain (draws_clusters()): false, and its mesh stays
+// "clusters", where draws_mesh_clusters(). Errors: as both.
+Result<bool> draws_terrain_clusters(const Region& region, View& view);
+
+// The graphs of the region's meshes; null where draws_mesh_clusters() says no. Errors: as it.
+Result<std::shared_ptr<const MeshDetail>> mesh_detail_of(const Region& region, const View& view);
+// What a view with that camera, or several, shows of them. before: as MeshDetail::cut().
+MeshCut mesh_cut_of(const MeshDetail& detail, const View& view, std::span<const Camera> cameras,
+                    const MeshCut* before = nullptr);
 
 // Builds the graphs of the region's meshes and chooses from them, on all threads of the machine; nothing
 // where draws_mesh_clusters() says no. Errors: as it.

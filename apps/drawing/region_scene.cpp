@@ -106,19 +106,17 @@ Result<void> add_clusters(const Gpu& gpu, const RegionGrid& grid, std::uint64_t 
     return {};
 }
 
-// What is between a region's grids, into the frames of their scene. Gives the triangles that it has.
-Result<std::uint64_t> draw_between(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
-                                   double exaggeration, const std::vector<PlacedMesh>* meshes, Scene& scene) {
+// What is between a region's grids, for the frames of their scene; nothing where nothing is.
+Result<std::optional<Scene>> scene_between(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
+                                           double exaggeration, const std::vector<PlacedMesh>* meshes) {
     const Seam seam = seam_between(region, cuts, exaggeration, meshes);
-    if (seam.empty()) return std::uint64_t{0};
+    if (seam.empty()) return std::optional<Scene>();
     const HeightField& field = region.grids.front().field;
     ORO_TRY(std::unique_ptr<RegionPages> pages,
             seam_pages(seam, field.undulation, region_shape(field, exaggeration)));
-    const std::uint64_t triangles = pages->facts().triangles;
     // Small beside the rest, which it takes nothing from.
     ORO_TRY(Scene between, Scene::create(gpu, std::move(pages)));
-    scene.add(std::move(between));
-    return triangles;
+    return std::optional(std::move(between));
 }
 
 }  // namespace
@@ -145,11 +143,21 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
     if (request.clusters)
         ORO_CHECK(add_clusters(gpu, region.grids.front(), bytes, memory.main, request.mesh_level, *scene));
     if (pages.size() > 1 || region.meshes) {
-        ORO_TRY(const std::uint64_t between,
-                draw_between(gpu, region, cuts, request.exaggeration, request.meshes.get(), *scene));
-        triangles += between;
+        ORO_TRY(std::optional<Scene> between,
+                scene_between(gpu, region, cuts, request.exaggeration, request.meshes.get()));
+        if (between) {
+            triangles += between->grids().front().pages().facts().triangles;
+            scene->add(std::move(*between));
+        }
     }
     return RegionScene{std::move(*scene), triangles};
+}
+
+Result<void> redraw_meshes(const Gpu& gpu, const Region& region, const RegionCuts& cuts, double exaggeration,
+                           const std::vector<PlacedMesh>& meshes, Scene& scene) {
+    ORO_TRY(std::optional<Scene> between, scene_between(gpu, region, cuts, exaggeration, &meshes));
+    scene.replace_between(std::move(between));
+    return {};
 }
 
 Error lacks_gpu_memory(const Scene& scene, const std::string& what) {

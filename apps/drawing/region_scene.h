@@ -46,6 +46,11 @@ struct SceneRequest {
 Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
                                     GridPages pages, const SceneRequest& request);
 
+// Draws other meshes in the place of a region's, in a scene of scene_of_region() of which no frame is under
+// way. meshes: as many as the region has. Errors: out of device memory.
+Result<void> redraw_meshes(const Gpu& gpu, const Region& region, const RegionCuts& cuts, double exaggeration,
+                           const std::vector<PlacedMesh>& meshes, Scene& scene);
+
 // What is said where a scene's GPU memory is too small for what a picture shows. what: "this view".
 Error lacks_gpu_memory(const Scene& scene, const std::string& what);
 

@@ -15,7 +15,7 @@
 #include "apps/commands/coordinates.h"
 #include "apps/commands/panorama/panorama_asked.h"
 #include "apps/commands/shot/shot_scene.h"
-#include "apps/drawing/mesh_choice.h"
+#include "apps/drawing/mesh_cut.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/labels/labelled_picture.h"
 #include "apps/layers/picture_layers.h"
@@ -331,7 +331,7 @@ Result<void> answer_panorama(const OpenRegion& open, const std::vector<std::stri
     oro::Region region = region_for_view(open);
     ORO_CHECK(oro::open_view_in_region(oro::view_options_of(options), open.request, view, region));
     // view.mesh tells what is drawn from then on.
-    if (const auto drawn = oro::draws_clusters(region, view); !drawn.ok()) return drawn.error();
+    if (const auto drawn = oro::draws_terrain_clusters(region, view); !drawn.ok()) return drawn.error();
     ORO_TRY(const oro::RegionCuts cuts, oro::cut_regions(region));
     ORO_TRY(const auto ground, oro::RegionGround::of(region, cuts, view.exaggeration));
     ORO_CHECK(oro::set_frame(asked, ground->ground(), view));

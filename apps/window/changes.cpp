@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "apps/drawing/mesh_choice.h"
+#include "apps/drawing/mesh_cut.h"
 #include "apps/navigation/flight_step.h"
 #include "apps/window/frames.h"
 #include "apps/window/pictures.h"
@@ -42,7 +42,7 @@ Result<void> take_look(Viewer& viewer, View view) {
         return field.health();
     }
     forget_mesh(viewer, view);
-    const Result<bool> clusters = draws_clusters(viewer.region, view);
+    const Result<bool> clusters = draws_terrain_clusters(viewer.region, view);
     if (!clusters.ok()) {
         tell(viewer, clusters.error());
         return {};

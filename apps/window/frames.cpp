@@ -227,6 +227,7 @@ Result<bool> draw_frame(Viewer& viewer, bool& changed) {
     changed = changed || better_second;
     changed = comes_to_rest(viewer) || changed;
     if (!changed) return false;
+    ORO_CHECK(follow_with_meshes(viewer));
     SubmittedFrame frame;
     frame.times.input = viewer.polled;
     frame.times.begun = Clock::now();

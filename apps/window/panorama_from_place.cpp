@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "apps/drawing/mesh_choice.h"
+#include "apps/drawing/mesh_cut.h"
 #include "apps/eye/standpoint.h"
 #include "apps/report/json_text.h"
 #include "apps/window/seen_around.h"
@@ -36,7 +36,7 @@ Result<DrawnPanorama> drawn_panorama(View view, const AskedFrame& asked, const R
                                      const Progress& progress) {
     DrawnPanorama drawn;
     // view.mesh tells what is drawn from then on.
-    if (const auto clusters = draws_clusters(region, view); !clusters.ok()) return clusters.error();
+    if (const auto clusters = draws_terrain_clusters(region, view); !clusters.ok()) return clusters.error();
     progress(0.0, "looking around");
     ORO_TRY(const auto ground, RegionGround::of(region, cuts, view.exaggeration));
     ORO_TRY(drawn.leaves_out_near, set_frame(asked, ground->ground(), view));

@@ -2,8 +2,9 @@
 
 #include "apps/accuracy/beyond_data.h"
 #include "apps/drawing/drape.h"
-#include "apps/drawing/mesh_choice.h"
+#include "apps/drawing/mesh_cut.h"
 #include "apps/legend/legend.h"
+#include "apps/navigation/view_history.h"
 #include "apps/output/picture_file.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
@@ -41,6 +42,7 @@ Result<void> write_picture_of(Viewer& viewer, const PictureChoice& choice) {
     }
     viewer.view.time_utc_s = time_now_s();
     View view = pictured(viewer.view, choice);
+    ORO_CHECK(choose_meshes(viewer, view.camera));
     const PictureFiles files = picture_files(free_picture_name(view.time_utc_s, choice.ending));
     ORO_TRY(const RegionGround* const ground, ground_of(viewer));
     ORO_TRY(const auto middle, place_in_middle(view, *ground));
@@ -69,19 +71,43 @@ void take_scene(Viewer& viewer, OpenedScene opened) {
     viewer.coming.reset();
     viewer.certificates.forget();
     viewer.scene = std::make_unique<Scene>(std::move(opened.scene));
+    viewer.meshes = std::move(opened.meshes);
     viewer.finer = opened.is_coarse ? std::make_unique<BackgroundPyramidBuild>(
                                           viewer.region, viewer.view.exaggeration, opened.keeps_means)
                                     : nullptr;
+}
+
+Result<void> choose_meshes(Viewer& viewer, const Camera& camera) {
+    EyeMeshes& meshes = viewer.meshes;
+    const bool is_chosen = is_same_view(meshes.camera, camera) && meshes.camera.width_px == camera.width_px &&
+                           meshes.camera.height_px == camera.height_px && meshes.tau_px == viewer.view.tau_px;
+    if (!meshes.detail || is_chosen) return {};
+    MeshCut cut = mesh_cut_of(*meshes.detail, viewer.view, std::span(&camera, 1), &meshes.cut);
+    const bool is_drawn = cut.meshes == meshes.cut.meshes;
+    meshes = {meshes.detail, std::move(cut), camera, viewer.view.tau_px, Clock::now()};
+    if (is_drawn) return {};
+    ORO_CHECK(finish_frames(viewer));
+    ORO_CHECK(redraw_meshes(viewer.gpu, viewer.region, viewer.cuts, viewer.view.exaggeration,
+                            *meshes.cut.meshes, *viewer.scene));
+    if (viewer.view.images.empty() && !viewer.view.cover) return {};
+    return lay_images(viewer.view, memory_of_first(viewer), viewer.gpu, *viewer.scene, true);
+}
+
+Result<void> follow_with_meshes(Viewer& viewer) {
+    constexpr double between_s = 1.0;
+    if (is_moving(viewer) && seconds_since(viewer.meshes.chosen) < between_s) return {};
+    return choose_meshes(viewer, viewer.view.camera);
 }
 
 Result<void> begin_finer_scene(Viewer& viewer) {
     GridPages pages(1);
     ORO_TRY(pages.front(), viewer.finer->wait());
     viewer.finer.reset();
-    ORO_TRY(const bool clusters, draws_clusters(viewer.region, viewer.view));
+    ORO_TRY(const bool clusters, draws_terrain_clusters(viewer.region, viewer.view));
     ORO_TRY(Scene scene,
-            scene_with_images(viewer.gpu, viewer.region, viewer.cuts, std::move(pages), viewer.view,
-                              {memory_of_first(viewer), true, viewer.keeps_means, clusters}));
+            scene_with_images(
+                viewer.gpu, viewer.region, viewer.cuts, std::move(pages), viewer.view,
+                {memory_of_first(viewer), true, viewer.keeps_means, clusters, viewer.meshes.cut.meshes}));
     if (is_tinted(viewer)) ORO_CHECK(lay_over_ground(viewer, scene));
     viewer.coming = std::make_unique<Scene>(std::move(scene));
     viewer.coming_since = Clock::now();
@@ -91,6 +117,8 @@ Result<void> begin_finer_scene(Viewer& viewer) {
 void show_finer_scene(Viewer& viewer) {
     viewer.certificates.forget();
     viewer.scene = std::move(viewer.coming);
+    viewer.meshes.cut = {};  // it may have been chosen anew meanwhile
+    viewer.meshes.tau_px = 0.0;
     viewer.is_missing = false;
     viewer.wants_picture = true;
 }

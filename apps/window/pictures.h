@@ -10,6 +10,10 @@ namespace oro {
 void take_scene(Viewer& viewer, OpenedScene opened);
 // A sun by time stands elsewhere over every place.
 void follow_sun(Viewer& viewer);
+// Draws what a camera needs of the meshes, where they are drawn by clusters. Errors: the device.
+Result<void> choose_meshes(Viewer& viewer, const Camera& camera);
+// The same for the eye: at once where it rests, each second while it moves.
+Result<void> follow_with_meshes(Viewer& viewer);
 // The measured levels become a scene that is not shown yet; waits for them where they are not ready.
 Result<void> begin_finer_scene(Viewer& viewer);
 // The scene that came is the one that is shown.

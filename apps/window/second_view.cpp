@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "apps/drawing/drape.h"
-#include "apps/drawing/mesh_choice.h"
+#include "apps/drawing/mesh_cut.h"
 #include "apps/window/changes.h"
 #include "apps/window/frames.h"
 #include "apps/window/kept_view.h"
@@ -116,7 +116,7 @@ Result<std::unique_ptr<SecondView>> second_of(Viewer& viewer, SecondGround groun
     // Of its levels, whatever the first view has come to meanwhile.
     view.exaggeration = ground.exaggeration;
     ORO_TRY(const Style style, load_style(view, region.grids.front().field));
-    ORO_TRY(const bool clusters, draws_clusters(region, view));
+    ORO_TRY(const bool clusters, draws_terrain_clusters(region, view));
     const bool means = asks_for_means(style.frame);
     ORO_TRY(Scene scene,
             scene_with_images(viewer.gpu, region, cuts_of(viewer, own), std::move(ground.pages), view,
@@ -141,7 +141,7 @@ Result<bool> change_second(Viewer& viewer, const SecondChoice& choice) {
     const Region& region = region_of(viewer, second.own.get());
     ORO_TRY(View view, view_beside(viewer, choice, second.own.get()));
     ORO_TRY(const Style style, load_style(view, region.grids.front().field));
-    ORO_TRY(const bool clusters, draws_clusters(region, view));
+    ORO_TRY(const bool clusters, draws_terrain_clusters(region, view));
     if (view.exaggeration != second.view.exaggeration || clusters != second.has_clusters ||
         (asks_for_means(style.frame) && !second.has_means))
         return false;

@@ -35,6 +35,7 @@
 #include "apps/window/playing.h"
 #include "apps/window/region_opening.h"
 #include "apps/window/second_view.h"
+#include "apps/window/window_start.h"
 #include "core/base/elapsed.h"
 #include "render/frame/frame_renderer.h"
 #include "render/window.h"
@@ -220,6 +221,7 @@ struct Viewer {
     double frame_s{};  // that it took: since it was begun, or since the one before it was drawn
     std::optional<SubmittedFrame> to_trace{};  // that was drawn and not shown yet
     std::string traced{};                      // the line that trace_state() printed last
+    EyeMeshes meshes{};                        // that the scene draws
     bool keeps_means{};         // the scene has means of the ground, whatever the style asks for now
     bool wants_picture{false};  // something has changed that pictures show
     bool leaves{false};         // the user wants to

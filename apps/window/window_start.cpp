@@ -6,7 +6,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/drawing/background_pyramid_build.h"
 #include "apps/drawing/drape.h"
-#include "apps/drawing/mesh_choice.h"
+#include "apps/drawing/mesh_cut.h"
 #include "apps/eye/standpoint.h"
 #include "apps/navigation/flight_step.h"
 #include "apps/report/json_text.h"
@@ -60,7 +60,7 @@ Result<Scene> scene_with_images(const Gpu& gpu, const Region& region, const Regi
     ORO_TRY(RegionScene whole,
             scene_of_region(gpu, region, cuts, std::move(pages),
                             {view.exaggeration, memory_of_pages(view, choice.memory), view.heights,
-                             choice.keeps_means, choice.clusters, view.mesh_level}));
+                             choice.keeps_means, choice.clusters, view.mesh_level, choice.meshes}));
     // A moving eye is planned anew each frame. Where a processor draws it makes the tables all the same.
     if (gpu.report().kind != VK_PHYSICAL_DEVICE_TYPE_CPU) {
         const Result<bool> on_device = whole.scene.plan_on_device(gpu);
@@ -72,12 +72,19 @@ Result<Scene> scene_with_images(const Gpu& gpu, const Region& region, const Regi
 
 Result<OpenedScene> first_scene(const Gpu& gpu, const Region& region, const RegionCuts& cuts, GridPages pages,
                                 View& view, SceneChoice choice) {
-    ORO_TRY(choice.clusters, draws_clusters(region, view));
+    ORO_TRY(choice.clusters, draws_terrain_clusters(region, view));
+    EyeMeshes meshes{{}, {}, view.camera, view.tau_px, Clock::now()};
+    ORO_TRY(meshes.detail, mesh_detail_of(region, view));
+    if (meshes.detail) {
+        meshes.cut = mesh_cut_of(*meshes.detail, view, std::span(&view.camera, 1));
+        choice.meshes = meshes.cut.meshes;
+    }
     const bool keeps_means = choice.keeps_means;
     const bool lacks_means = keeps_means && measures_means_long(region);
     choice.keeps_means = keeps_means && !lacks_means;
     ORO_TRY(Scene scene, scene_with_images(gpu, region, cuts, std::move(pages), view, choice));
-    return OpenedScene{std::move(scene), measures_long(region) || lacks_means, keeps_means};
+    return OpenedScene{std::move(scene), measures_long(region) || lacks_means, keeps_means,
+                       std::move(meshes)};
 }
 
 Result<OpenedScene> open_scene(const Gpu& gpu, const Region& region, const RegionCuts& cuts, View& view,

@@ -2,13 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "apps/drawing/region_scene.h"
 #include "apps/styles/style.h"
 #include "apps/view/view.h"
+#include "core/base/elapsed.h"
 #include "core/base/progress.h"
+#include "core/earth/camera.h"
+#include "geo/together/mesh_detail.h"
 #include "render/device/device_report.h"
 
 namespace oro {
@@ -26,16 +30,28 @@ struct SceneChoice {
     bool quiet{};        // what a user must know of images is not said
     bool keeps_means{};  // it has means of the ground, which some styles ask for
     bool clusters{};     // its ground is drawn by clusters
+    // What is drawn in the place of the region's meshes; null: themselves.
+    std::shared_ptr<const std::vector<PlacedMesh>> meshes{};
 };
 // A scene of pages with the view's images over it. Errors: the device, posts, images.
 Result<Scene> scene_with_images(const Gpu& gpu, const Region& region, const RegionCuts& cuts, GridPages pages,
                                 const View& view, const SceneChoice& choice);
+
+// Meshes at the detail of an eye, where a view asks for that (--mesh clusters, --mesh-level).
+struct EyeMeshes {
+    std::shared_ptr<const MeshDetail> detail;  // null: all of their triangles are drawn
+    MeshCut cut;                               // what is drawn,
+    Camera camera;                             // ... chosen for this one,
+    double tau_px{};
+    Clock::time_point chosen{};
+};
 
 // What a window draws first of a region.
 struct OpenedScene {
     Scene scene;
     bool is_coarse{};    // every n-th post, or without means of the ground: a finer one is to come
     bool keeps_means{};  // the finer one has them
+    EyeMeshes meshes{};
 };
 // A scene of first_pages() as scene_with_images() makes it, but without means that take long. Clusters are
 // chosen here, as the view asks for. Errors: as scene_with_images() and draws_clusters().

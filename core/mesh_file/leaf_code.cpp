@@ -12,17 +12,17 @@ bool has_corner(const std::array<std::uint32_t, 3>& triangle, std::uint32_t vert
 }  // namespace
 
 void LeafCode::begin(std::uint32_t count, const LeafSource& source) {
-    open_.clear(), told_.clear(), local_.clear();
-    is_told_.assign(source.triangles.empty() ? 0 : count, 0);
+    open_.clear(), recorded_.clear(), local_.clear();
+    is_recorded_.assign(source.triangles.empty() ? 0 : count, 0);
 }
 
 // The triangle of the source that is not told yet and has that side; none: there is none.
-LeafCode::Told LeafCode::at_side(const LeafSource& source, const Side& side) const {
-    Told found;
+LeafCode::Recorded LeafCode::at_side(const LeafSource& source, const Side& side) const {
+    Recorded found;
     const std::uint32_t from = source_of_[side.from], to = source_of_[side.to];
     for (std::uint32_t i = 0; i < source.triangles.size(); ++i) {
         const Triangle& triangle = source.triangles[i];
-        if (is_told_[i] != 0 || !has_corner(triangle, from) || !has_corner(triangle, to)) continue;
+        if (is_recorded_[i] != 0 || !has_corner(triangle, from) || !has_corner(triangle, to)) continue;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t a = triangle[k], b = triangle[(k + 1) % 3], c = triangle[(k + 2) % 3];
             if (a == to && b == from) return {{to, from, c}, i, false};
@@ -33,11 +33,11 @@ LeafCode::Told LeafCode::at_side(const LeafSource& source, const Side& side) con
 }
 
 // One that is not told yet, of most vertices that are known.
-LeafCode::Told LeafCode::first_left(const LeafSource& source) const {
-    Told best;
+LeafCode::Recorded LeafCode::first_left(const LeafSource& source) const {
+    Recorded best;
     int most = -1;
     for (std::uint32_t i = 0; i < source.triangles.size(); ++i) {
-        if (is_told_[i] != 0) continue;
+        if (is_recorded_[i] != 0) continue;
         const Triangle& triangle = source.triangles[i];
         const auto is_known = [&](std::size_t k) {
             return triangle[k % 3] < number_of_.size() && number_of_[triangle[k % 3]] != none ? 1 : 0;
@@ -140,10 +140,10 @@ bool LeafCode::code(Coder& coder, std::uint32_t count, const LeafSource& source,
                     std::span<const LatticeSteps> source_places, std::vector<Triangle>& triangles,
                     StoredMesh& mesh) {
     begin(count, source);
-    for (std::uint32_t told = 0; told < count;) {
+    for (std::uint32_t done = 0; done < count;) {
         const bool is_first = open_.empty();
         Side side{};
-        Told next;
+        Recorded next;
         if (!is_first) {
             side = open_.back();
             open_.pop_back();
@@ -177,13 +177,13 @@ bool LeafCode::code(Coder& coder, std::uint32_t count, const LeafSource& source,
                 label = side.label;
             mesh.labels.push_back(label);
         }
-        if constexpr (Coder::writes) is_told_[next.number] = 1, told_.push_back(next.number);
+        if constexpr (Coder::writes) is_recorded_[next.number] = 1, recorded_.push_back(next.number);
         for (const std::uint32_t corner : corners)
             if (std::find(local_.begin(), local_.end(), corner) == local_.end()) local_.push_back(corner);
         add_sides(corners, label, !is_first);
         sides_of_all_.add(corners);
         triangles.push_back(corners);
-        ++told;
+        ++done;
         if constexpr (!Coder::writes)
             if (coder.is_wrong()) return false;
     }

@@ -35,7 +35,7 @@ class LeafCode {
               std::span<const LatticeSteps> source_places, std::vector<Triangle>& triangles,
               StoredMesh& mesh);
     // Of what an encoder was given: the number in the source of each triangle told of the last leaf.
-    [[nodiscard]] std::span<const std::uint32_t> told() const { return told_; }
+    [[nodiscard]] std::span<const std::uint32_t> recorded() const { return recorded_; }
     // Of an encoder: by the source's numbers of vertices those of the file.
     [[nodiscard]] std::uint32_t number_of(std::uint32_t source_vertex) const {
         return number_of_[source_vertex];
@@ -48,14 +48,14 @@ class LeafCode {
         std::uint32_t third;     // its other vertex
         std::uint32_t label;
     };
-    struct Told {
+    struct Recorded {
         Triangle corners{};  // of the source, in the order in which they are told
         std::uint32_t number{none};
         bool is_turned{};
     };
     void begin(std::uint32_t count, const LeafSource& source);
-    [[nodiscard]] Told at_side(const LeafSource& source, const Side& side) const;
-    [[nodiscard]] Told first_left(const LeafSource& source) const;
+    [[nodiscard]] Recorded at_side(const LeafSource& source, const Side& side) const;
+    [[nodiscard]] Recorded first_left(const LeafSource& source) const;
     template <class Coder>
     std::uint32_t vertex(Coder& coder, std::span<const std::uint32_t> known, std::uint32_t source_vertex,
                          std::span<const LatticeSteps> source_places, const Side* side, StoredMesh& mesh);
@@ -67,8 +67,8 @@ class LeafCode {
     std::uint32_t vertex_count_, label_count_;
     OpenSides sides_of_all_;
     std::vector<Side> open_;
-    std::vector<std::uint32_t> ends_, told_;
-    std::vector<char> is_told_;             // of the source's triangles
+    std::vector<std::uint32_t> ends_, recorded_;
+    std::vector<char> is_recorded_;         // of the source's triangles
     std::vector<std::uint32_t> number_of_;  // an encoder's
     std::vector<std::uint32_t> source_of_;  // the inverse
     std::vector<std::uint32_t> local_;      // vertices of the leaf

@@ -192,10 +192,11 @@ std::string MeshBytesCode<Coder>::leaf(std::uint32_t number) {
     for (std::uint32_t i = 0; i < count; ++i) mesh_.graph.original_of.push_back(first + i);
     if constexpr (Coder::writes)
         for (std::uint32_t i = 0; i < count; ++i) {
-            const std::uint32_t told = given().clusters[number].first_triangle + leaf_.told()[i];
-            given_original_.push_back(source_->graph.original_of[told]);
+            const std::uint32_t number_there = given().clusters[number].first_triangle + leaf_.recorded()[i];
+            given_original_.push_back(source_->graph.original_of[number_there]);
             std::uint8_t turn = 0;
-            while (leaf_.number_of(given().triangles[told][turn]) != graph().triangles[first + i][0]) ++turn;
+            while (leaf_.number_of(given().triangles[number_there][turn]) != graph().triangles[first + i][0])
+                ++turn;
             turn_.push_back(turn);
         }
     graph().clusters.push_back({first, count, 0, no_group, no_group});
@@ -280,11 +281,11 @@ std::vector<GroupMaps::Left> MeshBytesCode<Coder>::left_of(std::uint32_t number,
 template <class Coder>
 std::string MeshBytesCode<Coder>::error(ClusterGroup& group, double least_m) {
     auto bits = std::bit_cast<std::uint64_t>(group.error_m);
-    std::uint64_t told = 0;
+    std::uint64_t read = 0;
     for (unsigned shift = 0; shift < 64; shift += 16)
-        told |= std::uint64_t{coder_.uniform(1U << 16U, static_cast<std::uint32_t>(bits >> shift & 0xffffU))}
+        read |= std::uint64_t{coder_.uniform(1U << 16U, static_cast<std::uint32_t>(bits >> shift & 0xffffU))}
                 << shift;
-    group.error_m = std::bit_cast<double>(told);
+    group.error_m = std::bit_cast<double>(read);
     constexpr double most_m = 1.0e7;
     if (std::isfinite(group.error_m) && group.error_m >= least_m && group.error_m <= most_m) return "";
     char text[120];

@@ -90,6 +90,7 @@ class MeshPlacing {
                 const std::optional<std::size_t> side = long_side(one);
                 if (!side) {
                     mesh.triangles.push_back(one);
+                    of_.push_back(static_cast<std::uint32_t>(number));
                     if (!source_.features.empty()) mesh.feature_of.push_back(feature);
                     if (mesh.triangles.size() + open.size() > most_placed_triangles)
                         return Error{ErrorKind::failed, source_.path,
@@ -109,6 +110,8 @@ class MeshPlacing {
         mesh.vertices = std::move(vertices_);
         return {};
     }
+    // Of each triangle that cut() made, the one of the file that it is a piece of; rising.
+    [[nodiscard]] std::span<const std::uint32_t> of() const { return of_; }
 
   private:
     void add(const glm::dvec3& at) {
@@ -144,6 +147,7 @@ class MeshPlacing {
     const SourceMesh& source_;
     const CrsPlaces& places_;
     const MeshScale& scale_;
+    std::vector<std::uint32_t> of_;
     std::vector<glm::dvec3> at_;  // in the file's numbers
     std::vector<char> placed_;
     std::vector<PlacedVertex> vertices_;
@@ -228,8 +232,22 @@ std::vector<char> are_first(const PlacedMesh& mesh, const std::vector<LatticeKey
     return first;
 }
 
-// Leaves out triangles without an area on the lattice, and those given again.
-void drop_degenerate(const UndulationField& undulation, PlacedMesh& mesh) {
+// Counts triangles of a file, not their pieces.
+class OnceEach {
+  public:
+    void add(std::uint32_t number) {
+        count += last_ != number ? 1U : 0U;
+        last_ = number;
+    }
+    std::size_t count{};
+
+  private:
+    std::uint32_t last_{~std::uint32_t{0}};
+};
+
+// Leaves out triangles without an area on the lattice, and those given again. of: which of the file's each is
+// a piece of.
+void drop_degenerate(const UndulationField& undulation, std::span<const std::uint32_t> of, PlacedMesh& mesh) {
     const std::vector<LatticeKey> lattice = lattice_of(undulation, mesh);
     const std::vector<char> first = are_first(mesh, lattice);
     const auto has_area = [&](const SourceTriangle& triangle) {
@@ -240,15 +258,16 @@ void drop_degenerate(const UndulationField& undulation, PlacedMesh& mesh) {
         }
         return glm::cross(at[1] - at[0], at[2] - at[0]) != glm::dvec3(0.0);
     };
-    std::size_t kept = 0, again = 0;
+    std::size_t kept = 0;
+    OnceEach degenerate, again;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const SourceTriangle triangle = mesh.triangles[i];
         if (!has_area(triangle)) {
-            ++mesh.degenerate;
+            degenerate.add(of[i]);
             continue;
         }
         if (first[i] == 0) {
-            ++again;
+            again.add(of[i]);
             continue;
         }
         if (!mesh.feature_of.empty()) mesh.feature_of[kept] = mesh.feature_of[i];
@@ -256,7 +275,8 @@ void drop_degenerate(const UndulationField& undulation, PlacedMesh& mesh) {
     }
     mesh.triangles.resize(kept);
     if (!mesh.feature_of.empty()) mesh.feature_of.resize(kept);
-    if (again > 0) add_note(mesh, std::to_string(again) + " left out, given twice");
+    mesh.degenerate = degenerate.count;
+    if (again.count > 0) add_note(mesh, std::to_string(again.count) + " left out, given twice");
 }
 
 // A mesh is drawn around one place, in steps of 2^-11 m that are 32 bits.
@@ -342,7 +362,7 @@ Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, 
     ORO_CHECK(check_reach(mesh));
     if (const std::optional<StatedDatum> datum = stated_datum(crs))
         ORO_CHECK(lift_heights(crs, *datum, scale.height_m, strict_datum, undulation, mesh));
-    drop_degenerate(undulation, mesh);
+    drop_degenerate(undulation, placing.of(), mesh);
     if (mesh.triangles.empty())
         return Error{ErrorKind::failed, source.path, "no triangle has an area: is --mesh-unit right?"};
     return mesh;
@@ -351,8 +371,11 @@ Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, 
 }  // namespace
 
 std::string note_of_mesh(const PlacedMesh& mesh) {
-    std::string note = mesh.path + ": a mesh of " + std::to_string(mesh.in_file) + " triangles";
-    if (!mesh.features.empty()) note += " in " + std::to_string(mesh.features.size()) + " features";
+    const auto several = [](std::size_t count, const char* what) {
+        return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+    };
+    std::string note = mesh.path + ": a mesh of " + several(mesh.in_file, "triangle");
+    if (!mesh.features.empty()) note += " in " + several(mesh.features.size(), "feature");
     note += ", heights above " + mesh.heights;
     const auto left_out = [&](std::size_t count, const char* why) {
         if (count > 0) note += "; " + std::to_string(count) + " left out, " + why;

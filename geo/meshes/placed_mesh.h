@@ -16,6 +16,8 @@
 
 namespace oro {
 
+struct StoredMesh;
+
 // A vertex on WGS84. H is above the geoid of the region that the mesh belongs to: that vertex is drawn at
 // h = H times the exaggeration + N, as posts are.
 struct PlacedVertex {
@@ -57,6 +59,8 @@ struct PlacedMesh {
     std::size_t degenerate{};     // ... left out: without an area on the lattice of 2^-11 m
     std::uint64_t fingerprint{};  // XXH64 of the vertices and triangles, before cutting, and of unit and CRS
     std::string note;             // what a user must know; "" for nothing
+    // Of one that was baked: its triangles as its file has them, with their graph; null: it was not.
+    std::shared_ptr<const StoredMesh> stored;
 };
 
 // One line of what was placed: triangles, what was left out, what its heights are above, and its note.

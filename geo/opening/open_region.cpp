@@ -23,6 +23,7 @@
 #include "geo/opening/region_files.h"
 #include "geo/opening/region_sources.h"
 #include "geo/region/region_grid.h"
+#include "geo/together/baked_meshes.h"
 #include "geo/together/feather.h"
 #include "geo/together/mesh_cut.h"
 
@@ -47,6 +48,16 @@ Result<void> cut_terrain_out(Region& region) {
     return {};
 }
 
+// The meshes in a baked file, before those that lie on it besides. Its description has the notes on them.
+Result<void> open_baked_meshes(const std::string& path, Region& region) {
+    ORO_TRY(const std::shared_ptr<const Container> container, Container::open(path));
+    ORO_TRY(std::vector<PlacedMesh> meshes,
+            read_baked_meshes(*container, region.grids.front().field.undulation));
+    if (meshes.empty()) return {};
+    region.meshes = std::make_shared<const std::vector<PlacedMesh>>(std::move(meshes));
+    return {};
+}
+
 // The meshes on a region, and what is to be told of them.
 Result<void> open_meshes_of(const RegionRequest& request, Region& region) {
     std::vector<const RegionGrid*> grids;
@@ -54,16 +65,20 @@ Result<void> open_meshes_of(const RegionRequest& request, Region& region) {
     std::ranges::stable_sort(grids, {}, [](const RegionGrid* grid) { return grid->rank; });
     std::vector<const HeightField*> fields;
     for (const RegionGrid* const grid : grids) fields.push_back(&grid->field);
-    ORO_TRY(region.meshes,
+    ORO_TRY(const auto opened,
             open_meshes(request.meshes, request.strict_datum, region.grids.front().field.undulation, fields));
     RegionGrid& first = region.grids.front();
-    for (const PlacedMesh& mesh : *region.meshes) {
+    for (const PlacedMesh& mesh : *opened) {
         const std::optional<MeshOverGround> over = mesh_over_ground(mesh, fields);
         const bool is_swapped = !over && is_over_ground_swapped(mesh, fields);
         first.notes.push_back(
             note_of_mesh(mesh) + "; " + words_of(over, first.geoid) +
             (is_swapped ? "; with latitude and longitude swapped it would: x is the longitude" : ""));
     }
+    auto meshes = std::make_shared<std::vector<PlacedMesh>>();
+    if (region.meshes) *meshes = *region.meshes;
+    meshes->insert(meshes->end(), opened->begin(), opened->end());
+    region.meshes = std::move(meshes);
     if (request.meshes.cut_under) ORO_CHECK(cut_terrain_out(region));
     return region.health();
 }
@@ -103,6 +118,7 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
     if (progress) progress(1.0, "region read");
     Region region = describe_region(std::move(grids), empty, is_baked);
     if (request.feather_m > 0.0 && region.grids.size() > 1) ORO_CHECK(feather(region, request.feather_m));
+    if (is_baked) ORO_CHECK(open_baked_meshes(files.baked, region));
     if (!request.meshes.files.empty()) ORO_CHECK(open_meshes_of(request, region));
     return region;
 }

@@ -7,6 +7,8 @@
 
 #include "core/cluster_frame/cluster_cut.h"
 #include "core/cluster_frame/group_rule.h"
+#include "core/mesh_file/stored_mesh.h"
+#include "core/terrain/page_on_net.h"
 #include "geo/together/mesh_surface.h"
 
 namespace oro {
@@ -27,6 +29,15 @@ std::vector<std::uint32_t> firsts_at(const std::vector<glm::dvec3>& places) {
 
 constexpr std::uint32_t not_used = ~std::uint32_t{0};
 
+// Whether a mesh is drawn where its baked graph was built.
+bool lies_as_stored(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration) {
+    if (!mesh.stored) return false;
+    const std::vector<glm::dvec3> places = drawn_places_m(mesh, undulation, exaggeration);
+    for (std::size_t i = 0; i < places.size(); ++i)
+        if (lattice_point(places[i]).steps != mesh.stored->places[i]) return false;
+    return true;
+}
+
 }  // namespace
 
 MeshDetail::Graph MeshDetail::graph_of(const PlacedMesh& mesh, const UndulationField& undulation,
@@ -38,6 +49,7 @@ MeshDetail::Graph MeshDetail::graph_of(const PlacedMesh& mesh, const UndulationF
     std::vector<glm::dvec3> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     const glm::dvec3 origin = places[mesh.triangles.front()[0]];
+    graph.origin_m = origin;
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
         std::array<glm::dvec3, 3> at{};
         for (std::size_t k = 0; k < 3; ++k) at[k] = places[mesh.triangles[i][k]];
@@ -49,21 +61,31 @@ MeshDetail::Graph MeshDetail::graph_of(const PlacedMesh& mesh, const UndulationF
             if (number[vertex] == not_used) {
                 number[vertex] = static_cast<std::uint32_t>(vertices.size());
                 vertices.push_back(places[vertex] - origin);
+                graph.places_m.push_back(places[vertex]);
                 graph.vertex_of.push_back(vertex);
             }
             triangle[k] = number[vertex];
         }
     }
-    if (!triangles.empty()) graph.graph = build_mesh_graph(vertices, triangles, origin, {threads});
+    graph.graph = std::make_shared<const MeshGraph>(
+        triangles.empty() ? MeshGraph() : build_mesh_graph(vertices, triangles, origin, {threads}));
     return graph;
 }
 
 MeshDetail MeshDetail::of(const Region& region, double exaggeration, int threads) {
     MeshDetail detail;
     detail.meshes_ = region.meshes;
-    for (const PlacedMesh& mesh : *region.meshes)
-        detail.graphs_.push_back(
-            graph_of(mesh, region.grids.front().field.undulation, exaggeration, threads));
+    const UndulationField& undulation = region.grids.front().field.undulation;
+    for (const PlacedMesh& mesh : *region.meshes) {
+        if (lies_as_stored(mesh, undulation, exaggeration)) {
+            Graph& stored = detail.graphs_.emplace_back();
+            stored.graph = std::shared_ptr<const MeshGraph>(mesh.stored, &mesh.stored->graph);
+            continue;
+        }
+        detail.graphs_.push_back(graph_of(mesh, undulation, exaggeration, threads));
+        detail.graphs_.back().places_m = {};
+        ++detail.built_;
+    }
     return detail;
 }
 
@@ -73,13 +95,16 @@ PlacedMesh MeshDetail::drawn(const PlacedMesh& mesh, const Graph& graph,
     drawn.path = mesh.path, drawn.format = mesh.format, drawn.crs = mesh.crs, drawn.heights = mesh.heights;
     drawn.features = mesh.features, drawn.in_file = mesh.in_file, drawn.fingerprint = mesh.fingerprint;
     std::vector<std::uint32_t> number(mesh.vertices.size(), not_used);
-    const ClusterGraph& all = graph.graph.clusters;
+    const ClusterGraph& all = graph.graph->clusters;
+    const auto of_mesh = [](const std::vector<std::uint32_t>& numbers, std::uint32_t i) {
+        return numbers.empty() ? i : numbers[i];
+    };
     for (const std::uint32_t one : clusters) {
         const Cluster& cluster = all.clusters[one];
         for (std::uint32_t i = cluster.first_triangle; i < cluster.first_triangle + cluster.triangles; ++i) {
             SourceTriangle& triangle = drawn.triangles.emplace_back();
             for (std::size_t k = 0; k < 3; ++k) {
-                const std::uint32_t vertex = graph.vertex_of[all.triangles[i][k]];
+                const std::uint32_t vertex = of_mesh(graph.vertex_of, all.triangles[i][k]);
                 if (number[vertex] == not_used) {
                     number[vertex] = static_cast<std::uint32_t>(drawn.vertices.size());
                     drawn.vertices.push_back(mesh.vertices[vertex]);
@@ -87,32 +112,47 @@ PlacedMesh MeshDetail::drawn(const PlacedMesh& mesh, const Graph& graph,
                 triangle[k] = number[vertex];
             }
             if (!mesh.feature_of.empty())
-                drawn.feature_of.push_back(mesh.feature_of[graph.triangle_of[graph.graph.original_of[i]]]);
+                drawn.feature_of.push_back(
+                    mesh.feature_of[of_mesh(graph.triangle_of, graph.graph->original_of[i])]);
         }
     }
     return drawn;
 }
 
 MeshCut MeshDetail::cut(const Camera& camera, double tau_px, const Air& air,
-                        const std::optional<std::uint32_t>& level) const {
-    const GroupRule rule(camera, tau_px, air, level);
+                        const std::optional<std::uint32_t>& level, const MeshCut* before) const {
+    return cut(std::span(&camera, 1), tau_px, air, level, before);
+}
+
+MeshCut MeshDetail::cut(std::span<const Camera> cameras, double tau_px, const Air& air,
+                        const std::optional<std::uint32_t>& level, const MeshCut* before) const {
+    std::vector<GroupRule> rules;
+    for (const Camera& camera : cameras) rules.emplace_back(camera, tau_px, air, level);
     MeshCut cut;
-    auto meshes = std::make_shared<std::vector<PlacedMesh>>();
-    for (std::size_t i = 0; i < graphs_.size(); ++i) {
-        const ClusterGraph& graph = graphs_[i].graph.clusters;
+    for (const Graph& one : graphs_) {
+        const ClusterGraph& graph = one.graph->clusters;
         std::vector<char> stands;
         stands.reserve(graph.groups.size());
-        for (const ClusterGroup& group : graph.groups) stands.push_back(rule.stands(group) ? 1 : 0);
-        const std::vector<std::uint32_t> clusters = cut_of(graph, stands);
-        for (std::size_t k = 0; k < stands.size(); ++k) {
-            if (stands[k] == 0) continue;
-            cut.error_m = std::max(cut.error_m, graph.groups[k].error_m);
-            cut.error_px = std::max(cut.error_px, rule.error_px(graph.groups[k]));
+        for (const ClusterGroup& group : graph.groups) {
+            const bool all =
+                std::ranges::all_of(rules, [&](const GroupRule& rule) { return rule.stands(group); });
+            stands.push_back(all ? 1 : 0);
+            if (!all) continue;
+            cut.error_m = std::max(cut.error_m, group.error_m);
+            for (const GroupRule& rule : rules) cut.error_px = std::max(cut.error_px, rule.error_px(group));
         }
-        meshes->push_back(drawn((*meshes_)[i], graphs_[i], clusters));
-        cut.triangles += meshes->back().triangles.size();
-        cut.of_triangles += (*meshes_)[i].triangles.size();
+        cut.clusters.push_back(cut_of(graph, stands));
+        for (const std::uint32_t cluster : cut.clusters.back())
+            cut.triangles += graph.clusters[cluster].triangles;
     }
+    for (const PlacedMesh& mesh : *meshes_) cut.of_triangles += mesh.triangles.size();
+    if (before != nullptr && before->clusters == cut.clusters) {
+        cut.meshes = before->meshes;
+        return cut;
+    }
+    auto meshes = std::make_shared<std::vector<PlacedMesh>>();
+    for (std::size_t i = 0; i < graphs_.size(); ++i)
+        meshes->push_back(drawn((*meshes_)[i], graphs_[i], cut.clusters[i]));
     cut.meshes = std::move(meshes);
     return cut;
 }

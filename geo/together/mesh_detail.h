@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/earth/camera.h"
@@ -24,39 +25,55 @@ struct MeshCut {
     // is where a level was asked for and the eye is near.
     double error_m{};
     double error_px{};
+    std::vector<std::vector<std::uint32_t>> clusters;  // of each mesh's graph, those that are drawn
 };
 
 // The cluster graphs of a region's meshes (core/mesh_graph/mesh_graph.h). Vertices at one place of the
 // lattice that is drawn are one vertex.
 class MeshDetail {
   public:
-    // Builds them. region: with meshes, which it holds on to. threads: 1 or more; the graphs are the same by
-    // any number.
+    // Takes them from the region's baked file, or builds them. region: with meshes, which it holds on to.
+    // threads: 1 or more; the graphs are the same by any number.
     static MeshDetail of(const Region& region, double exaggeration, int threads);
 
     // What a view draws: of each mesh as few triangles as keep all within tau_px of where the mesh is seen,
     // or those of one level from everywhere: 0 are all triangles. Its triangles' features are those of the
-    // triangles that they began as. camera: of the whole picture.
+    // triangles that they began as. camera: of the whole picture. before: a cut of these meshes; where the
+    // same clusters are drawn now, its meshes are given once more.
     [[nodiscard]] MeshCut cut(const Camera& camera, double tau_px, const Air& air,
-                              const std::optional<std::uint32_t>& level) const;
+                              const std::optional<std::uint32_t>& level,
+                              const MeshCut* before = nullptr) const;
+    // The same of several views at once: what is drawn keeps tau_px in each of them.
+    [[nodiscard]] MeshCut cut(std::span<const Camera> cameras, double tau_px, const Air& air,
+                              const std::optional<std::uint32_t>& level,
+                              const MeshCut* before = nullptr) const;
 
     // The graph of a mesh, by its number from 0, and its vertices as drawn, ECEF metres.
-    [[nodiscard]] const MeshGraph& graph(std::size_t mesh) const { return graphs_[mesh].graph; }
+    [[nodiscard]] const MeshGraph& graph(std::size_t mesh) const { return *graphs_[mesh].graph; }
     [[nodiscard]] std::size_t size() const { return graphs_.size(); }
+    // How many of them had to be built; the others lay in a baked file, which holds for where its meshes are
+    // drawn without exaggeration.
+    [[nodiscard]] std::size_t built() const { return built_; }
 
-  private:
+    // The graph of one mesh, and what of the mesh it is over.
     struct Graph {
-        MeshGraph graph;
-        std::vector<std::uint32_t> vertex_of;    // of the mesh, for each of the graph
+        std::shared_ptr<const MeshGraph> graph;
+        std::vector<glm::dvec3> places_m;        // of its vertices, ECEF; empty of one that was not built
+        glm::dvec3 origin_m{};                   // that its spheres are reckoned from
+        std::vector<std::uint32_t> vertex_of;    // of the mesh, for each of the graph; empty: the same
         std::vector<std::uint32_t> triangle_of;  // likewise
     };
+    // Builds it. Triangles without an area are left out.
     static Graph graph_of(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration,
                           int threads);
+
+  private:
     [[nodiscard]] static PlacedMesh drawn(const PlacedMesh& mesh, const Graph& graph,
                                           const std::vector<std::uint32_t>& clusters);
 
     std::shared_ptr<const std::vector<PlacedMesh>> meshes_;
     std::vector<Graph> graphs_;
+    std::size_t built_{};
 };
 
 }  // namespace oro

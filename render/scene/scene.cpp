@@ -50,24 +50,24 @@ Result<Buffer> create_mesh_casters(const Gpu& gpu, const MeshCasters& casters) {
     return buffer;
 }
 
-Result<std::shared_ptr<const ClearedScene>> create_cleared(const Gpu& gpu, const MeshCasters& casters) {
-    auto cleared = std::make_shared<ClearedScene>();
-    cleared->map = cleared_map_of(casters);
-    const std::size_t size = cleared->map.cells.size() * sizeof(std::uint32_t);
-    ORO_TRY(cleared->cells,
-            create_buffer(gpu, size,
-                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
-                          MemoryKind::mapped_device, "ground near meshes"));
-    std::memcpy(cleared->cells.mapped, cleared->map.cells.data(), size);
-    return std::shared_ptr<const ClearedScene>(std::move(cleared));
-}
-
 // Device address of what lies so far before a page's block.
 gpu::uvec2 before(const gpu::FramePage& page, std::uint64_t bytes) {
     return address_words((std::uint64_t{page.block.y} << 32U | page.block.x) - bytes);
 }
 
 }  // namespace
+
+Result<const ClearedGround::Made*> ClearedGround::made() {
+    if (made_) return &*made_;
+    Made made{cleared_map_of(casters_), {}};
+    const std::size_t size = made.map.cells.size() * sizeof(std::uint32_t);
+    ORO_TRY(made.cells,
+            create_buffer(gpu_, size,
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                          MemoryKind::mapped_device, "ground near meshes"));
+    std::memcpy(made.cells.mapped, made.map.cells.data(), size);
+    return &made_.emplace(std::move(made));
+}
 
 std::uint64_t gpu_bytes(const Gpu& gpu, std::uint64_t bytes) {
     constexpr std::uint64_t most = std::uint64_t{2} << 30U;
@@ -99,7 +99,7 @@ Result<GridScene> GridScene::create(const Gpu& gpu, std::unique_ptr<RegionPages>
     }
     if (const MeshCasters* const casters = scene.pages_->mesh_casters(); casters != nullptr) {
         ORO_TRY(scene.mesh_casters_, create_mesh_casters(gpu, *casters));
-        ORO_TRY(scene.cleared_, create_cleared(gpu, *casters));
+        scene.cleared_ = std::make_shared<ClearedGround>(gpu, *casters);
     }
     return scene;
 }
@@ -233,9 +233,10 @@ Result<void> GridScene::end_plan(const FrameView& view, GridPlan& plan) {
         plan.mesh_nodes = casters->nodes.size();
         plan.mesh_origin_m = casters->origin_m;
     }
-    if (cleared_ && view.model.earth == Earth::ellipsoid) {
-        plan.constants.cleared = cleared_in_view(cleared_->map, view.camera);
-        plan.constants.cleared.cells = address_words(cleared_->cells.address);
+    if (cleared_ && wants_cleared_ && view.model.earth == Earth::ellipsoid) {
+        ORO_TRY(const ClearedGround::Made* const cleared, cleared_->made());
+        plan.constants.cleared = cleared_in_view(cleared->map, view.camera);
+        plan.constants.cleared.cells = address_words(cleared->cells.address);
     }
     return {};
 }
@@ -350,6 +351,12 @@ void Scene::add(Scene other) {
     for (GridScene& grid : grids_) grid.cleared_ = with_meshes->cleared_;
 }
 
+void Scene::replace_between(std::optional<Scene> other) {
+    while (grids_.size() > 1 && grids_.back().pages_->is_seam()) grids_.pop_back();
+    for (GridScene& grid : grids_) grid.cleared_.reset();
+    if (other) add(std::move(*other));
+}
+
 void Scene::draw_clusters(ClusterScene clusters) {
     assert(grids_.size() == 1);
     grids_.front().clusters_.emplace(std::move(clusters));
@@ -379,6 +386,7 @@ void Scene::set_grass(bool on) {
 void Scene::require_fields(const gpu::FrameStyle& style) {
     set_trees((style.materials.on & gpu::materials_with_trees) != 0);
     set_grass((style.materials.on & gpu::materials_with_grass) != 0);
+    for (GridScene& grid : grids_) grid.wants_cleared_ = style.materials.on != 0;
     set_shadow_request(shadow_request(style));
     set_footprint_spacing(means_spacing_px(style));
 }

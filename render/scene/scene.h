@@ -47,10 +47,22 @@ struct PlanTimes {
     double growth_s{};    // tiles of trees
 };
 
-// The ground near meshes, and its cells on the GPU.
-struct ClearedScene {
-    ClearedMap map;
-    Buffer cells;
+// The ground near meshes, and its cells on the GPU: made when a frame first asks for it.
+class ClearedGround {
+  public:
+    struct Made {
+        ClearedMap map;
+        Buffer cells;
+    };
+    // Both outlive it.
+    ClearedGround(const Gpu& gpu, const MeshCasters& casters) : gpu_(gpu), casters_(casters) {}
+    // Errors: out of device memory.
+    Result<const Made*> made();
+
+  private:
+    const Gpu& gpu_;
+    const MeshCasters& casters_;
+    std::optional<Made> made_;
 };
 
 // One grid that is being drawn: its pages, and those of them that are on the GPU.
@@ -104,8 +116,9 @@ class GridScene {
     PageStore store_;
     std::unique_ptr<DrapeStore> drape_;
     Buffer undulation_;
-    std::shared_ptr<const ClearedScene> cleared_;  // near the meshes of the scene; null: there are none
-    Buffer mesh_casters_;                          // nodes, then triangles; of a seam with meshes
+    std::shared_ptr<ClearedGround> cleared_;  // near the meshes of the scene; null: there are none
+    bool wants_cleared_{false};               // the style tells materials of the ground
+    Buffer mesh_casters_;                     // nodes, then triangles; of a seam with meshes
     Buffer plan_sources_;
     std::uint64_t number_{};  // GridPlan::heights
     PlanMemory memory_;
@@ -138,6 +151,9 @@ class Scene {
                                 bool means = false);
     // Puts the grids of another scene behind its own, each with its own pages, memory and streaming.
     void add(Scene other);
+    // Puts grids in the place of what is drawn between those of posts (RegionPages::is_seam()), or nothing.
+    // No frame that shows what was there is under way.
+    void replace_between(std::optional<Scene> other);
 
     // From the next plan on its ground is drawn by clusters, on the ellipsoid; pages are there for shading.
     // The scene has one grid: triangle ids are numbered by the clusters of one.

@@ -16,7 +16,7 @@
 #include "apps/commands/film/film_path.h"
 #include "apps/commands/film/movie.h"
 #include "apps/drawing/kept_drawing.h"
-#include "apps/drawing/mesh_choice.h"
+#include "apps/drawing/mesh_cut.h"
 #include "apps/eye/standpoint.h"
 #include "apps/film/frame_range.h"
 #include "apps/legend/legend.h"
@@ -139,7 +139,7 @@ Result<void> open_film(const FilmOptions& options, ProgressBar& bar, View& view,
     if (!options.no_legend && !options.view.legend) view.legend = has_own_legend(view);
     if (options.no_paths) view.tells_paths = false;
     // view.mesh tells what is drawn from then on.
-    if (const auto drawn = draws_clusters(region, view); !drawn.ok()) return drawn.error();
+    if (const auto drawn = draws_terrain_clusters(region, view); !drawn.ok()) return drawn.error();
     bar.clear();
     say_notes(region, options.quiet);
     if (const std::string note = note_of_year(view.sun); !note.empty()) say(options.quiet, note);

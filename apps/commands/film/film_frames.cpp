@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "apps/drawing/drape.h"
+#include "apps/drawing/mesh_cut.h"
 #include "apps/drawing/picking.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
@@ -60,15 +61,20 @@ Result<bool> FilmFrames::is_drawn(const std::string& file, View& view) {
     return pixels.ok() && (!*pixels || *pixels == there->fingerprints->pixels);
 }
 
-Result<void> FilmFrames::make_scene() {
+Result<void> FilmFrames::make_scene(const Camera& camera) {
     ORO_TRY(const Style style, load_style(view_, region_.grids.front().field));
     ORO_TRY(cuts_, cut_regions(region_));
     ORO_TRY(ground_, RegionGround::of(region_, cuts_, view_.exaggeration));
     ORO_TRY(GridPages pages, make_grid_pages(region_, cuts_, view_.exaggeration));
+    if (!meshes_) {
+        ORO_TRY(meshes_, mesh_detail_of(region_, view_));
+    }
+    if (meshes_) mesh_cut_ = mesh_cut_of(*meshes_, view_, std::span(&camera, 1));
     ORO_TRY(RegionScene whole,
             scene_of_region(gpu_, region_, cuts_, std::move(pages),
                             {view_.exaggeration, memory_of_pages(view_, options_.memory), view_.heights,
-                             asks_for_means(style.frame), view_.mesh == "clusters", view_.mesh_level}));
+                             asks_for_means(style.frame), view_.mesh == "clusters" && !meshes_,
+                             view_.mesh_level, mesh_cut_.meshes}));
     scene_.emplace(std::move(whole.scene));
     const bool is_first = scenes_made_++ == 0;
     const std::string note = note_of_missing_footprints(style.frame, scene_->pages());
@@ -76,10 +82,21 @@ Result<void> FilmFrames::make_scene() {
     return lay_images(view_, options_.memory, gpu_, *scene_, options_.quiet || !is_first);
 }
 
+Result<void> FilmFrames::choose_meshes(const View& view) {
+    if (!meshes_) return {};
+    MeshCut cut = mesh_cut_of(*meshes_, view_, std::span(&view.camera, 1), &mesh_cut_);
+    const bool is_same = cut.meshes == mesh_cut_.meshes;
+    mesh_cut_ = std::move(cut);
+    if (is_same) return {};
+    gpu_.wait_idle();
+    ORO_CHECK(redraw_meshes(gpu_, region_, cuts_, view_.exaggeration, *mesh_cut_.meshes, *scene_));
+    return lay_images(view_, options_.memory, gpu_, *scene_, true);
+}
+
 Result<DrawnPicture> FilmFrames::draw(const std::string& file, bool overwrite, View& view,
                                       const RenderProgress& progress) {
     look_from(view.camera.eye);
-    if (!scene_) ORO_CHECK(make_scene());
+    ORO_CHECK(scene_ ? choose_meshes(view) : make_scene(view.camera));
     ORO_TRY(const Style style, load_style(view, region_.grids.front().field));
     ORO_TRY(const auto middle, place_in_middle(view, *ground_));
     ORO_TRY(const std::vector<std::uint8_t> strip, strip_of(view, region_, style, middle));

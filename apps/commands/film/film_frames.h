@@ -13,6 +13,7 @@
 #include "apps/styles/style.h"
 #include "apps/view/view.h"
 #include "core/base/result.h"
+#include "geo/together/mesh_detail.h"
 #include "geo/together/region_ground.h"
 #include "render/device/gpu.h"
 #include "render/scene/scene.h"
@@ -43,7 +44,9 @@ class FilmFrames {
 
   private:
     void look_from(const Geodetic& eye);
-    Result<void> make_scene();
+    Result<void> make_scene(const Camera& camera);
+    // Draws what a frame needs of the meshes, where its view asks for clusters of them.
+    Result<void> choose_meshes(const View& view);
 
     const FilmOptions& options_;
     const Gpu& gpu_;
@@ -52,6 +55,8 @@ class FilmFrames {
     RegionCuts cuts_;
     std::unique_ptr<const RegionGround> ground_;
     std::optional<Scene> scene_;
+    std::shared_ptr<const MeshDetail> meshes_;  // null: all of their triangles are drawn
+    MeshCut mesh_cut_;
     std::size_t scenes_made_{};
 };
 

@@ -10,7 +10,7 @@
 #include "apps/commands/panorama/panorama_asked.h"
 #include "apps/commands/panorama/panorama_drawing.h"
 #include "apps/commands/panorama/panorama_json.h"
-#include "apps/drawing/mesh_choice.h"
+#include "apps/drawing/mesh_cut.h"
 #include "apps/names/names_in_view.h"
 #include "apps/options/view_limits.h"
 #include "apps/output/overwrite_guard.h"
@@ -98,7 +98,7 @@ Result<void> run_panorama(const PanoramaOptions& options) {
     ORO_CHECK(spare_inputs(
         outputs, {files_of_picture(view, report.region), {{options.view_file}, "which is the view"}}));
     // view.mesh tells what is drawn from then on.
-    if (const auto drawn = draws_clusters(report.region, view); !drawn.ok()) return drawn.error();
+    if (const auto drawn = draws_terrain_clusters(report.region, view); !drawn.ok()) return drawn.error();
     report.read_s = seconds_since(reading);
     bar.show(0.0, "looking around");
     const auto looking = Clock::now();

@@ -8,6 +8,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/drawing/drape.h"
 #include "apps/drawing/kept_drawing.h"
+#include "apps/drawing/mesh_cut.h"
 #include "apps/options/view_limits.h"
 #include "apps/panorama/elevations.h"
 #include "apps/report/progress_bar.h"
@@ -77,10 +78,20 @@ Result<CylinderPicture> draw_panorama(const View& view, const Region& region, co
     ORO_TRY(GridPages pages, make_grid_pages(
                                  region, cuts, view.exaggeration,
                                  [&](double share) { progress(share, "measuring levels"); }, drawing.stop));
+    ORO_TRY(const std::shared_ptr<const MeshDetail> meshes, mesh_detail_of(region, view));
+    MeshCut cut;
+    if (meshes) {
+        std::vector<Camera> cameras;
+        // Finer ones are drawn and averaged: what is within tau of these is.
+        for (const CylinderTile& tile : cylinder_tiles(around, view.camera.eye, {1.0}))
+            cameras.push_back(tile.camera);
+        cut = mesh_cut_of(*meshes, view, cameras);
+    }
     ORO_TRY(RegionScene whole,
             scene_of_region(*gpu, region, cuts, std::move(pages),
                             {view.exaggeration, memory_of_pages(view, drawing.memory), view.heights,
-                             asks_for_means(style.frame), view.mesh == "clusters", view.mesh_level}));
+                             asks_for_means(style.frame), view.mesh == "clusters" && !meshes, view.mesh_level,
+                             cut.meshes}));
     Scene& scene = whole.scene;
     if (const std::string note = note_of_missing_footprints(style.frame, scene.pages()); !note.empty())
         say(drawing.quiet, note);

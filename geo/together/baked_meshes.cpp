@@ -1,0 +1,119 @@
+#include "geo/together/baked_meshes.h"
+
+#include <memory>
+#include <utility>
+
+#include "core/base/checksum.h"
+#include "core/base/elapsed.h"
+#include "core/mesh_file/mesh_bytes.h"
+#include "core/mesh_file/pressed_bytes.h"
+#include "core/mesh_file/stored_mesh.h"
+#include "core/terrain/page_on_net.h"
+#include "geo/files/whole_file.h"
+#include "geo/meshes/mesh_facts.h"
+#include "geo/together/mesh_detail.h"
+
+namespace oro {
+namespace {
+
+// Of features with their attributes, before they are pressed.
+constexpr std::size_t most_fact_bytes = std::size_t{1} << 30U;
+
+Result<void> write_container(const std::string& path, std::span<const std::byte> facts,
+                             std::span<const std::byte> triangles) {
+    ChunkTable table{0,
+                     {{ChunkType::mesh_facts, 0, 0, facts.size(), xxh64(facts)},
+                      {ChunkType::mesh_triangles, 0, 0, triangles.size(), xxh64(triangles)}}};
+    table.file_bytes = table.place();
+    ORO_TRY(WholeFile whole, WholeFile::create(path, true));
+    const std::vector<std::byte> front = table.to_bytes();
+    for (const std::span<const std::byte> bytes : {std::span<const std::byte>(front), facts, triangles})
+        ORO_CHECK(whole.write(bytes.data(), bytes.size()));
+    return whole.commit();
+}
+
+// The vertices and triangles of a mesh as its file has them.
+void add_triangles(std::shared_ptr<const StoredMesh> stored, const UndulationField& undulation,
+                   PlacedMesh& mesh) {
+    mesh.vertices.reserve(stored->places.size());
+    for (const LatticeSteps& at : stored->places) {
+        const Geodetic place = geodetic_from_ecef(Ecef{{static_cast<double>(at[0]) / lattice_steps_per_m,
+                                                        static_cast<double>(at[1]) / lattice_steps_per_m,
+                                                        static_cast<double>(at[2]) / lattice_steps_per_m}});
+        const double N_m = undulation.N_m.empty() ? 0.0 : undulation.at_m(place.lat_deg, place.lon_deg);
+        mesh.vertices.push_back({place.lat_deg, place.lon_deg, place.h_m - N_m});
+    }
+    const ClusterGraph& graph = stored->graph.clusters;
+    for (const Cluster& cluster : graph.clusters) {
+        if (cluster.made_by != no_group) break;
+        for (const VertexTriangle& triangle : graph.triangles_of(cluster)) mesh.triangles.push_back(triangle);
+    }
+    mesh.feature_of = stored->labels;
+    mesh.not_added = mesh.triangles.size();
+    mesh.stored = std::move(stored);
+}
+
+Result<PlacedMesh> read_mesh_of(const Container& container, const Chunk& facts_chunk,
+                                const UndulationField& undulation) {
+    ORO_TRY(const Chunk triangles_chunk, container.chunk(ChunkType::mesh_triangles, facts_chunk.grid));
+    const OpenFile& file = container.file();
+    ORO_TRY(const std::vector<std::byte> packed, container.read(facts_chunk, most_fact_bytes));
+    const auto facts = unpressed(packed, most_fact_bytes);
+    std::optional<PlacedMesh> mesh = facts ? facts_from_bytes(*facts) : std::nullopt;
+    if (!mesh) return file.damaged(facts_chunk.offset, "facts of a mesh that are none");
+    constexpr std::uint64_t most_bytes = std::uint64_t{64} * most_stored_triangles;
+    ORO_TRY(const std::vector<std::byte> bytes, container.read(triangles_chunk, most_bytes));
+    auto stored = std::make_shared<StoredMesh>();
+    if (const auto wrong = mesh_from_bytes(bytes, *stored))
+        return file.damaged(triangles_chunk.offset, "the mesh " + *wrong);
+    if (stored->label_count != mesh->features.size())
+        return file.damaged(triangles_chunk.offset, "the mesh has " + std::to_string(stored->label_count) +
+                                                        " features, expected " +
+                                                        std::to_string(mesh->features.size()));
+    add_triangles(std::move(stored), undulation, *mesh);
+    return std::move(*mesh);
+}
+
+}  // namespace
+
+std::string path_of_mesh(const std::string& path, std::size_t number) {
+    return path + ".mesh-" + std::to_string(number + 1);
+}
+
+Result<BakedMeshReport> write_baked_mesh(const std::string& path, const PlacedMesh& mesh,
+                                         const UndulationField& undulation, int threads) {
+    BakedMeshReport report;
+    const auto start = Clock::now();
+    const MeshDetail::Graph built = MeshDetail::graph_of(mesh, undulation, 1.0, threads);
+    report.build_s = seconds_since(start);
+    const MeshGraph& graph = *built.graph;
+    std::vector<LatticeSteps> places;
+    for (const glm::dvec3& place : built.places_m) places.push_back(lattice_point(place).steps);
+    std::vector<std::uint32_t> labels;
+    if (!mesh.features.empty())
+        for (const std::uint32_t triangle : built.triangle_of) labels.push_back(mesh.feature_of[triangle]);
+    Result<std::vector<std::byte>> bytes =
+        mesh_to_bytes({lattice_point(built.origin_m).steps, places, labels,
+                       static_cast<std::uint32_t>(mesh.features.size()), graph});
+    if (!bytes) return Error{bytes.error().kind, mesh.path, bytes.error().what};
+    const std::vector<std::byte> facts = pressed(facts_to_bytes(mesh));
+    ORO_CHECK(write_container(path, facts, *bytes));
+    report.triangles = built.triangle_of.size();
+    report.graph_triangles = graph.clusters.triangles.size();
+    report.levels = graph.clusters.levels.size();
+    report.bytes = bytes->size(), report.fact_bytes = facts.size();
+    return report;
+}
+
+Result<std::vector<PlacedMesh>> read_baked_meshes(const Container& container,
+                                                  const UndulationField& undulation) {
+    std::vector<PlacedMesh> meshes;
+    for (std::uint32_t number = 0;; ++number) {
+        const Chunk* const facts = container.find(ChunkType::mesh_facts, number);
+        if (facts == nullptr) return meshes;
+        ORO_TRY(PlacedMesh mesh, read_mesh_of(container, *facts, undulation));
+        meshes.push_back(std::move(mesh));
+    }
+}
+
+}  // namespace oro

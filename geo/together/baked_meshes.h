@@ -1,0 +1,40 @@
+// Meshes in a baked file: each with its cluster graph, in chunks of its own.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/container.h"
+#include "core/base/result.h"
+#include "core/terrain/post_grid.h"
+#include "geo/meshes/placed_mesh.h"
+
+namespace oro {
+
+// Where the mesh with that number grows on its way into the file `path`: beside it.
+std::string path_of_mesh(const std::string& path, std::size_t number);
+
+// What was written of a mesh.
+struct BakedMeshReport {
+    std::uint64_t triangles{};        // of the mesh
+    std::uint64_t graph_triangles{};  // of all levels
+    std::uint64_t levels{};
+    std::uint64_t bytes{};       // of triangles, places and graph
+    std::uint64_t fact_bytes{};  // of features and what else is known of it, pressed
+    double build_s{};            // building its graph
+};
+
+// Builds the graph of a mesh, as it is drawn at no exaggeration, and writes both as a container of their own.
+// undulation: N of the region; empty: 0. The same mesh gives the same bytes by any number of threads. Errors:
+// those of writing; a mesh that no file holds (mesh_to_bytes()).
+Result<BakedMeshReport> write_baked_mesh(const std::string& path, const PlacedMesh& mesh,
+                                         const UndulationField& undulation, int threads);
+
+// The meshes of a baked file, in their order; none where it has none. Their graphs are with them, and
+// vertices are where they are drawn: at N of the same region they are drawn there again, to the bit. Reads
+// them whole, in one pass. Errors: those of Container; damage; numbers that no mesh has.
+Result<std::vector<PlacedMesh>> read_baked_meshes(const Container& container,
+                                                  const UndulationField& undulation);
+
+}  // namespace oro
