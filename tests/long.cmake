@@ -165,6 +165,8 @@ set_tests_properties(
   MeshBake.HasPanoramasByClusters
   MeshBake.IsDrawnAsTheFilesAre
   MeshBake.IsFilmedByClusters
+  MeshSilhouettes.AreWithinTauOfTheWholeMeshFromTwelveEyes
+  MeshSilhouettes.NothingShowsThroughTheBallFromManyEyes
   TableObservers.WhatIsWrongIsSaidInOneLine
   HorizonCommand.WhatIsWrongIsSaidInOneLine
   HostileInput.AReaderThatHasReadEnough

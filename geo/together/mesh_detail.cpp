@@ -93,6 +93,7 @@ PlacedMesh MeshDetail::drawn(const PlacedMesh& mesh, const Graph& graph,
                              const std::vector<std::uint32_t>& clusters) {
     PlacedMesh drawn;
     drawn.path = mesh.path, drawn.format = mesh.format, drawn.crs = mesh.crs, drawn.heights = mesh.heights;
+    drawn.kind = mesh.kind, drawn.look = mesh.look, drawn.has_look_by_type = mesh.has_look_by_type;
     drawn.features = mesh.features, drawn.in_file = mesh.in_file, drawn.fingerprint = mesh.fingerprint;
     std::vector<std::uint32_t> number(mesh.vertices.size(), not_used);
     const ClusterGraph& all = graph.graph->clusters;

@@ -109,7 +109,8 @@ TEST(Help, ExplainsEachOption) {
                       "--data-changed", "--overwrite",  "--json",         "-q, --quiet", "--check",
                       "--no-legend",    "--fill-voids", "--strict-datum", "-h, --help",  "--resample",
                       "--on-summit",    "--kml",        "--geopose",      "--cors",      "--dry-run",
-                      "--join",         "--stac",       "--network",      "--cache",     "--no-normals"};
+                      "--join",         "--stac",       "--network",      "--cache",     "--no-normals",
+                      "--cut-under"};
     for (const std::string& command : commands) {
         const auto options = options_in(help_of({command}));
         EXPECT_GE(options.size(), 2U) << command;

@@ -141,6 +141,11 @@ TEST_F(BakedMeshes, GiveTheSameCutsWithoutBuilding) {
         EXPECT_EQ(a.triangles, b.triangles);
         EXPECT_EQ(a.error_m, b.error_m);
         EXPECT_EQ(a.error_px, b.error_px);
+        // What is drawn of a mesh looks like it.
+        for (const MeshCut* const cut : {&a, &b}) {
+            EXPECT_EQ(cut->meshes->front().look, 1U);
+            EXPECT_TRUE(cut->meshes->front().has_look_by_type);
+        }
         EXPECT_EQ(std::ranges::count(a.meshes->front().feature_of, 0U),
                   std::ranges::count(b.meshes->front().feature_of, 0U));
     }
