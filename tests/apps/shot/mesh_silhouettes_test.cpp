@@ -157,7 +157,10 @@ TEST_F(MeshSilhouettes, NothingShowsThroughTheBallFromManyEyes) {
         const Eye eye = random_eye(random);
         const char* const tau = i % 3 == 0 ? "0.5" : i % 3 == 1 ? "2" : "6";
         ASSERT_FALSE(drawn(eye, {"--tau", tau, "--pipeline", i % 2 == 0 ? "compute" : "mesh"}).empty());
+        const int before = through;
         count_through(eye, 64, within, through);
+        EXPECT_EQ(through, before) << "eye " << i << " at " << eye.words[1] << ", " << eye.words[3]
+                                   << " m, tau " << tau;
     }
     std::printf("%d pixels within the ball, %d show something else\n", within, through);
     EXPECT_GT(within, 40 * 500);
