@@ -167,6 +167,7 @@ set_tests_properties(
   MeshBake.IsFilmedByClusters
   MeshSilhouettes.AreWithinTauOfTheWholeMeshFromTwelveEyes
   MeshSilhouettes.NothingShowsThroughTheBallFromManyEyes
+  MeshSilhouettes.NothingShowsThroughTheBallInFiveHundredFrames
   TableObservers.WhatIsWrongIsSaidInOneLine
   HorizonCommand.WhatIsWrongIsSaidInOneLine
   HostileInput.AReaderThatHasReadEnough

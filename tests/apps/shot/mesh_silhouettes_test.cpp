@@ -28,6 +28,8 @@ using oro::test::Words;
 constexpr double pi = std::numbers::pi;
 // A hilly ball in the sky: 3,120 triangles, its surface 75 to 85 m from its middle.
 constexpr double middle_lat_deg = 36.605, middle_lon_deg = -84.176, middle_H_m = 1500.0, radius_m = 80.0;
+// Of EGM96 there, by PROJ: places of geo: are above the ellipsoid.
+constexpr double N_m = -30.77;
 
 std::string obj_in_the_sky() {
     constexpr int n = 40, around = 40;
@@ -60,6 +62,7 @@ struct Eye {
     double distance_m;  // from the ball's middle
     double fov_deg;
     Words words;
+    std::string key;  // of a camera's path, without its time
 };
 
 // Around the ball, 200 to 4,000 m away, level with it or not; the ball fills most of the picture.
@@ -72,10 +75,17 @@ Eye random_eye(std::mt19937_64& random) {
     std::snprintf(at, sizeof at, "%.9f,%.9f", middle_lat_deg - level * std::cos(way) / 111000.0,
                   middle_lon_deg - level * std::sin(way) / 89500.0);
     std::snprintf(altitude, sizeof altitude, "%.3f", middle_H_m - distance * std::sin(up));
-    std::snprintf(look, sizeof look, "geo:%.9f,%.9f,%.3f", middle_lat_deg, middle_lon_deg, middle_H_m);
+    std::snprintf(look, sizeof look, "geo:%.9f,%.9f,%.3f", middle_lat_deg, middle_lon_deg, middle_H_m + N_m);
     const double fov_deg = 2.0 * std::atan(1.3 * radius_m / distance) * 180.0 / pi;
     std::snprintf(fov, sizeof fov, "%.6f", fov_deg);
-    return {distance, fov_deg, {"--at", at, "--altitude", altitude, "--look-at", look, "--fov", fov}};
+    char key[200];
+    std::snprintf(key, sizeof key,
+                  R"("eye": {"lat_deg": %.9f, "lon_deg": %.9f, "h_m": %.3f}, "heading_deg": %.6f, )"
+                  R"("pitch_deg": %.6f, "fov_deg": %.6f)",
+                  middle_lat_deg - level * std::cos(way) / 111000.0,
+                  middle_lon_deg - level * std::sin(way) / 89500.0,
+                  middle_H_m + N_m - distance * std::sin(up), way * 180.0 / pi, up * 180.0 / pi, fov_deg);
+    return {distance, fov_deg, {"--at", at, "--altitude", altitude, "--look-at", look, "--fov", fov}, key};
 }
 
 class MeshSilhouettes : public ::testing::Test {
@@ -97,11 +107,9 @@ class MeshSilhouettes : public ::testing::Test {
         return done.exit_code == 0 ? json::parse(done.out) : json::object();
     }
     // Pixels within the ball, by its radius alone, that are as without it.
-    void count_through(const Eye& eye, int side_px, int& within, int& through) const {
-        const Outcome done = run_orograph(
-            joined({"shot", bundled(), "--size", size_, "--out", empty_, "--overwrite", "-q"}, eye.words));
-        ASSERT_EQ(done.exit_code, 0) << done.err;
-        const Pixels with = pixels_of(picture_), without = pixels_of(empty_);
+    static void count_through(const Eye& eye, int side_px, const fs::path& picture, const fs::path& empty,
+                              int& within, int& through) {
+        const Pixels with = pixels_of(picture), without = pixels_of(empty);
         ASSERT_EQ(with.rgb.size(), without.rgb.size());
         const double per_pixel = std::tan(eye.fov_deg * pi / 360.0) / (0.5 * side_px);
         for (int y = 0; y < side_px; ++y)
@@ -153,17 +161,55 @@ TEST_F(MeshSilhouettes, NothingShowsThroughTheBallFromManyEyes) {
     std::mt19937_64 random(seed);
     size_ = "64x64";
     int within = 0, through = 0;
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < 12; ++i) {
         const Eye eye = random_eye(random);
         const char* const tau = i % 3 == 0 ? "0.5" : i % 3 == 1 ? "2" : "6";
         ASSERT_FALSE(drawn(eye, {"--tau", tau, "--pipeline", i % 2 == 0 ? "compute" : "mesh"}).empty());
+        const Outcome without = run_orograph(
+            joined({"shot", bundled(), "--size", size_, "--out", empty_, "--overwrite", "-q"}, eye.words));
+        ASSERT_EQ(without.exit_code, 0) << without.err;
         const int before = through;
-        count_through(eye, 64, within, through);
+        count_through(eye, 64, picture_, empty_, within, through);
         EXPECT_EQ(through, before) << "eye " << i << " at " << eye.words[1] << ", " << eye.words[3]
                                    << " m, tau " << tau;
     }
     std::printf("%d pixels within the ball, %d show something else\n", within, through);
-    EXPECT_GT(within, 40 * 500);
+    EXPECT_GT(within, 12 * 500);
+    EXPECT_EQ(through, 0);
+}
+
+// Each frame of a film has its own cut.
+TEST_F(MeshSilhouettes, NothingShowsThroughTheBallInFiveHundredFrames) {
+    constexpr unsigned seed = 5233;
+    constexpr int frames = 500;
+    std::printf("seed %u\n", seed);
+    std::mt19937_64 random(seed);
+    std::vector<Eye> eyes;
+    std::string path = R"({"orograph_path": 1, "keys": [)";
+    for (int i = 0; i < frames; ++i) {
+        eyes.push_back(random_eye(random));
+        path += (i > 0 ? ",\n{\"time_s\": " : "\n{\"time_s\": ") + std::to_string(i) + ", " +
+                eyes.back().key + "}";
+    }
+    const std::string file = (folder_ / "eyes.json").string();
+    oro::test::write_bytes(file, path + "]}");
+    const auto film = [&](const Words& data, const char* out) {
+        const Outcome done = run_orograph(joined({"film", file, "--out", (folder_ / out).string(), "--fps",
+                                                  "1", "--size", "64x64", "--tau", "2", "-q"},
+                                                 data));
+        EXPECT_EQ(done.exit_code, 0) << done.err;
+    };
+    film({region_, "--mesh", "clusters"}, "with");
+    film({bundled()}, "without");
+    int within = 0, through = 0;
+    for (int i = 0; i < frames; ++i) {
+        char name[40];
+        std::snprintf(name, sizeof name, "frame-%06d.png", i + 1);
+        count_through(eyes[static_cast<std::size_t>(i)], 64, folder_ / "with" / name,
+                      folder_ / "without" / name, within, through);
+    }
+    std::printf("%d pixels within the ball, %d show something else\n", within, through);
+    EXPECT_GT(within, frames * 500);
     EXPECT_EQ(through, 0);
 }
 
