@@ -410,6 +410,7 @@ set_tests_properties(
   WindowFilms.AndMapsAreDrawnBesideTheWindow
   WindowFlight.AMinuteOverTheAlps
   WindowFlight.MinutesOverPoland
+  WindowMesh.ShowsTheClustersThatShotDraws
   WindowProjects.AreSavedAndOpenedAgain
   WindowProjects.HoldLandCoverThatWasOpened
   WindowTour.LooksAsItDid

@@ -143,9 +143,6 @@ TEST_F(MeshOnTerrain, RefusesInOneLine) {
     expect_refusal(
         run_orograph(joined(shot, {"--mesh-file", (folder_ / "no.obj").string(), "--mesh-crs", "EPSG:4326"})),
         1, {"no.obj"});
-    expect_refusal(
-        run_orograph(joined({"bake", bundled(), "--out", (folder_ / "x.oro").string(), "-q"}, on_it_)), usage,
-        {"--mesh-file", "holds no meshes"});
 }
 
 }  // namespace

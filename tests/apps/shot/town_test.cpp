@@ -244,8 +244,8 @@ TEST_F(Town, RefusesInOneLine) {
                    {"--building-height", "no --mesh-file holds any"});
     expect_refusal(run_orograph({"shot", city_, "--at", "36.605,-84.1834", "--out", picture_, "-q"}), usage,
                    {"hall.city.json", "name elevation data as well"});
-    expect_refusal(run_orograph({"bake", bundled(), city_, "--out", (folder_ / "x.oro").string(), "-q"}),
-                   usage, {"hall.city.json", "holds no meshes"});
+    expect_refusal(run_orograph({"bake", city_, "--out", (folder_ / "x.oro").string(), "-q"}), usage,
+                   {"hall.city.json", "name elevation data as well"});
     expect_refusal(run_orograph(joined(eye, {"--stand-on", "top"})), usage,
                    {"--stand-on top", "needs a mesh"});
 }
