@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 #include "geo/meshes/placed_mesh.h"
@@ -164,7 +165,8 @@ TEST_F(MeshShadows, AreTheOracles) {
     EXPECT_LE(static_cast<double>(all.differ), 0.01 * static_cast<double>(all.asked));
 }
 
-// A frame without meshes has no map of the ground near them, and no casters; with meshes each grid has both.
+// A frame without meshes has no map of the ground near them, and no casters. With meshes it has casters, and
+// each grid the map where the style has materials.
 TEST_F(MeshShadows, WithoutMeshesNothingIsAsked) {
     const Town town = made_town();
     const Camera camera{{middle_lat_deg - 350.0 * north_deg_per_m, middle_lon_deg, town.ground_H_m + 160.0},
@@ -172,19 +174,23 @@ TEST_F(MeshShadows, WithoutMeshesNothingIsAsked) {
                         40.0,
                         160,
                         96};
-    for (const bool has_meshes : {false, true}) {
+    for (const auto& [has_meshes, has_materials] :
+         {std::pair{false, true}, std::pair{true, false}, std::pair{true, true}}) {
         Region region = town.region;
         if (!has_meshes) region.meshes.reset();
         const auto cuts = cut_regions(region);
         ASSERT_TRUE(cuts.ok()) << cuts.error().line();
         Scene scene = test::scene_of_grids(*gpu_, region, *cuts, seam_between(region, *cuts, 1.0));
+        gpu::FrameStyle style{};
+        style.materials.on = has_materials ? 1 : 0;
+        scene.require_fields(style);
         const auto plan = scene.settled_plan({camera, {0, 0, 160, 96, {0.5, 0.5}}, 1.0});
         ASSERT_TRUE(plan.ok()) << plan.error().line();
         EXPECT_EQ(plan->grids.size(), has_meshes ? 2U : 1U);
         std::size_t with_casters = 0;
         for (const GridPlan& grid : plan->grids) {
-            EXPECT_EQ(grid.constants.cleared.cells != gpu::uvec2(0U), has_meshes);
-            EXPECT_EQ(grid.constants.cleared.side != gpu::uvec2(0U), has_meshes);
+            EXPECT_EQ(grid.constants.cleared.cells != gpu::uvec2(0U), has_meshes && has_materials);
+            EXPECT_EQ(grid.constants.cleared.side != gpu::uvec2(0U), has_meshes && has_materials);
             with_casters += grid.mesh_casters != 0 && grid.mesh_nodes > 0 ? 1U : 0U;
         }
         EXPECT_EQ(with_casters, has_meshes ? 1U : 0U);

@@ -29,7 +29,7 @@ constexpr double pi = std::numbers::pi;
 // A hilly ball in the sky: 3,120 triangles, its surface 75 to 85 m from its middle.
 constexpr double middle_lat_deg = 36.605, middle_lon_deg = -84.176, middle_H_m = 1500.0, radius_m = 80.0;
 // Of EGM96 there, by PROJ: places of geo: are above the ellipsoid.
-constexpr double N_m = -30.77;
+constexpr double middle_N_m = -30.77;
 
 std::string obj_in_the_sky() {
     constexpr int n = 40, around = 40;
@@ -75,16 +75,17 @@ Eye random_eye(std::mt19937_64& random) {
     std::snprintf(at, sizeof at, "%.9f,%.9f", middle_lat_deg - level * std::cos(way) / 111000.0,
                   middle_lon_deg - level * std::sin(way) / 89500.0);
     std::snprintf(altitude, sizeof altitude, "%.3f", middle_H_m - distance * std::sin(up));
-    std::snprintf(look, sizeof look, "geo:%.9f,%.9f,%.3f", middle_lat_deg, middle_lon_deg, middle_H_m + N_m);
+    std::snprintf(look, sizeof look, "geo:%.9f,%.9f,%.3f", middle_lat_deg, middle_lon_deg,
+                  middle_H_m + middle_N_m);
     const double fov_deg = 2.0 * std::atan(1.3 * radius_m / distance) * 180.0 / pi;
     std::snprintf(fov, sizeof fov, "%.6f", fov_deg);
     char key[200];
-    std::snprintf(key, sizeof key,
-                  R"("eye": {"lat_deg": %.9f, "lon_deg": %.9f, "h_m": %.3f}, "heading_deg": %.6f, )"
-                  R"("pitch_deg": %.6f, "fov_deg": %.6f)",
-                  middle_lat_deg - level * std::cos(way) / 111000.0,
-                  middle_lon_deg - level * std::sin(way) / 89500.0,
-                  middle_H_m + N_m - distance * std::sin(up), way * 180.0 / pi, up * 180.0 / pi, fov_deg);
+    std::snprintf(
+        key, sizeof key,
+        R"("eye": {"lat_deg": %.9f, "lon_deg": %.9f, "h_m": %.3f}, "heading_deg": %.6f, )"
+        R"("pitch_deg": %.6f, "fov_deg": %.6f)",
+        middle_lat_deg - level * std::cos(way) / 111000.0, middle_lon_deg - level * std::sin(way) / 89500.0,
+        middle_H_m + middle_N_m - distance * std::sin(up), way * 180.0 / pi, up * 180.0 / pi, fov_deg);
     return {distance, fov_deg, {"--at", at, "--altitude", altitude, "--look-at", look, "--fov", fov}, key};
 }
 
