@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "core/base/checksum.h"
+#include "core/base/compressed_bytes.h"
 #include "core/base/elapsed.h"
 #include "core/mesh_file/mesh_bytes.h"
-#include "core/mesh_file/pressed_bytes.h"
 #include "core/mesh_file/stored_mesh.h"
 #include "core/terrain/page_on_net.h"
 #include "geo/files/whole_file.h"
@@ -58,7 +58,7 @@ Result<PlacedMesh> read_mesh_of(const Container& container, const Chunk& facts_c
     ORO_TRY(const Chunk triangles_chunk, container.chunk(ChunkType::mesh_triangles, facts_chunk.grid));
     const OpenFile& file = container.file();
     ORO_TRY(const std::vector<std::byte> packed, container.read(facts_chunk, most_fact_bytes));
-    const auto facts = unpressed(packed, most_fact_bytes);
+    const auto facts = decompressed(packed, most_fact_bytes);
     std::optional<PlacedMesh> mesh = facts ? facts_from_bytes(*facts) : std::nullopt;
     if (!mesh) return file.damaged(facts_chunk.offset, "facts of a mesh that are none");
     constexpr std::uint64_t most_bytes = std::uint64_t{64} * most_stored_triangles;
@@ -96,7 +96,7 @@ Result<BakedMeshReport> write_baked_mesh(const std::string& path, const PlacedMe
         mesh_to_bytes({lattice_point(built.origin_m).steps, places, labels,
                        static_cast<std::uint32_t>(mesh.features.size()), graph});
     if (!bytes) return Error{bytes.error().kind, mesh.path, bytes.error().what};
-    const std::vector<std::byte> facts = pressed(facts_to_bytes(mesh));
+    const std::vector<std::byte> facts = compressed(facts_to_bytes(mesh));
     ORO_CHECK(write_container(path, facts, *bytes));
     report.triangles = built.triangle_of.size();
     report.graph_triangles = graph.clusters.triangles.size();

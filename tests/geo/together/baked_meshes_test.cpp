@@ -10,8 +10,8 @@
 #include <iterator>
 #include <random>
 
+#include "core/base/compressed_bytes.h"
 #include "core/mesh_file/mesh_bytes.h"
-#include "core/mesh_file/pressed_bytes.h"
 #include "core/mesh_file/stored_mesh.h"
 #include "geo/meshes/mesh_facts.h"
 #include "geo/together/mesh_detail.h"

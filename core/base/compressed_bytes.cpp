@@ -1,13 +1,16 @@
-#include "core/mesh_file/pressed_bytes.h"
+#include "core/base/compressed_bytes.h"
+
+#include <zstd_errors.h>
 
 #include <cstdint>
+#include <new>
 
 #include "core/base/little_endian.h"
 #include "core/base/zstd_contexts.h"
 
 namespace oro {
 
-std::vector<std::byte> pressed(std::span<const std::byte> bytes) {
+std::vector<std::byte> compressed(std::span<const std::byte> bytes) {
     constexpr int effort = 12;
     constexpr std::size_t front = sizeof(std::uint32_t);
     std::vector<std::byte> out(front + ZSTD_compressBound(bytes.size()));
@@ -20,7 +23,7 @@ std::vector<std::byte> pressed(std::span<const std::byte> bytes) {
     return out;
 }
 
-std::optional<std::vector<std::byte>> unpressed(std::span<const std::byte> bytes, std::size_t most) {
+std::optional<std::vector<std::byte>> decompressed(std::span<const std::byte> bytes, std::size_t most) {
     constexpr std::size_t front = sizeof(std::uint32_t);
     if (bytes.size() < front) return std::nullopt;
     const auto size = static_cast<std::size_t>(from_little_endian<std::uint32_t>(bytes.data()));
@@ -29,6 +32,8 @@ std::optional<std::vector<std::byte>> unpressed(std::span<const std::byte> bytes
     const ZstdUnpacker context;
     const std::size_t found = ZSTD_decompressDCtx(context.get(), out.data(), out.size(), bytes.data() + front,
                                                   bytes.size() - front);
+    if (ZSTD_isError(found) != 0 && ZSTD_getErrorCode(found) == ZSTD_error_memory_allocation)
+        throw std::bad_alloc();
     if (ZSTD_isError(found) != 0 || found != size) return std::nullopt;
     return out;
 }
