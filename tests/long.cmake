@@ -423,6 +423,8 @@ set_tests_properties(
   Commands/FailedAllocations.AllFromOneOn/Shot
   Commands/FailedAllocations.AllFromOneOn/ShotOfBaked
   Commands/FailedAllocations.AllFromOneOn/InfoOfMesh
+  Commands/FailedAllocations.AllFromOneOn/BakeWithMesh
+  Commands/FailedAllocations.AllFromOneOn/InfoOfBakedMesh
   Commands/FailedAllocations.AllFromOneOn/Viewshed
   Commands/FailedAllocations.AllFromOneOn/ViewshedOfTable
   Commands/FailedAllocations.OfAll/Bake
@@ -430,6 +432,8 @@ set_tests_properties(
   Commands/FailedAllocations.OfAll/Shot
   Commands/FailedAllocations.OfAll/ShotOfBaked
   Commands/FailedAllocations.OfAll/InfoOfMesh
+  Commands/FailedAllocations.OfAll/BakeWithMesh
+  Commands/FailedAllocations.OfAll/InfoOfBakedMesh
   Commands/FailedAllocations.OfAll/Viewshed
   Commands/FailedAllocations.OfAll/ViewshedOfTable
   Commands/FailedAllocations.OfTheProgram/Bake
@@ -437,12 +441,16 @@ set_tests_properties(
   Commands/FailedAllocations.OfTheProgram/Shot
   Commands/FailedAllocations.OfTheProgram/ShotOfBaked
   Commands/FailedAllocations.OfTheProgram/InfoOfMesh
+  Commands/FailedAllocations.OfTheProgram/BakeWithMesh
+  Commands/FailedAllocations.OfTheProgram/InfoOfBakedMesh
   Commands/FailedAllocations.OfTheProgram/Viewshed
   Commands/FailedAllocations.OfTheProgram/ViewshedOfTable
   Commands/FailedAllocations.OneInSix/Bake
   Commands/FailedAllocations.OneInSix/Shot
   Commands/FailedAllocations.OneInSix/ShotOfBaked
   Commands/FailedAllocations.OneInSix/InfoOfMesh
+  Commands/FailedAllocations.OneInSix/BakeWithMesh
+  Commands/FailedAllocations.OneInSix/InfoOfBakedMesh
   Commands/FailedAllocations.OneInSix/Viewshed
   Commands/FailedAllocations.OneInSix/ViewshedOfTable
   Commands/FailedAllocationsOfC.ForTheProgram/Bake
@@ -456,6 +464,8 @@ set_tests_properties(
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Shot
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/ShotOfBaked
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/InfoOfMesh
+  Commands/FailedSystemCalls.AllOfAKindFromOneOn/BakeWithMesh
+  Commands/FailedSystemCalls.AllOfAKindFromOneOn/InfoOfBakedMesh
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Viewshed
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/ViewshedOfTable
   Commands/FailedSystemCalls.OfAll/Bake
@@ -467,6 +477,8 @@ set_tests_properties(
   Commands/FailedSystemCalls.OfAll/Shot
   Commands/FailedSystemCalls.OfAll/ShotOfBaked
   Commands/FailedSystemCalls.OfAll/InfoOfMesh
+  Commands/FailedSystemCalls.OfAll/BakeWithMesh
+  Commands/FailedSystemCalls.OfAll/InfoOfBakedMesh
   Commands/FailedSystemCalls.OfAll/Viewshed
   Commands/FailedSystemCalls.OfAll/ViewshedOfTable
   Commands/FailedSystemCalls.OfTheProgram/Bake
@@ -478,6 +490,8 @@ set_tests_properties(
   Commands/FailedSystemCalls.OfTheProgram/Shot
   Commands/FailedSystemCalls.OfTheProgram/ShotOfBaked
   Commands/FailedSystemCalls.OfTheProgram/InfoOfMesh
+  Commands/FailedSystemCalls.OfTheProgram/BakeWithMesh
+  Commands/FailedSystemCalls.OfTheProgram/InfoOfBakedMesh
   Commands/FailedSystemCalls.OfTheProgram/Viewshed
   Commands/FailedSystemCalls.OfTheProgram/ViewshedOfTable
   Commands/FailedSystemCalls.OfWriting/Bake
@@ -489,6 +503,8 @@ set_tests_properties(
   Commands/FailedSystemCalls.OfWriting/Shot
   Commands/FailedSystemCalls.OfWriting/ShotOfBaked
   Commands/FailedSystemCalls.OfWriting/InfoOfMesh
+  Commands/FailedSystemCalls.OfWriting/BakeWithMesh
+  Commands/FailedSystemCalls.OfWriting/InfoOfBakedMesh
   Commands/FailedSystemCalls.OfWriting/Viewshed
   Commands/FailedSystemCalls.OfWriting/ViewshedOfTable
   Commands/FailedThreads.EachAndAllFromOneOn/Bake

@@ -66,10 +66,10 @@ Result<BakeReport> bake_part(const HeightField& field, const BakeOptions& how, c
 }
 
 Result<ClusterBakeReport> bake_clusters(const HeightField& field, const BakeOptions& how,
+                                        const BakeHold& /*hold*/,
                                         const std::function<void(double, const char*)>& on_progress,
                                         std::span<const ContainerPart> beside) {
     const std::string clusters_path = path_of_clusters(how.path);
-    ORO_TRY(const BakeHold hold, BakeHold::take(how.path, how.overwrite));
     ORO_CHECK(check_path_of_part(clusters_path));
     BakeOptions grid = how;
     grid.path = path_of_grid(how.path, 0);

@@ -1,5 +1,7 @@
 #include "apps/baking/mesh_bake.h"
 
+#include <unistd.h>
+
 #include <cstdio>
 
 #include "apps/report/figures.h"
@@ -9,6 +11,11 @@
 
 namespace oro {
 
+MeshBake::~MeshBake() {
+    // What is not there has been joined.
+    for (const ContainerPart& part : parts) unlink(part.path.c_str());
+}
+
 Result<MeshBake> bake_meshes(const Region& region, const std::string& out) {
     MeshBake bake;
     if (!region.meshes) return bake;
@@ -16,9 +23,9 @@ Result<MeshBake> bake_meshes(const Region& region, const std::string& out) {
         const std::size_t number = bake.parts.size();
         const std::string path = path_of_mesh(out, number);
         ORO_CHECK(check_path_of_part(path));
+        bake.parts.push_back({path, static_cast<std::uint32_t>(number)});
         ORO_TRY(const BakedMeshReport report,
                 write_baked_mesh(path, mesh, region.grids.front().field.undulation, thread_count()));
-        bake.parts.push_back({path, static_cast<std::uint32_t>(number)});
         bake.reports.push_back(report);
     }
     return bake;

@@ -11,13 +11,22 @@
 
 namespace oro {
 
+// The files that meshes are baked to, beside the one that is baked. It removes what is left of them: a bake
+// that is broken off does not go on with them.
 struct MeshBake {
-    std::vector<ContainerPart> parts;  // files beside the one that is baked
+    MeshBake() = default;
+    MeshBake(MeshBake&&) noexcept = default;
+    MeshBake& operator=(MeshBake&&) = delete;
+    MeshBake(const MeshBake&) = delete;
+    MeshBake& operator=(const MeshBake&) = delete;
+    ~MeshBake();
+
+    std::vector<ContainerPart> parts;
     std::vector<BakedMeshReport> reports;
 };
 
-// Bakes each mesh of a region with its graph beside `out`; nothing where it has none. Errors: those of
-// write_baked_mesh().
+// Bakes each mesh of a region with its graph beside `out`, which the caller holds (BakeHold); nothing where
+// it has none. Errors: those of write_baked_mesh(); somebody else's file of that name.
 Result<MeshBake> bake_meshes(const Region& region, const std::string& out);
 
 // "with zurich.city.json: 5,134 triangles, 12 levels, 3.1 bytes a triangle, graph built in 0.4 s".

@@ -247,11 +247,12 @@ Result<BakeReport> bake_grid(const Region& region, const BakePartOptions& option
     how.parts = parts ? &*parts : nullptr;
     BakeReport report;
     if (has_clusters) {
+        ORO_TRY(const BakeHold hold, BakeHold::take(options.out, options.overwrite));
         ORO_TRY(MeshBake meshes, bake_meshes(region, options.out));
         baked.meshes = std::move(meshes.reports);
         ORO_TRY(baked.clusters,
                 bake_clusters(
-                    grid.field, how, [&](double share, const char* what) { bar.show(share, what); },
+                    grid.field, how, hold, [&](double share, const char* what) { bar.show(share, what); },
                     meshes.parts));
         report = baked.clusters->region;
     } else {

@@ -264,7 +264,7 @@ std::string levels_text(const RegionFile& file, const ClusterOutline& graph) {
 std::string size_text(const RegionFile& file, const ClusterFile* clusters) {
     const auto posts = static_cast<double>(file.outline().grid.post_count());
     const std::string each = text_of("%.2f for each post", static_cast<double>(file.bytes()) / posts);
-    const std::uint64_t whole = bytes_of_file(file);
+    const std::uint64_t whole = file.file_bytes();
     if (clusters)
         return counted(whole, "byte", "bytes") + ": " + grouped(file.bytes()) + " of the grid (" + each +
                "), " + grouped(clusters->bytes()) + " of the clusters";

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <optional>
-#include <system_error>
 
 #include "apps/report/different_words.h"
 #include "apps/report/figures.h"
@@ -123,12 +121,6 @@ std::optional<double> projected_spacing_m(const SourceReport& source) {
     return radians_from_deg(nominal_deg).rad * wgs84_a_m;
 }
 
-std::uint64_t bytes_of_file(const RegionFile& file) {
-    std::error_code fault;
-    const std::uintmax_t bytes = std::filesystem::file_size(file.path(), fault);
-    return fault ? file.bytes() : bytes;
-}
-
 ordered_json file_json(const RegionGrid& grid) {
     if (!grid.file) return nullptr;
     const RegionFile& file = *grid.file;
@@ -140,7 +132,7 @@ ordered_json file_json(const RegionGrid& grid) {
     json["pages"] = file.order().count();
     json["triangles"] = file.outline().triangles;
     // Of all that the file holds, and of this grid in it.
-    json["bytes"] = bytes_of_file(file);
+    json["bytes"] = file.file_bytes();
     json["grid_bytes"] = file.bytes();
     if (grid.clusters) json["clusters"] = graph_json(*grid.clusters, file.outline().triangles);
     json["bytes_per_post"] =

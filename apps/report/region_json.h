@@ -19,8 +19,6 @@ nlohmann::ordered_json region_json(const RegionGrid& grid);
 // How far apart the posts of a file in a projected CRS are as the CRS counts it, the mean of both ways;
 // nothing of one in degrees, nor of a baked region's, of which it is not known.
 std::optional<double> projected_spacing_m(const SourceReport& source);
-// The size of all of the file that a baked grid is in, with other grids and clusters.
-std::uint64_t bytes_of_file(const RegionFile& file);
 // The file of a baked grid that is one whole; null for all others.
 nlohmann::ordered_json file_json(const RegionGrid& grid);
 

@@ -174,6 +174,8 @@ class RegionFile {
     [[nodiscard]] std::uint64_t fingerprint() const { return fingerprint_; }
     // The size that the grid has in a file of its own.
     [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+    // The size of all that the file holds, as it is when it is whole.
+    [[nodiscard]] std::uint64_t file_bytes() const { return container_->table().file_bytes; }
     // Of a page that the region has.
     [[nodiscard]] Result<PageRecord> record(PageIndex index) const;
     // Numbers are finite; some 50 us, 100 us where heights are no whole metres.

@@ -43,8 +43,9 @@ TEST_P(FailedAllocations, OneInSix) {
 }
 
 std::string name_of(const testing::TestParamInfo<Command (*)()>& info) {
-    const std::vector<std::string> names{
-        "Info", "Bake", "Shot", "ShotOfBaked", "Viewshed", "ViewshedOfTable", "InfoOfMesh"};
+    const std::vector<std::string> names{"Info",        "Bake",         "Shot",
+                                         "ShotOfBaked", "Viewshed",     "ViewshedOfTable",
+                                         "InfoOfMesh",  "BakeWithMesh", "InfoOfBakedMesh"};
     return names[info.index];
 }
 
@@ -82,7 +83,8 @@ INSTANTIATE_TEST_SUITE_P(Commands, FailedAllocations,
                          testing::Values(oro::test::info_of_tiles, oro::test::bake_new,
                                          oro::test::shot_of_tiles, oro::test::shot_of_baked,
                                          oro::test::viewshed_of_tiles, oro::test::viewshed_of_table,
-                                         oro::test::info_of_mesh),
+                                         oro::test::info_of_mesh, oro::test::bake_with_mesh,
+                                         oro::test::info_of_baked_mesh),
                          name_of);
 
 }  // namespace

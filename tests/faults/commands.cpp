@@ -48,17 +48,18 @@ const std::string& tile() {
     return bytes;
 }
 
-// What an undisturbed run makes of the tile: all files but the input.
-std::map<std::string, std::string> made(const std::vector<std::string>& words, const std::string& input,
-                                        const std::string& bytes) {
+using Files = std::map<std::string, std::string>;
+
+// What an undisturbed run makes of the inputs: all files but these.
+Files made(const std::vector<std::string>& words, const Files& inputs) {
     const fs::path folder = scratch_folder();
-    std::ofstream(folder / input, std::ios::binary) << bytes;
+    for (const auto& [name, bytes] : inputs) std::ofstream(folder / name, std::ios::binary) << bytes;
     DisturbedProgram program(words, folder, 1);
     const Disturbed run = program.run({"thread"});
     EXPECT_EQ(run.exit_code, 0) << run.err;
-    std::map<std::string, std::string> files;
+    Files files;
     for (const auto& entry : fs::directory_iterator(folder))
-        if (entry.path().filename() != input)
+        if (!inputs.contains(entry.path().filename().string()))
             files[entry.path().filename().string()] = bytes_of(entry.path());
     return files;
 }
@@ -68,7 +69,7 @@ constexpr const char* there_before = "a file of before";
 
 const std::string& baked() {
     static const std::string bytes =
-        made({"bake", "tile.tif", "-q", "--out", "tile.oro"}, "tile.tif", tile()).at("tile.oro");
+        made({"bake", "tile.tif", "-q", "--out", "tile.oro"}, {{"tile.tif", tile()}}).at("tile.oro");
     return bytes;
 }
 
@@ -105,6 +106,21 @@ Command info_of_mesh() {
     return {"info --mesh-file m.gltf", words, {{"tile.tif", tile()}, {"m.gltf", mesh}}, {}, false};
 }
 
+Command info_of_baked_mesh() {
+    static const std::string bytes = [] {
+        const Command bake = bake_with_mesh();
+        return made(bake.words, bake.inputs).at("n.oro");
+    }();
+    return {"info --check n.oro", {"info", "--check", "n.oro"}, {{"n.oro", bytes}}, {}, false};
+}
+
+Command bake_with_mesh() {
+    const std::vector<std::string> words{"bake",       "tile.tif",   "-q",    "--mesh-file", "m.gltf",
+                                         "--mesh-crs", "EPSG:32616", "--out", "n.oro"};
+    return {
+        "bake --mesh-file m.gltf", words, {{"tile.tif", tile()}, {"m.gltf", mesh}}, {{"n.oro", ""}}, true};
+}
+
 Command bake_new() {
     return {"bake tile.tif",
             {"bake", "tile.tif", "-q", "--out", "n.oro"},
@@ -115,7 +131,8 @@ Command bake_new() {
 
 Command bake_again() {
     const std::vector<std::string> words{"bake", "tile.tif", "-q", "--overwrite", "--out", "n.oro"};
-    const auto other = made({"bake", "tile.tif", "-q", "--fill-voids", "--out", "n.oro"}, "tile.tif", tile());
+    const auto other =
+        made({"bake", "tile.tif", "-q", "--fill-voids", "--out", "n.oro"}, {{"tile.tif", tile()}});
     return {"bake --overwrite tile.tif", words, {{"tile.tif", tile()}}, other, true};
 }
 

@@ -216,6 +216,12 @@ std::string FaultRuns::judge_success(const Disturbed& run,
                                                        : "exit 0 with another result, silently";
 }
 
+// What a bake that was broken off goes on from: what is unfinished, and the whole grid of a file with more in
+// it.
+static bool goes_on_from(const std::string& name) {
+    return name.find(".partial") != std::string::npos || name.find(".grid-") != std::string::npos;
+}
+
 std::string FaultRuns::judge_failure(const Disturbed& run,
                                      const std::map<std::string, std::string>& there) const {
     if (run.exit_code == 2) return "told as a mistake of the user";
@@ -234,8 +240,7 @@ std::string FaultRuns::judge_failure(const Disturbed& run,
     for (const auto& [name, bytes] : there) {
         if (command_.inputs.contains(name)) {
             if (bytes != command_.inputs.at(name)) return "an input was changed";
-        } else if (!command_.before.contains(name) &&
-                   !(command_.goes_on && name.find(".partial") != std::string::npos)) {
+        } else if (!command_.before.contains(name) && !(command_.goes_on && goes_on_from(name))) {
             return "a file was left behind";
         }
     }
@@ -244,8 +249,7 @@ std::string FaultRuns::judge_failure(const Disturbed& run,
 
 std::string FaultRuns::judge_going_on() {
     const auto there = files();
-    if (std::none_of(there.begin(), there.end(),
-                     [](const auto& file) { return file.first.find(".partial") != std::string::npos; }))
+    if (std::none_of(there.begin(), there.end(), [](const auto& file) { return goes_on_from(file.first); }))
         return "";
     const Disturbed again = program_.run({"thread"});
     ++ends_["gone on with"];

@@ -80,9 +80,20 @@ TEST(FailedQuestions, LetNoInputBeReplaced) {
 }
 
 std::string name_of(const testing::TestParamInfo<Command (*)()>& info) {
-    const std::vector<std::string> names{
-        "Info",    "InfoOfBaked", "Bake",    "BakeAgain",       "Shot",      "ShotOfBaked", "Viewshed",
-        "Profile", "Export",      "Horizon", "ViewshedOfTable", "InfoOfMesh"};
+    const std::vector<std::string> names{"Info",
+                                         "InfoOfBaked",
+                                         "Bake",
+                                         "BakeAgain",
+                                         "Shot",
+                                         "ShotOfBaked",
+                                         "Viewshed",
+                                         "Profile",
+                                         "Export",
+                                         "Horizon",
+                                         "ViewshedOfTable",
+                                         "InfoOfMesh",
+                                         "BakeWithMesh",
+                                         "InfoOfBakedMesh"};
     return names[info.index];
 }
 INSTANTIATE_TEST_SUITE_P(Commands, FailedSystemCalls,
@@ -91,7 +102,8 @@ INSTANTIATE_TEST_SUITE_P(Commands, FailedSystemCalls,
                                          oro::test::shot_of_baked, oro::test::viewshed_of_tiles,
                                          oro::test::profile_of_tiles, oro::test::export_of_tiles,
                                          oro::test::horizon_of_tiles, oro::test::viewshed_of_table,
-                                         oro::test::info_of_mesh),
+                                         oro::test::info_of_mesh, oro::test::bake_with_mesh,
+                                         oro::test::info_of_baked_mesh),
                          name_of);
 
 }  // namespace
