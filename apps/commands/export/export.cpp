@@ -16,6 +16,7 @@
 #include "geo/files/numbered_tiles.h"
 #include "geo/files/whole_folder.h"
 #include "geo/opening/open_region.h"
+#include "geo/sources/notes.h"
 #include "geo/sources/source_words.h"
 #include "geo/together/covered_grids.h"
 
@@ -109,6 +110,11 @@ Result<void> run_export(const ExportOptions& options) {
     ProgressBar bar(options.quiet);
     ORO_TRY(Region region, open_region(request, bar.progress()));
     leave_covered_grids_out(region);
+    if (*options.to != "3dtiles" && region.meshes && !region.meshes->empty())
+        add_note(region.grids.front().notes, counted(region.meshes->size(), "mesh", "meshes") +
+                                                 " of this baked region " +
+                                                 (region.meshes->size() == 1 ? "is" : "are") +
+                                                 " left out: meshes go into 3D Tiles alone (--to 3dtiles)");
     ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, region)}));
     if (layer.canopy) ORO_CHECK(spare_inputs({options.out}, {{layer.files(), "which the canopy is in"}}));
     if (*options.to == "cog") return export_cog(options, region, layer, bar);

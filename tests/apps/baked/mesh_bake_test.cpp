@@ -1,4 +1,5 @@
-// A region baked with its meshes: drawn as with their files, printed by info, and refused where it is damaged.
+// A region baked with its meshes: drawn as with their files, printed by info, and refused where it is
+// damaged.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -130,6 +131,16 @@ TEST_F(MeshBake, HasTheSameBytesAgain) {
     EXPECT_FALSE(fs::exists(again + ".mesh-1"));
     expect_refusal(run_orograph(joined({"bake"}, joined(files_, {"--out", again, "--cut-under"}))), usage,
                    {"--cut-under"});
+}
+
+// What cannot take meshes says that it leaves them out.
+TEST_F(MeshBake, IsLeftOutOfOtherFormatsThan3DTilesWithANote) {
+    const Outcome out = run_orograph({"export", baked_, "--to", "cog", "--out", folder_ / "h.tif"});
+    ASSERT_EQ(out.exit_code, 0) << out.err;
+    EXPECT_NE(out.err.find("1 mesh of this baked region is left out"), std::string::npos) << out.err;
+    EXPECT_NE(out.err.find("--to 3dtiles"), std::string::npos) << out.err;
+    const Outcome bare = run_orograph({"export", bundled(), "--to", "cog", "--out", folder_ / "b.tif"});
+    EXPECT_EQ(bare.err.find("left out"), std::string::npos) << bare.err;
 }
 
 // A frame of a film, a panorama: drawn by clusters, too.
