@@ -21,7 +21,7 @@ namespace {
 // from, need levels of their own, and to measure these, all posts in memory.
 Result<std::unique_ptr<RegionPages>> pages_of(const RegionGrid& grid, double exaggeration,
                                               const RenderProgress& progress, const std::stop_token& stop) {
-    if (const auto* const made = dynamic_cast<const MadePostSource*>(grid.field.posts.get())) {
+    if (const MadePostSource* const made = made_posts_of(grid.field)) {
         if (exaggeration == 1.0) return made->pages(grid.field);
         return Error{
             ErrorKind::usage, "--exaggeration",

@@ -18,6 +18,7 @@
 #include "apps/styles/style_json.h"
 #include "apps/view/model_names.h"
 #include "core/light/sun_position.h"
+#include "core/made_pages/made_pages.h"
 #include "geo/files/text_encoding.h"
 
 namespace oro {
@@ -171,6 +172,9 @@ Result<Style> load_style(const View& view, const HeightField& field) {
         return Error{ErrorKind::usage, "--sky-openness on",
                      "the style '" + name + "' has no light of the sky"};
     ORO_CHECK(label_by(view, style));
+    // Both look over the ground in all directions. Where its posts are made as they are asked for, most of
+    // what they would make is never shown.
+    if (made_posts_of(field) != nullptr) style.frame.shadows = style.frame.sky_openness = 0;
     if (view.shadows) style.frame.shadows = *view.shadows ? 1 : 0;
     if (view.sky_openness) style.frame.sky_openness = *view.sky_openness ? 1 : 0;
     if (view.show)

@@ -273,4 +273,8 @@ HeightField made_field(const MadeTerrain& terrain, const PostGrid& grid, const U
     return field;
 }
 
+const MadePostSource* made_posts_of(const HeightField& field) {
+    return dynamic_cast<const MadePostSource*>(field.posts.get());
+}
+
 }  // namespace oro

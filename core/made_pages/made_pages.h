@@ -38,5 +38,8 @@ class MadePostSource : public PostSource {
 
 // A field whose posts are those of a made terrain, made when they are asked for.
 HeightField made_field(const MadeTerrain& terrain, const PostGrid& grid, const UndulationField& undulation);
+// The source of a field's posts where they are made when they are asked for; null where they are in memory or
+// in a file. The field owns it.
+const MadePostSource* made_posts_of(const HeightField& field);
 
 }  // namespace oro

@@ -58,10 +58,12 @@ Result<RegionGrid> made_world(const ChosenGrid& chosen, const RegionRequest& req
     world.posts_hash = sum.sum();
     world.sources.front().posts_hash = world.posts_hash;
     world.geoid_fingerprint = undulation_fingerprint(world.field.undulation);
-    char note[160];
-    std::snprintf(note, sizeof note,
-                  "%.3g posts are made where they are looked at; H is told as the rule bounds it",
-                  grid.lat.count * static_cast<double>(grid.lon.count));
+    char note[240];
+    std::snprintf(
+        note, sizeof note,
+        "%.3g posts are made where they are looked at; H is told as the rule bounds it; pictures have "
+        "no shadows and no light of the sky unless --shadows on and --sky-openness on ask for them",
+        grid.lat.count * static_cast<double>(grid.lon.count));
     add_note(world.notes, note);
     return world;
 }

@@ -1,6 +1,7 @@
 // Made terrain from end to end: what users do with files they do with a made: text.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -60,20 +61,27 @@ TEST(MadeTerrain, OfAWholeWorldIsThereWhereOneLooks) {
 // pixel.
 TEST(MadeTerrain, OfAWholeWorldIsDrawnWithinItsCertificate) {
     const fs::path folder = oro::test::scratch_folder();
-    for (const auto& [at, name] : {std::pair{"46.5,8.3", "inside.png"}, {"0.01,178.999", "edge.png"}}) {
+    for (const auto& [at, heading, name] :
+         {std::array{"46.5,8.3", "80", "inside.png"}, std::array{"0.01,178.999", "280", "edge.png"}}) {
         const auto shot =
-            object_said_by({"shot", world, "--at", at, "--above", "1500", "--heading", "80", "--pitch", "-25",
-                            "--size", "120x80", "--verify", "--out", folder / name, "--json"});
+            object_said_by({"shot", world, "--at", at, "--above", "1500", "--heading", heading, "--pitch",
+                            "-25", "--size", "120x80", "--verify", "--out", folder / name, "--json"});
         const auto& error = shot["error"];
         EXPECT_LE(error["largest_px"].get<double>(), 1.0 + error["slack_px"].get<double>()) << error.dump();
         EXPECT_GT(error["largest_px"].get<double>(), 0.0);
         EXPECT_EQ(shot["settled"], true);
     }
+    // The usual style has shadows and light of the sky. Both ask for ground in all directions, so here they
+    // are for who asks for them, and a note says so.
+    const auto usual = run_orograph({"shot", world, "--at", "46.5,8.3", "--above", "1500", "--style",
+                                     "natural", "--size", "60x40", "--out", folder / "natural.png"});
+    EXPECT_EQ(usual.exit_code, 0) << usual.err;
+    EXPECT_NE(usual.err.find("--shadows on and --sky-openness on"), std::string::npos) << usual.err;
     expect_refusal(run_orograph({"shot", world, "--at", "46.5,8.3", "--above", "1500", "--detail", "2",
                                  "--out", folder / "d.png"}),
                    oro::test::usage, {"--detail", "--bbox"});
     expect_refusal(run_orograph({"shot", world, "--at", "46.5,8.3", "--above", "1500", "--exaggeration", "2",
-                                 "--out", folder / "e.png"}),
+                                 "-q", "--out", folder / "e.png"}),
                    oro::test::usage, {"--exaggeration", "--bbox"});
 }
 
