@@ -27,17 +27,18 @@ void add_quiet(CLI::App& command, bool& quiet, const std::string& but) {
     OptionGroup(command, "Messages").flag("-q,--quiet", quiet, "Print nothing but " + but + ".");
 }
 
-void add_kml(OptionGroup& group, bool& kml) {
-    group.flag(
-        "--kml", kml,
-        "Write NAME.kml beside each picture: a PhotoOverlay, which shows it in its place in Google Earth "
-        "and others.");
+// of_map: what the same is of a map, where the command draws maps.
+void add_kml(OptionGroup& group, bool& kml, const std::string& of_map = "") {
+    group.flag("--kml", kml,
+               "Write NAME.kml beside each picture: a PhotoOverlay, which shows it in its place in Google "
+               "Earth and others" +
+                   of_map + ".");
 }
 
-void add_geopose(OptionGroup& group, bool& geopose) {
-    group.flag(
-        "--geopose", geopose,
-        "Write NAME.geopose.json beside each picture: the eye's place and direction as an OGC GeoPose.");
+void add_geopose(OptionGroup& group, bool& geopose, const std::string& of_map = "") {
+    group.flag("--geopose", geopose,
+               "Write NAME.geopose.json beside each picture: the eye's place and direction" + of_map +
+                   " as an OGC GeoPose.");
 }
 
 void add_stac(OptionGroup& group, bool& stac) {
@@ -67,8 +68,8 @@ void add_shot(CLI::App& app, ShotOptions& options) {
     picture.flag("--layers", options.layers,
                  "Write what each pixel shows as TIFFs beside the picture: NAME.longitude.tif and latitude, "
                  "height (above sea level), ellipsoidal-height, distance, slope, source and shadow.");
-    add_kml(picture, options.kml);
-    add_geopose(picture, options.geopose);
+    add_kml(picture, options.kml, "; of a map a GroundOverlay");
+    add_geopose(picture, options.geopose, " (of a map its middle and its axes)");
     add_stac(picture, options.stac);
     picture.flag(
         "--ortho", options.ortho,
@@ -127,6 +128,7 @@ void add_panorama(CLI::App& app, PanoramaOptions& options) {
         "Take data, eye and settings from a panorama that orograph wrote. Looks, detail and --width "
         "may be changed.");
     add_time(command, "The picture", options.view);
+    add_kml(picture, options.kml);
     add_geopose(picture, options.geopose);
     add_stac(picture, options.stac);
     add_no_paths(command, "The picture", options.no_paths);
@@ -148,7 +150,8 @@ void add_panorama(CLI::App& app, PanoramaOptions& options) {
                         "panorama --view PICTURE --out FILE [OPTIONS]"},
                        "The Earth's curvature always counts.",
                        "docs/commands/panorama.md"});
-    list_later(command, {"--ridges", "--time", "--geopose", "--stac", "--no-paths", "--data-changed"});
+    list_later(command,
+               {"--ridges", "--time", "--kml", "--geopose", "--stac", "--no-paths", "--data-changed"});
 }
 
 // How a camera follows a track.

@@ -311,6 +311,7 @@ Result<oro::PanoramaOptions> panorama_options(const OpenRegion& open, const std:
     ORO_CHECK(check_region_words(options.region));
     ORO_CHECK(refuse_word(!options.out.empty(), "--out"));
     ORO_CHECK(refuse_word(!options.view_file.empty(), "--view"));
+    ORO_CHECK(refuse_word(options.kml, "--kml"));
     ORO_CHECK(refuse_word(options.geopose, "--geopose"));
     ORO_CHECK(oro::check_panorama_view(options));
     options.region = open.options;

@@ -96,7 +96,7 @@ struct ShotOptions {
     bool overwrite{false};
     bool json{false};
     bool quiet{false};
-    bool kml{false};                      // a PhotoOverlay beside the picture
+    bool kml{false};                      // a PhotoOverlay beside the picture, a GroundOverlay beside a map
     bool geopose{false};                  // a GeoPose beside it
     bool stac{false};                     // a STAC item beside it
     std::vector<std::string> view_files;  // as given; view_file: the one that a picture is drawn from
@@ -228,6 +228,7 @@ struct PanoramaOptions {
     bool overwrite{false};
     bool json{false};
     bool quiet{false};
+    bool kml{false};      // beside the picture
     bool geopose{false};  // beside the picture
     bool stac{false};     // beside the picture
 };

@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <utility>
 
+#include "apps/output/ground_overlay.h"
+#include "apps/output/kml_element.h"
 #include "apps/output/relative_reference.h"
 #include "apps/output/stac_item.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
-#include "apps/report/xml_escape.h"
 #include "core/earth/rotation.h"
-#include "geo/files/foreign_text.h"
 
 namespace oro {
 namespace {
@@ -19,13 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double photo_distance_m = 10.0;
-
-// An element with a number, exact to 1e-9.
-std::string element(const char* name, double value) {
-    char text[120];
-    std::snprintf(text, sizeof text, "<%s>%.9f</%s>", name, value, name);
-    return text;
-}
 
 std::string beside(const std::string& picture, const char* ending) {
     const fs::path path(picture);
@@ -46,6 +39,64 @@ std::string stac_item_of(const std::string& picture, PoseChoice choice, const Vi
     return stac_item_json(view, name_of(picture), assets);
 }
 
+// Where a picture ends, in angles from its middle, and what it lies on.
+struct OverlayBorders {
+    double right_deg{};  // as far to the left
+    double bottom_deg{};
+    double top_deg{};
+    const char* shape{};
+};
+
+double angle_deg(double tangent) {
+    return deg_from_radians(Radians{std::atan(tangent)});
+}
+
+// The strip below a picture is a part of its file, and would lie on the same plane; so do the rulers and
+// names around a panorama on its cylinder.
+OverlayBorders borders_of(const View& view, double above_level_px) {
+    const Camera& camera = view.camera;
+    if (!view.panorama) {
+        const glm::dvec2 half = camera.half_fov_tangent();
+        const double bottom = half.y * (1.0 + 2.0 * view.legend_px / camera.height_px);
+        return {angle_deg(half.x), -angle_deg(bottom), angle_deg(half.y), "rectangle"};
+    }
+    const double sweep_deg = view.panorama->sweep_deg,
+                 px_per_rad = camera.width_px / radians_from_deg(sweep_deg).rad;
+    return {0.5 * sweep_deg, -angle_deg((camera.height_px - above_level_px) / px_per_rad),
+            angle_deg(above_level_px / px_per_rad), "cylinder"};
+}
+
+std::string geopose_text(double lat_deg, double lon_deg, double h_m, const std::array<double, 4>& xyzw) {
+    const auto [x, y, z, w] = xyzw;
+    return json_text(json_object("position", json_object("lat", lat_deg, "lon", lon_deg, "h", h_m),
+                                 "quaternion", json_object("x", x, "y", y, "z", z, "w", w)),
+                     true) +
+           "\n";
+}
+
+Result<PoseText> kml_text(const std::string& picture, const View& view, const PoseFacts& facts) {
+    const std::string name = fs::path(picture).filename().string(), file = beside(picture, ".kml");
+    if (!view.map) return PoseText{file, photo_overlay_kml(view, facts, name)};
+    ORO_TRY(GroundOverlay overlay, ground_overlay(*view.map, view.legend_px, name, facts.attribution));
+    PoseText text{file, std::move(overlay.kml)};
+    if (overlay.off_px >= 1.0) {
+        char note[160];
+        std::snprintf(note, sizeof note,
+                      " lays the map by its four corners: between them it is up to %.1f pixels off (with "
+                      "--crs EPSG:4326 it is not)",
+                      overlay.off_px);
+        text.note = file + note;
+    }
+    return text;
+}
+
+Result<PoseText> geopose_of(const std::string& picture, const View& view, const PoseFacts& facts) {
+    const std::string file = beside(picture, ".geopose.json");
+    if (!view.map) return PoseText{file, geopose_json(view.camera)};
+    ORO_TRY(const MapMiddle middle, map_middle(*view.map));
+    return PoseText{file, map_geopose_json(middle, facts.ground_h_m)};
+}
+
 }  // namespace
 
 std::array<double, 4> geopose_quaternion(const Attitude& attitude) {
@@ -57,37 +108,40 @@ std::array<double, 4> geopose_quaternion(const Attitude& attitude) {
 }
 
 std::string geopose_json(const Camera& camera) {
-    const auto [x, y, z, w] = geopose_quaternion(camera.attitude);
-    return json_text(json_object("position",
-                                 json_object("lat", camera.eye.lat_deg, "lon",
-                                             normalised_lon_deg(camera.eye.lon_deg), "h", camera.eye.h_m),
-                                 "quaternion", json_object("x", x, "y", y, "z", z, "w", w)),
-                     true) +
-           "\n";
+    return geopose_text(camera.eye.lat_deg, normalised_lon_deg(camera.eye.lon_deg), camera.eye.h_m,
+                        geopose_quaternion(camera.attitude));
 }
 
-std::string photo_overlay_kml(const View& view, double N_m, const std::string& picture_name) {
+std::array<double, 4> map_geopose_quaternion(double up_azimuth_deg) {
+    glm::dquat turn = rotation_about(-up_azimuth_deg, {0.0, 0.0, 1.0});
+    if (turn.w < 0.0) turn = -turn;
+    return {0.0, 0.0, turn.z + 0.0, turn.w};  // no -0
+}
+
+std::string map_geopose_json(const MapMiddle& middle, double h_m) {
+    return geopose_text(middle.lat_deg, middle.lon_deg, h_m, map_geopose_quaternion(middle.up_azimuth_deg));
+}
+
+std::string photo_overlay_kml(const View& view, const PoseFacts& facts, const std::string& picture_name) {
     const Camera& camera = view.camera;
-    const glm::dvec2 half = camera.half_fov_tangent();
-    const auto angle_deg = [](double tangent) { return deg_from_radians(Radians{std::atan(tangent)}); };
-    // The strip below the picture is a part of its file, and would lie on the same plane.
-    const double bottom = half.y * (1.0 + 2.0 * view.legend_px / camera.height_px);
-    const double H_m = camera.eye.h_m - N_m, lon_deg = normalised_lon_deg(camera.eye.lon_deg);
+    const OverlayBorders borders = borders_of(view, facts.above_level_px);
+    const double H_m = camera.eye.h_m - facts.N_m, lon_deg = normalised_lon_deg(camera.eye.lon_deg);
     char place[120];
     std::snprintf(place, sizeof place, "%.9f,%.9f,%.6f", lon_deg, camera.eye.lat_deg, H_m);
     return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\">\n"
-           "<PhotoOverlay>\n  <name>" +
-           xml_escaped(foreign_text(picture_name)) + "</name>\n  <Camera>" + element("longitude", lon_deg) +
-           element("latitude", camera.eye.lat_deg) + element("altitude", H_m) +
-           element("heading", camera.attitude.heading_deg) +
-           element("tilt", camera.attitude.pitch_deg + 90.0) + element("roll", camera.attitude.roll_deg) +
+           "<PhotoOverlay>\n" +
+           kml_name_and_description(picture_name, facts.attribution) + "  <Camera>" +
+           kml_element("longitude", lon_deg) + kml_element("latitude", camera.eye.lat_deg) +
+           kml_element("altitude", H_m) + kml_element("heading", camera.attitude.heading_deg) +
+           kml_element("tilt", camera.attitude.pitch_deg + 90.0) +
+           kml_element("roll", camera.attitude.roll_deg) +
            "<altitudeMode>absolute</altitudeMode></Camera>\n  <TimeStamp><when>" +
            time_text(view.time_utc_s) + "</when></TimeStamp>\n  <Icon><href>" + reference_to(picture_name) +
-           "</href></Icon>\n  <ViewVolume>" + element("leftFov", -angle_deg(half.x)) +
-           element("rightFov", angle_deg(half.x)) + element("bottomFov", -angle_deg(bottom)) +
-           element("topFov", angle_deg(half.y)) + element("near", photo_distance_m) +
+           "</href></Icon>\n  <ViewVolume>" + kml_element("leftFov", -borders.right_deg) +
+           kml_element("rightFov", borders.right_deg) + kml_element("bottomFov", borders.bottom_deg) +
+           kml_element("topFov", borders.top_deg) + kml_element("near", photo_distance_m) +
            "</ViewVolume>\n  <Point><altitudeMode>absolute</altitudeMode><coordinates>" + place +
-           "</coordinates></Point>\n  <shape>rectangle</shape>\n</PhotoOverlay>\n</kml>\n";
+           "</coordinates></Point>\n  <shape>" + borders.shape + "</shape>\n</PhotoOverlay>\n</kml>\n";
 }
 
 std::vector<std::string> pose_paths(const std::string& picture, PoseChoice choice) {
@@ -98,13 +152,17 @@ std::vector<std::string> pose_paths(const std::string& picture, PoseChoice choic
     return paths;
 }
 
-std::vector<PoseText> pose_texts(const std::string& picture, PoseChoice choice, const View& view,
-                                 double N_m) {
+Result<std::vector<PoseText>> pose_texts(const std::string& picture, PoseChoice choice, const View& view,
+                                         const PoseFacts& facts) {
     std::vector<PoseText> texts;
-    if (choice.kml)
-        texts.push_back(
-            {beside(picture, ".kml"), photo_overlay_kml(view, N_m, fs::path(picture).filename().string())});
-    if (choice.geopose) texts.push_back({beside(picture, ".geopose.json"), geopose_json(view.camera)});
+    if (choice.kml) {
+        ORO_TRY(PoseText text, kml_text(picture, view, facts));
+        texts.push_back(std::move(text));
+    }
+    if (choice.geopose) {
+        ORO_TRY(PoseText text, geopose_of(picture, view, facts));
+        texts.push_back(std::move(text));
+    }
     if (choice.stac) texts.push_back({beside(picture, ".stac.json"), stac_item_of(picture, choice, view)});
     return texts;
 }

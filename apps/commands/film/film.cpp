@@ -224,7 +224,9 @@ Result<std::vector<WholeFile>> missing_poses(const FilmOptions& options, const s
     const Geodetic& eye = view.camera.eye;
     const double N_m =
         grid_at(region, eye.lat_deg, eye.lon_deg).field.undulation.at_m(eye.lat_deg, eye.lon_deg);
-    std::vector<PoseText> texts = pose_texts(file, {options.kml, options.geopose, options.stac}, view, N_m);
+    ORO_TRY(std::vector<PoseText> texts,
+            pose_texts(file, {options.kml, options.geopose, options.stac}, view,
+                       PoseFacts{.N_m = N_m, .attribution = attribution_of(region)}));
     std::vector<PoseText> missing;
     for (PoseText& one : texts) {
         ORO_TRY(const bool there, is_there(one.file));

@@ -28,14 +28,20 @@
 namespace oro {
 namespace {
 
+PoseChoice poses_asked(const PanoramaOptions& options) {
+    return {options.kml, options.geopose, options.stac};
+}
+
 Result<void> check_out(const PanoramaOptions& options) {
     if (options.out.empty())
         return refused("--out", "", "is missing: name the file to write (.png, .jpg, .tif or .svg)");
     if (!is_svg(options.out) && !picture_format(options.out).ok())
         return refused("--out", options.out,
                        "the file's name must end in .png, .jpg, .jpeg, .tif, .tiff or .svg");
+    if (options.kml && is_svg(options.out))
+        return refused("--kml", "", "shows a picture, not a drawing: name a .png, .jpg or .tif in --out");
     ORO_CHECK(check_may_write(options.out, options.overwrite));
-    for (const std::string& pose : pose_paths(options.out, {false, options.geopose, options.stac}))
+    for (const std::string& pose : pose_paths(options.out, poses_asked(options)))
         ORO_CHECK(check_may_write(pose, options.overwrite));
     return {};
 }
@@ -62,7 +68,7 @@ void say_notes_of(const PanoramaOptions& options, const PanoramaReport& report) 
 
 void tell(const PanoramaOptions& options, const Style& style, const PanoramaReport& report) {
     say(options.quiet, "wrote " + options.out);
-    for (const std::string& pose : pose_paths(options.out, {false, options.geopose, options.stac}))
+    for (const std::string& pose : pose_paths(options.out, poses_asked(options)))
         say(options.quiet, "wrote " + pose);
     const PanoramaNames& names = report.laid.names;
     if (names.without_letters > 0)
@@ -76,6 +82,18 @@ void tell(const PanoramaOptions& options, const Style& style, const PanoramaRepo
     nlohmann::ordered_json json = panorama_json(report, options.out, style);
     json["notes"] = all_notes(report.region);
     std::printf("%s\n", json_text(json, true).c_str());
+}
+
+// The files beside the panorama, without names yet. The view's camera has the whole sheet's size.
+Result<std::vector<WholeFile>> poses_of(const PanoramaOptions& options, const PanoramaReport& report) {
+    const Geodetic& eye = report.view.camera.eye;
+    PoseFacts facts;
+    facts.N_m = report.region.grids.front().field.undulation.at_m(eye.lat_deg, eye.lon_deg);
+    facts.attribution = attribution_of(report.region);
+    facts.above_level_px = report.laid.sheet.scene_top_px + report.laid.around.above_px;
+    ORO_TRY(const std::vector<PoseText> texts,
+            pose_texts(options.out, poses_asked(options), report.view, facts));
+    return pose_files(texts, options.overwrite);
 }
 
 }  // namespace
@@ -93,7 +111,7 @@ Result<void> run_panorama(const PanoramaOptions& options) {
     report.on_summit = view.stood.summit;
     if (options.no_paths) view.tells_paths = false;
     say_edited(view, options.quiet);
-    std::vector<std::string> outputs = pose_paths(options.out, {false, options.geopose, options.stac});
+    std::vector<std::string> outputs = pose_paths(options.out, poses_asked(options));
     outputs.push_back(options.out);
     ORO_CHECK(spare_inputs(
         outputs, {files_of_picture(view, report.region), {{options.view_file}, "which is the view"}}));
@@ -124,9 +142,7 @@ Result<void> run_panorama(const PanoramaOptions& options) {
                                                  report.laid, report.scene));
     view.camera.height_px = report.laid.sheet.height_px;
     view.fingerprints = written.fingerprints;
-    ORO_TRY(std::vector<WholeFile> together,
-            pose_files(pose_texts(options.out, {false, options.geopose, options.stac}, view, 0.0),
-                       options.overwrite));
+    ORO_TRY(std::vector<WholeFile> together, poses_of(options, report));
     together.push_back(std::move(written.file));
     std::vector<WholeFile*> files;
     for (WholeFile& file : together) files.push_back(&file);

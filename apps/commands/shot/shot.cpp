@@ -120,7 +120,7 @@ void tell(const ShotOptions& options, const PictureFiles& files, bool checks, co
           const Gpu& gpu, const Style& style) {
     if (!checks) say(options.quiet, "wrote " + files.picture);
     if (!checks && shot.view.map) say(options.quiet, "wrote " + world_file_path(files.picture));
-    for (const std::string& pose : pose_paths(files.picture, {options.kml, options.geopose, options.stac}))
+    for (const std::string& pose : pose_paths(files.picture, poses_asked(options)))
         say(options.quiet, "wrote " + pose);
     if (shot.layers)
         for (const char* layer : layers_of_view(shot.view.cover != nullptr, has_meshes(shot.view)))
@@ -178,6 +178,22 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
     return picture;
 }
 
+// The files that tell where a picture was taken from, or where a map lies, without names yet. `shot` is
+// drawn.
+Result<std::vector<WholeFile>> poses_of(const ShotOptions& options, const PictureFiles& files,
+                                        const ShotResult& shot) {
+    const Geodetic& eye = shot.view.camera.eye;
+    PoseFacts facts;
+    facts.N_m = shot.region.grids.front().field.undulation.at_m(eye.lat_deg, eye.lon_deg);
+    facts.attribution = attribution_of(shot.region);
+    facts.ground_h_m = shot.middle ? shot.middle->h_m : 0.0;
+    ORO_TRY(const std::vector<PoseText> texts,
+            pose_texts(files.picture, poses_asked(options), shot.view, facts));
+    for (const PoseText& text : texts)
+        if (!text.note.empty()) say(options.quiet, "note: " + text.note);
+    return pose_files(texts, options.overwrite);
+}
+
 // A picture that goes back to where it came from is not spared; what is written beside it is no view.
 Result<void> spare_files_of(const ShotOptions& options, const PictureFiles& files, const ShotResult& shot) {
     if (options.out.empty()) let_replace(files.picture);
@@ -224,6 +240,8 @@ Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, c
     shot.on_summit = shot.view.stood.summit;
     if (options.ortho && options.view_file.empty()) ORO_CHECK(make_map(shot.view, options, shot.region));
     choose_legend(options, shot.view);
+    // A map may lie where no overlay can.
+    ORO_CHECK(pose_texts(files.picture, poses_asked(options), shot.view, {}));
     ORO_CHECK(check_unchanged(shot.view, shot.region, options.data_changed, options.quiet));
     if (options.no_paths) shot.view.tells_paths = false;
     if (!is_check(options, files)) say_edited(shot.view, options.quiet);
@@ -247,12 +265,7 @@ Result<std::vector<WholeFile>> companion_files(const ShotOptions& options, const
     if (options.layers) {
         ORO_TRY(companions, layers_of(options, files, ground, gpu, scene, style, bar, shot));
     }
-    const RegionGrid& at_eye = shot.region.grids.front();
-    const Geodetic& eye = shot.view.camera.eye;
-    ORO_TRY(std::vector<WholeFile> poses,
-            pose_files(pose_texts(files.picture, {options.kml, options.geopose, options.stac}, shot.view,
-                                  at_eye.field.undulation.at_m(eye.lat_deg, eye.lon_deg)),
-                       options.overwrite));
+    ORO_TRY(std::vector<WholeFile> poses, poses_of(options, files, shot));
     for (WholeFile& pose : poses) companions.push_back(std::move(pose));
     if (options.verify) {
         bar.show(1.0, "measuring errors");
@@ -303,9 +316,6 @@ Result<void> check_view_of_file(const View& recorded, ShotOptions& options) {
     if (options.ortho && (options.verify || options.layers))
         return refused(options.verify ? "--verify" : "--layers", "",
                        "is for pictures from an eye; " + options.view_file + " is a map");
-    if (options.ortho && (options.kml || options.geopose))
-        return refused(options.kml ? "--kml" : "--geopose", "",
-                       "is for pictures from an eye; " + options.view_file + " is a map");
     return {};
 }
 
@@ -343,8 +353,6 @@ Result<void> run_shot(const ShotOptions& asked) {
     if (!options.view_files.empty()) options.view_file = options.view_files.front();
     ORO_CHECK(check_map_options(options));
     ORO_TRY(const PictureFiles files, shot_files(options));
-    if (options.ortho && (options.kml || options.geopose))
-        return refused(options.kml ? "--kml" : "--geopose", "", "is for pictures from an eye, not for maps");
     options.view.takes_maps = true;
     ORO_TRY(const std::vector<ListedView> views, listed_views(options.view_files));
     if (!views.empty()) return take_shots(options, views);

@@ -64,13 +64,16 @@ bool is_check(const ShotOptions& options, const PictureFiles& files) {
     return options.out.empty() && !options.overwrite && fs::is_regular_file(files.picture, ignored);
 }
 
+PoseChoice poses_asked(const ShotOptions& options) {
+    return {options.kml, options.geopose, options.stac};
+}
+
 std::vector<std::string> written_files(const ShotOptions& options, const PictureFiles& files) {
     std::vector<std::string> all;
     if (!is_check(options, files)) all.push_back(files.picture);
     if (options.verify) all.push_back(files.error);
     if (options.ortho && !is_check(options, files)) all.push_back(world_file_path(files.picture));
-    for (const std::string& pose : pose_paths(files.picture, {options.kml, options.geopose, options.stac}))
-        all.push_back(pose);
+    for (const std::string& pose : pose_paths(files.picture, poses_asked(options))) all.push_back(pose);
     if (options.layers)
         for (const char* layer : layers_of_view(options.covers, options.has_meshes))
             all.push_back(layer_path(files.picture, layer));

@@ -10,6 +10,7 @@
 #include "apps/commands/shot/shot_json.h"
 #include "apps/options/options.h"
 #include "apps/output/picture_file.h"
+#include "apps/output/pose_files.h"
 
 namespace oro {
 
@@ -18,6 +19,9 @@ Result<PictureFiles> shot_files(const ShotOptions& options);
 
 // A picture drawn again from its own view: drawn without a name and compared, so that nothing is replaced.
 bool is_check(const ShotOptions& options, const PictureFiles& files);
+
+// The files beside a picture that tell where it was taken from.
+PoseChoice poses_asked(const ShotOptions& options);
 
 std::vector<std::string> written_files(const ShotOptions& options, const PictureFiles& files);
 

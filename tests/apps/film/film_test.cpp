@@ -190,14 +190,12 @@ TEST_F(Film, FramesHaveTheirPosesBesideThem) {
     EXPECT_EQ(bytes_of(folder / "shot" / all[0]), bytes_of(out / all[0]));
     EXPECT_EQ(bytes_of(folder / "shot" / all[1]), kml);
     EXPECT_EQ(bytes_of(folder / "shot" / all[3]), bytes_of(out / all[3]));
-    // A map has an item, and no pose.
+    // A map has an item, too.
     const Words map{"shot",       bundled(), "--ortho",
                     "--size",     "64x48",   "--crs",
                     "EPSG:32616", "--out",   (folder / "n.png").string()};
     ASSERT_EQ(run_orograph(joined(map, {"--stac", "-q"})).exit_code, 0);
     EXPECT_EQ(json::parse(bytes_of(folder / "n.stac.json"))["properties"]["proj:epsg"], 32616);
-    expect_refusal(run_orograph({"shot", bundled(), "--ortho", "--out", folder / "m.tif", "--kml"}),
-                   oro::test::usage, {"--kml", "not for maps"});
 }
 
 // A track becomes keys, and these draw the same film.

@@ -167,6 +167,40 @@ TEST_F(Panorama, TellsViewersWhatItIs) {
     EXPECT_TRUE(has("<GPano:CroppedAreaTopPixels>-45</GPano:CroppedAreaTopPixels>"));
 }
 
+// 800 pixels for a quarter of all around are 800 / (pi / 2) = 509.296 a radian; the file's first row stands
+// as high over level, on the cylinder, as it says.
+TEST_F(Panorama, HasAnOverlayForGlobes) {
+    const Words poses{"--sector", "90,180", "--kml", "--stac"};
+    const json said = reported("p.png", poses);
+    const std::string kml = bytes_of(path("p.kml"));
+    const auto has = [&](const std::string& text) { return kml.find(text) != std::string::npos; };
+    EXPECT_TRUE(has("<href>p.png</href>")) << kml;
+    EXPECT_TRUE(has("<heading>135.000000000</heading><tilt>90.000000000</tilt>")) << kml;
+    EXPECT_TRUE(has("<leftFov>-45.000000000</leftFov><rightFov>45.000000000</rightFov>")) << kml;
+    EXPECT_TRUE(has("<shape>cylinder</shape>")) << kml;
+    const auto between = [&](const std::string& element) {
+        return std::stod(kml.substr(kml.find("<" + element + ">") + element.size() + 2));
+    };
+    const double level_px = said["scene"]["level_y_px"], height_px = said["size_px"][1];
+    constexpr double deg_per_rad = 57.29577951308232, px_per_rad = 509.29581789;
+    EXPECT_NEAR(between("topFov"), deg_per_rad * std::atan(level_px / px_per_rad), 1e-6);
+    EXPECT_NEAR(between("bottomFov"), -deg_per_rad * std::atan((height_px - level_px) / px_per_rad), 1e-6);
+    EXPECT_NEAR(between("altitude"), said["eye"]["H_m"].get<double>(), 1e-6);
+    EXPECT_EQ(json::parse(bytes_of(path("p.stac.json")))["assets"]["kml"]["href"], "./p.kml");
+    // It is not replaced, and its view writes the same again.
+    fs::remove(path("p.png"));
+    fs::remove(path("p.stac.json"));
+    expect_refusal(draw("p.png", poses), failed, {"p.kml", "is there already"});
+    EXPECT_FALSE(fs::exists(path("p.png")));
+    ASSERT_EQ(draw("p.png", {"--sector", "90,180", "--kml", "--overwrite"}).exit_code, 0);
+    fs::create_directory(folder / "again");
+    ASSERT_EQ(
+        run_orograph({"panorama", "--view", path("p.png"), "--kml", "--out", path("again/p.png")}).exit_code,
+        0);
+    EXPECT_EQ(bytes_of(path("again/p.kml")), kml);
+    expect_refusal(draw("p.svg", {"--kml"}), usage, {"--kml: shows a picture, not a drawing"});
+}
+
 TEST_F(Panorama, IsNoPictureOfAnotherCommand) {
     ASSERT_EQ(draw("p.png").exit_code, 0);
     for (const Words& other : {Words{"shot", "--view", path("p.png")},

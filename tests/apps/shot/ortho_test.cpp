@@ -109,6 +109,40 @@ TEST(ShotOrtho, HasAWorldFileInEveryFormat) {
     EXPECT_FALSE(fs::exists(folder / "c.tif"));
 }
 
+// The bundled region's part lies 2.75 degrees east of the meridian of zone 16: convergence atan(tan 2.75 sin
+// 36.5) = 1.6366 degrees, half of which has the sine 0.01428. Grid north is east of north there: the map is
+// turned clockwise.
+TEST(ShotOrtho, HasAnOverlayAndAPoseBesideIt) {
+    const fs::path folder = oro::test::scratch_folder();
+    const auto reported =
+        object_said_by(map(folder / "m.png", {"--size", "40x44", "--json", "--kml", "--geopose", "--stac"}));
+    EXPECT_EQ(names_in(folder), (Words{"m.geopose.json", "m.kml", "m.pgw", "m.png", "m.stac.json"}));
+    const std::string kml = bytes_of(folder / "m.kml");
+    EXPECT_NE(kml.find("<gx:LatLonQuad><coordinates>-84.30"), std::string::npos) << kml;
+    EXPECT_NE(kml.find("<href>m.png</href>"), std::string::npos) << kml;
+    const auto pose = oro::test::one_object(bytes_of(folder / "m.geopose.json"));
+    EXPECT_NEAR(pose["position"]["lat"].get<double>(), 36.5, 0.002);
+    EXPECT_NEAR(pose["position"]["lon"].get<double>(), -84.25, 0.002);
+    EXPECT_EQ(pose["position"]["h"], reported["destination"]["h_m"]);
+    EXPECT_EQ(pose["quaternion"]["x"], 0.0);
+    EXPECT_EQ(pose["quaternion"]["y"], 0.0);
+    EXPECT_NEAR(pose["quaternion"]["z"].get<double>(), -0.01428, 3e-5);
+    const auto item = oro::test::one_object(bytes_of(folder / "m.stac.json"));
+    EXPECT_EQ(item["assets"]["kml"]["href"], "./m.kml");
+    EXPECT_EQ(item["assets"]["geopose"]["href"], "./m.geopose.json");
+    // Its view writes the same again; nothing is replaced unasked.
+    fs::create_directory(folder / "again");
+    const Words again{"shot", "--view", (folder / "m.png").string(),          "--kml", "--geopose",
+                      "-q",   "--out",  (folder / "again" / "m.png").string()};
+    const Outcome drawn = run_orograph(again);
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    EXPECT_EQ(bytes_of(folder / "again" / "m.kml"), kml);
+    EXPECT_EQ(bytes_of(folder / "again" / "m.geopose.json"), bytes_of(folder / "m.geopose.json"));
+    write_bytes(folder / "n.tif.kml", "mine");
+    expect_refusal(run_orograph(map(folder / "n.tif", {"--kml"})), 1, {"n.tif.kml", "is there already"});
+    EXPECT_FALSE(fs::exists(folder / "n.tif"));
+}
+
 TEST(ShotOrtho, RefusesWhatAMapCannotHave) {
     const fs::path folder = oro::test::scratch_folder(), out = folder / "m.tif";
     const std::vector<std::pair<Words, Words>> all{

@@ -35,10 +35,11 @@ json item_of(const View& view, const std::string& name = "a.tif") {
 
 // What the item specification 1.0.0 wants of each, and the eye in three numbers.
 TEST(StacItems, OfPicturesStandAtTheEye) {
-    const auto texts = pose_texts("x/p q.png", {true, true, true}, level_view(), 50.0);
-    ASSERT_EQ(texts.size(), 3U);
-    EXPECT_EQ(texts[2].file, "x/p q.stac.json");
-    EXPECT_EQ(json::parse(texts[2].text), json::parse(R"({
+    const auto texts = pose_texts("x/p q.png", {true, true, true}, level_view(), {.N_m = 50.0});
+    ASSERT_TRUE(texts.ok()) << texts.error().line();
+    ASSERT_EQ(texts->size(), 3U);
+    EXPECT_EQ((*texts)[2].file, "x/p q.stac.json");
+    EXPECT_EQ(json::parse((*texts)[2].text), json::parse(R"({
         "type": "Feature", "stac_version": "1.0.0",
         "stac_extensions": ["https://stac-extensions.github.io/view/v1.0.0/schema.json"],
         "id": "p q",
