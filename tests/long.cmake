@@ -974,3 +974,9 @@ set_tests_properties(
   PROPERTIES LABELS "unit;long")
 # A flight of ten minutes, or as many as OROGRAPH_FLIGHT_MINUTES says.
 set_tests_properties(WindowFlight.MinutesOverPoland PROPERTIES TIMEOUT 4000)
+# They play a user, who waits so long and not longer for the window: beside other tests they would measure these.
+set_tests_properties(
+  Window.FliesJumpsTakesAPictureAndLeaves
+  WindowFlight.AMinuteOverTheAlps
+  WindowTour.LooksAsItDid
+  PROPERTIES RUN_SERIAL TRUE)
