@@ -53,13 +53,15 @@ struct GrowthTable {
 // Work that is spread over more invocations than one a tree: pieces of 32 x 32 pixels of crowns that cover many, and trees whose
 // shadow may be seen. A site here is its number in its tile and 4096 times that of the tile.
 ORO_CONST uint crown_piece_px = 32u;
+ORO_CONST uint crown_piece_max = 524288u;
 ORO_CONST uint crown_list_max = 65535u;
 struct CrownLists {
-    uint piece_groups[3];  // of an indirect dispatch: their number, 1, 1
+    uint piece_groups[3];  // of an indirect dispatch: pieces, folded into rows
     uint shade_groups[3];
     uint site_groups[3];  // of site_group sites that are asked for, folded into rows
     uint asked_count;
-    uvec2 pieces[65535];  // site, number of the piece in the crown's box of pixels
+    uint piece_count;
+    uvec2 pieces[524288];  // site, number of the piece in the crown's box of pixels
     uint shades[65535];   // site
 };
 ORO_CONST uint depth_block_px = 8u;

@@ -155,9 +155,9 @@ void GrowthFrame::record_draw(VkCommandBuffer commands, const Pipelines& pipelin
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
                    0, VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
                    VK_ACCESS_2_TRANSFER_WRITE_BIT);
-    // Groups of pieces, of shadows, of sites; sites.
-    constexpr std::array<gpu::uint, 10> nothing{0, 1, 1, 0, 1, 1, 0, 1, 1, 0};
-    static_assert(offsetof(gpu::CrownLists, asked_count) == sizeof(nothing) - sizeof(gpu::uint));
+    // Groups of pieces, of shadows, of sites; sites, pieces.
+    constexpr std::array<gpu::uint, 11> nothing{0, 1, 1, 0, 1, 1, 0, 1, 1, 0, 0};
+    static_assert(offsetof(gpu::CrownLists, piece_count) == sizeof(nothing) - sizeof(gpu::uint));
     vkCmdUpdateBuffer(commands, lists_.handle.get(), 0, sizeof(nothing), nothing.data());
     if (map_ != VK_NULL_HANDLE) vkCmdFillBuffer(commands, shade_map_.handle.get(), 0, VK_WHOLE_SIZE, 0);
     if (culls_) {

@@ -19,24 +19,26 @@ layout(local_size_x = 128) in;  // site_group
 
 const int alone_px = 256;
 
-// False where the list has no room; whoever finds none gives its place back, so that the list's number is right in the end.
-bool list_piece(uint site, int piece) {
-    ListsOfCrowns lists = ListsOfCrowns(GROWTH.lists);
-    uint at = atomicAdd(lists.at.piece_groups[0], 1u);
-    if (at < crown_list_max) lists.at.pieces[at] = uvec2(site, uint(piece));
-    else atomicAdd(lists.at.piece_groups[0], 0xffffffffu);
-    return at < crown_list_max;
+bool is_seen_piece(CrownPixels of, int piece, int across) {
+    ivec2 first = of.box.xy + ivec2(piece % across, piece / across) * int(crown_piece_px);
+    return !is_behind_ground(ivec4(first, min(first + int(crown_piece_px) - 1, of.box.zw)), of.nearest);
 }
 
-// False where the list has no room for a piece.
+// False where the list has no room for all of them. Whoever finds none gives its places back, so that the list's number is right in the end.
 bool list_pieces(CrownPixels of, uint site) {
     ivec2 count = (of.box.zw - of.box.xy) / int(crown_piece_px) + 1;
-    for (int piece = 0; piece < count.x * count.y; ++piece) {
-        ivec2 first = of.box.xy + ivec2(piece % count.x, piece / count.x) * int(crown_piece_px);
-        ivec4 box = ivec4(first, min(first + int(crown_piece_px) - 1, of.box.zw));
-        if (!is_behind_ground(box, of.nearest) && !list_piece(site, piece)) return false;
-    }
-    return true;
+    uint seen = 0u;
+    for (int piece = 0; piece < count.x * count.y; ++piece) seen += is_seen_piece(of, piece, count.x) ? 1u : 0u;
+    if (seen == 0u) return true;
+    ListsOfCrowns lists = ListsOfCrowns(GROWTH.lists);
+    uint at = atomicAdd(lists.at.piece_count, seen), asked_end = at + seen, end = min(asked_end, crown_piece_max);
+    if (asked_end > end) atomicAdd(lists.at.piece_count, max(at, end) - asked_end);
+    if (at >= end) return false;
+    for (int piece = 0; at < end; ++piece)
+        if (is_seen_piece(of, piece, count.x)) lists.at.pieces[at++] = uvec2(site, uint(piece));
+    atomicMax(lists.at.piece_groups[0], min(end, groups_per_row));
+    atomicMax(lists.at.piece_groups[1], (end + groups_per_row - 1u) / groups_per_row);
+    return asked_end == end;
 }
 
 // Whether a crown may shade a place that the picture shows: one within the map's reach, and so not farther from it than both reach.

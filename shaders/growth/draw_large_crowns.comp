@@ -14,7 +14,9 @@
 layout(local_size_x = 8, local_size_y = 16) in;
 
 void main() {
-    uvec2 piece = ListsOfCrowns(GROWTH.lists).at.pieces[gl_WorkGroupID.x];
+    uint number = folded(gl_WorkGroupID);
+    if (number >= ListsOfCrowns(GROWTH.lists).at.piece_count) return;
+    uvec2 piece = ListsOfCrowns(GROWTH.lists).at.pieces[number];
     uint tile = piece.x / sites_per_tile, site = piece.x % sites_per_tile;
     Crown crown;
     if (!crown_of_site(tile, site, crown)) return;
