@@ -140,7 +140,11 @@ TEST(ServeHostile, ManyRangesAreRefused) {
         for (int i = 1; i < count; ++i) text += ",0-";
         return text + "\r\n";
     };
-    EXPECT_EQ(status_of(served.get("/5/16/11.png", ranges(2))), 206);
+    // Ranges that overlap are refused by newer versions of the library, few as they may be. That of Debian 12
+    // states the file's length, behind the slash, as 0.
+    const std::string two = served.get("/5/16/11.png", "Range: bytes=0-1,4-5\r\n");
+    EXPECT_EQ(status_of(two), 206) << two;
+    EXPECT_NE(two.find("Content-Range: bytes 4-5/"), std::string::npos) << two;
     // A file of a gigabyte would be sent a thousand times.
     for (const int count : {17, 1000, 2600}) {
         const std::string answer = served.get("/5/16/11.png", ranges(count));
