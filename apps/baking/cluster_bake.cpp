@@ -66,7 +66,6 @@ Result<BakeReport> bake_part(const HeightField& field, const BakeOptions& how, c
 }
 
 Result<ClusterBakeReport> bake_clusters(const HeightField& field, const BakeOptions& how,
-                                        const BakeHold& /*hold*/,
                                         const std::function<void(double, const char*)>& on_progress,
                                         std::span<const ContainerPart> beside) {
     const std::string clusters_path = path_of_clusters(how.path);

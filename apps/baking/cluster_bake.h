@@ -32,11 +32,10 @@ Result<void> check_clusters(const Region& region);
 // left it there whole. Errors: those of bake_region(); somebody else's file of that name.
 Result<BakeReport> bake_part(const HeightField& field, const BakeOptions& how, const BakeProgress& progress);
 
-// Bakes the region as bake_region() does, then its graph, and puts both into how.path. What is done already
-// of a bake that was broken off is not done again. hold: of how.path. on_progress: how far it is, 0..1, and
-// what is being done. beside: files that go into it, too, and are removed.
+// Bakes the region as bake_region() does, then its graph, and puts both into how.path, which the caller
+// holds (BakeHold). What is done already of a bake that was broken off is not done again. on_progress: how
+// far it is, 0..1, and what is being done. beside: files that go into it, too, and are removed.
 Result<ClusterBakeReport> bake_clusters(const HeightField& field, const BakeOptions& how,
-                                        const BakeHold& hold,
                                         const std::function<void(double, const char*)>& on_progress,
                                         std::span<const ContainerPart> beside = {});
 

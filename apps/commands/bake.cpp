@@ -252,7 +252,7 @@ Result<BakeReport> bake_grid(const Region& region, const BakePartOptions& option
         baked.meshes = std::move(meshes.reports);
         ORO_TRY(baked.clusters,
                 bake_clusters(
-                    grid.field, how, hold, [&](double share, const char* what) { bar.show(share, what); },
+                    grid.field, how, [&](double share, const char* what) { bar.show(share, what); },
                     meshes.parts));
         report = baked.clusters->region;
     } else {
