@@ -50,7 +50,7 @@ struct GrowthTable {
     uvec2 asked;
 };
 
-// Work that is spread over more invocations than one a tree: pieces of 32 x 32 pixels of crowns that cover many, and trees whose
+// Work that is spread over more invocations than one a tree: pieces of crowns that cover many pixels, of 32 x 32 or more, and trees whose
 // shadow may be seen. A site here is its number in its tile and 4096 times that of the tile.
 ORO_CONST uint crown_piece_px = 32u;
 ORO_CONST uint crown_piece_max = 524288u;

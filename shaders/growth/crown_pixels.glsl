@@ -18,6 +18,15 @@ CrownPixels crown_pixels(Crown crown, uint tile, uint site) {
     return CrownPixels(pixels_of_crown(crown), pixel_m_at(crown.foot), nearest_depth(crown.foot, top, crown.radius_m), id_of_site(tile, site));
 }
 
+// A crown's pieces, so many pixels wide and high: larger ones where it would have too many, so that a list has room for those of all crowns.
+const int crown_pieces_max = 128;
+int piece_px(CrownPixels of) {
+    int side = int(crown_piece_px);
+    ivec2 last = of.box.zw - of.box.xy;
+    while ((last.x / side + 1) * (last.y / side + 1) > crown_pieces_max) side *= 2;
+    return side;
+}
+
 uint64_t seen_at(uint at) {
     return atomicLoad(Visibility(FRAME.visibility).at[at], gl_ScopeDevice, gl_StorageSemanticsBuffer, gl_SemanticsRelaxed);
 }

@@ -19,23 +19,24 @@ layout(local_size_x = 128) in;  // site_group
 
 const int alone_px = 256;
 
-bool is_seen_piece(CrownPixels of, int piece, int across) {
-    ivec2 first = of.box.xy + ivec2(piece % across, piece / across) * int(crown_piece_px);
-    return !is_behind_ground(ivec4(first, min(first + int(crown_piece_px) - 1, of.box.zw)), of.nearest);
+bool is_seen_piece(CrownPixels of, int piece, int across, int side) {
+    ivec2 first = of.box.xy + ivec2(piece % across, piece / across) * side;
+    return !is_behind_ground(ivec4(first, min(first + side - 1, of.box.zw)), of.nearest);
 }
 
 // False where the list has no room for all of them. Whoever finds none gives its places back, so that the list's number is right in the end.
 bool list_pieces(CrownPixels of, uint site) {
-    ivec2 count = (of.box.zw - of.box.xy) / int(crown_piece_px) + 1;
+    int side = piece_px(of);
+    ivec2 count = (of.box.zw - of.box.xy) / side + 1;
     uint seen = 0u;
-    for (int piece = 0; piece < count.x * count.y; ++piece) seen += is_seen_piece(of, piece, count.x) ? 1u : 0u;
+    for (int piece = 0; piece < count.x * count.y; ++piece) seen += is_seen_piece(of, piece, count.x, side) ? 1u : 0u;
     if (seen == 0u) return true;
     ListsOfCrowns lists = ListsOfCrowns(GROWTH.lists);
     uint at = atomicAdd(lists.at.piece_count, seen), asked_end = at + seen, end = min(asked_end, crown_piece_max);
     if (asked_end > end) atomicAdd(lists.at.piece_count, max(at, end) - asked_end);
     if (at >= end) return false;
     for (int piece = 0; at < end; ++piece)
-        if (is_seen_piece(of, piece, count.x)) lists.at.pieces[at++] = uvec2(site, uint(piece));
+        if (is_seen_piece(of, piece, count.x, side)) lists.at.pieces[at++] = uvec2(site, uint(piece));
     atomicMax(lists.at.piece_groups[0], min(end, groups_per_row));
     atomicMax(lists.at.piece_groups[1], (end + groups_per_row - 1u) / groups_per_row);
     return asked_end == end;

@@ -21,9 +21,9 @@ void main() {
     Crown crown;
     if (!crown_of_site(tile, site, crown)) return;
     CrownPixels of = crown_pixels(crown, tile, site);
-    int count = (of.box.z - of.box.x) / int(crown_piece_px) + 1;
-    ivec2 first = of.box.xy + ivec2(int(piece.y) % count, int(piece.y) / count) * int(crown_piece_px);
-    ivec2 end = min(first + int(crown_piece_px), of.box.zw + 1);
+    int side = piece_px(of), count = (of.box.z - of.box.x) / side + 1;
+    ivec2 first = of.box.xy + ivec2(int(piece.y) % count, int(piece.y) / count) * side;
+    ivec2 end = min(first + side, of.box.zw + 1);
     for (int y = first.y + int(gl_LocalInvocationID.y); y < end.y; y += int(gl_WorkGroupSize.y))
         for (int x = first.x + int(gl_LocalInvocationID.x); x < end.x; x += int(gl_WorkGroupSize.x)) draw_pixel(crown, of, ivec2(x, y));
 }
