@@ -53,7 +53,8 @@ class PageChoice {
     [[nodiscard]] double gap_reach_m(double distance_m) const {
         return 2.0 * std::max(view_.tau_px, gpu::least_gap_px) / view_.pixels_per_tangent * distance_m;
     }
-    bool hidden(const PageRecord& page, const ViewSphere& seen);
+    bool hidden(const HorizonCone& cone, const ViewSphere& seen);
+    bool hidden_by_bound(const PageIndex& index);
     void want(KeptPage& page);
     Result<void> descend(KeptPage& page);
     void open_level(int number);
@@ -82,16 +83,23 @@ class PageChoice {
     std::size_t beyond_horizon_{};
 };
 
-bool PageChoice::hidden(const PageRecord& page, const ViewSphere& seen) {
+bool PageChoice::hidden(const HorizonCone& cone, const ViewSphere& seen) {
     if (beyond_frustum(planes_, seen.centre_m, seen.radius_m)) {
         ++beyond_frustum_;
         return true;
     }
-    if (beyond_horizon(horizon_.eye, {page.horizon.direction, page.horizon.angle_rad * horizon_.stretch})) {
+    if (beyond_horizon(horizon_.eye, {cone.direction, cone.angle_rad * horizon_.stretch})) {
         ++beyond_horizon_;
         return true;
     }
     return false;
+}
+
+// Whether a page need not be asked for its record, which may take long.
+bool PageChoice::hidden_by_bound(const PageIndex& index) {
+    if (!model_.culls_nodes()) return false;
+    const std::optional<PageBound> bound = pages_.bound(index);
+    return bound && hidden(bound->horizon, model_.seen_at(bound->centre.m, bound->radius_m).sphere);
 }
 
 void PageChoice::want(KeptPage& page) {
@@ -101,7 +109,7 @@ void PageChoice::want(KeptPage& page) {
                                            : model_.seen_page(pages_.facts().grid, record);
     // What closes gaps reaches out by pixels.
     if (pages_.is_seam()) seen.radius_m += gap_reach_m(glm::length(seen.centre_m) + seen.radius_m);
-    if (hidden(record, seen)) return;
+    if (hidden(record.horizon, seen)) return;
     page.wanted = {.turn = turn_,
                    .distance_m = std::max(0.0, glm::length(seen.centre_m) - seen.radius_m),
                    .address = residency_(page.index())};
@@ -128,6 +136,10 @@ Result<void> PageChoice::descend(KeptPage& page) {
         }
         if (enough) page.wanted.fallback_quarters |= 1U << static_cast<unsigned>(i);
         if (enough && fine) continue;
+        const int number = static_cast<int>(i);
+        const PageIndex& above = page.index();
+        if (hidden_by_bound({2 * above.row + number / 2, 2 * above.column + number % 2, above.level - 1}))
+            continue;
         ORO_TRY(KeptPage* const child, memory_.child(page, i));
         want(*child);
     }
@@ -160,6 +172,7 @@ Result<void> PageChoice::choose() {
     const PageLayout layout = pages_.layout(top);
     for (int row = 0; row < layout.rows; ++row)
         for (int column = 0; column < layout.columns; ++column) {
+            if (hidden_by_bound({row, column, top})) continue;
             ORO_TRY(KeptPage* const page, memory_.page({row, column, top}));
             want(*page);
         }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <utility>
 #include <vector>
@@ -26,6 +27,13 @@ struct RegionFacts {
 
 struct MeshCasters;  // core/seam/mesh_casters.h
 
+// What all triangles of a page and of all pages below it lie in: a sphere and a cone (core/earth/culling.h).
+struct PageBound {
+    Ecef centre;
+    double radius_m{};
+    HorizonCone horizon;
+};
+
 // Pages of all levels of a region; safe to ask from several threads.
 class RegionPages {
   public:
@@ -45,6 +53,9 @@ class RegionPages {
     // What the choice of pages needs; cheap. The page is one of the layout. Errors: a file that cannot be
     // read.
     [[nodiscard]] virtual Result<PageRecord> record(const PageIndex& page) const = 0;
+    // Where the page lies at most, by its place alone. Given where record() takes long, so that who culls
+    // need not ask it; WGS84 as it is. One of the layout.
+    [[nodiscard]] virtual std::optional<PageBound> bound(const PageIndex&) const { return std::nullopt; }
     // Fills the page's block. Errors: as record().
     virtual Result<void> load(const PageIndex& page, gpu::PageBlock& block) const = 0;
     // Loads what pixels that cover many posts are coloured from (core/lod/ground_means.h), where it is

@@ -22,6 +22,9 @@ namespace {
 
 constexpr int page_side = static_cast<int>(gpu::meshlets_per_side);
 constexpr int stride = static_cast<int>(gpu::height_stride);
+constexpr int page_quads = static_cast<int>(gpu::page_quads);
+// No radius of curvature of WGS84 is larger (that at a pole is, 6,399,593.7).
+constexpr double largest_curvature_radius_m = 6'399'600.0;
 
 // The terrain whose outermost posts are a grid's.
 MadeTerrain terrain_on(const MadeTerrain& terrain, const PostGrid& grid) {
@@ -48,9 +51,16 @@ class MadePages : public RegionPages {
         : RegionPages(std::move(facts)),
           region_(std::move(region)),
           measured_to_(highest_measured_level(region_)) {
-        for (const float N_m : region_.undulation.N_m)
-            highest_N_m_ = std::max(highest_N_m_, static_cast<double>(N_m));
+        double lowest_N_m = 0.0, highest_N_m = 0.0;
+        for (const float N_m : region_.undulation.N_m) {
+            lowest_N_m = std::min(lowest_N_m, static_cast<double>(N_m));
+            highest_N_m = std::max(highest_N_m, static_cast<double>(N_m));
+        }
+        lowest_h_m_ = made_step_m * region_.terrain.low + lowest_N_m - 1.0;
+        highest_h_m_ = made_step_m * region_.terrain.high + highest_N_m + 1.0;
     }
+
+    [[nodiscard]] std::optional<PageBound> bound(const PageIndex& page) const override;
 
     [[nodiscard]] Result<PageRecord> record(const PageIndex& page) const override {
         const std::uint64_t number = number_of(page);
@@ -89,10 +99,11 @@ class MadePages : public RegionPages {
     [[nodiscard]] std::shared_ptr<const MeasuredBlock> measured_block(const PageIndex& page,
                                                                       int threads) const;
     void hold_pages_below(PyramidPage& page) const;
+    [[nodiscard]] HorizonCone horizon_over(const Ecef& centre, double radius_m) const;
 
     MadeRegion region_;
     int measured_to_;
-    double highest_N_m_{};
+    double lowest_h_m_{}, highest_h_m_{};  // of any post
     mutable std::mutex mutex_;
     mutable std::mutex measuring_;  // one block at a time: it takes all threads
     mutable std::unordered_map<std::uint64_t, PageRecord> records_;
@@ -172,9 +183,8 @@ PageSummary MadePages::make_block(const PageIndex& page, int threads, gpu::PageB
 // What all pages below a page lie in, by what they can be at most.
 void MadePages::hold_pages_below(PyramidPage& page) const {
     PageSummary& summary = page.summary;
-    const HorizonOccluder& occluder = facts().shape.occluder;
     page.reach_m = -1.0;
-    page.horizon = {glm::normalize(occluder.scaled(summary.origin_ecef)), 0.0};
+    page.horizon = {glm::normalize(facts().shape.occluder.scaled(summary.origin_ecef)), 0.0};
     if (summary.triangles == 0) return;
     const double off_m = page.summary.index.level == 0
                              ? 0.0
@@ -184,19 +194,50 @@ void MadePages::hold_pages_below(PyramidPage& page) const {
         page.horizon = summary.horizon;
         return;
     }
-    // All of the sphere, as high as ground can be.
-    const glm::dvec3 centre =
-        occluder.scaled({summary.origin_ecef.m + summary.ecef_from_page * summary.centre_m});
+    page.horizon =
+        horizon_over({summary.origin_ecef.m + summary.ecef_from_page * summary.centre_m}, page.reach_m);
+}
+
+// Of all of a sphere, as high as ground can be.
+HorizonCone MadePages::horizon_over(const Ecef& middle, double radius_m) const {
+    const HorizonOccluder& occluder = facts().shape.occluder;
+    const glm::dvec3 centre = occluder.scaled(middle);
     const double smallest_axis_m = std::min(occluder.radii_m.x, occluder.radii_m.z);
-    const double across = 1.001 * page.reach_m / smallest_axis_m;
+    const double across = 1.001 * radius_m / smallest_axis_m;
     const double depth_m = wgs84_a_m - occluder.radii_m.x;
-    const double highest =
-        1.001 * (made_step_m * region_.terrain.high + highest_N_m_ + depth_m + 1.0) / smallest_axis_m;
-    page.horizon.direction = glm::normalize(centre);
-    page.horizon.angle_rad = across < glm::length(centre)
-                                 ? std::asin(across / glm::length(centre)) +
-                                       std::atan(std::sqrt(std::max(0.0, highest * (2.0 + highest))))
-                                 : 4.0;
+    const double highest = 1.001 * (highest_h_m_ + depth_m) / smallest_axis_m;
+    const double to_centre = glm::length(centre);
+    return {glm::normalize(centre), across < to_centre
+                                        ? std::asin(across / to_centre) +
+                                              std::atan(std::sqrt(std::max(0.0, highest * (2.0 + highest))))
+                                        : 4.0};
+}
+
+// A sphere around all places between a page's outermost posts and between the lowest and the highest h there
+// may be. Two places of one height are at most as far apart as the largest radius of curvature times their
+// difference in latitude, and in longitude times the distance from the axis; the chords are shorter.
+std::optional<PageBound> MadePages::bound(const PageIndex& page) const {
+    const LevelGrid level = level_grid(facts().grid, page.level);
+    const PostGrid& grid = facts().grid;
+    const int last_row = level.row.region_post((page.row + 1) * page_quads);
+    const int last_column = level.column.region_post((page.column + 1) * page_quads);
+    const double north_deg = grid.lat.at_deg(level.row.region_post(page.row * page_quads));
+    const double south_deg = grid.lat.at_deg(last_row);
+    const double west_deg = grid.lon.at_deg(level.column.region_post(page.column * page_quads));
+    const double half_lat_rad = radians_from_deg(0.5 * (north_deg - south_deg)).rad;
+    const double half_lon_rad = radians_from_deg(0.5 * (grid.lon.at_deg(last_column) - west_deg)).rad;
+    if (std::max(half_lat_rad, half_lon_rad) > 0.25 * std::numbers::pi) return std::nullopt;
+    const double nearest_equator_deg = south_deg > 0.0 ? south_deg : std::max(0.0, -north_deg);
+    const double radius_m = largest_curvature_radius_m + highest_h_m_;
+    const double from_axis_m = radius_m * std::cos(radians_from_deg(nearest_equator_deg).rad);
+    PageBound bound;
+    bound.centre =
+        ecef_from_geodetic({0.5 * (north_deg + south_deg), west_deg + deg_from_radians(Radians(half_lon_rad)),
+                            0.5 * (lowest_h_m_ + highest_h_m_)});
+    bound.radius_m = std::hypot(radius_m * half_lat_rad, from_axis_m * half_lon_rad) +
+                     0.5 * (highest_h_m_ - lowest_h_m_) + 1.0;
+    bound.horizon = horizon_over(bound.centre, bound.radius_m);
+    return bound;
 }
 
 }  // namespace
