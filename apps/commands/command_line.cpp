@@ -259,6 +259,9 @@ void add_view(CLI::App& app, WindowOptions& options) {
             "several times.")
         .allow_extra_args(false);  // what follows the file is elevation data
     add_no_paths(command, "The window", options.no_paths);
+    add_kml(window, options.kml);
+    add_geopose(window, options.geopose);
+    add_stac(window, options.stac);
     add_region_options(command, options.region);
     add_view_options(command, options.view);
     command.get_option("--size")->description("Size of the window in pixels (default 1280x720).");
@@ -274,7 +277,7 @@ void add_view(CLI::App& app, WindowOptions& options) {
          "output. G goes to a place that you type. P writes a picture into the working folder. ? shows "
          "all keys, Ctrl-Q leaves.",
          "docs/commands/view.md"});
-    list_later(command, {"--gazetteer", "--no-paths"});
+    list_later(command, {"--gazetteer", "--no-paths", "--kml", "--geopose", "--stac"});
 }
 
 void add_plan(CLI::App& app, PlanOptions& options) {

@@ -238,7 +238,10 @@ struct WindowOptions {
     ViewOptions view;
     MemoryOptions memory;
     std::string view_file;
-    bool no_paths{false};                 // its pictures tell no paths
+    bool no_paths{false};  // its pictures tell no paths
+    bool kml{false};       // beside its pictures, and so are the next two
+    bool geopose{false};
+    bool stac{false};
     std::vector<std::string> gazetteers;  // files with names that places are found by
     std::string coordinates;  // not an option: the CRS that --coordinates names, for places typed later
     bool quiet{false};

@@ -1,13 +1,19 @@
 #include "apps/window/pictures.h"
 
+#include <utility>
+#include <vector>
+
 #include "apps/accuracy/beyond_data.h"
 #include "apps/drawing/drape.h"
 #include "apps/drawing/mesh_cut.h"
+#include "apps/eye/standpoint.h"
 #include "apps/legend/legend.h"
 #include "apps/navigation/view_history.h"
 #include "apps/output/picture_file.h"
+#include "apps/output/pose_files.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
+#include "apps/report/region_json.h"
 #include "apps/window/frames.h"
 #include "apps/window/window_start.h"
 #include "core/lod/ground_means.h"
@@ -31,6 +37,25 @@ View pictured(View view, const PictureChoice& choice) {
     return view;
 }
 
+// Draws a picture, and gives it and the files beside it their names together.
+Result<void> write_with_poses(Viewer& viewer, const PictureFiles& files, const View& view,
+                              const RegionGround& ground, const std::optional<SeenPlace>& middle,
+                              std::span<const std::uint8_t> strip, PoseChoice poses) {
+    PoseFacts facts;
+    const Geodetic& eye = view.camera.eye;
+    facts.N_m =
+        grid_at(viewer.region, eye.lat_deg, eye.lon_deg).field.undulation.at_m(eye.lat_deg, eye.lon_deg);
+    facts.attribution = attribution_of(viewer.region);
+    ORO_TRY(const std::vector<PoseText> texts, pose_texts(files.picture, poses, view, facts));
+    ORO_TRY(std::vector<WholeFile> written, pose_files(texts, false));
+    ORO_TRY(DrawnPicture picture, draw_picture(files, false, view, viewer.region, ground, middle, viewer.gpu,
+                                               *viewer.scene, viewer.style, strip, {}));
+    written.push_back(std::move(picture.file));
+    std::vector<WholeFile*> all;
+    for (WholeFile& file : written) all.push_back(&file);
+    return commit_together(all);
+}
+
 Result<void> write_picture_of(Viewer& viewer, const PictureChoice& choice) {
     ORO_CHECK(finish_frames(viewer));
     follow_sun(viewer);
@@ -48,8 +73,7 @@ Result<void> write_picture_of(Viewer& viewer, const PictureChoice& choice) {
     ORO_TRY(const auto middle, place_in_middle(view, *ground));
     ORO_CHECK(fit_to_view(viewer.style, view, viewer.region.grids.front().field));
     ORO_TRY(const auto strip, strip_of(view, viewer.region, viewer.style, middle));
-    const auto written = write_picture(files, false, view, viewer.region, *ground, middle, viewer.gpu,
-                                       *viewer.scene, viewer.style, strip, {});
+    const auto written = write_with_poses(viewer, files, view, *ground, middle, strip, choice.poses);
     tell(viewer, written.ok() ? written_words(files.picture) : written.error().line(), !written.ok());
     say(viewer.options.quiet && written.ok(), viewer.message);
     if (!written.ok() || viewer.options.quiet) return {};
@@ -123,11 +147,16 @@ void show_finer_scene(Viewer& viewer) {
     viewer.wants_picture = true;
 }
 
+PoseChoice poses_asked(const WindowOptions& options) {
+    return {options.kml, options.geopose, options.stac};
+}
+
 Result<void> take_picture(Viewer& viewer) {
     PictureChoice choice;
     choice.width_px = viewer.view.camera.width_px;
     choice.height_px = viewer.view.camera.height_px;
     choice.samples = viewer.view.samples;
+    choice.poses = poses_asked(viewer.options);
     return take_picture(viewer, choice);
 }
 
@@ -144,8 +173,11 @@ std::string command_line_of(const View& shown, const PictureChoice& choice) {
     // In single quotes a shell takes everything but these as it is.
     std::string json;
     for (const char c : view_to_json(view, false)) json += c == '\'' ? "'\\''" : std::string(1, c);
+    const std::string poses = std::string(choice.poses.kml ? " --kml" : "") +
+                              (choice.poses.geopose ? " --geopose" : "") +
+                              (choice.poses.stac ? " --stac" : "");
     return "printf '%s' '" + json + "' >view.json\norograph shot --view view.json --out picture" +
-           choice.ending + "\n";
+           choice.ending + poses + "\n";
 }
 
 }  // namespace oro

@@ -17,6 +17,7 @@
 #include "apps/legend/colour_key.h"
 #include "apps/navigation/gestures.h"
 #include "apps/navigation/home.h"
+#include "apps/output/pose_files.h"
 #include "apps/overlay/lines_in_motion.h"
 #include "apps/search/gazetteer_reading.h"
 #include "apps/search/search_index.h"
@@ -88,6 +89,7 @@ struct PictureChoice {
     int height_px{};
     int samples{1};
     std::string ending{".png"};
+    PoseChoice poses;  // the files beside it
 };
 
 // The line that is measured, and where its picture goes.

@@ -55,7 +55,9 @@ TEST(Install, HasItsDesktopFilesPagesAndCompletion) {
              "metainfo/" + id + ".metainfo.xml", "icons/hicolor/scalable/apps/" + id + ".svg",
              "icons/hicolor/symbolic/apps/" + id + "-symbolic.svg",
              "qgis/python/plugins/orograph/metadata.txt", "qgis/python/plugins/orograph/algorithms/base.py",
-             "qgis/python/plugins/orograph/styles/viewshed.qml", "qgis/python/plugins/orograph/icon.svg"})
+             "qgis/python/plugins/orograph/styles/viewshed.qml", "qgis/python/plugins/orograph/icon.svg",
+             "doc/orograph/web/index.html", "doc/orograph/web/region.js", "doc/orograph/web/package.json",
+             "doc/orograph/web/README.md"})
         EXPECT_FALSE(bytes_of(share / file).empty()) << file;
     // What was written when the program was built is what it prints.
     const std::string program = (folder / "bin" / "orograph").string();

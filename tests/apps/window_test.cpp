@@ -374,7 +374,8 @@ TEST(Window, WithoutItsPanelsShowsThePictureThatItWrites) {
     oro::test::Circumstances there;
     there.environment = {"WAYLAND_DISPLAY", "SOURCE_DATE_EPOCH=1767225600", "OROGRAPH_VALIDATION=1"};
     const std::string session =
-        "\"$1\" view \"$3\" --style default --size 320x240 --at 36.53,-84.35 --above 900 2>said.txt & "
+        "\"$1\" view \"$3\" --style default --size 320x240 --at 36.53,-84.35 --above 900 --kml --geopose "
+        "--stac 2>said.txt & "
         "viewer=$!; "
         "for try in $(seq 600); do grep -q 'full detail\\|first picture after' said.txt && break; sleep 0.1; "
         "done; "
@@ -394,6 +395,15 @@ TEST(Window, WithoutItsPanelsShowsThePictureThatItWrites) {
     ASSERT_EQ(picture.height, 240U);
     EXPECT_TRUE(corner_of(without, 320, 240) == picture.rgb);
     EXPECT_FALSE(corner_of(with, 320, 240) == picture.rgb) << "nothing lay over it";
+    // What its pictures have beside them is what shot writes of them.
+    for (const std::string ending : {".kml", ".geopose.json", ".stac.json"})
+        fs::rename(folder / ("orograph-2026-01-01T000000Z" + ending), folder / ("window" + ending));
+    const auto again = oro::test::run_orograph(
+        {"shot", "--view", folder / "orograph-2026-01-01T000000Z.png", "--kml", "--geopose", "--stac", "-q"});
+    ASSERT_EQ(again.exit_code, 0) << again.err;
+    for (const std::string ending : {".kml", ".geopose.json", ".stac.json"})
+        EXPECT_EQ(oro::test::bytes_of(folder / ("window" + ending)),
+                  oro::test::bytes_of(folder / ("orograph-2026-01-01T000000Z" + ending)));
 }
 
 // In the window, in its corner; of a picture by P, below it.

@@ -32,6 +32,18 @@ void samples_choice(PictureChoice& choice) {
     tip("Of a pixel: more are smoother, and take as many times as long");
 }
 
+// The files beside it that tell other programs where it was taken from.
+void poses_choice(PoseChoice& poses) {
+    ImGui::Checkbox("KML", &poses.kml);
+    tip("Beside the picture, for Google Earth: the picture where it was taken");
+    ImGui::SameLine();
+    ImGui::Checkbox("GeoPose", &poses.geopose);
+    tip("Beside the picture: the eye's place and its direction, as the Open Geospatial Consortium has them");
+    ImGui::SameLine();
+    ImGui::Checkbox("STAC", &poses.stac);
+    tip("Beside the picture: an entry for a catalogue of pictures (SpatioTemporal Asset Catalog)");
+}
+
 // A map of what is seen, drawn beside the window.
 void map_choice(Viewer& viewer) {
     heading("A map of it");
@@ -81,7 +93,8 @@ void build_picture_panel(Viewer& viewer) {
         return;
     }
     if (!viewer.picture_choice)
-        viewer.picture_choice = PictureChoice{camera.width_px, camera.height_px, viewer.view.samples, ".png"};
+        viewer.picture_choice = PictureChoice{camera.width_px, camera.height_px, viewer.view.samples, ".png",
+                                              poses_asked(viewer.options)};
     PictureChoice& choice = *viewer.picture_choice;
     if (begin_panel("Picture", is_open, PanelCorner::middle, 380.0F)) {
         std::array<int, 2> size{choice.width_px, choice.height_px};
@@ -99,6 +112,7 @@ void build_picture_panel(Viewer& viewer) {
         }
         ending_choice(choice);
         samples_choice(choice);
+        poses_choice(choice.poses);
         if (ImGui::Button("Write it"))
             viewer.wishes.push_back([choice](Viewer& v) { return take_picture(v, choice); });
         tip("Into the working folder, with its place and all of its view");

@@ -49,7 +49,10 @@ TEST(CopiedCommand, DrawsThePictureToTheByte) {
     const auto view = view_from_json(*text, first.out);
     ASSERT_TRUE(view.ok()) << view.error().line();
     const std::string lines =
-        command_line_of(*view, {view->camera.width_px, view->camera.height_px, view->samples, ".png"});
+        command_line_of(*view, {view->camera.width_px, view->camera.height_px, view->samples, ".png", {}});
+    EXPECT_NE(command_line_of(*view, {64, 48, 1, ".png", {.kml = true, .geopose = true, .stac = true}})
+                  .find("picture.png --kml --geopose --stac\n"),
+              std::string::npos);
     // Of the program's line the shell is asked what words it is.
     const std::string script = "cd \"$1\"; orograph() { printf '%s\\n' \"$@\" >words.txt; }\n" + lines;
     std::ofstream(folder / "script.sh") << script;
