@@ -414,6 +414,7 @@ set_tests_properties(
   WindowProjects.AreSavedAndOpenedAgain
   WindowProjects.HoldLandCoverThatWasOpened
   WindowTour.LooksAsItDid
+  WindowTwoViews.ShowMeshesByTheSameClusters
   WindowTwoViews.ThatAreTheSameShowTheSame
   WorldGrids.GiveOnePictureWhereverTheyBegin
   PROPERTIES LABELS "cli;long")

@@ -228,6 +228,7 @@ Result<bool> draw_frame(Viewer& viewer, bool& changed) {
     changed = comes_to_rest(viewer) || changed;
     if (!changed) return false;
     ORO_CHECK(follow_with_meshes(viewer));
+    ORO_CHECK(follow_with_second_meshes(viewer));
     SubmittedFrame frame;
     frame.times.input = viewer.polled;
     frame.times.begun = Clock::now();

@@ -101,25 +101,32 @@ void take_scene(Viewer& viewer, OpenedScene opened) {
                                     : nullptr;
 }
 
-Result<void> choose_meshes(Viewer& viewer, const Camera& camera) {
-    EyeMeshes& meshes = viewer.meshes;
+bool choose_cut(EyeMeshes& meshes, const View& view, const Camera& camera) {
     const bool is_chosen = is_same_view(meshes.camera, camera) && meshes.camera.width_px == camera.width_px &&
-                           meshes.camera.height_px == camera.height_px && meshes.tau_px == viewer.view.tau_px;
-    if (!meshes.detail || is_chosen) return {};
-    MeshCut cut = mesh_cut_of(*meshes.detail, viewer.view, std::span(&camera, 1), &meshes.cut);
+                           meshes.camera.height_px == camera.height_px && meshes.tau_px == view.tau_px;
+    if (!meshes.detail || is_chosen) return false;
+    MeshCut cut = mesh_cut_of(*meshes.detail, view, std::span(&camera, 1), &meshes.cut);
     const bool is_drawn = cut.meshes == meshes.cut.meshes;
-    meshes = {meshes.detail, std::move(cut), camera, viewer.view.tau_px, Clock::now()};
-    if (is_drawn) return {};
+    meshes = {meshes.detail, std::move(cut), camera, view.tau_px, Clock::now()};
+    return !is_drawn;
+}
+
+Result<void> choose_meshes(Viewer& viewer, const Camera& camera) {
+    if (!choose_cut(viewer.meshes, viewer.view, camera)) return {};
     ORO_CHECK(finish_frames(viewer));
     ORO_CHECK(redraw_meshes(viewer.gpu, viewer.region, viewer.cuts, viewer.view.exaggeration,
-                            *meshes.cut.meshes, *viewer.scene));
+                            *viewer.meshes.cut.meshes, *viewer.scene));
     if (viewer.view.images.empty() && !viewer.view.cover) return {};
     return lay_images(viewer.view, memory_of_first(viewer), viewer.gpu, *viewer.scene, true);
 }
 
-Result<void> follow_with_meshes(Viewer& viewer) {
+bool is_cut_due(const Viewer& viewer, const EyeMeshes& meshes) {
     constexpr double between_s = 1.0;
-    if (is_moving(viewer) && seconds_since(viewer.meshes.chosen) < between_s) return {};
+    return !is_moving(viewer) || seconds_since(meshes.chosen) >= between_s;
+}
+
+Result<void> follow_with_meshes(Viewer& viewer) {
+    if (!is_cut_due(viewer, viewer.meshes)) return {};
     return choose_meshes(viewer, viewer.view.camera);
 }
 

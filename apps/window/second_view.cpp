@@ -8,6 +8,7 @@
 #include "apps/window/changes.h"
 #include "apps/window/frames.h"
 #include "apps/window/kept_view.h"
+#include "apps/window/pictures.h"
 #include "apps/window/window_start.h"
 #include "apps/window/written_frame.h"
 #include "core/lod/ground_means.h"
@@ -108,6 +109,21 @@ VkExtent2D extent_of_second(const Viewer& viewer, const VkExtent2D& window) {
     return {static_cast<std::uint32_t>(halves.second_px), window.height};
 }
 
+// The graphs of the first view's meshes, where the second view draws from them: they are those of its data
+// and of one exaggeration.
+std::shared_ptr<const MeshDetail> detail_beside(const Viewer& viewer, const OwnRegion* own,
+                                                const View& view) {
+    const bool fits = own == nullptr && view.exaggeration == viewer.view.exaggeration &&
+                      view.model.earth == Earth::ellipsoid;
+    return fits ? viewer.meshes.detail : nullptr;
+}
+
+// Whether the terrain of a second view is drawn by clusters.
+Result<bool> clusters_beside(const Region& region, View& view,
+                             const std::shared_ptr<const MeshDetail>& detail) {
+    return detail ? Result<bool>(false) : draws_terrain_clusters(region, view);
+}
+
 // What was prepared as something that is drawn. Errors: those of its style and its scene.
 Result<std::unique_ptr<SecondView>> second_of(Viewer& viewer, SecondGround ground) {
     const OwnRegion* const own = ground.own.get();
@@ -116,11 +132,15 @@ Result<std::unique_ptr<SecondView>> second_of(Viewer& viewer, SecondGround groun
     // Of its levels, whatever the first view has come to meanwhile.
     view.exaggeration = ground.exaggeration;
     ORO_TRY(const Style style, load_style(view, region.grids.front().field));
-    ORO_TRY(const bool clusters, draws_terrain_clusters(region, view));
+    EyeMeshes meshes;
+    meshes.detail = detail_beside(viewer, own, view);
+    choose_cut(meshes, view, view.camera);
+    ORO_TRY(const bool clusters, clusters_beside(region, view, meshes.detail));
     const bool means = asks_for_means(style.frame);
     ORO_TRY(Scene scene,
-            scene_with_images(viewer.gpu, region, cuts_of(viewer, own), std::move(ground.pages), view,
-                              {half_of(viewer.options.memory, viewer.gpu), true, means, clusters}));
+            scene_with_images(
+                viewer.gpu, region, cuts_of(viewer, own), std::move(ground.pages), view,
+                {half_of(viewer.options.memory, viewer.gpu), true, means, clusters, meshes.cut.meshes}));
     ORO_TRY(FrameRenderer renderer, renderer_for(viewer.gpu, view, style, viewer.path,
                                                  extent_of_second(viewer, viewer.window.extent())));
     return std::unique_ptr<SecondView>(new SecondView{std::move(ground.choice),
@@ -131,7 +151,8 @@ Result<std::unique_ptr<SecondView>> second_of(Viewer& viewer, SecondGround groun
                                                       clusters,
                                                       {},
                                                       std::make_unique<Scene>(std::move(scene)),
-                                                      std::move(renderer)});
+                                                      std::move(renderer),
+                                                      std::move(meshes)});
 }
 
 // Lets the second view that is there differ so. False where that needs other levels or data.
@@ -141,9 +162,10 @@ Result<bool> change_second(Viewer& viewer, const SecondChoice& choice) {
     const Region& region = region_of(viewer, second.own.get());
     ORO_TRY(View view, view_beside(viewer, choice, second.own.get()));
     ORO_TRY(const Style style, load_style(view, region.grids.front().field));
-    ORO_TRY(const bool clusters, draws_terrain_clusters(region, view));
+    const auto detail = detail_beside(viewer, second.own.get(), view);
+    ORO_TRY(const bool clusters, clusters_beside(region, view, detail));
     if (view.exaggeration != second.view.exaggeration || clusters != second.has_clusters ||
-        (asks_for_means(style.frame) && !second.has_means))
+        detail != second.meshes.detail || (asks_for_means(style.frame) && !second.has_means))
         return false;
     ORO_CHECK(finish_frames(viewer));
     const bool other_renderer =
@@ -339,6 +361,20 @@ Result<void> take_second_size(Viewer& viewer, const VkExtent2D& window, bool& ch
 Result<bool> advance_second(Viewer& viewer) {
     if (!viewer.two.second || !viewer.two.second->is_missing) return false;
     return viewer.two.second->scene->advance();
+}
+
+Result<void> follow_with_second_meshes(Viewer& viewer) {
+    if (!viewer.two.second || !viewer.two.second->meshes.detail) return {};
+    SecondView& second = *viewer.two.second;
+    const Camera camera =
+        second_camera(viewer.view.camera, static_cast<int>(second.renderer.extent().width), 0.0);
+    if (!is_cut_due(viewer, second.meshes) || !choose_cut(second.meshes, second.view, camera)) return {};
+    ORO_CHECK(finish_frames(viewer));
+    ORO_CHECK(redraw_meshes(viewer.gpu, viewer.region, viewer.cuts, second.view.exaggeration,
+                            *second.meshes.cut.meshes, *second.scene));
+    if (second.view.images.empty() && !second.view.cover) return {};
+    return lay_images(second.view, half_of(viewer.options.memory, viewer.gpu), viewer.gpu, *second.scene,
+                      true);
 }
 
 bool second_changes_at_rest(const Viewer& viewer) {

@@ -12,6 +12,7 @@
 #include "apps/window/background_work.h"
 #include "apps/window/detail.h"
 #include "apps/window/second_choice.h"
+#include "apps/window/window_start.h"
 #include "core/base/result.h"
 #include "geo/together/region_ground.h"
 #include "render/frame/frame_renderer.h"
@@ -46,6 +47,7 @@ struct SecondView {
     std::unique_ptr<const RegionGround> ground{};  // once something is written over it
     std::unique_ptr<Scene> scene;
     FrameRenderer renderer;
+    EyeMeshes meshes;   // by clusters where the first view's are, and the data are the same
     VkExtent2D part{};  // of the picture that is drawn
     bool has_picture{};
     bool is_missing{};  // something that the last frame should have had
@@ -95,6 +97,9 @@ DifferenceWords source_names(const Viewer& viewer);
 Result<void> take_second_size(Viewer& viewer, const VkExtent2D& window, bool& changed);
 // Brings what its last frame lacked: true where some of that is here. Errors: pages that cannot be read.
 Result<bool> advance_second(Viewer& viewer);
+// Draws what the first view's eye needs of its meshes, where they are drawn by clusters, as
+// follow_with_meshes() does. Before a frame is begun. Errors: the device.
+Result<void> follow_with_second_meshes(Viewer& viewer);
 // Whether it is another picture once the eye rests, where that is whole already: what is written over it.
 bool second_changes_at_rest(const Viewer& viewer);
 // Draws it from the first view's eye as coarse as the step says, with what is on the GPU: begins it where the

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/apps/comb_mesh.h"
 #include "tests/apps/program.h"
 #include "tests/support/test_data.h"
 
@@ -28,6 +29,15 @@ std::string columns_of(const std::string& dump, std::size_t from, std::size_t en
     return bytes;
 }
 
+// Waits until nothing is prepared or loaded, and the screen has been the same for two seconds; then keeps it.
+const std::string rests_words =
+    "rests() { same=0; for try in $(seq 300); do sleep 0.2; now=$(cksum <\"$SCREEN_FILE\"); "
+    "if [ \"$now\" = \"$last\" ] && ! grep '^state' said.txt | tail -n 1 | grep -Eq "
+    "'loading|preparing|moving'; then same=$((same + 1)); else same=0; fi; last=$now; "
+    "[ $same -lt 10 ] || break; done; cp \"$SCREEN_FILE\" $1.xwd; }; "
+    "for try in $(seq 600); do grep -q 'full detail\\|first picture after' said.txt && break; sleep 0.1; "
+    "done; "
+    "window=$(xdotool search --onlyvisible --pid $viewer | head -n 1); ";
 // In which nothing differs: each half shows the same, and a line parts one picture from itself.
 TEST(WindowTwoViews, ThatAreTheSameShowTheSame) {
     const fs::path folder = oro::test::scratch_folder();
@@ -37,15 +47,8 @@ TEST(WindowTwoViews, ThatAreTheSameShowTheSame) {
                          "XDG_STATE_HOME=" + (folder / "state").string()};
     const std::string session =
         "\"$1\" view \"$3\" --style default --size 320x240 --at 36.53,-84.35 --above 900 2>said.txt & "
-        "viewer=$!; "
-        // Until nothing is prepared or loaded, and the screen has been the same for two seconds.
-        "rests() { same=0; for try in $(seq 300); do sleep 0.2; now=$(cksum <\"$SCREEN_FILE\"); "
-        "if [ \"$now\" = \"$last\" ] && ! grep '^state' said.txt | tail -n 1 | grep -Eq "
-        "'loading|preparing|moving'; then same=$((same + 1)); else same=0; fi; last=$now; "
-        "[ $same -lt 10 ] || break; done; cp \"$SCREEN_FILE\" $1.xwd; }; "
-        "for try in $(seq 600); do grep -q 'full detail\\|first picture after' said.txt && break; sleep 0.1; "
-        "done; "
-        "window=$(xdotool search --onlyvisible --pid $viewer | head -n 1); "
+        "viewer=$!; " +
+        rests_words +
         "xdotool windowfocus --sync $window; xdotool key Tab; rests one; "
         "xdotool key 2; for try in $(seq 300); do grep -q 'preparing the second' said.txt && break; sleep "
         "0.1; done; rests sides; "
@@ -73,6 +76,36 @@ TEST(WindowTwoViews, ThatAreTheSameShowTheSame) {
     EXPECT_FALSE(shown("turned.xwd", 0, 160) == shown("sides.xwd", 0, 160)) << outcome.out;
     EXPECT_TRUE(shown("turned.xwd", 0, 160) == shown("turned.xwd", 160, 320)) << outcome.out;
     EXPECT_FALSE(shown("panels.xwd", 0, 320) == shown("turned.xwd", 0, 320)) << outcome.out;
+}
+
+// Where meshes are drawn by clusters, both views draw the same of them.
+TEST(WindowTwoViews, ShowMeshesByTheSameClusters) {
+    const fs::path folder = oro::test::scratch_folder();
+    const std::string region = (folder / "comb.oro").string();
+    const auto baked = oro::test::bake_comb(folder / "comb.obj", region);
+    ASSERT_EQ(baked.exit_code, 0) << baked.err;
+    oro::test::Circumstances there;
+    there.environment = {"WAYLAND_DISPLAY", "OROGRAPH_TRACE_WINDOW=1", "OROGRAPH_VALIDATION=1",
+                         "XDG_CONFIG_HOME=" + (folder / "config").string(),
+                         "XDG_STATE_HOME=" + (folder / "state").string()};
+    const std::string session =
+        "\"$1\" view \"$3\" --mesh clusters --style default --size 320x240 --at 36.6046,-84.19 --altitude "
+        "640 "
+        "--heading 90 --pitch 0 2>said.txt & viewer=$!; " +
+        rests_words +
+        "xdotool windowfocus --sync $window; xdotool key Tab; xdotool key 2; "
+        "for try in $(seq 300); do grep -q 'preparing the second' said.txt && break; sleep 0.1; done; "
+        "rests sides; xdotool keydown w; sleep 2; xdotool keyup w; sleep 1; rests nearer; "
+        "xdotool key ctrl+q; wait $viewer; echo ended $?; cat said.txt";
+    const auto outcome = oro::test::run_program(
+        {OROGRAPH_ON_DISPLAY, "sh", "-c", "cd \"$2\"; " + session, "sh", OROGRAPH_PROGRAM, folder, region},
+        there);
+    EXPECT_NE(outcome.out.find("ended 0\n"), std::string::npos) << outcome.out << outcome.err;
+    for (const char* name : {"sides.xwd", "nearer.xwd"}) {
+        const std::string dump = oro::test::bytes_of(folder / name);
+        ASSERT_GT(dump.size(), 640U * 480U * 4U) << outcome.out << outcome.err;
+        EXPECT_TRUE(columns_of(dump, 0, 160, 240) == columns_of(dump, 160, 320, 240)) << name;
+    }
 }
 
 }  // namespace
