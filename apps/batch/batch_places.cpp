@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <set>
+#include <optional>
 #include <utility>
 
 #include "apps/command_line/refusals.h"
 #include "apps/search/text_lines.h"
 #include "geo/files/letter_case.h"
+#include "geo/vectors/coordinate_columns.h"
 #include "geo/vectors/vector_file.h"
 
 namespace oro {
@@ -45,10 +46,40 @@ Error too_many(const std::string& file) {
     return {ErrorKind::failed, file, "has more than 1,000,000 places: cut it"};
 }
 
+// A field that stands for a column whose heading is written in another way.
+struct OtherName {
+    const char* field;
+    std::size_t column;
+};
+
+// Of the fields lat, lon, name and above those that no column is called, where one means the same: Latitude,
+// Name ...
+std::vector<OtherName> other_names(const std::vector<std::string>& names) {
+    std::vector<OtherName> others;
+    const auto add = [&](const char* field, std::optional<std::size_t> column) {
+        if (column && std::ranges::find(names, field) == names.end()) others.push_back({field, *column});
+    };
+    const DegreeColumns degrees = degree_columns(names);
+    add("lat", degrees.lat);
+    add("lon", degrees.lon);
+    for (const char* const field : {"name", "above"}) {
+        const auto found = std::ranges::find(names, field, plain_heading);
+        if (found != names.end()) add(field, static_cast<std::size_t>(found - names.begin()));
+    }
+    return others;
+}
+
+std::string without_blanks_around(const std::string& text) {
+    const std::size_t first = text.find_first_not_of(" \t");
+    if (first == std::string::npos) return "";
+    return text.substr(first, text.find_last_not_of(" \t") + 1 - first);
+}
+
 Result<std::vector<BatchPlace>> places_of_table(const std::string& file) {
     ORO_TRY(TextLines lines, TextLines::of(file));
     std::vector<BatchPlace> places;
     std::vector<std::string> names;
+    std::vector<OtherName> others;
     char separator = ',';
     std::string line;
     while (true) {
@@ -63,6 +94,7 @@ Result<std::vector<BatchPlace>> places_of_table(const std::string& file) {
         if (names.empty()) {
             separator = separator_of(line);
             names = fields_of_line(line, separator);
+            others = other_names(names);
             continue;
         }
         const std::vector<std::string> fields = fields_of_line(line, separator);
@@ -74,6 +106,9 @@ Result<std::vector<BatchPlace>> places_of_table(const std::string& file) {
         place.number = places.size();
         for (std::size_t i = 0; i < names.size(); ++i)
             place.fields[names[i]] = i < fields.size() ? fields[i] : "";
+        for (const OtherName& other : others)
+            place.fields[other.field] =
+                other.column < fields.size() ? without_blanks_around(fields[other.column]) : "";
     }
     return places;
 }
@@ -94,6 +129,8 @@ Result<std::vector<BatchPlace>> places_of_vectors(const std::string& file) {
             BatchPlace& place = places.emplace_back();
             place.number = places.size();
             for (const std::string& name : layer.fields) place.fields[name] = layer.text(shape, name);
+            for (const char* const name : {"name", "above"})
+                if (layer.field_number(name) >= 0) place.fields[name] = layer.text(shape, name);
             const VectorPlace& at = shape.paths.front().front();
             place.fields["lat"] = degrees_words(at.lat_deg);
             place.fields["lon"] = degrees_words(at.lon_deg);

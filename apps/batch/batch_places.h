@@ -10,9 +10,11 @@
 
 namespace oro {
 
-// A place with what is known of it: `number` from 1, and all fields of its file. A point of a vector file
-// also has `lat` and `lon` in degrees, and `ele` in metres where it has a height, whatever its file calls
-// them.
+// A place with what is known of it: `number` from 1, and all fields of its file. Where no column of a table
+// is called `lat` or `lon`, those are what the column has that means the same
+// (geo/vectors/coordinate_columns.h); `name` and `above` are columns of these names in any letters. A point
+// of a vector file has `lat` and `lon` in degrees, and `ele` in metres where it has a height, whatever its
+// file calls them.
 struct BatchPlace {
     std::size_t number{};
     std::map<std::string, std::string> fields;

@@ -14,6 +14,7 @@
 #include "apps/search/text_lines.h"
 #include "apps/vectors/named_points.h"
 #include "core/base/one_line.h"
+#include "geo/vectors/coordinate_columns.h"
 
 namespace oro {
 namespace {
@@ -142,6 +143,20 @@ std::string place_in(const Fields& fields, const Columns& columns, SearchPlace& 
     return "";
 }
 
+// The columns of places and heights, as in every table; y and x are degrees where no others are there.
+void find_coordinates(const Fields& headings, Columns& columns) {
+    const DegreeColumns degrees = degree_columns(headings);
+    const auto height = coordinate_columns(headings).height;
+    if (height) columns.height = static_cast<int>(*height);
+    if (degrees.lat) columns.lat = static_cast<int>(*degrees.lat);
+    if (degrees.lon) columns.lon = static_cast<int>(*degrees.lon);
+    for (std::size_t i = headings.size(); i-- > 0;) {
+        const std::string name = plain_heading(headings[i]);
+        if (!degrees.lat && name == "y") columns.lat = static_cast<int>(i);
+        if (!degrees.lon && name == "x") columns.lon = static_cast<int>(i);
+    }
+}
+
 // What the columns of a table's first line are.
 Result<Columns> columns_in(const std::string& heading, const std::string& path) {
     Columns columns;
@@ -156,13 +171,12 @@ Result<Columns> columns_in(const std::string& heading, const std::string& path) 
         int Columns::*column;
         std::array<const char*, 4> names;  // the first that a table has
     };
-    static const std::array<Known, 6> known{{{&Columns::name, {"name", "label", "title", ""}},
-                                             {&Columns::lat, {"lat", "latitude", "lat deg", "y"}},
-                                             {&Columns::lon, {"lon", "lng", "longitude", "x"}},
-                                             {&Columns::height, {"ele", "elevation", "height", "h m"}},
+    static const std::array<Known, 4> known{{{&Columns::name, {"name", "label", "title", ""}},
+                                             {&Columns::height, {"height", "h m", "", ""}},
                                              {&Columns::population, {"population", "", "", ""}},
                                              {&Columns::kind, {"class", "type", "natural", "place"}}}};
     Fields names = fields_in(heading, columns.mark, true);
+    find_coordinates(names, columns);
     for (std::string& name : names) name = folded(name);
     for (const Known& one : known) {
         for (const char* const name : one.names) {

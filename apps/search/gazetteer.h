@@ -25,9 +25,10 @@ inline constexpr std::size_t most_gazetteer_places = 2'000'000;
 // Reads a gazetteer, told by its content:
 //
 // - a dump of GeoNames (geonames.org/export): lines of 19 fields with tabs between them, without a heading;
-// - a table (CSV) with commas, semicolons or tabs, whose first line names the columns: name, lat or latitude,
-//   lon, lng or longitude; and, if it has them, ele, elevation or height, population, and class, type or
-//   natural. Fields may stand in quotes, not over several lines;
+// - a table (CSV) with commas, semicolons or tabs, whose first line names the columns: name; lat and lon, or
+//   what means the same (geo/vectors/coordinate_columns.h), or y and x in degrees; and, if it has them, ele,
+//   elevation or height, population, and class, type or natural. Fields may stand in quotes, not over several
+//   lines;
 // - points of GeoJSON, GPX, KML, GeoPackage, a shapefile or FlatGeobuf, whose fields have those names.
 //
 // within: places outside this box (of WGS84) are passed over; a dump of the whole Earth can be read so.

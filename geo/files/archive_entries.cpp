@@ -124,15 +124,32 @@ Result<ZipDirectory> zip_directory(const Archive& archive) {
     return found;
 }
 
-// The unpacked size of an entry too large for 32 bits.
-std::uint64_t zip64_size(Bytes extra, std::uint64_t otherwise) {
+// What stands in an entry's extra field of that number; empty where there is none. Its fields have a number
+// and a length of two bytes each before them.
+Bytes extra_field(Bytes extra, std::uint64_t number) {
     for (std::size_t i = 0; i + 4 <= extra.size();) {
         const std::uint64_t length = number_at(extra, i + 2, 2);
-        if (number_at(extra, i, 2) == 1 && length >= 8 && i + 12 <= extra.size())
-            return number_at(extra, i + 4, 8);
+        if (number_at(extra, i, 2) == number)
+            return extra.subspan(i + 4, std::min<std::size_t>(length, extra.size() - i - 4));
         i += 4 + length;
     }
-    return otherwise;
+    return {};
+}
+
+// The unpacked size of an entry too large for 32 bits.
+std::uint64_t zip64_size(Bytes extra, std::uint64_t otherwise) {
+    const Bytes sizes = extra_field(extra, 1);
+    return sizes.size() >= 8 ? number_at(sizes, 0, 8) : otherwise;
+}
+
+// The name in UTF-8 that an entry has beside that in another encoding, where it belongs to that (APPNOTE
+// 4.6.9): GDAL, which writes such names in KMZ, opens it by this one.
+std::string unicode_name(Bytes extra, std::string name) {
+    constexpr std::size_t before_name = 5;  // version 1, and the checksum of the other name
+    const Bytes field = extra_field(extra, 0x7075);
+    if (field.size() <= before_name || field[0] != 1) return name;
+    const uLong sum = crc32(0, reinterpret_cast<const Bytef*>(name.data()), static_cast<uInt>(name.size()));
+    return number_at(field, 1, 4) == sum ? text_at(field, before_name, field.size() - before_name) : name;
 }
 
 // Why an entry with these flags and this method cannot be unpacked by GDAL, which knows two methods.
@@ -180,11 +197,12 @@ Result<std::vector<ArchiveEntry>> zip_entries(const Archive& archive) {
         const std::uint64_t name = number_at(list, at + 28, 2), extra = number_at(list, at + 30, 2);
         const std::uint64_t all = entry_bytes + name + extra + number_at(list, at + 32, 2);
         if (list.size() - at < all) return damaged();
-        ArchiveEntry entry{plain_name(text_at(list, at + entry_bytes, name)), number_at(list, at + 24, 4),
+        const Bytes extra_fields = Bytes(list).subspan(at + entry_bytes + name, extra);
+        ArchiveEntry entry{plain_name(unicode_name(extra_fields, text_at(list, at + entry_bytes, name))),
+                           number_at(list, at + 24, 4),
                            unreadable_words(number_at(list, at + 8, 2), number_at(list, at + 10, 2)),
                            static_cast<std::uint32_t>(number_at(list, at + 16, 4))};
-        if (entry.bytes == in_zip64_32)
-            entry.bytes = zip64_size(Bytes(list).subspan(at + entry_bytes + name, extra), entry.bytes);
+        if (entry.bytes == in_zip64_32) entry.bytes = zip64_size(extra_fields, entry.bytes);
         if (!entry.name.ends_with('/')) entries.push_back(std::move(entry));
         at += all;
     }

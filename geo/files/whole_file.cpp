@@ -15,6 +15,7 @@
 #include "core/base/files_of_job.h"
 #include "core/base/files_read.h"
 #include "core/base/open_file.h"
+#include "geo/files/folder_around.h"
 #include "geo/files/network_files.h"
 #include "geo/files/network_paths.h"
 
@@ -23,12 +24,6 @@ namespace {
 
 Error fault(const std::string& path, const std::string& what) {
     return {ErrorKind::failed, path, what};
-}
-
-std::string folder_of(const std::string& path) {
-    const std::size_t slash = path.rfind('/');
-    if (slash == std::string::npos) return ".";
-    return slash == 0 ? "/" : path.substr(0, slash);
 }
 
 std::string temporary_folder() {
@@ -53,15 +48,8 @@ Result<WholeFile> WholeFile::create(const std::string& path, bool overwrite, Tem
     } else {
         ORO_TRY(old_mode, check_target(file.path_, overwrite));
     }
-    const std::string folder = file.is_on_network() ? temporary_folder() : folder_of(file.path_);
-    if (const int why = file.temporary_.make(folder, kind); why != 0) {
-        // A folder of the kernel's (/proc) is there, and says so of each new file.
-        const bool no_folder = why == ENOENT && access(folder.c_str(), F_OK) != 0;
-        const std::string reason = no_folder       ? "is not there"
-                                   : why == ENOENT ? "takes no new files"
-                                                   : "cannot be written in: " + system_reason(why);
-        return fault(path, "the folder " + folder + " " + reason);
-    }
+    const std::string folder = file.is_on_network() ? temporary_folder() : folder_around(file.path_);
+    if (const int why = file.temporary_.make(folder, kind); why != 0) return not_made_in(folder, path, why);
     // A file that its owner had closed to others stays closed to them when it is replaced.
     if (old_mode != 0) (void)fchmod(file.temporary_.descriptor(), old_mode);
     // The lock is the temporary file's, and outlasts the stream.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/files_read.h"
+#include "geo/files/folder_around.h"
 #include "geo/files/network_paths.h"
 #include "geo/files/unfinished_folders.h"
 
@@ -58,7 +59,7 @@ Result<WholeFolder> WholeFolder::create(const std::string& path, bool overwrite)
             return Error{ErrorKind::failed, path, "is there already (--overwrite replaces it)"};
     }
     const int why = make_unfinished_folder(fs::path(folder.path_).parent_path().string(), folder.temporary_);
-    if (why != 0) return folder_fault(path, why);
+    if (why != 0) return not_made_in(folder_around(path), path, why);
     return folder;
 }
 

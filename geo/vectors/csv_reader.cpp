@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
-#include <initializer_list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -19,6 +18,7 @@
 #include "geo/files/foreign_text.h"
 #include "geo/files/letter_case.h"
 #include "geo/files/raster_library.h"
+#include "geo/vectors/coordinate_columns.h"
 #include "geo/vectors/csv_table.h"
 #include "geo/vectors/layer_builder.h"
 #include "geo/vectors/text_path.h"
@@ -42,60 +42,11 @@ struct DestroyGeometry {
 };
 using WrittenGeometry = std::unique_ptr<std::remove_pointer_t<OGRGeometryH>, DestroyGeometry>;
 
-// Which columns of a table say where its places are.
-struct CoordinateColumns {
-    enum class Kind { none, degrees, plane, wkt };
-    Kind kind{Kind::none};
-    std::optional<std::size_t> x, y;  // of Kind::wkt x is its column
-    std::optional<std::size_t> height, crs;
-
-    [[nodiscard]] bool has(std::size_t column) const { return column == x || column == y; }
-};
-
-// A heading in small letters, without a unit in brackets, its words parted by single blanks.
-std::string plain_heading(std::string_view heading) {
-    if (heading.starts_with('#')) heading.remove_prefix(1);
-    std::string plain;
-    for (const char c : lower_case(heading.substr(0, heading.find_first_of("([")))) {
-        const bool is_blank = c == ' ' || c == '_' || c == '-' || c == '.' || c == '\t';
-        if (!is_blank) plain += c;
-        if (is_blank && !plain.empty() && plain.back() != ' ') plain += ' ';
-    }
-    while (!plain.empty() && plain.back() == ' ') plain.pop_back();
-    return plain;
-}
-
-// The columns that a table's first line names. The first of the names below that it has counts.
+// The columns that a table's first line names.
 CoordinateColumns columns_of(const std::vector<CsvField>& heading) {
-    std::vector<std::string> names;
-    for (const CsvField& field : heading) names.push_back(plain_heading(field.text));
-    const auto column = [&](std::initializer_list<const char*> known) {
-        std::optional<std::size_t> found;
-        for (const char* const name : known) {
-            const auto at = std::ranges::find(names, std::string_view(name));
-            if (at == names.end()) continue;
-            found = static_cast<std::size_t>(at - names.begin());
-            break;
-        }
-        return found;
-    };
-    CoordinateColumns columns;
-    columns.height = column({"ele", "elevation", "alt", "altitude", "z", "point z"});
-    columns.crs = column({"crs", "epsg", "srid", "srs"});
-    const auto wkt = column({"wkt", "geometry", "geom", "the geom", "wkt geom"});
-    const auto lat = column({"lat", "latitude", "lat deg", "latitude deg", "decimallatitude", "lat wgs84",
-                             "gps latitude", "wgs84 lat"}),
-               lon = column({"lon", "lng", "long", "longitude", "lon deg", "longitude deg",
-                             "decimallongitude", "lon wgs84", "gps longitude", "wgs84 lon"});
-    const auto x = column({"x", "e", "easting", "east", "xcoord", "x coord", "coord x", "point x"}),
-               y = column({"y", "n", "northing", "north", "ycoord", "y coord", "coord y", "point y"});
-    if (lat && lon)
-        columns.kind = CoordinateColumns::Kind::degrees, columns.x = lon, columns.y = lat;
-    else if (wkt)
-        columns.kind = CoordinateColumns::Kind::wkt, columns.x = columns.y = wkt;
-    else if (x && y)
-        columns.kind = CoordinateColumns::Kind::plane, columns.x = x, columns.y = y;
-    return columns;
+    std::vector<std::string> headings;
+    for (const CsvField& field : heading) headings.push_back(field.text);
+    return coordinate_columns(headings);
 }
 
 // The mark between fields with which a text's first line names columns of coordinates; 0: none does.
@@ -221,7 +172,8 @@ class CsvReader {
             return csv_fault("its columns " + foreign_text(heading_[*columns_.x].text) + " and " +
                              foreign_text(heading_[*columns_.y].text) +
                              " state no coordinate reference system, so where they lie is unknown: give it "
-                             "a column crs (EPSG:2056), or a .prj beside it under the same name");
+                             "a column crs (EPSG:2056), or a .prj beside it under the same name, or call "
+                             "them lon and lat where they are degrees");
         if (crs.empty()) {
             has_assumed_wgs84_ = !is_degrees;
             return ShapeSplitter::of_wgs84();

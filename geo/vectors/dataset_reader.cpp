@@ -135,12 +135,11 @@ const char* const* open_options_of(DatasetFormat format) {
 
 }  // namespace
 
-Result<void> read_dataset(DatasetFormat format, FileWatch& watch, const GdalMessages& messages,
-                          VectorFile& file, LeftOut& left_out) {
+Result<void> read_dataset(const std::string& name, DatasetFormat format, FileWatch& watch,
+                          const GdalMessages& messages, VectorFile& file, LeftOut& left_out) {
     const std::array<const char*, 2> driver{dataset_driver(format), nullptr};
-    const Dataset dataset(GDALOpenEx(file.file.c_str(),
-                                     GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, driver.data(),
-                                     open_options_of(format), nullptr));
+    const Dataset dataset(GDALOpenEx(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
+                                     driver.data(), open_options_of(format), nullptr));
     if (!dataset)
         return dataset_fault("is not a vector file in an accepted format (" + trusted_vector_formats() +
                              "): " + messages.last("unknown format"));

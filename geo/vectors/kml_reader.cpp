@@ -83,8 +83,8 @@ HeightAbove heights_of(const pugi::xml_node& geometry) {
 
 class KmlReader {
   public:
-    KmlReader(const XmlText& xml, FileWatch& watch, LeftOut& left_out)
-        : xml_(xml), watch_(watch), left_out_(left_out) {}
+    KmlReader(const XmlText& xml, const KmlLinks& links, FileWatch& watch, LeftOut& left_out)
+        : xml_(xml), links_(links), watch_(watch), left_out_(left_out) {}
 
     Result<void> all(const std::string& name) {
         std::vector<std::size_t> open{0};  // layers of the elements that hold this one
@@ -133,12 +133,19 @@ class KmlReader {
             feature(node, layers_[layer]);
             places_ += layers_[layer].splitter().places() - before;
         } else if (name == "NetworkLink") {
-            left_out_.add("links to other files, which are not followed", {1, 0, XmlText::at(node), ""});
+            if (!has_layer || !links_ || !links_(target_of(node)))
+                left_out_.add("links to other files, which are not followed", {1, 0, XmlText::at(node), ""});
         } else if (name == "coordinates" || name == "coord" ||
                    (name == "Location" && local_name(node.parent()) == "Model")) {
             stray(node, name);
         }
         return layer;
+    }
+
+    // Where a network link leads; Url is KML 2.0's name of its Link.
+    static std::string target_of(const pugi::xml_node& network_link) {
+        const pugi::xml_node link = child_named(network_link, "Link");
+        return text_of(child_named(link ? link : child_named(network_link, "Url"), "href"));
     }
 
     // Places that no geometry of a feature has taken.
@@ -346,6 +353,7 @@ class KmlReader {
     }
 
     const XmlText& xml_;
+    const KmlLinks& links_;
     FileWatch& watch_;
     LeftOut& left_out_;
     std::vector<LayerBuilder> layers_;
@@ -355,9 +363,9 @@ class KmlReader {
 
 }  // namespace
 
-Result<void> read_kml(const XmlText& xml, const std::string& name, FileWatch& watch, VectorFile& file,
-                      LeftOut& left_out) {
-    KmlReader reader(xml, watch, left_out);
+Result<void> read_kml(const XmlText& xml, const std::string& name, const KmlLinks& links, FileWatch& watch,
+                      VectorFile& file, LeftOut& left_out) {
+    KmlReader reader(xml, links, watch, left_out);
     ORO_CHECK(reader.all(name));
     reader.finish(file);
     return {};

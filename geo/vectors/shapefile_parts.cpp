@@ -1,5 +1,7 @@
 #include "geo/vectors/shapefile_parts.h"
 
+#include <cpl_vsi.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -24,13 +26,24 @@ Error shapefile_fault(const std::string& what) {
     return Error{ErrorKind::failed, "", what};
 }
 
+// A file in GDAL's memory, as members of archives are (geo/files/memory_files.h).
+bool is_in_memory(const std::string& file) {
+    return file.starts_with("/vsimem/");
+}
+
+bool is_regular_file(const std::string& file) {
+    VSIStatBufL status;
+    if (is_in_memory(file)) return VSIStatL(file.c_str(), &status) == 0;
+    std::error_code failed;
+    return fs::is_regular_file(file, failed) && !failed;
+}
+
 // The file beside `file` with another ending, or "" where there is none.
 std::string part_beside(const std::string& file, const char* small, const char* capital) {
     for (const char* const ending : {small, capital}) {
         fs::path path(file);
         path.replace_extension(ending);
-        std::error_code failed;
-        if (fs::is_regular_file(path, failed) && !failed) return path.string();
+        if (is_regular_file(path.string())) return path.string();
     }
     return "";
 }
@@ -52,7 +65,24 @@ struct PartHead {
     }
 };
 
+Result<void> check_has_head(std::uint64_t length, const char* what) {
+    if (length >= dbf_header_bytes) return {};
+    return shapefile_fault(std::string("its ") + what + " is cut: it has " + std::to_string(length) +
+                           " bytes");
+}
+
+Result<PartHead> head_in_memory(const std::string& file, const char* what) {
+    PartHead head;
+    vsi_l_offset length = 0;
+    const unsigned char* const bytes = VSIGetMemFileBuffer(file.c_str(), &length, FALSE);
+    head.length = bytes != nullptr ? length : 0;
+    ORO_CHECK(check_has_head(head.length, what));
+    std::copy_n(bytes, head.bytes.size(), head.bytes.begin());
+    return head;
+}
+
 Result<PartHead> head_of(const std::string& file, const char* what) {
+    if (is_in_memory(file)) return head_in_memory(file, what);
     const auto in_one_line = [&](const Error& error) {
         return shapefile_fault(std::string("its ") + what + " " + error.what);
     };
@@ -62,9 +92,7 @@ Result<PartHead> head_of(const std::string& file, const char* what) {
     if (!length.ok()) return in_one_line(length.error());
     PartHead head;
     head.length = *length;
-    const Error cut = shapefile_fault(std::string("its ") + what + " is cut: it has " +
-                                      std::to_string(head.length) + " bytes");
-    if (head.length < head.bytes.size()) return cut;
+    ORO_CHECK(check_has_head(head.length, what));
     const Result<void> read = opened->read(0, std::as_writable_bytes(std::span(head.bytes)));
     return read.ok() ? Result<PartHead>(head) : in_one_line(read.error());
 }
@@ -97,7 +125,7 @@ Result<std::uint64_t> checked_records(const std::string& file) {
 
 }  // namespace
 
-Result<ShapefileParts> shapefile_parts(const std::string& file) {
+Result<ShapefileParts> shapefile_parts(const std::string& file, const std::string& shown) {
     ShapefileParts parts;
     const std::string shx = part_beside(file, ".shx", ".SHX"), dbf = part_beside(file, ".dbf", ".DBF"),
                       prj = part_beside(file, ".prj", ".PRJ"), cpg = part_beside(file, ".cpg", ".CPG");
@@ -110,14 +138,14 @@ Result<ShapefileParts> shapefile_parts(const std::string& file) {
     ORO_CHECK(checked_length(file, ".shp"));
     ORO_TRY(const std::uint64_t index_bytes, checked_length(shx, ".shx"));
     if (dbf.empty()) {
-        parts.notes.push_back(file +
+        parts.notes.push_back(shown +
                               ": is a shapefile without its .dbf: its shapes are read, their names and "
                               "other fields are not there");
     } else {
         ORO_TRY(const std::uint64_t records, checked_records(dbf));
         const std::uint64_t shapes = (index_bytes - shp_header_bytes) / shx_record_bytes;
         if (records != shapes)
-            parts.notes.push_back(file + ": its .shx counts " + std::to_string(shapes) +
+            parts.notes.push_back(shown + ": its .shx counts " + std::to_string(shapes) +
                                   " shapes and its .dbf " + std::to_string(records) +
                                   " records: the two may not belong together");
     }

@@ -8,18 +8,21 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "core/base/open_file.h"
 #include "geo/drape/placed_raster.h"
-#include "geo/files/archive_entries.h"
 #include "geo/files/foreign_text.h"
 #include "geo/files/guarded_files.h"
 #include "geo/files/letter_case.h"
+#include "geo/files/memory_files.h"
 #include "geo/files/raster_library.h"
 #include "geo/files/text_encoding.h"
 #include "geo/vectors/shapefile_parts.h"
+#include "geo/vectors/vector_archive.h"
 #include "geo/vectors/vector_readers.h"
 #include "geo/vectors/vector_shapes.h"
 #include "geo/vectors/xml_text.h"
@@ -27,10 +30,8 @@
 namespace oro {
 namespace {
 
-// KML is packed to a tenth or a thirtieth of its length; what unpacks to so many times its own was made to.
-constexpr std::uint64_t most_times_unpacked = 200;
 constexpr std::uint64_t longest_prj = 65'536;
-constexpr std::uint64_t most_unpacked_bytes_unasked = std::uint64_t{16} << 20U;
+constexpr std::size_t most_linked_files = 64;  // beside the main one of a KMZ
 
 Error fault(const std::string& what) {
     return Error{ErrorKind::failed, "", what};
@@ -94,13 +95,12 @@ Result<Look> probe(const std::string& file, std::vector<std::string>& notes) {
     return look;
 }
 
-// What a file gave, when all of it was looked at. Errors: nothing that could be drawn.
-Result<void> ended(VectorFile& file, const LeftOut& left_out, std::string_view text) {
-    for (std::string& note : left_out.notes(file.file, text)) file.notes.push_back(std::move(note));
-    file.places_left_out = left_out.places();
-    if (!file.layers.empty()) return {};
-    return fault("holds no points, lines or polygons" +
-                 (left_out.empty() ? "" : "; left out: " + left_out.words(text)));
+// Takes what was left out of a text, or of a dataset, into a file's notes, which call it `shown`; gives it in one.
+std::string noted(const LeftOut& left_out, const std::string& shown, std::string_view text,
+                  VectorFile& file) {
+    for (std::string& note : left_out.notes(shown, text)) file.notes.push_back(std::move(note));
+    file.places_left_out += left_out.places();
+    return left_out.words(text);
 }
 
 Result<std::string> bytes_of_file(const std::string& name) {
@@ -109,36 +109,6 @@ Result<std::string> bytes_of_file(const std::string& name) {
     std::string bytes(size, '\0');
     ORO_CHECK(opened.read(0, std::as_writable_bytes(std::span(bytes))));
     return bytes;
-}
-
-// Whether a name in an archive is a path to somewhere else.
-bool leads_out(const std::string& name) {
-    const std::filesystem::path path(name);
-    return path.is_absolute() || name.find('\\') != std::string::npos ||
-           std::ranges::find(path, std::filesystem::path("..")) != path.end();
-}
-
-// KML's main file in a packed one: doc.kml, or the first that there is.
-Result<std::string> bytes_of_kmz(const std::string& name) {
-    const auto in_one_line = [](const Error& error) { return fault(error.what); };
-    const auto entries = archive_entries(name, name, ArchiveKind::zip);
-    if (!entries.ok()) return in_one_line(entries.error());
-    const auto is_kml = [](const ArchiveEntry& entry) { return lower_case(entry.name).ends_with(".kml"); };
-    auto main = std::ranges::find(*entries, "doc.kml", &ArchiveEntry::name);
-    if (main == entries->end()) main = std::ranges::find_if(*entries, is_kml);
-    if (main == entries->end()) return fault("is packed and holds no .kml: unpack it and name what is in it");
-    const std::string shown = foreign_text(main->name);
-    if (leads_out(main->name))
-        return fault("holds " + shown + ", whose name leads out of the archive: it is not opened");
-    if (main->bytes > longest_vector_text)
-        return fault("holds " + shown + ", which is longer than 1 GiB, the limit");
-    if (const std::uint64_t packed = size_or_0(name);
-        main->bytes > most_unpacked_bytes_unasked && main->bytes / most_times_unpacked > packed)
-        return fault("holds " + shown + ", which would unpack to more than " +
-                     std::to_string(most_times_unpacked) + " times the archive's length: it is not unpacked");
-    const auto bytes = unpacked(name, name, *main);
-    if (!bytes.ok()) return in_one_line(bytes.error());
-    return *bytes;
 }
 
 constexpr const char* no_columns =
@@ -160,7 +130,20 @@ std::string from_windows_1252(const std::string& text) {
     return utf8;
 }
 
-// The CRS of a table's .prj, on one line; "" where there is none, or where it is a shapefile's.
+Result<void> check_length_of_prj(std::uint64_t bytes) {
+    if (bytes <= longest_prj) return {};
+    return fault("its .prj is longer than " + std::to_string(longest_prj) + " bytes, which is the limit");
+}
+
+// The CRS that a .prj holds, on one line.
+Result<std::string> crs_of_prj(std::string bytes) {
+    ORO_TRY(std::string crs, utf8_text(std::move(bytes)));
+    for (char& c : crs)
+        if (c == '\r' || c == '\n' || c == '\t') c = ' ';
+    return crs;
+}
+
+// The CRS of a table's .prj; "" where there is none, or where it is a shapefile's.
 Result<std::string> crs_beside(VectorFile& file) {
     const std::string prj = std::filesystem::path(file.file).replace_extension(".prj").string();
     std::error_code failed;
@@ -168,23 +151,38 @@ Result<std::string> crs_beside(VectorFile& file) {
     for (const char* const ending : {".shp", ".SHP"})
         if (std::filesystem::exists(std::filesystem::path(file.file).replace_extension(ending), failed))
             return std::string();
-    if (size_or_0(prj) > longest_prj)
-        return fault("its .prj is longer than " + std::to_string(longest_prj) + " bytes, which is the limit");
-    ORO_TRY(std::string crs, bytes_of_file(prj));
-    ORO_TRY(crs, utf8_text(std::move(crs)));
-    for (char& c : crs)
-        if (c == '\r' || c == '\n' || c == '\t') c = ' ';
+    ORO_CHECK(check_length_of_prj(size_or_0(prj)));
+    ORO_TRY(std::string bytes, bytes_of_file(prj));
+    ORO_TRY(std::string crs, crs_of_prj(std::move(bytes)));
     file.files.push_back(prj);
     return crs;
 }
 
-// What a file of text holds: its root says which format it has.
-Result<void> read_text(VectorFile& file, std::string bytes, FileWatch& watch) {
+// The same of a table in an archive.
+Result<std::string> crs_in_archive(VectorArchive& archive, const ArchiveEntry& table) {
+    const ArchiveEntry* const prj = archive.beside(table, ".prj");
+    if (prj == nullptr) return std::string();
+    ORO_CHECK(check_length_of_prj(prj->bytes));
+    ORO_TRY(std::string bytes, archive.unpack(*prj));
+    return crs_of_prj(std::move(bytes));
+}
+
+// A text of vectors: that of a file, or of one in an archive.
+struct VectorText {
+    std::string name;   // of its file; without its ending that of its layer, where the text has none
+    std::string shown;  // what notes call it
+    std::string bytes;
+    KmlLinks links;
+    std::function<Result<std::string>()> crs_of_table;
+};
+
+// Reads what a text holds: its root says which format it has. Gives what was left out.
+Result<std::string> read_text(VectorText from, VectorFile& file, FileWatch& watch) {
     const auto unknown = [](const std::string& why) {
         return fault("is not a vector file in an accepted format (" + trusted_vector_formats() + "): " + why);
     };
-    const std::string stem = std::filesystem::path(file.file).stem().string();
-    ORO_TRY(std::string text, utf8_xml(std::move(bytes)));
+    const std::string stem = std::filesystem::path(from.name).stem().string();
+    ORO_TRY(std::string text, utf8_xml(std::move(from.bytes)));
     const std::size_t first = text.find_first_not_of(" \t\r\n");
     LeftOut left_out;
     if (first != std::string::npos && text[first] == '<') {
@@ -195,56 +193,140 @@ Result<void> read_text(VectorFile& file, std::string bytes, FileWatch& watch) {
         if (root == "gpx") {
             ORO_CHECK(read_gpx(*xml, text, watch, file, left_out));
         } else if (std::ranges::find(kml_roots, root) != kml_roots.end()) {
-            ORO_CHECK(read_kml(*xml, stem, watch, file, left_out));
+            ORO_CHECK(read_kml(*xml, stem, from.links, watch, file, left_out));
         } else {
             return unknown("is XML whose first element is '" + foreign_text(root) + "'");
         }
     } else if (is_csv(text)) {
         if (!utf8::is_valid(text.begin(), text.end())) {
             text = from_windows_1252(text);
-            file.notes.push_back(file.file + ": is no UTF-8 and is read as Windows-1252");
+            file.notes.push_back(from.shown + ": is no UTF-8 and is read as Windows-1252");
         }
-        ORO_TRY(const std::string crs, crs_beside(file));
+        ORO_TRY(const std::string crs, from.crs_of_table());
         ORO_CHECK(read_csv(text, stem, crs, watch, file, left_out));
     } else {
         const Result<void> read = read_geojson(text, stem, watch, file, left_out);
         if (!read.ok())
             return first != std::string::npos && (text[first] == '{' || text[first] == '[')
-                       ? read
-                       : unknown(may_be_csv(file.file) ? no_columns : "unknown format");
+                       ? read.error()
+                       : unknown(may_be_csv(from.name) ? no_columns : "unknown format");
     }
-    return ended(file, left_out, text);
+    return noted(left_out, from.shown, text, file);
 }
 
-// A file that OGR reads.
-Result<void> read_with_ogr(VectorFile& file, DatasetFormat format, FileWatch& watch,
-                           const GdalMessages& messages) {
+// Reads a file that OGR reads, by the name by which GDAL opens it. Gives what was left out.
+Result<std::string> read_with_ogr(const std::string& name, DatasetFormat format, VectorFile& file,
+                                  FileWatch& watch, const GdalMessages& messages) {
     if (format == DatasetFormat::shapefile) {
-        ORO_TRY(ShapefileParts parts, shapefile_parts(file.file));
-        file.files = std::move(parts.files);
+        ORO_TRY(ShapefileParts parts, shapefile_parts(name, file.file));
+        if (name == file.file) file.files = std::move(parts.files);
         for (std::string& note : parts.notes) file.notes.push_back(std::move(note));
     }
     LeftOut left_out;
-    ORO_CHECK(read_dataset(format, watch, messages, file, left_out));
-    return ended(file, left_out, "");
+    ORO_CHECK(read_dataset(name, format, watch, messages, file, left_out));
+    return noted(left_out, file.file, "", file);
 }
 
-Result<void> read_all(VectorFile& file, const Look& look, FileWatch& watch, const GdalMessages& messages) {
+// An error of a file in an archive.
+Error of_entry(const ArchiveEntry& entry, const Error& error) {
+    return fault(foreign_text(entry.name) + ": " + error.what);
+}
+
+std::size_t places_in(const VectorFile& file) {
+    std::size_t places = 0;
+    for (const VectorLayer& layer : file.layers)
+        for (const VectorShape& shape : layer.shapes)
+            for (const auto& path : shape.paths) places += path.size();
+    return places;
+}
+
+// Reads the main file of a KMZ, and those that network links lead to within it, each once.
+Result<std::string> read_kmz(VectorArchive& archive, const ArchiveEntry& main, VectorFile& file,
+                             FileWatch& watch) {
+    std::vector<const ArchiveEntry*> entries{&main};
+    std::string left_out;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const ArchiveEntry& entry = *entries[i];
+        VectorText text{file.file, file.file, "", {}, [&] { return crs_in_archive(archive, entry); }};
+        if (i > 0) text.name = entry.name, text.shown += "/" + foreign_text(entry.name);
+        text.links = [&](const std::string& href) {
+            const ArchiveEntry* const linked = archive.linked(entry, href);
+            const bool is_known = std::ranges::find(entries, linked) != entries.end();
+            if (linked == nullptr || (!is_known && entries.size() > most_linked_files)) return false;
+            if (!is_known) entries.push_back(linked);
+            return true;
+        };
+        ORO_TRY(text.bytes, archive.unpack(entry));
+        const Result<std::string> read = read_text(std::move(text), file, watch);
+        if (!read.ok()) return i == 0 ? read.error() : of_entry(entry, read.error());
+        if (!read->empty()) left_out += (left_out.empty() ? "" : "; ") + *read;
+        if (places_in(file) > most_vector_places)
+            return fault("has more than " + std::to_string(most_vector_places) +
+                         " places, which is the limit");
+    }
+    return left_out;
+}
+
+Result<std::string> read_packed_text(VectorArchive& archive, const ArchiveEntry& entry, VectorFile& file,
+                                     FileWatch& watch) {
+    VectorText text{entry.name, file.file, "", {}, [&] { return crs_in_archive(archive, entry); }};
+    ORO_TRY(text.bytes, archive.unpack(entry));
+    const Result<std::string> read = read_text(std::move(text), file, watch);
+    return read.ok() ? read : of_entry(entry, read.error());
+}
+
+// It is unpacked into memory, with the other files of a shapefile.
+Result<std::string> read_packed_dataset(VectorArchive& archive, const ArchiveEntry& entry,
+                                        DatasetFormat format, VectorFile& file, FileWatch& watch,
+                                        const GdalMessages& messages) {
+    const std::filesystem::path path(entry.name);
+    const std::string stem = path.stem().string();
+    MemoryFiles memory;
+    ORO_TRY(std::string bytes, archive.unpack(entry));
+    const std::string name = memory.add(stem + lower_case(path.extension().string()), std::move(bytes));
+    for (const char* const ending : {".shx", ".dbf", ".prj", ".cpg"}) {
+        const ArchiveEntry* const part = archive.beside(entry, ending);
+        if (format != DatasetFormat::shapefile || part == nullptr) continue;
+        ORO_TRY(std::string bytes_of_part, archive.unpack(*part));
+        memory.add(stem + ending, std::move(bytes_of_part));
+    }
+    const Result<std::string> read = read_with_ogr(name, format, file, watch, messages);
+    return read.ok() ? read : of_entry(entry, read.error());
+}
+
+Result<std::string> read_packed(VectorFile& file, FileWatch& watch, const GdalMessages& messages) {
+    ORO_TRY(VectorArchive archive, VectorArchive::open(file.file));
+    if (const ArchiveEntry* const main = archive.main_kml(); main != nullptr)
+        return read_kmz(archive, *main, file, watch);
+    ORO_TRY(const ArchiveEntry* const only, archive.only_vector_file());
+    for (const auto& [ending, format] : {std::pair{".shp", DatasetFormat::shapefile},
+                                         {".gpkg", DatasetFormat::geopackage},
+                                         {".fgb", DatasetFormat::flatgeobuf}})
+        if (lower_case(only->name).ends_with(ending))
+            return read_packed_dataset(archive, *only, format, file, watch, messages);
+    return read_packed_text(archive, *only, file, watch);
+}
+
+// Gives what was left out.
+Result<std::string> read_all(VectorFile& file, const Look& look, FileWatch& watch,
+                             const GdalMessages& messages) {
     switch (look.form) {
         case Look::Form::database:
-            return read_with_ogr(file, DatasetFormat::geopackage, watch, messages);
+            return read_with_ogr(file.file, DatasetFormat::geopackage, file, watch, messages);
         case Look::Form::shapefile:
-            return read_with_ogr(file, DatasetFormat::shapefile, watch, messages);
+            return read_with_ogr(file.file, DatasetFormat::shapefile, file, watch, messages);
         case Look::Form::flat:
-            return read_with_ogr(file, DatasetFormat::flatgeobuf, watch, messages);
-        case Look::Form::text:
+            return read_with_ogr(file.file, DatasetFormat::flatgeobuf, file, watch, messages);
         case Look::Form::packed:
+            return read_packed(file, watch, messages);
+        case Look::Form::text:
             break;
     }
-    const bool is_packed = look.form == Look::Form::packed;
-    Result<std::string> bytes = is_packed ? bytes_of_kmz(file.file) : bytes_of_file(file.file);
+    VectorText text{file.file, file.file, "", {}, [&] { return crs_beside(file); }};
+    Result<std::string> bytes = bytes_of_file(file.file);
     if (!bytes.ok()) return fault(bytes.error().what);
-    return read_text(file, std::move(*bytes), watch);
+    text.bytes = std::move(*bytes);
+    return read_text(std::move(text), file, watch);
 }
 
 }  // namespace
@@ -283,9 +365,13 @@ Result<VectorFile> read_vectors(const std::string& name, double limit_s) {
     const Result<Look> look = probe(name, file.notes);
     if (!look.ok()) return with_name(look.error());
     FileWatch watch(limit_s + static_cast<double>(look->bytes >> 20U));
-    const Result<void> read = read_all(file, *look, watch, messages);
+    const Result<std::string> left_out = read_all(file, *look, watch, messages);
     if (!watch.fault().empty()) return Error{ErrorKind::failed, name, watch.fault()};
-    if (!read.ok()) return with_name(read.error());
+    if (!left_out.ok()) return with_name(left_out.error());
+    if (file.layers.empty())
+        return Error{ErrorKind::failed, name,
+                     "holds no points, lines or polygons" +
+                         (left_out->empty() ? std::string() : "; left out: " + *left_out)};
     ORO_TRY(file.fingerprint, files_fingerprint(file.files));
     return file;
 }

@@ -74,16 +74,16 @@ inline constexpr std::uint64_t longest_vector_text = std::uint64_t{1} << 30U;
 // All shapes of a file may have so many places.
 inline constexpr std::size_t most_vector_places = 50'000'000;
 
-// Reads all of a file: GPX (waypoints, routes, tracks), KML (with Google's tracks; packed as KMZ, too),
-// GeoJSON, TopoJSON, CSV (columns lat and lon, x and y with a CRS, or WKT), GeoPackage, shapefiles,
-// FlatGeobuf. Collections are split, curves become lines (an arc one for each degree), a KML Model
-// is a point and a GroundOverlay a polygon. Places are turned into WGS84's by PROJ's best operation for the
-// layer's CRS (one that GeoJSON names as it did before RFC 7946, too). Coordinates that are no numbers, and
-// such as have no place on the Earth, are left out, a line is broken where one of its places is none, and
-// notes tell how often, why and in which line first. Opens regular files of this machine, and no other; takes
-// limit_s at most, and a second more for each MiB. Errors: a file that is not there, empty, damaged or of
-// another format (with the line, of text); a shapefile without its .shx or .prj; one that has nothing with a
-// place; a CRS that PROJ does not know.
+// Reads all of a file: GPX (waypoints, routes, tracks), KML (with Google's tracks; packed as KMZ, too, with
+// the files in it that network links lead to), GeoJSON, TopoJSON, CSV (columns lat and lon, x and y with a
+// CRS, or WKT), GeoPackage, shapefiles, FlatGeobuf, and a .zip that holds one of them. Collections are split,
+// curves become lines (an arc one for each degree), a KML Model is a point and a GroundOverlay a polygon.
+// Places are turned into WGS84's by PROJ's best operation for the layer's CRS (one that GeoJSON names as it
+// did before RFC 7946, too). Coordinates that are no numbers, and such as have no place on the Earth, are
+// left out, a line is broken where one of its places is none, and notes tell how often, why and in which line
+// first. Opens regular files of this machine, and no other; takes limit_s at most, and a second more for each
+// MiB. Errors: a file that is not there, empty, damaged or of another format (with the line, of text); a
+// shapefile without its .shx or .prj; one that has nothing with a place; a CRS that PROJ does not know.
 Result<VectorFile> read_vectors(const std::string& file, double limit_s = 30.0);
 
 }  // namespace oro

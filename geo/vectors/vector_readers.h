@@ -2,6 +2,7 @@
 // and FlatGeobuf by OGR (the vectors' half of GDAL).
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -56,12 +57,14 @@ Result<ShapeSplitter> splitter_of_geojson(const JsonValue& root);
 Result<void> read_gpx(const XmlText& xml, std::string_view text, FileWatch& watch, VectorFile& file,
                       LeftOut& left_out);
 
+// Takes where a network link leads (its href); true where that is read, too.
+using KmlLinks = std::function<bool(const std::string& href)>;
 // Appends a file's placemarks and overlays to `file`: a layer for each Document and Folder, `name` for those
 // outside. Fields are the texts of the feature and its extended data. What cannot be drawn goes to
-// `left_out`, with all its places. Errors (a reason, without the file's name): too many places; the watch's
-// time is spent.
-Result<void> read_kml(const XmlText& xml, const std::string& name, FileWatch& watch, VectorFile& file,
-                      LeftOut& left_out);
+// `left_out`, with all its places, and so does each network link that `links` does not take, or all of them
+// where it is none. Errors (a reason, without the file's name): too many places; the watch's time is spent.
+Result<void> read_kml(const XmlText& xml, const std::string& name, const KmlLinks& links, FileWatch& watch,
+                      VectorFile& file, LeftOut& left_out);
 
 // Does what start_gdal() does, and registers the drivers of the formats below. From then on a query of SQLite
 // ends when the time of the FileWatch of its thread is spent: a GeoPackage may hold queries that never end.
@@ -72,12 +75,12 @@ void start_vectors();
 enum class DatasetFormat { geopackage, shapefile, flatgeobuf };
 // GDAL's name of a format's driver.
 const char* dataset_driver(DatasetFormat format);
-// Appends the layers of `file.file` to `file`. What cannot be drawn goes to `left_out`. `messages` are GDAL's
-// from before the call. Errors (a reason, without the file's name): a file that the format's driver does not
-// open, or cannot read to its end; a layer without a CRS, or with one that PROJ does not know; too many
-// places; the watch's time is spent.
-Result<void> read_dataset(DatasetFormat format, FileWatch& watch, const GdalMessages& messages,
-                          VectorFile& file, LeftOut& left_out);
+// Appends the layers of the dataset `name`, as GDAL opens it, to `file`. What cannot be drawn goes to
+// `left_out`. `messages` are GDAL's from before the call. Errors (a reason, without the file's name): a file
+// that the format's driver does not open, or cannot read to its end; a layer without a CRS, or with one that
+// PROJ does not know; too many places; the watch's time is spent.
+Result<void> read_dataset(const std::string& name, DatasetFormat format, FileWatch& watch,
+                          const GdalMessages& messages, VectorFile& file, LeftOut& left_out);
 
 // All formats of vectors that this program reads, for people.
 std::string trusted_vector_formats();

@@ -8,6 +8,7 @@
 #include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "tests/apps/picture_pixels.h"
 #include "tests/apps/program.h"
@@ -251,6 +252,18 @@ TEST(ExportCommand, SparesWhatIsThere) {
     EXPECT_EQ(bytes_of(copy), bytes_of(bundled()));
 }
 
+TEST(ExportCommand, AFolderThatIsNotThereIsNamed) {
+    const fs::path folder = oro::test::scratch_folder(), none = folder / "none";
+    for (const auto& [format, name] : {std::pair{"cog", "deep.tif"},
+                                       {"gltf", "deep.glb"},
+                                       {"3dtiles", "deep"},
+                                       {"quantized-mesh", "deep"},
+                                       {"terrain-rgb", "deep/"}})
+        expect_refusal(run_orograph(export_words(format, none / name)), oro::test::failed,
+                       {(none / name).string() + ": the folder " + none.string() + " is not there"});
+    EXPECT_EQ(names_in(folder), Words{});
+}
+
 TEST(ExportCommand, RefusesWhatHasNoMeaning) {
     const fs::path folder = oro::test::scratch_folder();
     for (const char* zoom : {"12:11", "3:23", "-1:4", "a", "3:", ":4", "1:2:3", "1.5"})
@@ -261,8 +274,6 @@ TEST(ExportCommand, RefusesWhatHasNoMeaning) {
                    oro::test::usage, {"more than 4,000,000"});
     expect_refusal(run_orograph(export_words("terrain-rgb", folder / "t", {"--hole-height", "20000"})),
                    oro::test::usage, {"--hole-height 20000"});
-    expect_refusal(run_orograph(export_words("terrain-rgb", folder / "none" / "t")), oro::test::failed,
-                   {"No such file or directory"});
     expect_refusal(run_orograph(export_words("cog", folder / "t.tif", {"--zoom", "3:4"})), oro::test::usage,
                    {"--zoom 3:4: needs --to terrain-rgb or quantized-mesh"});
     expect_refusal(run_orograph(export_words("cog", folder / "t.tif", {"--hole-height", "1"})),

@@ -39,8 +39,9 @@ Result<TableObserver> observer_at(const BatchPlace& place, const ViewshedOptions
     ORO_TRY(const std::optional<double> lat_deg, number_in(place, "lat"));
     ORO_TRY(const std::optional<double> lon_deg, number_in(place, "lon"));
     if (!lat_deg || !lon_deg)
-        return Error{ErrorKind::failed, "lat and lon",
-                     "are missing: a table needs columns of these names, in degrees"};
+        return Error{
+            ErrorKind::failed, "lat and lon",
+            "are missing: a table needs columns of these names, or latitude and longitude, in degrees"};
     ORO_TRY(const std::optional<double> above_m, number_in(place, "above"));
     Standing& standing = observer.standing;
     standing.place_option = "--observers";

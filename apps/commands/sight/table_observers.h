@@ -26,10 +26,11 @@ struct TableObserver {
 // --observers, or that is no .csv, or cannot be written.
 Result<void> check_observers(const ObserversOptions& observers, const ViewshedOptions& options);
 
-// The places of the file, in its order: each has `lat` and `lon` in degrees (a table's columns; points of
-// vector files have them by themselves), and may have `above`, its height over the ground in metres, in place
-// of --above; on_summit and what observers stand on are those of `options`. Errors: those of read_places(); a
-// place without `lat` and `lon`, or with numbers that are none, which names the file and the place.
+// The places of the file, in its order: each has `lat` and `lon` in degrees (a table's columns, by these
+// names or others that mean the same; points of vector files have them by themselves), and may have `above`,
+// its height over the ground in metres, in place of --above; on_summit and what observers stand on are those
+// of `options`. Errors: those of read_places(); a place without `lat` and `lon`, or with numbers that are
+// none, which names the file and the place.
 Result<std::vector<TableObserver>> read_observers(const ObserversOptions& observers,
                                                   const ViewshedOptions& options);
 

@@ -263,6 +263,11 @@ TEST_F(Batch, LinesAreDoneForEachPlace) {
     EXPECT_EQ(json::parse(table.out)["each"][1]["place"], "place 2 (sub/c)");
     EXPECT_TRUE(file("a;b.png") == alone(36.55));
     EXPECT_TRUE(file("sub_c.png") == alone(36.6));
+    write_bytes(folder / "other.csv", "Name,Latitude\nd,36.55\n");
+    const Outcome other = batch({"--json", "--each", "other.csv"});
+    ASSERT_EQ(other.exit_code, 0) << other.err;
+    EXPECT_EQ(json::parse(other.out)["each"][0]["place"], "place 1 (d)");
+    EXPECT_TRUE(file("d.png") == alone(36.55));
     write_bytes(folder / "points.gpx",
                 R"(<gpx version="1.1" creator="test" xmlns="http://www.topografix.com/GPX/1/1">
                    <wpt lat="36.55" lon="-84.2"><ele>700</ele><name>one</name></wpt>

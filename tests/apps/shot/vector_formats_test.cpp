@@ -48,6 +48,26 @@ class VectorFormats : public testing::Test {
         EXPECT_EQ(run_program({"zip", "-q", "-j", to, file}).exit_code, 0);
         return to;
     }
+    // An archive of files of this folder, which have their paths in it.
+    [[nodiscard]] std::string zipped_as_they_lie(const std::string& name, const std::string& others) const {
+        const std::string command = "cd '" + folder.string() + "' && zip -q -D " + name + " " + others;
+        EXPECT_EQ(run_program({"sh", "-c", command}).exit_code, 0) << command;
+        return (folder / name).string();
+    }
+    // A KMZ as GDAL's driver LIBKML writes it: its first file only has a link to another one.
+    [[nodiscard]] std::string kmz_with_a_link() const {
+        const std::string begin = R"(<kml xmlns="http://www.opengis.net/kml/2.2"><Document>)",
+                          end = "</Document></kml>";
+        fs::create_directories(folder / "layers");
+        write_bytes(folder / "layers" / "p.kml",
+                    begin +
+                        "<Placemark><name>Peak</name><Point><coordinates>-84.27,36.6,0</coordinates>"
+                        "</Point></Placemark>" +
+                        end);
+        write_bytes(folder / "doc.kml",
+                    begin + "<NetworkLink><Link><href>layers/p.kml</href></Link></NetworkLink>" + end);
+        return zipped_as_they_lie("q.kmz", "doc.kml layers/p.kml");
+    }
     // The length in pixels of what is seen of a file's line.
     [[nodiscard]] double seen_px(const std::string& file) const {
         const Outcome outcome = shoot("drawn.png", {"--overlay", file, "--overwrite"});
@@ -87,8 +107,14 @@ TEST_F(VectorFormats, GiveTheSameLine) {
 TEST_F(VectorFormats, GiveTheSameName) {
     const std::string json_file =
         written("p.geojson", collection(R"({"type":"Point","coordinates":[-84.27,36.6]})", "Peak"));
+    const std::string shp = converted(json_file, "p.shp"), kmz = (folder / "p.kmz").string();
+    // Not each GDAL has this driver.
+    if (run_program({"ogr2ogr", "-f", "LIBKML", kmz, json_file}).exit_code == 0) {
+        EXPECT_EQ(named_in(kmz), "Peak;");
+    }
     for (const std::string& file :
-         {converted(json_file, "p.shp"), converted(json_file, "p.fgb"),
+         {shp, converted(json_file, "p.fgb"), kmz_with_a_link(),
+          zipped_as_they_lie("p.zip", "p.shp p.shx p.dbf p.prj"),
           written("d.csv", "name;lat;lon\nPeak;36,6;-84,27\n"),
           // EPSG:32616, UTM zone 16 N, by gdaltransform: 744,198.1 E 4,053,970.7 N are -84.27 36.6.
           written("u.csv", "name,E,N,crs\nPeak,744198.1,4053970.7,EPSG:32616\n"),
@@ -106,7 +132,8 @@ TEST_F(VectorFormats, WhatIsMissingIsOneLine) {
     fs::remove(folder / "a.shx");
     expect_refusal(shoot("x.png", {"--overlay", shp}), failed, {"a.shp: is a shapefile without its .shx"});
     expect_refusal(shoot("x.png", {"--names", written("m.csv", "name,x,y\nA,744198.1,4053970.7\n")}), failed,
-                   {"m.csv: its columns x and y state no coordinate reference system"});
+                   {"m.csv: its columns x and y state no coordinate reference system",
+                    "or call them lon and lat where they are degrees"});
     expect_refusal(shoot("x.png", {"--names", written("n.csv", "a,b\n1,2\n")}), failed,
                    {"n.csv: is not a vector file in an accepted format", "names no columns of coordinates"});
     EXPECT_FALSE(fs::exists(folder / "x.png"));

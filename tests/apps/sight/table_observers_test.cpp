@@ -82,6 +82,20 @@ TEST_F(TableObservers, SeeWhatEachSeesAlone) {
         EXPECT_EQ(table["bands"][band]["checksum"], each["bands"][band]["checksum"]) << band;
 }
 
+// A table that is good for --names is good for this.
+TEST_F(TableObservers, ColumnsHaveTheirUsualNames) {
+    write_bytes(folder_ / "plain.csv", "name,lat,lon,above\nA,36.55,-84.25,30\n");
+    ASSERT_EQ(run_orograph(words(file("plain.csv"))).exit_code, 0);
+    const std::string plain = bytes_of(folder_ / "all.csv");
+    for (const char* const table : {"Name,Latitude,Longitude,Above\nA,36.55,-84.25,30\n",
+                                    "NAME;lng;decimalLatitude;above (m)\nA;-84.25;36.55;30\n"}) {
+        write_bytes(folder_ / "other.csv", table);
+        const auto outcome = run_orograph(words(file("other.csv"), {"--overwrite"}));
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_EQ(bytes_of(folder_ / "all.csv"), plain) << table;
+    }
+}
+
 // Points of a vector file, and what is told without --json.
 TEST_F(TableObservers, OfAVectorFile) {
     write_bytes(folder_ / "masts.geojson",

@@ -53,7 +53,10 @@ TEST(Gazetteer, ATableByItsHeading) {
     for (const std::string text :
          {"\xEF\xBB\xBFName,Latitude,Longitude,Ele,Class\r\n\"Eiger, Ostegg\",46.5,8.25,\"2,710\",peak\r\n",
           "class;lon;lat;name;elevation\npeak;8.25;46.5;Eiger, Ostegg;2710 m\n",
-          "\n\nname\tlat\tlng\tnatural\tele\nEiger, Ostegg\t46.5\t8.25\tpeak\t2710"}) {
+          "\n\nname\tlat\tlng\tnatural\tele\nEiger, Ostegg\t46.5\t8.25\tpeak\t2710",
+          "name;gps_latitude;GPS longitude;altitude;type\nEiger, Ostegg;46.5;8.25;2710;peak\n",
+          "decimalLatitude;decimalLongitude;name;y;x;height;place\n46.5;8.25;Eiger, Ostegg;1;2;2710;peak\n",
+          "title;y;x;height;natural\nEiger, Ostegg;46.5;8.25;2710;peak\n"}) {
         const auto read = read_gazetteer(written("table.csv", text));
         ASSERT_TRUE(read.ok()) << read.error().line();
         ASSERT_EQ(read->places.size(), 1U) << text;

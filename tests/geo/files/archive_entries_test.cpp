@@ -187,6 +187,13 @@ TEST_F(DamagedArchive, NamesOfEntriesAreThoseThatGdalOpens) {
     const std::string deep = "a folder/" + std::string(120, 'x') + "/N46E008.hgt";
     write_bytes("/vsizip/" + (folder / "b.zip").string() + "/" + deep, tile);
     expect_errors("b.zip", {});
+    // GDAL writes such a name twice: in an old encoding, and in UTF-8.
+    const std::string high = (folder / "c.zip").string();
+    write_bytes("/vsizip/" + high + "/Höhe/N46E008.hgt", tile);
+    const auto entries = archive_entries(high, high, ArchiveKind::zip);
+    ASSERT_TRUE(entries.ok()) << entries.error().line();
+    EXPECT_EQ(entries->back().name, "Höhe/N46E008.hgt");
+    expect_errors("c.zip", {});
     put(folder / "b.tar", tar_of("./sub/N46E008.hgt", tile));
     expect_errors("b.tar", {});
     const auto found = archive_entries((folder / "no.zip").string(), "no.zip", ArchiveKind::zip);

@@ -75,6 +75,22 @@ TEST(WholeFolder, TakesAnEmptyOnesPlaceAndNoFiles) {
     EXPECT_EQ(entries_in(around), 2);
 }
 
+TEST(WholeFolder, TheFolderAroundItIsNamed) {
+    const fs::path around = test::scratch_folder(), none = around / "none";
+    const auto said = [](const std::string& path) {
+        const auto folder = WholeFolder::create(path, false);
+        return folder.ok() ? "is made" : folder.error().line();
+    };
+    const std::string words = ": the folder " + none.string() + " is not there";
+    EXPECT_EQ(said(none / "tiles"), (none / "tiles").string() + words);
+    EXPECT_EQ(said(none.string() + "//tiles//"), none.string() + "//tiles//" + words);
+    EXPECT_EQ(said("none/tiles"), "none/tiles: the folder none is not there");
+    put_text(around / "file", "1");
+    EXPECT_EQ(said(around / "file" / "tiles"), (around / "file" / "tiles").string() + ": the folder " +
+                                                   (around / "file").string() +
+                                                   " cannot be written in: Not a directory");
+}
+
 // One that came while the folder was written stays.
 TEST(WholeFolder, SparesWhatTookTheNameSince) {
     const fs::path path = test::scratch_folder() / "tiles";

@@ -70,7 +70,8 @@ TEST(Csv, MetresNeedACoordinateReferenceSystem) {
     EXPECT_EQ(points_of(written("a.csv", "WKT,name\nSRID=2056;POINT(2600000 1200000),Bern\n")), bern + "nan");
     EXPECT_EQ(points_of(written("a.csv", "name,Easting,Northing\nBern,2600000,1200000\n")),
               "error: its columns Easting and Northing state no coordinate reference system, so where they "
-              "lie is unknown: give it a column crs (EPSG:2056), or a .prj beside it under the same name");
+              "lie is unknown: give it a column crs (EPSG:2056), or a .prj beside it under the same name, or "
+              "call them lon and lat where they are degrees");
     EXPECT_EQ(points_of(written("a.csv", "x,y,crs\n1,2,EPSG:999999\n")),
               "error: names a coordinate reference system that PROJ does not know (EPSG:999999)");
     // Two of them in one table.

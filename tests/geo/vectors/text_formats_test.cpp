@@ -118,19 +118,22 @@ TEST(KmlFile, IsReadFromAKmz) {
         line_of(test::written_zip("a.kmz", {{"files/x.png", "x"}, {"b.kml", other}, {"doc.kml", text}})),
         "point 8 46");
     EXPECT_EQ(line_of(test::written_zip("a.kmz", {{"in/b.kml", other}})), "point 9 47");
-    EXPECT_EQ(line_of(test::written_zip("a.zip", {{"a.gpx", "x"}})),
-              "error: is packed and holds no .kml: unpack it and name what is in it");
+    EXPECT_EQ(line_of(test::written_zip("a.zip", {{"a.txt", "x"}})),
+              "error: is packed and holds no .kml, .shp, .gpkg, .fgb, .geojson, .topojson, .gpx or .csv: "
+              "unpack it and name what is in it");
     test::ZipEntry locked{"doc.kml", text};
     locked.flags = 1;
     EXPECT_EQ(line_of(test::written_zip("a.kmz", {locked})),
-              "error: is locked with a password: unpack it, and name the file");
+              "error: doc.kml is locked with a password: unpack it, and name the file");
     test::ZipEntry rare{"doc.kml", text};
     rare.method = 9;
-    EXPECT_EQ(line_of(test::written_zip("a.kmz", {rare})),
-              "error: is packed by Deflate64, and only Deflate is read: unpack it, and name the file");
+    EXPECT_EQ(
+        line_of(test::written_zip("a.kmz", {rare})),
+        "error: doc.kml is packed by Deflate64, and only Deflate is read: unpack it, and name the file");
     test::ZipEntry broken{"doc.kml", text};
     broken.crc ^= 1U;
-    EXPECT_EQ(line_of(test::written_zip("a.kmz", {broken})), "error: cannot be unpacked: it is damaged");
+    EXPECT_EQ(line_of(test::written_zip("a.kmz", {broken})),
+              "error: doc.kml cannot be unpacked: it is damaged");
 }
 
 // A 2.7 km track became one of 216 km: what is no number was read as far as it was one.

@@ -1,0 +1,34 @@
+// Which columns of a table say where its places are, by the headings of its first line.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace oro {
+
+// A heading in small letters, without a # before it and a unit in brackets behind it, its words parted by
+// single blanks: "#Lat_(deg)" is "lat".
+std::string plain_heading(std::string_view heading);
+
+// The columns of latitudes and of longitudes in degrees: lat, latitude, lon, lng, longitude ... Each is known
+// whether or not the other one is there. The first of these names that a table has counts.
+struct DegreeColumns {
+    std::optional<std::size_t> lat, lon;
+};
+DegreeColumns degree_columns(const std::vector<std::string>& headings);
+
+struct CoordinateColumns {
+    enum class Kind { none, degrees, plane, wkt };
+    Kind kind{Kind::none};
+    std::optional<std::size_t> x, y;  // longitude and latitude of Kind::degrees; of Kind::wkt both its column
+    std::optional<std::size_t> height, crs;
+
+    [[nodiscard]] bool has(std::size_t column) const { return column == x || column == y; }
+};
+// Degrees come before well-known text, and that before x and y.
+CoordinateColumns coordinate_columns(const std::vector<std::string>& headings);
+
+}  // namespace oro
