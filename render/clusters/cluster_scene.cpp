@@ -88,7 +88,10 @@ Result<void> ClusterScene::append_resident_cut(GridPlan& plan, const Camera& cam
     view_.emplace(camera, tile, tau_px, model, occluder, coding, level_);
     ORO_TRY(StreamedChoice choice, choose_here());
     request(choice);
-    ORO_CHECK(draw(choice.drawn, choice.offer, camera, plan));
+    if (is_drawn_by_blocks(choice))
+        choice.drawn.clusters.clear();
+    else
+        ORO_CHECK(draw(choice.drawn, choice.offer, camera, plan));
     drawn_ = std::move(choice.drawn.clusters);
     plan.clusters.missing = choice.missing;
     plan.clusters.without_room = choice.without_room;
@@ -104,6 +107,10 @@ Result<void> ClusterScene::append_resident_cut(GridPlan& plan, const Camera& cam
 bool ClusterScene::is_here(std::uint32_t cluster) const {
     return store_.is_here(cluster) && (clusters_->known_reach(cluster) != nullptr ||
                                        std::ranges::binary_search(clusters_->roots(), cluster));
+}
+
+bool ClusterScene::is_drawn_by_blocks(const StreamedChoice& choice) const {
+    return lets_blocks_stand_in_ && !level_ && choice.missing > 0 && choice.without_room == 0;
 }
 
 // What is wanted and here is to stay.
@@ -185,8 +192,8 @@ Result<bool> ClusterScene::advance(NextPlan next) {
     }
     ORO_TRY(const StreamedChoice choice, choose_here());
     request(choice);
-    return choice.drawn.clusters != drawn_ || (choice.missing == 0) != is_whole_ ||
-           (choice.without_room == 0) != has_room_;
+    const bool is_other = !is_drawn_by_blocks(choice) && choice.drawn.clusters != drawn_;
+    return is_other || (choice.missing == 0) != is_whole_ || (choice.without_room == 0) != has_room_;
 }
 
 Result<void> ClusterScene::draw(const ClusterChoice& choice, const ClusterOffer& offer, const Camera& camera,

@@ -32,6 +32,10 @@ class ClusterScene {
     // From now on the cut is that of a level of the graph, the same from everywhere; tau is for shading
     // alone.
     void keep_to_level(std::uint32_t level) { level_ = level; }
+    // Whether a plan that does not wait, and lacks some of its cut, is drawn by the blocks of its pages (at
+    // first false): a coarser cut may be the coarsest of all, for each place that it lacks takes what is
+    // above it along. Not where clusters themselves are looked at, nor where a level is kept.
+    void let_blocks_stand_in(bool lets) { lets_blocks_stand_in_ = lets; }
 
     // Puts the cut for an eye into the plan of its pages (plan_grid). Where it takes more than the GPU may
     // hold, it is a coarser one that does not, and the plan says so. model: on the ellipsoid. Errors: damage;
@@ -41,7 +45,8 @@ class ClusterScene {
     Result<void> append_full_cut(GridPlan& plan, const Camera& camera, const Tile& tile, double tau_px,
                                  const WorldModel& model, const HorizonOccluder& occluder,
                                  const HeightQuantization& coding);
-    // ... this one takes the finest cut of what is there, and lets the background read the rest.
+    // ... this one takes the finest cut of what is there, or blocks (let_blocks_stand_in()), and lets the
+    // background read the rest.
     Result<void> append_resident_cut(GridPlan& plan, const Camera& camera, const Tile& tile, double tau_px,
                                      const WorldModel& model, const HorizonOccluder& occluder,
                                      const HeightQuantization& coding);
@@ -68,6 +73,7 @@ class ClusterScene {
   private:
     ClusterScene(std::unique_ptr<RegionClusters> clusters, ClusterStore store, std::size_t most_on_the_way);
     [[nodiscard]] bool is_here(std::uint32_t cluster) const;
+    [[nodiscard]] bool is_drawn_by_blocks(const StreamedChoice& choice) const;
     Result<void> draw(const ClusterChoice& choice, const ClusterOffer& offer, const Camera& camera,
                       GridPlan& plan);
     Result<StreamedChoice> choose_here();
@@ -88,6 +94,7 @@ class ClusterScene {
     std::optional<ClusterView> view_;
     std::vector<std::uint32_t> drawn_;
     bool is_whole_{}, has_room_{};
+    bool lets_blocks_stand_in_{false};
     std::size_t most_without_room_{};
 };
 

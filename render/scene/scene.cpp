@@ -357,8 +357,13 @@ void Scene::replace_between(std::optional<Scene> other) {
     if (other) add(std::move(*other));
 }
 
+void Scene::let_blocks_stand_in(bool lets) {
+    for (GridScene& grid : grids_)
+        if (grid.clusters_) grid.clusters_->let_blocks_stand_in(lets);
+}
+
 void Scene::draw_clusters(ClusterScene clusters) {
-    assert(grids_.size() == 1);
+    assert(grids_.size() == 1 && grids_.front().memory_.sources() == nullptr);
     grids_.front().clusters_.emplace(std::move(clusters));
 }
 

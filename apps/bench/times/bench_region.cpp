@@ -23,6 +23,21 @@ Result<BenchRegion> open_bench_region(const BenchOptions& options) {
     return region;
 }
 
+namespace {
+
+Result<void> draw_clusters_of(const Gpu& gpu, std::uint64_t bytes, std::uint64_t main_bytes,
+                              BenchRegion& region, Scene& scene) {
+    ORO_TRY(const HeightField field, field_in_memory(*region.file.region));
+    ORO_TRY(std::unique_ptr<RegionClusters> graph,
+            clusters_of_file(region.file.clusters, region.file.region->fingerprint(), field,
+                             scene.grids()[0].pages().facts().shape.occluder));
+    ORO_TRY(ClusterScene made, ClusterScene::create(gpu, std::move(graph), bytes, main_bytes));
+    scene.draw_clusters(std::move(made));
+    return {};
+}
+
+}  // namespace
+
 Result<Scene> scene_of(const Gpu& gpu, const BenchOptions& options, BenchRegion& region) {
     const bool clusters = options.mesh == "clusters";
     if (clusters && !region.file.clusters)
@@ -35,17 +50,12 @@ Result<Scene> scene_of(const Gpu& gpu, const BenchOptions& options, BenchRegion&
     memory.main = main_bytes(0) / (clusters ? 2 : 1);
     ORO_TRY(Scene scene, Scene::create(gpu, std::move(region.pages), memory, options.heights,
                                        asks_for_means(options.style)));
+    if (clusters) ORO_CHECK(draw_clusters_of(gpu, bytes, memory.main, region, scene));
+    // After the clusters: ground that is drawn by them has the processor's plan.
     if (options.plan_on_device) {
         ORO_TRY(const bool can, scene.plan_on_device(gpu));
         if (!can) return Error{ErrorKind::failed, "--plan gpu", "the device has no doubles (shaderFloat64)"};
     }
-    if (!clusters) return scene;
-    ORO_TRY(const HeightField field, field_in_memory(*region.file.region));
-    ORO_TRY(std::unique_ptr<RegionClusters> graph,
-            clusters_of_file(region.file.clusters, region.file.region->fingerprint(), field,
-                             scene.grids()[0].pages().facts().shape.occluder));
-    ORO_TRY(ClusterScene made, ClusterScene::create(gpu, std::move(graph), bytes, memory.main));
-    scene.draw_clusters(std::move(made));
     return scene;
 }
 

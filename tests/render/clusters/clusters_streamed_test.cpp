@@ -216,6 +216,35 @@ TEST_P(StreamedClusters, BringWhatShowsBeforeWhatIsHidden) {
     }
 }
 
+// An eye that moves always lacks some clusters. Where blocks stand in no frame is coarser than tau asks for,
+// though clusters that were left out alone would take the ground above them along, up to the coarsest. Those
+// that come in the end are the cut.
+TEST_P(StreamedClusters, BlocksStandInForACutThatLacksSome) {
+    constexpr unsigned seed = 345;
+    std::mt19937_64 random(seed);
+    constexpr std::uint64_t gpu_bytes = std::uint64_t{64} << 20U;
+    test::DrawnScene blocks = scene(gpu_bytes), clusters = scene(gpu_bytes);
+    blocks.scene().let_blocks_stand_in(true);
+    int by_blocks = 0, by_clusters = 0;
+    for (int i = 0; i < 12; ++i) {
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", eye " + std::to_string(i));
+        const Camera camera = test::random_camera(random, terrain_.field);
+        const test::StreamedFrames streamed =
+            test::stream_frames(blocks, camera, 1.0, [&](const test::DrawnFrame& frame) {
+                const GridPlan& plan = frame.plan.grids[0];
+                EXPECT_EQ(plan.clusters.on, plan.clusters.missing == 0 && !plan.pages.empty());
+                (plan.clusters.on ? by_clusters : by_blocks) += 1;
+                if (!plan.missing.empty()) return;
+                EXPECT_LT(test::pixel_of_a_hole(camera, frame.ids), 0);
+            });
+        EXPECT_TRUE(streamed.last.plan.is_settled());
+        EXPECT_EQ(clusters.draw(camera, 1.0).ids, streamed.last.ids);
+    }
+    std::printf("seed %u: %d frames by blocks, %d by clusters\n", seed, by_blocks, by_clusters);
+    EXPECT_GE(by_blocks, 5);
+    EXPECT_GE(by_clusters, 5);
+}
+
 INSTANTIATE_TEST_SUITE_P(Paths, StreamedClusters, ::testing::Values(RasterPath::mesh, RasterPath::compute),
                          [](const auto& path) { return name_of(path.param); });
 
