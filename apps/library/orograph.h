@@ -38,7 +38,7 @@ extern "C" {
 #endif
 
 /* The number of this interface. It grows when something is added; what is there stays as it is. */
-#define ORO_API_VERSION 2
+#define ORO_API_VERSION 3
 
 /*
  * Errors.
@@ -150,6 +150,14 @@ ORO_API oro_status oro_info(oro_region region, char* text, size_t capacity, size
  */
 ORO_API oro_status oro_heights(oro_region region, size_t count, const double* lat_deg, const double* lon_deg,
                                double* H_m, double* h_m);
+
+/*
+ * As oro_heights(), for many places: `progress`, which may be NULL, is told how far it is after some thousand
+ * places each. Where it stops the call, heights that are written are worth nothing. Since ORO_API_VERSION 3.
+ */
+ORO_API oro_status oro_heights_with_progress(oro_region region, size_t count, const double* lat_deg,
+                                             const double* lon_deg, double* H_m, double* h_m,
+                                             oro_progress progress, void* user);
 
 /*
  * Points and light.
@@ -274,6 +282,15 @@ ORO_API oro_status oro_profile(oro_region region, size_t places, const double* l
                                size_t* count, oro_profile_sums* sums);
 
 /*
+ * As oro_profile(), for long lines: `progress`, which may be NULL, is told how far along the line it is after
+ * some thousand points each. Where it stops the call nothing is written. Since ORO_API_VERSION 3.
+ */
+ORO_API oro_status oro_profile_with_progress(oro_region region, size_t places, const double* lat_deg,
+                                             const double* lon_deg, const oro_profile_options* options,
+                                             oro_profile_point* points, size_t capacity, size_t* count,
+                                             oro_profile_sums* sums, oro_progress progress, void* user);
+
+/*
  * Viewsheds.
  */
 
@@ -338,13 +355,13 @@ ORO_API oro_status oro_viewshed(oro_region region, size_t count, const oro_point
 
 /* How horizons are asked for. To be initialized with ORO_HORIZON_OPTIONS. */
 typedef struct oro_horizon_options {
-    size_t size;         /* The size of this structure. */
-    const char* bbox;    /* "west,south,east,north" in degrees: the posts that are asked; NULL: all of the grid
-                            that has the most. */
-    int directions;      /* Azimuths, evenly spaced clockwise from true north, 3 to 720. */
-    double radius_km;    /* Ground farther away does not count, 0.01 to 500. */
-    double above_m;      /* Of the eyes over the ground, 0 or more. */
-    int air;             /* ORO_AIR_... */
+    size_t size;      /* The size of this structure. */
+    const char* bbox; /* "west,south,east,north" in degrees: the posts that are asked; NULL: all of the grid
+                         that has the most. */
+    int directions;   /* Azimuths, evenly spaced clockwise from true north, 3 to 720. */
+    double radius_km; /* Ground farther away does not count, 0.01 to 500. */
+    double above_m;   /* Of the eyes over the ground, 0 or more. */
+    int air;          /* ORO_AIR_... */
     double refraction_k; /* The coefficient of refraction of ORO_AIR_CONSTANT, -1 to 0.9. */
 } oro_horizon_options;
 #define ORO_HORIZON_OPTIONS \
@@ -358,9 +375,9 @@ ORO_API oro_status oro_horizon_window(oro_region region, const oro_horizon_optio
                                       oro_window* window);
 
 /*
- * Finds how high the horizon stands around the posts of the window of oro_horizon_window(), and how much of the
- * sky they see, as `orograph horizon` does. The region must hold the ground within the radius around these
- * posts: ground that it does not hold does not count.
+ * Finds how high the horizon stands around the posts of the window of oro_horizon_window(), and how much of
+ * the sky they see, as `orograph horizon` does. The region must hold the ground within the radius around
+ * these posts: ground that it does not hold does not count.
  *
  * elevation_deg becomes the horizon's elevation over the level plane of each eye: all posts in the first
  * azimuth, row by row, then all in the next one; it has room for directions times `capacity` values. sky_view

@@ -25,6 +25,7 @@
 #include "apps/library/open_regions.h"
 #include "apps/library/orograph.h"
 #include "apps/maps/ortho_map.h"
+#include "apps/options/region_option_table.h"
 #include "apps/view/view_in_region.h"
 
 namespace {
@@ -128,31 +129,37 @@ Result<std::unique_ptr<oro::CommandLine>> command_line_of(const char* command,
     return line;
 }
 
-// Refuses what names other data than the open region, or files.
-Result<void> check_region_words(const oro::RegionOptions& region) {
-    const bool other = region.paths.size() != 1 || !region.bbox.empty() || !region.tile.empty() ||
-                       !region.height_unit.empty() || !region.source_crs.empty() ||
-                       !region.source_vertical.empty() || region.strict_datum || region.fill_voids ||
-                       region.resample || !region.order.empty() || region.feather_m;
-    if (other) return oro::bad_argument("options", "name data, or a part of them: oro_open() takes these");
-    return {};
-}
-
 Result<void> refuse_word(bool given, const char* word) {
     if (given) return oro::bad_argument("options", std::string(word) + " is for the program");
     return {};
 }
 
+// Refuses words that name other data than those of the open region.
+Result<void> check_region_words(const oro::CommandLine& line, const oro::RegionOptions& region) {
+    ORO_CHECK(refuse_word(!region.mesh_files.empty(), "--mesh-file"));
+    ORO_CHECK(refuse_word(!line.fetching.source.empty(), "--fetch"));
+    ORO_CHECK(refuse_word(line.fetching.network, "--network"));
+    if (region.paths.size() == 1 && oro::first_given_of_region(region) == nullptr) return {};
+    return oro::bad_argument("options", "name data, or a part of them: oro_open() takes these");
+}
+
+// Refuses what has files written beside a picture.
+template <class Options>
+Result<void> check_no_files(const Options& options) {
+    ORO_CHECK(refuse_word(!options.out.empty(), "--out"));
+    ORO_CHECK(refuse_word(options.kml, "--kml"));
+    ORO_CHECK(refuse_word(options.geopose, "--geopose"));
+    return refuse_word(options.stac, "--stac");
+}
+
 Result<oro::ShotOptions> shot_options(const OpenRegion& open, const std::vector<std::string>& words) {
     ORO_TRY(const auto line, command_line_of("shot", words));
     oro::ShotOptions options = line->shot;
-    ORO_CHECK(check_region_words(options.region));
-    ORO_CHECK(refuse_word(!options.out.empty(), "--out"));
+    ORO_CHECK(check_region_words(*line, options.region));
+    ORO_CHECK(check_no_files(options));
     ORO_CHECK(refuse_word(!options.view_file.empty() || !options.view_files.empty(), "--view"));
     ORO_CHECK(refuse_word(options.verify, "--verify"));
     ORO_CHECK(refuse_word(options.layers, "--layers"));
-    ORO_CHECK(refuse_word(options.kml, "--kml"));
-    ORO_CHECK(refuse_word(options.geopose, "--geopose"));
     options.region = open.options;
     options.quiet = true;
     if (options.view.landcover.empty()) options.view.landcover = open.cover.landcover;
@@ -308,11 +315,9 @@ Result<void> answer_layers(const OpenRegion& open, const std::vector<std::string
 Result<oro::PanoramaOptions> panorama_options(const OpenRegion& open, const std::vector<std::string>& words) {
     ORO_TRY(const auto line, command_line_of("panorama", words));
     oro::PanoramaOptions options = line->panorama;
-    ORO_CHECK(check_region_words(options.region));
-    ORO_CHECK(refuse_word(!options.out.empty(), "--out"));
+    ORO_CHECK(check_region_words(*line, options.region));
+    ORO_CHECK(check_no_files(options));
     ORO_CHECK(refuse_word(!options.view_file.empty(), "--view"));
-    ORO_CHECK(refuse_word(options.kml, "--kml"));
-    ORO_CHECK(refuse_word(options.geopose, "--geopose"));
     ORO_CHECK(oro::check_panorama_view(options));
     options.region = open.options;
     options.quiet = true;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <string>
 
 #include "apps/commands/info_json.h"
@@ -75,9 +76,11 @@ Result<std::string> info_text_of(const OpenRegion& region) {
 
 // Heights of some places, by as many threads as they are worth.
 void find_heights(const oro::TrueGround& ground, std::size_t count, const double* lat_deg,
-                  const double* lon_deg, double* H_m, double* h_m) {
+                  const double* lon_deg, double* H_m, double* h_m, const oro::Progress& progress) {
     constexpr std::size_t block = 4096;
     const auto blocks = static_cast<int>((count + block - 1) / block);
+    std::mutex telling;
+    int done = 0;
     oro::in_parallel(blocks, oro::thread_count(), [&](int number) {
         const std::size_t first = static_cast<std::size_t>(number) * block;
         for (std::size_t i = first; i < std::min(count, first + block); ++i) {
@@ -86,6 +89,9 @@ void find_heights(const oro::TrueGround& ground, std::size_t count, const double
             if (H_m != nullptr) H_m[i] = point.has_ground ? point.H_m : none;
             if (h_m != nullptr) h_m[i] = point.has_ground ? point.h_m : none;
         }
+        if (!progress) return;
+        const std::lock_guard lock(telling);
+        progress(static_cast<double>(++done) / blocks, "finding heights");
     });
 }
 
@@ -154,6 +160,12 @@ oro_status oro_grid_crs(oro_region region, size_t grid, char* text, size_t capac
 
 oro_status oro_heights(oro_region region, size_t count, const double* lat_deg, const double* lon_deg,
                        double* H_m, double* h_m) {
+    return oro_heights_with_progress(region, count, lat_deg, lon_deg, H_m, h_m, nullptr, nullptr);
+}
+
+oro_status oro_heights_with_progress(oro_region region, size_t count, const double* lat_deg,
+                                     const double* lon_deg, double* H_m, double* h_m, oro_progress progress,
+                                     void* user) {
     return oro::guarded_call([&]() -> Result<void> {
         ORO_TRY(const auto open, oro::region_of(region));
         if (count == 0) return {};
@@ -164,7 +176,8 @@ oro_status oro_heights(oro_region region, size_t count, const double* lat_deg, c
         if (count > most) return oro::bad_argument("count", std::to_string(count) + " is more than 2^40");
         for (std::size_t i = 0; i < count; ++i)
             ORO_CHECK(oro::check_place("place", lat_deg[i], lon_deg[i], static_cast<std::ptrdiff_t>(i)));
-        find_heights(open->ground->ground(), count, lat_deg, lon_deg, H_m, h_m);
+        find_heights(open->ground->ground(), count, lat_deg, lon_deg, H_m, h_m,
+                     oro::progress_to(progress, user));
         return open->ground->region.health();
     });
 }

@@ -110,10 +110,14 @@ void fill_sums(const oro::Profile& profile, oro_profile_sums& sums) {
 }
 
 Result<void> answer_profile(oro_region region, AskedProfile& asked, oro_profile_point* points,
-                            std::size_t capacity, std::size_t* count, oro_profile_sums* sums) {
+                            std::size_t capacity, std::size_t* count, oro_profile_sums* sums,
+                            const oro::Progress& progress) {
     ORO_TRY(const auto open, oro::region_of(region));
     oro::Profile& profile = asked.profile;
-    ORO_CHECK(oro::follow_line(asked.options, *open->ground, profile));
+    const oro::ProfileProgress report = [&](double along_m) {
+        if (progress) progress(along_m / profile.line.distances_m.back(), "following the line");
+    };
+    ORO_CHECK(oro::follow_line(asked.options, *open->ground, profile, report));
     ORO_CHECK(oro::check_has_ground(asked.options, *open->ground, profile));
     *count = profile.points.size();
     if (points != nullptr || capacity != 0) {
@@ -203,11 +207,19 @@ oro_status oro_sight(oro_region region, const oro_point* from, const oro_point* 
 oro_status oro_profile(oro_region region, size_t places, const double* lat_deg, const double* lon_deg,
                        const oro_profile_options* options, oro_profile_point* points, size_t capacity,
                        size_t* count, oro_profile_sums* sums) {
+    return oro_profile_with_progress(region, places, lat_deg, lon_deg, options, points, capacity, count, sums,
+                                     nullptr, nullptr);
+}
+
+oro_status oro_profile_with_progress(oro_region region, size_t places, const double* lat_deg,
+                                     const double* lon_deg, const oro_profile_options* options,
+                                     oro_profile_point* points, size_t capacity, size_t* count,
+                                     oro_profile_sums* sums, oro_progress progress, void* user) {
     return oro::guarded_call([&]() -> Result<void> {
         ORO_CHECK(oro::check_given("count", count));
         if (sums != nullptr) ORO_CHECK(oro::check_size("sums", sums->size, sizeof(oro_profile_sums)));
         ORO_TRY(AskedProfile asked, asked_profile(places, lat_deg, lon_deg, options));
-        return answer_profile(region, asked, points, capacity, count, sums);
+        return answer_profile(region, asked, points, capacity, count, sums, oro::progress_to(progress, user));
     });
 }
 

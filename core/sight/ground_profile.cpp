@@ -16,7 +16,7 @@ ProfilePoint profile_point(const TrueGround& ground, const Geodetic& place, doub
 }
 
 void add_profile(const TrueGround& ground, const Way& way, double from_m, double to_m,
-                 std::vector<ProfilePoint>& points) {
+                 std::vector<ProfilePoint>& points, const ProfileProgress& progress) {
     // A post lies on three edges: their crossings are one place.
     constexpr double same_m = 1.0e-3;
     const auto add = [&](double along_m) {
@@ -40,6 +40,7 @@ void add_profile(const TrueGround& ground, const Way& way, double from_m, double
         const Geodetic middle = way(0.5 * (last_m + along_m));
         if (!ground.h_m(middle.lat_deg, middle.lon_deg)) add(0.5 * (last_m + along_m));
         add(along_m);
+        if (progress) progress(along_m);
         last_m = along_m;
     }
     const Geodetic middle = way(0.5 * (last_m + to_m));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -19,12 +20,15 @@ struct ProfilePoint {
     double h_m{};
 };
 
+// Told how far along the way the points are. What it throws ends the work, and is thrown to the caller.
+using ProfileProgress = std::function<void(double along_m)>;
+
 // Appends the points of a way from from_m to to_m, its begin and its end among them (the begin only where
 // `points` is empty): each place where it crosses an edge of the ground's triangles, and both sides of the
 // rim of a grid (edge_crossings). Between two neighbours h is linear in latitude and longitude. `way` gives
 // places by along_m; its heights do not count.
 void add_profile(const TrueGround& ground, const Way& way, double from_m, double to_m,
-                 std::vector<ProfilePoint>& points);
+                 std::vector<ProfilePoint>& points, const ProfileProgress& progress = {});
 
 ProfilePoint profile_point(const TrueGround& ground, const Geodetic& place, double along_m);
 

@@ -116,6 +116,10 @@ oro_status open_bad(Arguments& a, Chance& chance, const char* const* paths, std:
     return oro_open(paths, count, options, nullptr, nullptr, region);
 }
 
+int go_on(double /*share*/, const char* /*step*/, void* /*user*/) {
+    return 0;
+}
+
 std::vector<Call> calls_about_regions() {
     return {
         [](Arguments& a, Chance& c) {
@@ -196,6 +200,12 @@ std::vector<Call> calls_about_regions() {
             return oro_heights(a.region, std::numeric_limits<std::size_t>::max(), a.lat_deg.data(),
                                a.lon_deg.data(), a.H_m.data(), a.h_m.data());
         },
+        [](Arguments& a, Chance& c) {
+            const bool place = c.below(2) == 0;
+            if (place) a.lat_deg[1] = c.bad_number();
+            return oro_heights_with_progress(place ? a.region : c.bad_region(a.closed), 3, a.lat_deg.data(),
+                                             a.lon_deg.data(), a.H_m.data(), a.h_m.data(), go_on, nullptr);
+        },
     };
 }
 
@@ -269,6 +279,12 @@ std::vector<Call> calls_about_profiles() {
         [](Arguments& a, Chance&) {
             return oro_profile(a.region, 3, a.lat_deg.data(), a.lon_deg.data(), nullptr, nullptr, 0, nullptr,
                                nullptr);
+        },
+        [](Arguments& a, Chance& c) {
+            a.profile.step_m = -c.between(1.0e-9, 10.0);
+            return oro_profile_with_progress(a.region, 3, a.lat_deg.data(), a.lon_deg.data(), &a.profile,
+                                             a.points.data(), a.points.size(), &a.count, &a.sums, go_on,
+                                             nullptr);
         },
         [](Arguments& a, Chance&) {
             a.lat_deg.fill(36.55);
@@ -518,6 +534,41 @@ TEST(LibraryCalls, SeveralThreadsOpenAndLookAroundAtOnce) {
     EXPECT_EQ(oro_close(shared), ORO_OK);
 }
 
+// Answers 1 to the second call, and counts them.
+int stop_at_second(double share, const char* step, void* user) {
+    EXPECT_GT(share, 0.0);
+    EXPECT_LE(share, 1.0);
+    EXPECT_GT(std::strlen(step), 5U);
+    int& calls = *static_cast<int*>(user);
+    return ++calls >= 2 ? 1 : 0;
+}
+
+TEST(LibraryCalls, HeightsAndProfilesAreStopped) {
+    const oro_region region = open_bundled();
+    constexpr std::size_t count = 2'000'000;
+    const std::vector<double> lat_deg(count, 36.55), lon_deg(count, -84.25);
+    std::vector<double> H_m(count, 1.0);
+    int calls = 0;
+    EXPECT_EQ(oro_heights_with_progress(region, count, lat_deg.data(), lon_deg.data(), H_m.data(), nullptr,
+                                        stop_at_second, &calls),
+              ORO_CANCELLED);
+    // Others of the threads may be at work on a block of their own.
+    EXPECT_GE(calls, 2);
+    EXPECT_LT(calls, 100);
+    EXPECT_EQ(H_m.back(), 1.0);
+
+    Arguments a(region, 0);
+    a.profile.step_m = 0.1;
+    calls = 0;
+    EXPECT_EQ(
+        oro_profile_with_progress(region, 3, a.lat_deg.data(), a.lon_deg.data(), &a.profile, a.points.data(),
+                                  a.points.size(), &a.count, &a.sums, stop_at_second, &calls),
+        ORO_CANCELLED);
+    EXPECT_EQ(calls, 2);
+    a.expect_untouched();
+    EXPECT_EQ(oro_close(region), ORO_OK);
+}
+
 TEST(LibraryCalls, NumbersOfClosedRegionsAreNotGivenAgain) {
     const oro_region first = open_bundled();
     ASSERT_EQ(oro_close(first), ORO_OK);
@@ -600,6 +651,8 @@ TEST(LibraryCalls, StructuresOfTheFirstVersionAreTaken) {
     a.viewshed.size = 48;
     a.window.size = 112;
     EXPECT_EQ(oro_viewshed_window(region, 1, &a.from, &a.viewshed, &a.window), ORO_OK) << oro_error_text();
+    a.horizon.size = 56;
+    EXPECT_EQ(oro_horizon_window(region, &a.horizon, &a.window), ORO_OK) << oro_error_text();
     oro_layers layers{};
     layers.size = 88;
     EXPECT_EQ(oro_shot_layers(region, 0, nullptr, &layers, &a.width_px, &a.height_px, nullptr, nullptr),

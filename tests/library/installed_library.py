@@ -1,4 +1,4 @@
-"""The library as it is installed: its symbols, its pkg-config file, its CMake configuration and its C examples.
+"""The library as it is installed: its interface, its pkg-config file, its CMake configuration and its C examples.
 
 Each test takes what it needs from the environment: OROGRAPH_INSTALLED (the prefix), OROGRAPH_SOURCE (the project's
 folder), OROGRAPH_PROGRAM, and OROGRAPH_CMAKE.
@@ -12,11 +12,14 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import abi
+
 INSTALLED = Path(os.environ["OROGRAPH_INSTALLED"])
 SOURCE = Path(os.environ["OROGRAPH_SOURCE"])
 PROGRAM = os.environ["OROGRAPH_PROGRAM"]
 CMAKE = os.environ["OROGRAPH_CMAKE"]
 DATA = SOURCE / "data" / "jacksboro.tif"
+HEADER = INSTALLED / "include/orograph.h"
 
 
 def library():
@@ -40,20 +43,38 @@ def flags():
     return run("pkg-config", "--cflags", "--libs", "orograph", env=environment()).stdout.split()
 
 
-def declared():
-    """The functions that the header declares."""
-    text = re.sub(r"/\*.*?\*/", "", (SOURCE / "apps/library/orograph.h").read_text(), flags=re.S)
-    return sorted(re.findall(r"ORO_API [\w ]+?\*? ?(oro_\w+)\(", text))
-
-
 class InstalledLibrary(unittest.TestCase):
+    def test_has_each_line_of_its_interface_and_no_others(self):
+        kept, found = abi.kept_lines(), abi.found_lines(HEADER.read_text(), library())
+        self.assertEqual(len(set(kept)), len(kept))
+        self.assertEqual([line for line in kept if line not in found], [], "lines of abi.txt that are changed or gone")
+        self.assertEqual([line for line in found if line not in kept], [], "lines that abi.txt lacks: see its head")
+
     def test_symbols_are_those_of_the_header_and_no_others(self):
-        lines = run("nm", "-D", "--defined-only", "--with-symbol-versions", library()).stdout.splitlines()
-        names = sorted(line.split()[-1].split("@")[0] for line in lines)
-        versions = {line.split("@")[-1] for line in lines if "@" in line}
-        self.assertGreaterEqual(len(declared()), 8)
-        self.assertEqual(names, sorted(declared() + ["OROGRAPH_1", "OROGRAPH_2"]))
-        self.assertEqual(versions, {"OROGRAPH_1", "OROGRAPH_2"})
+        symbols = [re.fullmatch(r"symbol (\w+)@@OROGRAPH_\d", line)[1] for line in abi.exported_lines(library())]
+        functions = [re.match(r"function [\w ]+?\*? ?(oro_\w+)\(", line)[1]
+                     for line in abi.declared_lines(HEADER.read_text()) if line.startswith("function ")]
+        self.assertEqual(sorted(symbols), sorted(functions))
+
+    def test_a_change_of_the_header_is_found(self):
+        header, kept = HEADER.read_text(), abi.kept_lines()
+        for before, after, changed in [
+                ("double feather_m;", "float feather_m;", "member oro_open_options.feather_m double at 56 of 8"),
+                ("size_t highest, lowest;", "size_t lowest, highest;", "member oro_profile_sums.highest size_t at 56 of 8"),
+                ("int above;", "int above; int more;", None),
+                ("ORO_CANCELLED = 5", "ORO_CANCELLED = 7", "value ORO_CANCELLED 5"),
+                ("ORO_API const char* oro_version(void);", "", "function const char* oro_version(void)"),
+                ("size_t* width_px, size_t* height_px", "size_t* height_px, size_t* width_px", "function oro_status oro_shot("),
+                ("(-9999.0f)", "(-9999.0)", "macro ORO_UNKNOWN (-9999.0f)"),
+                ("20.0, 0.0, ORO_AIR_STANDARD", "25.0, 0.0, ORO_AIR_STANDARD", "default oro_viewshed_options.radius_km 20")]:
+            self.assertIn(before, header)
+            other = header.replace(before, after)
+            lines = abi.declared_lines(other) + abi.measured_lines(other)
+            gone = [line for line in kept if line not in lines and not line.startswith("symbol ")]
+            if changed is None:
+                self.assertEqual([line for line in lines if line not in kept], ["member oro_point.more int at 28 of 4"])
+            else:
+                self.assertTrue(any(line.startswith(changed) for line in gone), (after, gone))
 
     def test_soname_has_its_version(self):
         said = run("readelf", "-d", library()).stdout

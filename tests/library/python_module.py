@@ -7,6 +7,7 @@ import inspect
 import json
 import math
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -15,6 +16,7 @@ import threading
 import unittest
 from pathlib import Path
 
+import abi
 import numpy as np
 
 INSTALLED = Path(os.environ["OROGRAPH_INSTALLED"])
@@ -76,6 +78,17 @@ class Heights(unittest.TestCase):
         H_m, _ = self.region.heights(lat, lon)
         for i in random.integers(0, lat.size, 50):
             self.assertEqual(H_m[i], self.region.heights(lat[i], lon[i])[0])
+
+    def test_tell_how_far_they_are_and_stop(self):
+        lat, lon = np.linspace(36.5, 36.6, 50_000), np.linspace(-84.3, -84.2, 50_000)
+        shares = []
+        told = self.region.heights(lat, lon, progress=lambda share, step: shares.append((share, step)))
+        np.testing.assert_array_equal(told, self.region.heights(lat, lon))
+        # 13 blocks of 4,096.
+        self.assertEqual(shares, [(count / 13, "finding heights") for count in range(1, 14)])
+        with self.assertRaises(orograph.CancelledError):
+            self.region.heights(lat, lon, progress=lambda share, step: share > 0.5)
+        self.assertEqual(self.region.heights(*A)[0], self.region.heights(*A, progress=lambda share, step: False)[0])
 
     def test_posts_are_those_that_gdal_reads(self):
         try:
@@ -261,6 +274,24 @@ class SightsAndProfiles(unittest.TestCase):
                 self.region.sight(*asked)
         with self.assertRaisesRegex(orograph.UsageError, "refraction"):
             self.region.sight(A, B, air=7.0)
+
+    def test_profiles_tell_how_far_they_are_and_stop(self):
+        # Over the data to and fro, in steps and from triangle to triangle.
+        lines = [(([36.46, 36.59], [-84.34, -84.21]), {"step_m": 1.0}),
+                 ((np.where(np.arange(40) % 2 == 0, 36.46, 36.59), np.linspace(-84.34, -84.21, 40)), {})]
+        for line, options in lines:
+            shares = []
+            told = self.region.profile(*line, progress=lambda share, step: shares.append((share, step)), **options)
+            np.testing.assert_array_equal(told.points, self.region.profile(*line, **options).points)
+            self.assertGreater(len(told.points), 8192)
+            self.assertEqual({step for _, step in shares}, {"following the line"})
+            # The first way tells how many points there are, the second one has them.
+            first = [share for share, _ in shares[:len(shares) // 2]]
+            self.assertEqual(first, sorted(first))
+            self.assertEqual(shares, shares[:len(shares) // 2] * 2)
+            self.assertTrue(0.0 < first[0] and first[-1] <= 1.0, first)
+            with self.assertRaises(orograph.CancelledError):
+                self.region.profile(*line, progress=lambda share, step: True, **options)
 
     def test_profiles_are_those_of_the_program(self):
         for step_m in (None, 37.5):
@@ -456,6 +487,61 @@ class OtherRegions(unittest.TestCase):
             self.assertEqual(region.sight(A, B).visible, False)
 
 
+class OptionWords(unittest.TestCase):
+    """Options of pictures, as the module hands them to the library. Nothing is drawn."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.region = orograph.open(DATA)
+        cls.commands = {"shot": cls.region.shot, "panorama": cls.region.panorama}
+
+    def refusal(self, command, *words, **options):
+        with self.assertRaises(orograph.Error) as raised:
+            self.commands[command](*words, **options)
+        return str(raised.exception)
+
+    def test_that_name_files_to_write_or_other_data_are_refused(self):
+        for command in self.commands:
+            self.assertEqual(self.refusal(command, "--out", "p.png", at=A), "options: --out is for the program")
+            self.assertRegex(self.refusal(command, at=A, out="p.png"), "^the array must be uint8")
+            for option, value in [("kml", True), ("geopose", True), ("stac", True), ("mesh_file", "m.obj"),
+                                  ("fetch", "skadi"), ("network", True)]:
+                said = self.refusal(command, at=A, **{option: value})
+                self.assertEqual(said, "options: --%s is for the program" % option.replace("_", "-"), command)
+            for option, value in [("bbox", (1, 2, 3, 4)), ("tile", "N36W085"), ("order", "listed"), ("feather", 10),
+                                  ("height_unit", "ft"), ("source_crs", "EPSG:2056"), ("strict_datum", True),
+                                  ("fill_voids", True), ("resample", True)]:
+                self.assertIn("oro_open() takes these", self.refusal(command, at=A, **{option: value}), option)
+
+    def test_lists_give_an_option_again_and_tuples_have_commas(self):
+        files = ["/nowhere/a.geojson", Path("/nowhere/b.geojson")]
+        for command in self.commands:
+            self.assertRegex(self.refusal(command, at=A, overlay=files), "^/nowhere/a.geojson: ")
+            self.assertRegex(self.refusal(command, at=A, overlay=tuple(files)), "^/nowhere/a.geojson,/nowhere/b.geojson: ")
+            self.assertRegex(self.refusal(command, at=A, landcover=[("/nowhere/a.tif", "/nowhere/t.csv")]), "/nowhere/")
+        # One that is given once is a list with commas, too.
+        self.assertIn("10,60,70", self.refusal("panorama", at=A, sector=[10, 60, 70]))
+
+    def is_repeated(self, command, option):
+        value = "100"
+        while True:
+            said = self.refusal(command, option, value, option, value)
+            wanted = re.search(r"(?:choose|must be between) (\w+)", said)
+            if wanted is None:
+                return "is given more than once" not in said
+            value = wanted[1]
+
+    def test_that_may_be_given_several_times_are_those_of_the_program(self):
+        found = set()
+        for command in self.commands:
+            options = re.findall(r"^  (--[\w-]+) [A-Za-z]", program(command, "--help", "all"), re.M)
+            self.assertGreater(len(options), 40, command)
+            found |= {option for option in options if self.is_repeated(command, option)}
+        # Both are refused, once or twice.
+        found -= {"--view", "--mesh-file"}
+        self.assertEqual({option[2:].replace("-", "_") for option in found}, orograph._REPEATED)
+
+
 class Pictures(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -511,6 +597,19 @@ class Pictures(unittest.TestCase):
             with self.assertRaises(orograph.UsageError):
                 self.region.layers(*words, names=names, size="96x54")
 
+    def test_overlays_of_a_list_are_those_of_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            files = [f"{folder}/{number}.geojson" for number in range(2)]
+            for file, end in zip(files, ([-84.28, 36.52], [-84.22, 36.52])):
+                line = {"type": "LineString", "coordinates": [[-84.25, 36.545], end]}
+                Path(file).write_text(json.dumps({"type": "Feature", "properties": {}, "geometry": line}))
+            words = ["--at", place(A), "--above", "800", "--heading", "180", "--pitch", "-30", "--size", "160x90"]
+            mine = self.region.shot(*words, overlay=files)
+            both = self.drawn("shot", "p.png", *words, "--overlay", files[0], "--overlay", files[1])
+            np.testing.assert_array_equal(mine[..., :3], both[..., :3])
+            self.assertTrue((mine != self.region.shot(*words, overlay=files[0])).any())
+            self.assertTrue((mine != self.region.shot(*words, overlay=files[1])).any())
+
     def test_go_into_an_array_of_the_caller(self):
         mine = np.zeros((48, 64, 4), np.uint8)
         self.assertIs(self.region.shot(size="64x48", out=mine), mine)
@@ -544,12 +643,37 @@ class Stubs(unittest.TestCase):
         return [arg.arg for arg in args.posonlyargs + args.args + ([args.vararg] if args.vararg else []) +
                 args.kwonlyargs + ([args.kwarg] if args.kwarg else [])]
 
-    def test_structures_are_those_of_the_first_version(self):
-        # As tests/library/bad_arguments_test.cpp has them, of 64 bits.
-        sizes = {"_Options": 120, "_Point": 32, "_Position": 32, "_SightOptions": 32, "_Sight": 216, "_ProfileOptions": 24,
-                 "_ProfileSums": 72, "_ViewshedOptions": 48, "_Window": 112, "_Layers": 88}
-        self.assertEqual({name: ctypes.sizeof(getattr(orograph, name)) for name in sizes}, sizes)
+    STRUCTURES = {"_Options": "oro_open_options", "_Point": "oro_point", "_Position": "oro_position",
+                  "_SightOptions": "oro_sight_options", "_Sight": "oro_sight_answer",
+                  "_ProfileOptions": "oro_profile_options", "_ProfileSums": "oro_profile_sums",
+                  "_ViewshedOptions": "oro_viewshed_options", "_HorizonOptions": "oro_horizon_options",
+                  "_Window": "oro_window", "_Layers": "oro_layers"}
+    KINDS = {"double": ctypes.c_double, "int": ctypes.c_int, "size_t": ctypes.c_size_t, "int64_t": ctypes.c_int64}
+
+    def test_structures_are_those_of_the_interface(self):
+        mine = {name for name, value in vars(orograph).items()
+                if isinstance(value, type) and issubclass(value, ctypes.Structure)}
+        self.assertEqual(mine, set(self.STRUCTURES))
+        kept = [line for line in abi.kept_lines() if line.startswith("member ")]
+        kinds = {line.split()[1]: re.fullmatch(r"member \S+ (.*) at \d+ of \d+", line)[1] for line in kept}
+        lines = []
+        for name, structure in self.STRUCTURES.items():
+            for field, kind in getattr(orograph, name)._fields_:
+                member, place = f"{structure}.{field.rstrip('_')}", getattr(getattr(orograph, name), field)
+                lines.append(f"member {member} {kinds.get(member)} at {place.offset} of {place.size}")
+                if kinds.get(member) in self.KINDS:
+                    self.assertIs(kind, self.KINDS[kinds[member]], member)
+        for field, (_, offset) in orograph.POINT_TYPE.fields.items():
+            lines.append(f"member oro_profile_point.{field} double at {offset} of 8")
+        self.assertEqual(sorted(lines), sorted(kept))
+        self.assertEqual(ctypes.sizeof(orograph._Point), 32)
         self.assertEqual(orograph.POINT_TYPE.itemsize, 40)
+
+    def test_functions_have_the_arguments_of_the_interface(self):
+        found = [re.fullmatch(r"function [\w ]+?\*? ?(oro_\w+)\((.*)\)", line) for line in abi.kept_lines()
+                 if line.startswith("function ")]
+        counts = {each[1]: 0 if each[2] == "void" else each[2].count(",") + 1 for each in found}
+        self.assertEqual({name: len(getattr(orograph._library, name).argtypes) for name in counts}, counts)
 
     def test_are_those_of_the_module(self):
         tree = ast.parse((MODULE / "orograph/__init__.pyi").read_text())

@@ -53,15 +53,23 @@ SightReport look_along(const Geodetic& from, const Geodetic& to, const Air& air,
 }
 
 std::vector<ProfilePoint> profile_points(const LineAlong& line, const std::optional<double>& step_m,
-                                         const TrueGround& ground) {
+                                         const TrueGround& ground, const ProfileProgress& progress) {
     std::vector<ProfilePoint> points;
     const double length_m = line.distances_m.back();
+    std::size_t reported = 0;
+    const auto report_some = [&](double along_m) {
+        constexpr std::size_t apart = 4096;
+        if (!progress || points.size() < reported + apart) return;
+        reported = points.size();
+        progress(along_m);
+    };
     if (step_m) {
         const auto steps = static_cast<std::size_t>(std::ceil(length_m / *step_m - 1e-9));
         for (std::size_t i = 0; i <= steps; ++i) {
             const double along_m = i == steps ? length_m : static_cast<double>(i) * *step_m;
             const LatLon place = place_on_line(line, along_m);
             points.push_back(profile_point(ground, {place.lat_deg, place.lon_deg, 0.0}, along_m));
+            report_some(along_m);
         }
         return points;
     }
@@ -75,7 +83,8 @@ std::vector<ProfilePoint> profile_points(const LineAlong& line, const std::optio
             const LatLon place = place_on_leg(line, leg, along_m);
             return Geodetic{place.lat_deg, place.lon_deg, 0.0};
         };
-        if (to_m > from_m) add_profile(ground, way, from_m, to_m, points);
+        if (to_m > from_m) add_profile(ground, way, from_m, to_m, points, report_some);
+        report_some(to_m);
     }
     return points;
 }

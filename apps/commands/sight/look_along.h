@@ -17,9 +17,9 @@ namespace oro {
 SightReport look_along(const Geodetic& from, const Geodetic& to, const Air& air, const TrueGround& ground);
 
 // The points of a profile: one each step_m and the last, or where nothing is given all that the ground has
-// (add_profile()).
+// (add_profile()). `progress` is told how far it is after some thousand points each.
 std::vector<ProfilePoint> profile_points(const LineAlong& line, const std::optional<double>& step_m,
-                                         const TrueGround& ground);
+                                         const TrueGround& ground, const ProfileProgress& progress = {});
 
 // Where the points of a profile along a line pass the 180th meridian.
 std::vector<MeridianCrossing> crossings_of(const LineAlong& line, std::span<const ProfilePoint> points,

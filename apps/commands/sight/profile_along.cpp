@@ -42,8 +42,9 @@ Result<void> check_length(const ProfileOptions& options, const LineAlong& line) 
     return {};
 }
 
-Result<void> follow_line(const ProfileOptions& options, const SightGround& ground, Profile& profile) {
-    profile.points = profile_points(profile.line, options.step_m, ground.ground());
+Result<void> follow_line(const ProfileOptions& options, const SightGround& ground, Profile& profile,
+                         const ProfileProgress& progress) {
+    profile.points = profile_points(profile.line, options.step_m, ground.ground(), progress);
     add_roofs(ground, options.step_m.has_value(), profile);
     profile.sums = sums_of(profile.points, options.climb_threshold_m);
     return ground.region.health();

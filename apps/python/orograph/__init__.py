@@ -176,6 +176,9 @@ def _load():
     progress = [_Progress, c_void_p]
     # Buffers of NumPy are given as addresses.
     picture = [c_uint64, c_size_t, texts, c_void_p, c_size_t, sizes, sizes, *progress]
+    heights = [c_uint64, c_size_t, c_void_p, c_void_p, c_void_p, c_void_p]
+    profile = [c_uint64, c_size_t, c_void_p, c_void_p, POINTER(_ProfileOptions), c_void_p, c_size_t, sizes,
+               POINTER(_ProfileSums)]
     eyes = [c_uint64, c_size_t, POINTER(_Point), POINTER(_ViewshedOptions)]
     for name, arguments, answer in [
             ("oro_version", [], c_char_p), ("oro_api_version", [], c_int), ("oro_error_text", [], c_char_p),
@@ -183,10 +186,9 @@ def _load():
             ("oro_open", [texts, c_size_t, POINTER(_Options), *progress, POINTER(c_uint64)], c_int),
             ("oro_close", [c_uint64], c_int),
             ("oro_info", [c_uint64, c_char_p, c_size_t, sizes], c_int),
-            ("oro_heights", [c_uint64, c_size_t, c_void_p, c_void_p, c_void_p, c_void_p], c_int),
+            ("oro_heights", heights, c_int), ("oro_heights_with_progress", [*heights, *progress], c_int),
             ("oro_sight", [c_uint64, POINTER(_Point), POINTER(_Point), POINTER(_SightOptions), POINTER(_Sight)], c_int),
-            ("oro_profile", [c_uint64, c_size_t, c_void_p, c_void_p, POINTER(_ProfileOptions), c_void_p, c_size_t,
-                             sizes, POINTER(_ProfileSums)], c_int),
+            ("oro_profile", profile, c_int), ("oro_profile_with_progress", [*profile, *progress], c_int),
             ("oro_viewshed_window", [*eyes, POINTER(_Window)], c_int),
             ("oro_viewshed", [*eyes, c_void_p, c_void_p, c_size_t, POINTER(_Window), *progress], c_int),
             ("oro_horizon_window", [c_uint64, POINTER(_HorizonOptions), POINTER(_Window)], c_int),
@@ -290,6 +292,8 @@ def _asked_text(ask):
             return buffer.value.decode()
 
 
+# Fewer are found before anybody could stop it.
+_MANY_PLACES = 10_000
 _above = {"ground": 0, "geoid": 1, "ellipsoid": 2}
 
 
@@ -327,18 +331,23 @@ def _buffer(array, shape, kind):
     return array
 
 
+# The options of shot and panorama that may be given several times.
+_REPEATED = {"canopy", "drape", "landcover", "names", "overlay"}
+
+
 def _words(words, named):
-    """Words of a command line: "--heading", "90" from heading=90, and "--on-summit" from on_summit=True."""
+    """Words of a command line: "--heading", "90" from heading=90, and "--on-summit" from on_summit=True. A list gives an
+    option again for each of its parts, where it may be given several times."""
     line = [str(word) for word in words]
     for name, value in named.items():
-        if value is None or value is False:
-            continue
-        line.append("--" + name.rstrip("_").replace("_", "-"))
-        if value is True:
-            continue
-        if isinstance(value, (tuple, list)):
-            value = ",".join(str(part) for part in value)
-        line.append(str(value))
+        name = name.rstrip("_")
+        for one in value if isinstance(value, list) and name in _REPEATED else [value]:
+            if one is None or one is False:
+                continue
+            line.append("--" + name.replace("_", "-"))
+            if one is True:
+                continue
+            line.append(",".join(str(part) for part in one) if isinstance(one, (tuple, list)) else str(one))
     return line
 
 
@@ -364,11 +373,16 @@ class Region:
         """What the region is made of: the dictionary of `orograph info --json`."""
         return json.loads(_asked_text(lambda *room: _library.oro_info(self._number, *room)))
 
-    def heights(self, lat_deg, lon_deg):
-        """H_m and h_m of the ground at places, NaN where there is none. The arguments are broadcast."""
+    def heights(self, lat_deg, lon_deg, *, progress=None):
+        """H_m and h_m of the ground at places, NaN where there is none. The arguments are broadcast. `progress` stops it,
+        as Ctrl-C does where there are many places."""
         lat, lon = _degrees(lat_deg, lon_deg)
         H_m, h_m = np.empty(lat.shape), np.empty(lat.shape)
-        _check(_library.oro_heights(self._number, lat.size, _address(lat), _address(lon), _address(H_m), _address(h_m)))
+        asked = self._number, lat.size, _address(lat), _address(lon), _address(H_m), _address(h_m)
+        if progress is None and lat.size < _MANY_PLACES:
+            _check(_library.oro_heights(*asked))
+        else:
+            _LongCall(progress).check(_library.oro_heights_with_progress, *asked)
         return H_m, h_m
 
     def sight(self, from_, to, *, air=AIR_STANDARD, on_summit=False):
@@ -387,20 +401,23 @@ class Region:
             values["obstacle"] = None
         return Sight(**values)
 
-    def profile(self, lat_deg, lon_deg, *, step_m=None, climb_threshold_m=10.0):
-        """The ground along the line through places: each step_m, or where it crosses the edges of the ground."""
+    def profile(self, lat_deg, lon_deg, *, step_m=None, climb_threshold_m=10.0, progress=None):
+        """The ground along the line through places: each step_m, or where it crosses the edges of the ground. A line of
+        more than 4,096 points is followed twice: `progress` is then told of both."""
         lat, lon = _degrees(lat_deg, lon_deg)
         options = _ProfileOptions(ctypes.sizeof(_ProfileOptions), 0.0 if step_m is None else step_m, climb_threshold_m)
         if step_m is not None and not step_m > 0.0:
             raise UsageError(f"step_m {step_m!r} must be more than 0")
         sums, count = _ProfileSums(size=ctypes.sizeof(_ProfileSums)), c_size_t(4096)
+        asked = self._number, lat.size, _address(lat), _address(lon), byref(options)
+        long_call = _LongCall(progress)
         while True:
             points = np.empty(count.value, POINT_TYPE)
-            status = _library.oro_profile(self._number, lat.size, _address(lat), _address(lon), byref(options),
-                                          _address(points), points.size, byref(count), byref(sums))
+            status = long_call.status(_library.oro_profile_with_progress, *asked, _address(points), points.size,
+                                      byref(count), byref(sums))
             if status != TOO_SMALL:
                 break
-        _check(status)
+        _check(status, long_call.text)
         return Profile(points[:count.value], *(getattr(sums, name) for name in Profile._fields[1:]))
 
     def _viewshed_asked(self, eyes, radius_km, target_m, air, on_summit, targets_on_canopy):
@@ -458,7 +475,7 @@ class Region:
         texts, count = _texts(words)
         width, height = c_size_t(), c_size_t()
         long_call = _LongCall(progress)
-        size = getattr(out, "shape", None)
+        size = getattr(out, "shape", ())
         if out is None:
             status = long_call.status(call, self._number, count, texts, None, 0, byref(width), byref(height))
             if status != TOO_SMALL:

@@ -146,7 +146,11 @@ class OrographAlgorithm(QgsProcessingAlgorithm):
             raise QgsProcessingException(f"The place has none on the Earth: {error}") from error
 
     def has(self, parameters, name):
-        return parameters.get(name) not in (None, "")
+        """Whether a parameter has a value: its own, or its default where scripts do not name it."""
+        definition = self.parameterDefinition(name)
+        if definition is None:
+            return False
+        return parameters.get(name, definition.defaultValue()) not in (None, "")
 
     def box(self, parameters, name, context):
         """An extent of the map as --bbox, or [] where none is given."""
@@ -183,7 +187,7 @@ class OrographAlgorithm(QgsProcessingAlgorithm):
 
     # The program.
 
-    def run(self, words, feedback, share=(0.0, 1.0)):
+    def run_program(self, words, feedback, share=(0.0, 1.0)):
         """Runs the program and gives its report (JSON). share: the part of the progress that is its own."""
         program = find_program(ProcessingConfig.getSetting(PROGRAM_SETTING))
         if program is None:

@@ -14,6 +14,7 @@ from qgis.core import (
     QgsPoint,
     QgsPointXY,
     QgsProcessingException,
+    QgsProcessingParameterBoolean,
     QgsProcessingParameterCrs,
     QgsProcessingParameterFeatureSink,
     QgsWkbTypes,
@@ -21,9 +22,9 @@ from qgis.core import (
 from qgis.PyQt.QtCore import QVariant
 
 LAYERS = (
-    ("CAMERA", "Camera", QgsWkbTypes.PointZ),
-    ("LINE_OF_SIGHT", "Line of sight", QgsWkbTypes.LineStringZ),
-    ("FOOTPRINT", "Ground that is seen", QgsWkbTypes.Polygon),
+    ("CAMERA", "Camera", QgsWkbTypes.PointZ, "camera.qml"),
+    ("LINE_OF_SIGHT", "Line of sight", QgsWkbTypes.LineStringZ, "line-of-sight.qml"),
+    ("FOOTPRINT", "Ground that is seen", QgsWkbTypes.Polygon, "footprint.qml"),
 )
 MOST_COLUMNS = 1000  # whose farthest ground makes the footprint
 
@@ -36,9 +37,19 @@ def camera_fields():
     return fields
 
 
-def add_camera_parameters(algorithm):
+def add_pose_parameter(algorithm):
+    algorithm.addParameter(
+        QgsProcessingParameterBoolean("POSE", "Write its pose beside it (KML PhotoOverlay, GeoPose, STAC item)", False)
+    )
+
+
+def pose_words(algorithm, parameters, context):
+    return ["--kml", "--geopose", "--stac"] if algorithm.parameterAsBool(parameters, "POSE", context) else []
+
+
+def add_camera_parameters(algorithm, layers=LAYERS):
     algorithm.addParameter(QgsProcessingParameterCrs("CRS", "CRS of the camera's layers", "ProjectCrs", optional=True))
-    for name, text, _ in LAYERS:
+    for name, text, *_ in layers:
         algorithm.addParameter(
             QgsProcessingParameterFeatureSink(name, text, optional=True, createByDefault=False)
         )
@@ -75,7 +86,7 @@ def footprint(algorithm, picture, eye, feedback):
     folder = tempfile.mkdtemp(prefix="orograph-")
     try:
         again = os.path.join(folder, "again.png")
-        algorithm.run(["shot", "--view", picture, "--layers", "--out", again], feedback, (0.5, 1.0))
+        algorithm.run_program(["shot", "--view", picture, "--layers", "--out", again], feedback, (0.5, 1.0))
         places = farthest_ground(folder, "again")
     finally:
         shutil.rmtree(folder, ignore_errors=True)
@@ -104,7 +115,7 @@ def write_camera(algorithm, parameters, context, feedback, report, picture):
         "FOOTPRINT": lambda: footprint(algorithm, picture, eye, feedback),
     }
     results = {}
-    for name, text, kind in LAYERS:
+    for name, text, kind, style in LAYERS:
         if not algorithm.has(parameters, name):
             continue
         sink, results[name] = algorithm.parameterAsSink(parameters, name, context, camera_fields(), kind, crs)
@@ -120,4 +131,5 @@ def write_camera(algorithm, parameters, context, feedback, report, picture):
         angles = [report[name] for name in ("heading_deg", "pitch_deg", "roll_deg", "fov_deg")]
         feature.setAttributes([os.path.basename(picture), *angles, eye["H_m"], eye["h_m"]])
         sink.addFeature(feature)
+        algorithm.load_styled(context, results[name], style)
     return results

@@ -3,6 +3,8 @@
 import os
 
 from qgis.core import (
+    QgsProcessing,
+    QgsProcessingContext,
     QgsProcessingException,
     QgsProcessingOutputRasterLayer,
     QgsProcessingParameterEnum,
@@ -11,6 +13,7 @@ from qgis.core import (
     QgsProcessingParameterFolderDestination,
 )
 
+from ..export_formats import ENDINGS, is_folder, with_ending
 from .base import OrographAlgorithm
 
 
@@ -18,68 +21,82 @@ class Export(OrographAlgorithm):
     identifier = "export"
     title = "Export heights"
     about = (
-        "Writes the heights of elevation data as a Cloud Optimized GeoTIFF of the data's own samples, or as a folder "
-        "of PNG tiles for web maps whose colours are heights (terrain-rgb)."
+        "Writes the ground in formats of others. cog: a Cloud Optimized GeoTIFF of the data's own samples, or of the "
+        "slope at each. terrain-rgb: a folder of PNG tiles for web maps whose colours are heights. 3dtiles: 3D Tiles "
+        "with levels whose error is proven. gltf: one model (.glb). quantized-mesh: tiles of terrain for globes."
     )
 
-    FORMATS = ["cog", "terrain-rgb"]
+    LAYERS = ["H", "slope"]
 
     def initAlgorithm(self, configuration=None):  # noqa: N802, QGIS's name
         self.add_elevation()
         self.addParameter(QgsProcessingParameterExtent("EXTENT", "Extent (empty: all the data)", optional=True))
         self.addParameter(
             QgsProcessingParameterEnum(
-                "FORMAT", "Format", self.FORMATS, defaultValue="cog", usesStaticStrings=True
+                "FORMAT", "Format", list(ENDINGS), defaultValue="cog", usesStaticStrings=True
+            )
+        )
+        self.addParameter(
+            QgsProcessingParameterEnum(
+                "CONTENT", "What cog has at each sample: height above sea level, or slope", self.LAYERS,
+                defaultValue="H", usesStaticStrings=True
             )
         )
         self.add_options()
         self.addParameter(
             QgsProcessingParameterFileDestination(
-                "OUTPUT", "GeoTIFF (of cog)", "GeoTIFF (*.tif)", optional=True, createByDefault=True
+                "OUTPUT", "File (of cog and gltf)", "GeoTIFF (*.tif);;glTF (*.glb)", optional=True, createByDefault=True
             )
         )
         self.addParameter(
             QgsProcessingParameterFolderDestination(
-                "FOLDER_OUTPUT", "Folder (of terrain-rgb)", optional=True, createByDefault=False
+                "FOLDER_OUTPUT", "Folder (of terrain-rgb, 3dtiles and quantized-mesh)", optional=True,
+                createByDefault=False
             )
         )
-        self.addOutput(QgsProcessingOutputRasterLayer("LAYER", "Heights"))
+        self.addOutput(QgsProcessingOutputRasterLayer("LAYER", "Heights or slope"))
+
+    def output(self, kind, parameters, context):
+        """The parameter that names what is written, and its path."""
+        name = "FOLDER_OUTPUT" if is_folder(kind) else "OUTPUT"
+        if not self.has(parameters, name):
+            raise QgsProcessingException(f"Name a {'folder' if is_folder(kind) else 'file'} for {kind}.")
+        path = self.parameterAsFileOutput(parameters, name, context)
+        # QGIS names a file of its own by the first of the endings.
+        if parameters[name] == QgsProcessing.TEMPORARY_OUTPUT and not is_folder(kind):
+            path = with_ending(kind, path)
+        return name, path
 
     def processAlgorithm(self, parameters, context, feedback):  # noqa: N802
         kind = self.parameterAsEnumString(parameters, "FORMAT", context)
-        is_raster = kind == "cog"
-        name = "OUTPUT" if is_raster else "FOLDER_OUTPUT"
-        output = self.parameterAsString(parameters, name, context)
-        if not output:
-            raise QgsProcessingException("Name a GeoTIFF for cog, or a folder for terrain-rgb.")
-        if is_raster:
-            output = self.parameterAsFileOutput(parameters, name, context)
+        layer = self.parameterAsEnumString(parameters, "CONTENT", context)
+        name, path = self.output(kind, parameters, context)
         words = [
             "export",
             *self.elevation(parameters, context),
             "--to",
             kind,
+            *(["--layer", layer] if layer != "H" else []),
             *self.box(parameters, "EXTENT", context),
             *self.options(parameters, context),
             "--out",
-            output,
+            path,
             "--overwrite",
         ]
-        self.run(words, feedback)
-        results = {name: output}
-        if is_raster:
-            results["LAYER"] = output
-            self.load(context, output)
+        self.run_program(words, feedback)
+        results = {name: path}
+        if kind == "cog":
+            results["LAYER"] = path
+            self.load(context, path, layer)
         return results
 
-    @staticmethod
-    def load(context, path):
+    def load(self, context, path, layer):
         """Lets the file be a layer of the map once the algorithm is done."""
-        from qgis.core import QgsProcessingContext
-
         if context.project() is None:
             return
         name = os.path.splitext(os.path.basename(path))[0]
         context.addLayerToLoadOnCompletion(
             path, QgsProcessingContext.LayerDetails(name, context.project(), "LAYER")
         )
+        if layer == "slope":
+            self.load_styled(context, path, "slope.qml")

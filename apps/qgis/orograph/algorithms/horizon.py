@@ -49,9 +49,11 @@ class Horizon(OrographAlgorithm):
             stem + ".tif",
             "--overwrite",
         ]
-        report = self.run(words, feedback)
+        report = self.run_program(words, feedback)
         for written, output in zip((report["horizon"], report["sky_view"]), outputs):
             os.replace(written, output)
+        for output, style in zip(outputs, ("horizon.qml", "sky-view.qml")):
+            self.load_styled(context, output, style)
         return {
             "HORIZON": outputs[0],
             "SKY_VIEW": outputs[1],

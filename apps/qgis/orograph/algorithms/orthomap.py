@@ -55,6 +55,6 @@ class OrthoMap(OrographAlgorithm):
             output,
             "--overwrite",
         ]
-        report = self.run(words, feedback)
+        report = self.run_program(words, feedback)
         columns, rows = report["size_px"]
         return {"OUTPUT": output, "COLUMNS": columns, "ROWS": rows}

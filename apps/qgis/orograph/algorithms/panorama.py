@@ -12,6 +12,7 @@ from qgis.core import (
 )
 
 from .base import OrographAlgorithm, wgs84
+from .camera import LAYERS, add_camera_parameters, add_pose_parameter, pose_words, write_camera
 
 
 class Panorama(OrographAlgorithm):
@@ -19,7 +20,8 @@ class Panorama(OrographAlgorithm):
     title = "Panorama"
     about = (
         "Draws a picture all around a place, with rulers of azimuth and elevation. Points of a layer that are seen "
-        "from there are named."
+        "from there are named. A layer of its camera can be written: a point where it stands, with the middle of what "
+        "it shows as its heading."
     )
 
     def initAlgorithm(self, configuration=None):  # noqa: N802, QGIS's name
@@ -40,10 +42,12 @@ class Panorama(OrographAlgorithm):
         )
         self.addParameter(QgsProcessingParameterString("NAMES_FIELD", "Field of their names", "name", optional=True))
         self.add_style()
+        add_pose_parameter(self)
         self.add_options()
         self.addParameter(
             QgsProcessingParameterFileDestination("OUTPUT", "Panorama", "Pictures (*.png *.jpg *.tif *.svg)")
         )
+        add_camera_parameters(self, [layer for layer in LAYERS if layer[0] == "CAMERA"])
         self.addOutput(QgsProcessingOutputNumber("EYE_H_M", "Height of the eye above sea level (metres)"))
 
     def names(self, parameters, context):
@@ -76,10 +80,16 @@ class Panorama(OrographAlgorithm):
             *self.number(parameters, "WIDTH", context, "--width"),
             *self.names(parameters, context),
             *self.style(parameters, context),
+            *pose_words(self, parameters, context),
             *self.options(parameters, context),
             "--out",
             output,
             "--overwrite",
         ]
-        report = self.run(words, feedback)
-        return {"OUTPUT": output, "EYE_H_M": report["eye"]["H_m"]}
+        report = self.run_program(words, feedback)
+        camera = {**report["view"], "eye": report["eye"]}
+        return {
+            "OUTPUT": output,
+            "EYE_H_M": report["eye"]["H_m"],
+            **write_camera(self, parameters, context, feedback, camera, output),
+        }

@@ -3,14 +3,13 @@
 from qgis.core import (
     QgsProcessingException,
     QgsProcessingOutputNumber,
-    QgsProcessingParameterBoolean,
     QgsProcessingParameterExtent,
     QgsProcessingParameterFileDestination,
     QgsProcessingParameterPoint,
 )
 
 from .base import OrographAlgorithm
-from .camera import LAYERS, add_camera_parameters, write_camera
+from .camera import add_camera_parameters, add_pose_parameter, pose_words, write_camera
 
 
 class PictureOfEye(OrographAlgorithm):
@@ -20,9 +19,7 @@ class PictureOfEye(OrographAlgorithm):
         self.add_number("WIDTH", "Width (pixels)", 1280, 1, 65500, whole=True)
         self.add_number("HEIGHT", "Height (pixels)", 720, 1, 65500, whole=True)
         self.add_style()
-        self.addParameter(
-            QgsProcessingParameterBoolean("POSE", "Write its pose beside it (KML PhotoOverlay, GeoPose, STAC item)", False)
-        )
+        add_pose_parameter(self)
         self.add_options()
         self.addParameter(
             QgsProcessingParameterFileDestination(
@@ -42,9 +39,8 @@ class PictureOfEye(OrographAlgorithm):
         if not output:
             raise QgsProcessingException("Name a file for the picture.")
         width, height = (self.parameterAsInt(parameters, name, context) for name in ("WIDTH", "HEIGHT"))
-        has_pose = self.parameterAsBool(parameters, "POSE", context)
-        is_drawn_again = any(self.has(parameters, name) for name, _, _ in LAYERS if name == "FOOTPRINT")
-        report = self.run(
+        is_drawn_again = self.has(parameters, "FOOTPRINT")
+        report = self.run_program(
             [
                 "shot",
                 *self.elevation(parameters, context),
@@ -52,7 +48,7 @@ class PictureOfEye(OrographAlgorithm):
                 "--size",
                 f"{width}x{height}",
                 *self.style(parameters, context),
-                *(["--kml", "--geopose", "--stac"] if has_pose else []),
+                *pose_words(self, parameters, context),
                 *self.options(parameters, context),
                 "--out",
                 output,

@@ -88,6 +88,7 @@ class Profile(OrographAlgorithm):
             self.write(table, sink, feature.id(), self.from_wgs84(crs, context))
         if not reports:
             raise QgsProcessingException("The layer has no line.")
+        self.load_styled(context, output, "profile.qml")
         return {"OUTPUT": output, **self.sums(reports)}
 
     def one(self, parameters, context, feedback, geometry, share):
@@ -106,7 +107,7 @@ class Profile(OrographAlgorithm):
             table,
             "--overwrite",
         ]
-        return self.run(words, feedback, share), table
+        return self.run_program(words, feedback, share), table
 
     @staticmethod
     def sums(reports):

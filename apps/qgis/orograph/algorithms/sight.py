@@ -63,7 +63,7 @@ class Sight(OrographAlgorithm):
             *self.number(parameters, "TARGET", context, "--target"),
             *self.options(parameters, context),
         ]
-        report = self.run(words, feedback)
+        report = self.run_program(words, feedback)
         sink, output = self.parameterAsSink(
             parameters, "OUTPUT", context, self.fields(), QgsWkbTypes.LineString, crs
         )

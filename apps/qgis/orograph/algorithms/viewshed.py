@@ -9,11 +9,11 @@ from qgis.core import (
     QgsProcessingParameterFeatureSource,
     QgsProcessingParameterPoint,
     QgsProcessingParameterRasterDestination,
+    QgsProcessingUtils,
 )
 
+from ..observers import observer_words
 from .base import OrographAlgorithm, place_words, wgs84
-
-MOST_OBSERVERS = 1000
 
 
 class Viewshed(OrographAlgorithm):
@@ -21,7 +21,8 @@ class Viewshed(OrographAlgorithm):
     title = "Viewshed"
     about = (
         "Writes which places are seen from an observer, or by any of several, on the grid of the elevation data. Band "
-        "1 is 1 where a place is seen and 0 where it is hidden, band 2 by how many metres it is missed."
+        "1 is 1 where a place is seen and 0 where it is hidden, band 2 by how many metres it is missed, and band 3 how "
+        "many of several observers see it. Of more than 1,000 observers those without elevation data are left out."
     )
 
     def initAlgorithm(self, configuration=None):  # noqa: N802, QGIS's name
@@ -41,7 +42,7 @@ class Viewshed(OrographAlgorithm):
         self.addOutput(QgsProcessingOutputNumber("CELLS", "Cells within the radius"))
 
     def observers(self, parameters, context):
-        """A place for each observer."""
+        """Words that name a place for each observer."""
         places = [self.place(parameters, "AT", context)] if self.has(parameters, "AT") else []
         source = self.parameterAsSource(parameters, "OBSERVERS", context)
         if source is not None:
@@ -50,11 +51,9 @@ class Viewshed(OrographAlgorithm):
                 geometry = QgsGeometry(feature.geometry())
                 geometry.transform(to_wgs84)
                 places += [place_words(vertex) for vertex in geometry.vertices()]
-                if len(places) > MOST_OBSERVERS:
-                    raise QgsProcessingException(f"There are more than {MOST_OBSERVERS} observers.")
         if not places:
             raise QgsProcessingException("Name an observer, or a layer of observers.")
-        return [word for place in places for word in (f"--at={place}",)]
+        return observer_words(places, QgsProcessingUtils.generateTempFilename("observers.csv"))
 
     def processAlgorithm(self, parameters, context, feedback):  # noqa: N802
         output = self.parameterAsOutputLayer(parameters, "OUTPUT", context)
@@ -70,6 +69,6 @@ class Viewshed(OrographAlgorithm):
             output,
             "--overwrite",
         ]
-        report = self.run(words, feedback)
+        report = self.run_program(words, feedback)
         self.load_styled(context, output, "viewshed.qml")
         return {"OUTPUT": output, "SEEN": report["seen"], "CELLS": report["cells"]}
