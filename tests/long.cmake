@@ -148,6 +148,8 @@ set_tests_properties(
   ExportParts.AKilledFileIsWholeOrAbsent
   ExportCommand.A3dTilesetIsColouredByAnImage
   ExportCommand.A3dTilesetIsMadeInParts
+  ExportCommand.AModelHasTheMeshesOnTheGround
+  ExportCommand.AModelIsColouredByAnImageAndByLandCover
   GroundTileset.OfPartsHasTheBytesOfOneGo
   GroundTileset.ErrorHoldsAtEveryPlace
   GroundTileset.ErrorHoldsOnANetAndBesideVoids
@@ -930,6 +932,7 @@ set_tests_properties(
   ResamplingError.RealTileInSwissCoordinates
   ResamplingError.RotatedInFeetAndAnotherProjection
   ResamplingError.TheHighestPostOfManyIsAlwaysThere
+  ScanLevels.OfAnAirborneScanAreWithinTheirErrors
   SeenLines.LieWhereTheirPlacesAreSeenAndNowhereElse
   SeenPoints.AreThoseThatAWalkAlongTheSightLineSees
   Shape.FunctionsAreShort

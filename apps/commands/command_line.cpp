@@ -592,13 +592,13 @@ void add_export(CLI::App& app, ExportOptions& options) {
     written
         .option(
             "--drape", options.drape, "FILE",
-            "Colour 3D Tiles by an image with a CRS: an orthophoto, a satellite scene or a map. Several lie "
-            "one over the other, the last on top.")
+            "Colour 3D Tiles or a model by an image with a CRS: an orthophoto, a satellite scene or a map. "
+            "Several lie one over the other, the last on top. Needs gltf or 3dtiles.")
         .allow_extra_args(false);
     written
         .option("--landcover", options.landcover, "FILE",
-                "Colour 3D Tiles by land cover: a raster of classes, as in shot --landcover. Also for "
-                "--canopy class.")
+                "Colour 3D Tiles or a model by land cover: a raster of classes, as in shot --landcover. Also "
+                "for --canopy class.")
         .allow_extra_args(false);
     written.option("--shard", options.shard, "PART",
                    "Make a part of the tiles, NUMBER/COUNT as in 2/4, and keep it in FOLDER.tiles. Without "

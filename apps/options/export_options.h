@@ -19,8 +19,8 @@ struct ExportOptions {
     std::optional<double> max_error_m;    // of a model, or of the finest tiles
     bool no_normals{false};               // of 3D Tiles
     std::optional<int> detail;            // halvings of the way between posts
-    std::vector<std::string> drape;       // images that colour 3D Tiles
-    std::vector<std::string> landcover;   // rasters of classes: colours of 3D Tiles, or a canopy's
+    std::vector<std::string> drape;       // images that colour 3D Tiles or a model
+    std::vector<std::string> landcover;   // rasters of classes: colours, as drape, or a canopy's
     std::vector<std::string> canopy;      // rasters of canopy heights, or "class" alone
     std::string shard;                    // "", or "2/4": makes that part of 3D Tiles alone
     bool overwrite{false};

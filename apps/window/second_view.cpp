@@ -214,7 +214,8 @@ Result<FramePlan> plan_second(Viewer& viewer, const DetailStep& step) {
                           viewer.follows_eye ? Eye::moves : Eye::rests));
     const Camera camera = scaled_camera(second.view.camera, step.scale);
     require_fields(*second.scene, second.style.frame, step);
-    second.scene->let_blocks_stand_in(second.view.show != Show::clusters && second.view.show != Show::groups);
+    second.scene->set_fallback_to_blocks(second.view.show != Show::clusters &&
+                                         second.view.show != Show::groups);
     ORO_TRY(FramePlan plan, second.scene->plan({camera, whole_tile(camera),
                                                 second.view.tau_px * step.tau_factor, second.view.model}));
     second.is_missing = !plan.is_settled();

@@ -17,7 +17,7 @@ namespace oro {
 namespace {
 
 constexpr std::size_t full_group = 1152;
-constexpr int most_levels = 80, most_idle_levels = 6;
+constexpr int most_levels = 80, most_idle_levels = 6, most_idle_in_parts = 2;
 // Of the error below a group that the next collapse may cost, or at first of the mesh's spacing; as many
 // times more after each level without progress.
 constexpr double growth = 4.0, first_share = 0.25;
@@ -30,8 +30,13 @@ class MeshGraphBuilder {
     MeshGraphBuilder(std::span<const glm::dvec3> vertices,
                      std::span<const std::array<std::uint32_t, 3>> triangles, const glm::dvec3& origin_ecef_m,
                      const MeshGraphOptions& options)
-        : vertices_(vertices), origin_m_(origin_ecef_m), options_(options), mesh_(corners_of(triangles)) {
+        : vertices_(vertices),
+          all_(triangles),
+          origin_m_(origin_ecef_m),
+          options_(options),
+          mesh_(corners_of(triangles)) {
         begin(triangles);
+        if (options.parts != nullptr) begin_parts(std::max(0, options.parts->depth - 1));
     }
 
     MeshGraph build() {
@@ -44,8 +49,11 @@ class MeshGraphBuilder {
             begin_groups(level);
             simplify(std::pow(growth, idle));
             idle = static_cast<double>(live_.size()) > 0.97 * static_cast<double>(before) ? idle + 1 : 0;
-            const bool is_last = (groups == 1 && live_.size() <= most_cluster_triangles) ||
-                                 idle > most_idle_levels || level == most_levels;
+            const bool is_in_parts = part_depth_ > 0;
+            if (is_in_parts && join_parts(idle)) idle = 0;
+            const bool is_done =
+                (groups == 1 && live_.size() <= most_cluster_triangles) || idle > most_idle_levels;
+            const bool is_last = (is_done && !is_in_parts) || level == most_levels;
             if (is_last)
                 group_.assign(live_.size(), 0), group_count_ = 0;
             else
@@ -72,6 +80,9 @@ class MeshGraphBuilder {
     }
     void begin(std::span<const std::array<std::uint32_t, 3>> triangles);
     void begin_pieces();
+    void begin_parts(int depth);
+    bool join_parts(int idle);
+    [[nodiscard]] HalvedParts triangles_of_parts() const;
     void assign(int level);
     void begin_groups(int level);
     [[nodiscard]] bool is_border(std::uint32_t vertex) const { return seen_[vertex] == shared; }
@@ -87,10 +98,13 @@ class MeshGraphBuilder {
     static constexpr std::uint32_t unseen = ~std::uint32_t{0}, shared = unseen - 1;
 
     std::span<const glm::dvec3> vertices_;
+    std::span<const std::array<std::uint32_t, 3>> all_;
     glm::dvec3 origin_m_;
     const MeshGraphOptions& options_;
     NearestTriangles mesh_;
     double spacing_m_{};
+    int part_depth_{};                  // of the parts that groups keep within
+    std::size_t coarse_{};              // triangles of all of them that are few enough to join them
     std::vector<LevelTriangle> live_;   // of the level, those of one maker after another
     std::vector<std::uint32_t> group_;  // that each goes to, from 0
     std::size_t group_count_{};
@@ -128,6 +142,31 @@ void MeshGraphBuilder::begin(std::span<const std::array<std::uint32_t, 3>> trian
     if (options_.chains != nullptr) options_.chains->groups.assign(triangles.size(), {});
 }
 
+void MeshGraphBuilder::begin_parts(int depth) {
+    part_depth_ = depth;
+    coarse_ = live_.size() / 2;
+    if (depth == 0) return;
+    coarse_ = std::min(coarse_, coarse_triangles(*options_.parts, all_, depth, options_.part_triangles));
+}
+
+// Whether groups may have larger parts from the next level on.
+bool MeshGraphBuilder::join_parts(int idle) {
+    if (live_.size() > coarse_ && idle <= most_idle_in_parts) return false;
+    begin_parts(part_depth_ - 1);
+    return true;
+}
+
+// The triangles of each part that groups keep within.
+HalvedParts MeshGraphBuilder::triangles_of_parts() const {
+    HalvedParts parts(std::size_t{1} << 2 * part_depth_);
+    for (std::uint32_t i = 0; i < live_.size(); ++i) {
+        const NestedPart part =
+            part_depth_ == 0 ? NestedPart{} : options_.parts->smallest(live_[i].original).above(part_depth_);
+        parts[part.number].push_back(i);
+    }
+    return parts;
+}
+
 // Each group of the first level answers for its own triangles.
 void MeshGraphBuilder::begin_pieces() {
     pieces_.resize(group_count_);
@@ -144,18 +183,20 @@ void MeshGraphBuilder::begin_pieces() {
 
 void MeshGraphBuilder::assign(int level) {
     std::vector<glm::dvec3> middles(live_.size());
-    std::vector<std::uint32_t> all(live_.size());
-    for (std::uint32_t i = 0; i < live_.size(); ++i) {
+    for (std::size_t i = 0; i < live_.size(); ++i) {
         const auto [a, b, c] = corners_of(live_[i]);
-        middles[i] = (a + b + c) / 3.0, all[i] = i;
+        middles[i] = (a + b + c) / 3.0;
     }
-    const HalvedParts parts =
-        halved(middles, std::move(all), full_group, level,
-               [](std::span<const std::uint32_t> triangles) { return triangles.size() <= full_group; });
     group_.assign(live_.size(), 0);
-    group_count_ = parts.size();
-    for (std::uint32_t group = 0; group < parts.size(); ++group)
-        for (const std::uint32_t triangle : parts[group]) group_[triangle] = group;
+    group_count_ = 0;
+    for (std::vector<std::uint32_t>& part : triangles_of_parts())
+        for (const std::vector<std::uint32_t>& group :
+             halved(middles, std::move(part), full_group, level,
+                    [](std::span<const std::uint32_t> some) { return some.size() <= full_group; })) {
+            for (const std::uint32_t triangle : group)
+                group_[triangle] = static_cast<std::uint32_t>(group_count_);
+            ++group_count_;
+        }
 }
 
 // The groups of a level as the graph has them, and what is on their borders.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/clusters/cluster_graph.h"
+#include "core/mesh_graph/nested_parts.h"
 
 namespace oro {
 
@@ -37,6 +38,14 @@ struct MeshGraphOptions {
     int threads{1};
     double kept_share{0.65};  // of a group's triangles, in what comes out of it
     MeshPlaceChains* chains{};
+    // Null: groups lie anywhere. Else a group uses triangles of one part alone: on the first levels of one
+    // that has four of the smallest parts, on later ones of one that has four of these, and so on up to the
+    // mesh. Then all that a group is made from lies in its part, and where parts meet there are borders of
+    // groups until they are joined.
+    const NestedParts* parts{};
+    // Parts are joined where there are no more triangles than these make of all parts (coarse_triangles()),
+    // and half as many as when they were joined last; or where levels make no progress.
+    std::size_t part_triangles{};
 };
 
 // vertices: metres, from a place near the mesh. origin: that place, ECEF; groups' spheres are from the

@@ -20,9 +20,12 @@ struct FeatureColumns {
     std::vector<std::uint8_t>& bytes;
     Json& views;
     Json properties = Json::object(), columns = Json::object();
+    std::set<std::string> names{};
 
+    // No two properties have one name.
     template <class TextOf>
-    void add(const std::string& id, const std::string& name, const TextOf& text_of) {
+    void add(const std::string& id, std::string name, const TextOf& text_of) {
+        while (!names.insert(name).second) name += " (attribute)";
         std::vector<std::string> texts;
         for (const GlbFeature& feature : features) texts.push_back(text_of(feature));
         properties[id]["name"] = name;

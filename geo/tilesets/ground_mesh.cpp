@@ -9,13 +9,12 @@
 
 #include "geo/tilesets/clipped_triangle.h"
 #include "geo/tilesets/post_place.h"
-#include "geo/tilesets/tile_boxes.h"
+#include "geo/tilesets/triangle_box.h"
 
 namespace oro {
 namespace {
 
 constexpr std::uint32_t none = 0xFFFFFFFFU;
-constexpr double unset = 1.0e9;
 
 // Makes the mesh of a tile from a cut.
 class MeshBuilder {
@@ -60,7 +59,6 @@ class MeshBuilder {
     std::uint32_t vertex(const ClippedCorner& corner, const VertexTriangle& triangle);
     [[nodiscard]] Vertex placed(const ClippedCorner& corner, const VertexTriangle& triangle) const;
     std::uint32_t add_vertex(const Vertex& vertex);
-    void widen_box_to(const Vertex& vertex);
     void find_rims(std::span<const std::uint32_t> polygon);
     void find_rims_of_grid(std::span<const ClippedCorner> polygon, const VertexTriangle& triangle);
     void add_wall(const Rim& rim, double down_m, double out_m);
@@ -80,8 +78,6 @@ class MeshBuilder {
     std::vector<Vertex> vertices_;
     std::vector<Rim> rims_;
     GroundMesh mesh_;
-    double middle_lon_deg_{};
-    double longest_edge_m_{};
 };
 
 MeshBuilder::MeshBuilder(const ClusteredGround& ground, const TilesetLayout& layout, const LevelCut& cut,
@@ -102,12 +98,10 @@ MeshBuilder::MeshBuilder(const ClusteredGround& ground, const TilesetLayout& lay
     }
     const PostPlace middle =
         ground.grid().place_at(0.5 * (lines_.north + lines_.south), 0.5 * (lines_.west + lines_.east));
-    middle_lon_deg_ = middle.lon_deg;
     const double h_m = 0.5 * height_step_m * (static_cast<double>(lowest) + highest);
     mesh_.centre_m = ecef_from_geodetic({middle.lat_deg, middle.lon_deg, h_m}).m;
     mesh_.ecef_from_mesh = ecef_from_enu(middle.lat_deg, middle.lon_deg);
     mesh_.step_m = cut.step_m;
-    mesh_.box = {unset, unset, -unset, -unset, unset, -unset};
 }
 
 MeshBuilder::Vertex MeshBuilder::placed(const ClippedCorner& corner, const VertexTriangle& triangle) const {
@@ -159,30 +153,15 @@ std::uint32_t MeshBuilder::add_vertex(const Vertex& vertex) {
     return static_cast<std::uint32_t>(vertices_.size() - 1);
 }
 
-void MeshBuilder::widen_box_to(const Vertex& vertex) {
-    const Geodetic at = geodetic_from_ecef({vertex.ecef_m});
-    const double lon_deg = middle_lon_deg_ + std::remainder(at.lon_deg - middle_lon_deg_, 360.0);
-    TileBox& box = mesh_.box;
-    box.south_deg = std::min(box.south_deg, at.lat_deg);
-    box.north_deg = std::max(box.north_deg, at.lat_deg);
-    box.west_deg = std::min(box.west_deg, lon_deg);
-    box.east_deg = std::max(box.east_deg, lon_deg);
-    box.lowest_h_m = std::min(box.lowest_h_m, at.h_m);
-    box.highest_h_m = std::max(box.highest_h_m, at.h_m);
-}
-
 std::uint32_t MeshBuilder::vertex(const ClippedCorner& corner, const VertexTriangle& triangle) {
     if (corner.line != ClippedCorner::inner) {
         const Key key{triangle[static_cast<std::size_t>(corner.a)],
                       triangle[static_cast<std::size_t>(corner.b)], corner.line};
         const auto [known, is_new] = numbers_.try_emplace(key, none);
-        if (!is_new) return known->second;
-        known->second = add_vertex(placed(corner, triangle));
-    } else {
-        add_vertex(placed(corner, triangle));
+        if (is_new) known->second = add_vertex(placed(corner, triangle));
+        return known->second;
     }
-    widen_box_to(vertices_.back());
-    return static_cast<std::uint32_t>(vertices_.size() - 1);
+    return add_vertex(placed(corner, triangle));
 }
 
 // Edges of a polygon, anticlockwise, that lie on an edge of the tile.
@@ -240,9 +219,6 @@ void MeshBuilder::add_triangle(std::uint32_t number) {
     for (std::size_t i = 2; i < polygon_.size(); ++i)
         mesh_.indices.insert(mesh_.indices.end(), {polygon_[0], polygon_[i - 1], polygon_[i]});
     find_rims(polygon_);
-    for (std::size_t i = 0; i < polygon_.size(); ++i)
-        longest_edge_m_ = std::max(
-            longest_edge_m_, glm::distance(vertices_[polygon_[i]].ecef_m, vertices_[polygon_[0]].ecef_m));
 }
 
 // Level, from a place on an edge of the tile, away from the tile.
@@ -281,10 +257,7 @@ GroundMesh MeshBuilder::build(const TileWalls& walls) {
     mesh_.ground_triangles = mesh_.indices.size() / 3;
     for (const Rim& rim : rims_)
         if (walls.down_m[rim.edge] > 0.0) add_wall(rim, walls.down_m[rim.edge], walls.out_m[rim.edge]);
-    std::array<double, 5> out_m = walls.out_m;
-    out_m[TileWalls::rim] *= CutRims::longest_outwards;
-    widen_for_flat(mesh_.box, longest_edge_m_, *std::ranges::max_element(walls.down_m),
-                   *std::ranges::max_element(out_m), mesh_.step_m);
+    mesh_.box = box_of(mesh_);
     return std::move(mesh_);
 }
 

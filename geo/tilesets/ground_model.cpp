@@ -51,7 +51,7 @@ class ModelBuilder {
     [[nodiscard]] std::int32_t steps_at(int row, int column) const {
         return block_->heights[(row + 1) * static_cast<int>(gpu::height_stride) + column + 1];
     }
-    std::uint32_t vertex(const PagePosts& posts, int row, int column);
+    std::uint32_t vertex(const PagePosts& posts, int level, int row, int column);
 
     const RegionPages& pages_;
     LazyPyramid pyramid_;
@@ -98,7 +98,7 @@ std::optional<glm::dvec3> ModelBuilder::place(const PagePosts& posts, int row, i
            (ecef_above(post_up(grid_, post->row, post->column), steps * height_step_m) - origin_m_);
 }
 
-std::uint32_t ModelBuilder::vertex(const PagePosts& posts, int row, int column) {
+std::uint32_t ModelBuilder::vertex(const PagePosts& posts, int level, int row, int column) {
     const PageIndex post = *posts.region_post(row, column);
     const std::uint64_t key =
         static_cast<std::uint64_t>(post.row) << 32U | static_cast<std::uint32_t>(post.column);
@@ -115,6 +115,7 @@ std::uint32_t ModelBuilder::vertex(const PagePosts& posts, int row, int column) 
                                                     : enu_from_ecef_ * post_up(grid_, post.row, post.column);
     model_.positions_m.emplace_back(own.x, own.z, -own.y);
     model_.normals.emplace_back(up.x, up.z, -up.y);
+    model_.posts.push_back({post.row, post.column, level});
     farthest_m_ = std::max(farthest_m_, glm::length(own));
     const double h_m = steps_at(row, column) * height_step_m;
     lowest_h_m_ = std::min(lowest_h_m_, h_m);
@@ -148,7 +149,8 @@ void ModelBuilder::add_node(const PageIndex& page, const PagePosts& posts, int r
                 }
                 if (!whole || at[0] == at[1] || at[1] == at[2] || at[0] == at[2]) continue;
                 for (const glm::uvec2& post : at)
-                    model_.indices.push_back(vertex(posts, row * node_quads + static_cast<int>(post.x),
+                    model_.indices.push_back(vertex(posts, page.level,
+                                                    row * node_quads + static_cast<int>(post.x),
                                                     column * node_quads + static_cast<int>(post.y)));
             }
         }

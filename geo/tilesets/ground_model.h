@@ -1,13 +1,16 @@
 // The ground of a grid as one mesh that is within some metres of it everywhere.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "core/base/result.h"
 #include "core/frame/region_pages.h"
 #include "geo/tilesets/glb.h"
+#include "geo/tilesets/model_mesh.h"
 
 namespace oro {
 
@@ -16,6 +19,7 @@ struct GroundModel {
     // East, up and south of the origin, metres, rounded to float.
     std::vector<glm::vec3> positions_m;
     std::vector<glm::vec3> normals;
+    std::vector<PageIndex> posts;  // of each vertex its post, and the level of a patch that it is a corner of
     std::vector<std::uint32_t> indices;  // three a triangle, anticlockwise, seen from above
     double error_m{};  // no point of the surface is farther from what the model has at its row and column
 };
@@ -27,7 +31,11 @@ struct GroundModel {
 inline constexpr std::uint64_t most_model_triangles = 20000000;
 Result<GroundModel> ground_model(const RegionPages& pages, double largest_error_m);
 
-// The model as a .glb without extensions, y up, with normals. asset.extras.origin says where it is.
-std::vector<std::uint8_t> model_glb_bytes(const GroundModel& model, const GlbLook& look);
+// The model as a .glb without extensions, y up, with normals: one node for the ground and one for each mesh
+// on it, by its name. asset.extras.origin says where it is. colours: of the vertices of the ground, linear
+// light, 0 .. 1; none: it has that of `look`.
+std::vector<std::uint8_t> model_glb_bytes(const GroundModel& model,
+                                          std::span<const std::array<double, 3>> colours,
+                                          std::span<const ModelMesh> meshes, const GlbLook& look);
 
 }  // namespace oro

@@ -90,6 +90,7 @@ class TilesetWriter {
     [[nodiscard]] Json root_json(const TilesetWritten& written) const;
     [[nodiscard]] Json metadata_json() const;
     [[nodiscard]] std::optional<TileBox> whole_box() const;
+    void sum_up_meshes(TilesetWritten& written) const;
     void sum_up(TilesetWritten& written) const;
 
     const std::string& folder_;
@@ -113,6 +114,7 @@ Json TilesetWriter::mesh_tile_json(const MeshTile& tile) const {
     Json json = Json::object();
     json["boundingVolume"]["region"] = region_json_of(tile.box);
     json["geometricError"] = tile.error_m;
+    if (tile.level && !tile.children.empty()) json["refine"] = "REPLACE";
     if (!tile.name.empty()) json["content"]["uri"] = tile.name;
     Json children = Json::array();
     for (const std::size_t child : tile.children) children.push_back(mesh_tile_json(mesh_tiles_[child]));
@@ -142,9 +144,10 @@ Result<void> TilesetWriter::write_meshes() {
     if (!request_.meshes) return {};
     MeshTilesRequest asked;
     asked.look = request_.look;
-    asked.look.colour = request_.meshes->colour;
+    asked.palette = request_.meshes->palette;
     asked.normals = request_.normals;
     asked.most_triangles = request_.meshes->most_triangles;
+    asked.whole_triangles = request_.meshes->whole_triangles;
     asked.threads = request_.threads;
     const UndulationField without;
     ORO_TRY(mesh_tiles_,
@@ -195,17 +198,37 @@ std::optional<TileBox> TilesetWriter::whole_box() const {
     return whole;
 }
 
+void TilesetWriter::sum_up_meshes(TilesetWritten& written) const {
+    int levels = 0;
+    for (const MeshTile& tile : mesh_tiles_)
+        if (tile.level) levels = std::max(levels, *tile.level + 1);
+    for (int level = levels - 1; level >= 0; --level) written.mesh_levels.emplace_back().level = level;
+    for (const MeshTile& tile : mesh_tiles_) {
+        const auto add_to = [&](TilesetLevel& sum) {
+            sum.tiles += tile.name.empty() ? 0 : 1;
+            sum.triangles += tile.triangles;
+            sum.bytes += tile.bytes;
+        };
+        add_to(written.meshes);
+        if (!tile.level) {
+            // Where things have levels the root draws nothing, and so says nothing of what is missing.
+            if (levels > 0 && &tile == &mesh_tiles_.front()) continue;
+            written.meshes.largest_error_m = std::max(written.meshes.largest_error_m, tile.error_m);
+            continue;
+        }
+        TilesetLevel& of_level = written.mesh_levels[static_cast<std::size_t>(levels - 1 - *tile.level)];
+        add_to(of_level);
+        of_level.largest_error_m = std::max(of_level.largest_error_m, tile.error_m);
+    }
+}
+
 void TilesetWriter::sum_up(TilesetWritten& written) const {
     for (const GridTiles& grid : grids_) written.grids.push_back(grid.levels());
     written.between = maker_.between().summed_up();
-    for (const MeshTile& tile : mesh_tiles_) {
-        written.meshes.tiles += tile.name.empty() ? 0 : 1;
-        written.meshes.triangles += tile.triangles;
-        written.meshes.bytes += tile.bytes;
-        written.meshes.largest_error_m = std::max(written.meshes.largest_error_m, tile.error_m);
-    }
-    written.geometric_error_m =
-        std::max({size_m(written.box), written.meshes.largest_error_m, written.between.largest_error_m});
+    sum_up_meshes(written);
+    written.geometric_error_m = std::max(size_m(written.box), written.between.largest_error_m);
+    if (!mesh_tiles_.empty())
+        written.geometric_error_m = std::max(written.geometric_error_m, mesh_tiles_.front().error_m);
     for (const std::vector<TilesetLevel>& levels : written.grids)
         for (const TilesetLevel& level : levels)
             written.geometric_error_m = std::max(written.geometric_error_m, level.largest_error_m);

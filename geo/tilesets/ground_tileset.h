@@ -17,6 +17,7 @@
 #include "geo/tilesets/clustered_ground.h"
 #include "geo/tilesets/glb.h"
 #include "geo/tilesets/kept_tiles.h"
+#include "geo/tilesets/mesh_palette.h"
 #include "geo/tilesets/tileset_layout.h"
 
 namespace oro {
@@ -24,8 +25,9 @@ namespace oro {
 // Meshes that lie on the ground.
 struct TilesetMeshes {
     std::shared_ptr<const std::vector<PlacedMesh>> meshes;
-    std::array<double, 3> colour{};     // linear light, 0 .. 1
+    MeshPalette palette;
     std::size_t most_triangles{16384};  // of a tile
+    std::size_t whole_triangles{4096};  // things of more have levels of detail
 };
 
 // Gives the ground with its clusters, which takes long: asked once, and not at all where all tiles are kept.
@@ -81,10 +83,12 @@ struct TilesetLevel {
 struct TilesetWritten {
     std::vector<std::vector<TilesetLevel>> grids;  // of each its levels, the coarsest first
     TileBox box;
-    TilesetLevel between;        // of all tiles between grids, which are always drawn
-    TilesetLevel meshes;         // of all tiles of meshes; largest_error_m is that of what is missing
-    double geometric_error_m{};  // of the tileset: what is missing when none of it is drawn
-    double root_error_m{};       // of one grid alone
+    TilesetLevel between;  // of all tiles between grids, which are always drawn
+    // Of all tiles of meshes. largest_error_m is that of what is missing where the first of them are drawn.
+    TilesetLevel meshes;
+    std::vector<TilesetLevel> mesh_levels;  // of things that have levels: among these tiles, likewise
+    double geometric_error_m{};             // of the tileset: what is missing when none of it is drawn
+    double root_error_m{};                  // of one grid alone
 };
 
 // Most posts of a tileset, whose cluster graphs are in memory: some 9 GB.

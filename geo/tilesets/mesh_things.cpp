@@ -1,22 +1,23 @@
 #include "geo/tilesets/mesh_things.h"
 
 #include <algorithm>
-#include <array>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 #include "core/earth/ellipsoid.h"
+#include "geo/tilesets/space_box.h"
 
 namespace oro {
 namespace {
 
-struct Box {
-    glm::dvec3 low_m{std::numeric_limits<double>::infinity()};
-    glm::dvec3 high_m{-std::numeric_limits<double>::infinity()};
-};
+SpaceBox box_of(const PlacedMesh& mesh, std::span<const glm::dvec3> vertices_m,
+                std::span<const std::uint32_t> triangles) {
+    SpaceBox box;
+    for (const std::uint32_t triangle : triangles)
+        for (const std::uint32_t corner : mesh.triangles[triangle]) box.add(vertices_m[corner]);
+    return box;
+}
 
 class ThingCutter {
   public:
@@ -24,21 +25,12 @@ class ThingCutter {
                 double widest_m)
         : mesh_(mesh), vertices_m_(vertices_m), most_triangles_(most_triangles), widest_m_(widest_m) {}
 
-    [[nodiscard]] Box box_of(std::span<const std::uint32_t> triangles) const {
-        Box box;
-        for (const std::uint32_t triangle : triangles)
-            for (const std::uint32_t corner : mesh_.triangles[triangle]) {
-                box.low_m = glm::min(box.low_m, vertices_m_[corner]);
-                box.high_m = glm::max(box.high_m, vertices_m_[corner]);
-            }
-        return box;
-    }
     // Appends the thing, or its pieces.
     void add(MeshThing thing, std::vector<MeshThing>& things) const {
-        const Box box = box_of(thing.triangles);
+        const SpaceBox box = box_of(mesh_, vertices_m_, thing.triangles);
         const glm::dvec3 sides_m = box.high_m - box.low_m;
-        const double widest_m = std::max({sides_m.x, sides_m.y, sides_m.z});
-        thing.middle_m = 0.5 * (box.low_m + box.high_m);
+        const double widest_m = box.widest_m();
+        thing.middle_m = box.middle_m();
         if (thing.triangles.size() == 1 ||
             (thing.triangles.size() <= most_triangles_ && widest_m <= widest_m_)) {
             things.push_back(std::move(thing));
@@ -98,29 +90,33 @@ std::vector<glm::dvec3> vertices_of_mesh(const PlacedMesh& mesh, const Undulatio
 }
 
 std::vector<MeshThing> things_of_mesh(const PlacedMesh& mesh, std::size_t number,
-                                      std::span<const glm::dvec3> vertices_m, std::size_t most_triangles,
-                                      double widest_m) {
+                                      std::span<const glm::dvec3> vertices_m) {
     const bool has_features = !mesh.feature_of.empty();
     const std::vector<std::uint32_t> of = has_features ? mesh.feature_of : joined_by_vertices(mesh);
     constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
     std::vector<std::size_t> place(has_features ? mesh.features.size() : mesh.vertices.size(), none);
-    std::vector<MeshThing> whole;
+    std::vector<MeshThing> things;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         std::size_t& at = place[of[i]];
         if (at == none) {
-            at = whole.size();
-            whole.push_back({number, has_features ? std::optional(of[i]) : std::nullopt, {}, 0.0, {}});
+            at = things.size();
+            things.push_back({number, has_features ? std::optional(of[i]) : std::nullopt, {}});
         }
-        whole[at].triangles.push_back(static_cast<std::uint32_t>(i));
+        things[at].triangles.push_back(static_cast<std::uint32_t>(i));
     }
-    const ThingCutter cutter(mesh, vertices_m, most_triangles, widest_m);
-    std::vector<MeshThing> things;
-    for (MeshThing& thing : whole) {
-        const Box box = cutter.box_of(thing.triangles);
-        thing.size_m = glm::distance(box.low_m, box.high_m);
-        cutter.add(std::move(thing), things);
+    for (MeshThing& thing : things) {
+        const SpaceBox box = box_of(mesh, vertices_m, thing.triangles);
+        thing.size_m = box.diagonal_m();
+        thing.middle_m = box.middle_m();
     }
     return things;
+}
+
+std::vector<MeshThing> pieces_of_thing(const PlacedMesh& mesh, std::span<const glm::dvec3> vertices_m,
+                                       MeshThing thing, std::size_t most_triangles, double widest_m) {
+    std::vector<MeshThing> pieces;
+    ThingCutter(mesh, vertices_m, most_triangles, widest_m).add(std::move(thing), pieces);
+    return pieces;
 }
 
 }  // namespace oro

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
@@ -9,90 +11,155 @@ namespace {
 
 using ModelJson = nlohmann::ordered_json;
 
-template <class Value>
-void append_all(std::vector<std::uint8_t>& bytes, const std::vector<Value>& values) {
-    const std::size_t before = bytes.size();
-    bytes.resize(before + values.size() * sizeof(Value));
-    std::memcpy(bytes.data() + before, values.data(), values.size() * sizeof(Value));
-}
-
 ModelJson parts_of(const glm::vec3& vector) {
     ModelJson list = ModelJson::array();
     for (const float part : {vector.x, vector.y, vector.z}) list.push_back(static_cast<double>(part));
     return list;
 }
 
-ModelJson add_accessor(ModelJson& json, std::size_t at, std::size_t bytes, int target, int component,
-                       std::size_t count, const char* type) {
-    ModelJson view = ModelJson::object();
-    view["buffer"] = 0;
-    view["byteOffset"] = at;
-    view["byteLength"] = bytes;
-    view["target"] = target;
-    ModelJson accessor = ModelJson::object();
-    accessor["bufferView"] = json["bufferViews"].size();
-    accessor["componentType"] = component;
-    accessor["count"] = count;
-    accessor["type"] = type;
-    json["bufferViews"].push_back(std::move(view));
-    return accessor;
-}
+// What is drawn by one node. A colour has three bytes and one that is unused: vertices begin at multiples of
+// four.
+struct ModelPart {
+    std::string name;  // "": none
+    std::span<const glm::vec3> positions_m, normals;
+    std::span<const std::array<double, 3>> colours;  // or none
+    std::span<const std::uint32_t> indices;
+};
 
-void add_asset(ModelJson& json, const GroundModel& model, const GlbLook& look) {
-    json["asset"]["version"] = "2.0";
-    json["asset"]["generator"] = look.generator;
-    if (!look.attribution.empty()) json["asset"]["copyright"] = look.attribution;
-    ModelJson& origin = json["asset"]["extras"]["origin"];
+// Appends parts to one buffer, and what glTF says of them.
+class ModelWriter {
+  public:
+    ModelWriter(const GroundModel& model, const GlbLook& look);
+    // colour: of a part without colours.
+    void add(const ModelPart& part, const std::array<double, 3>& colour, bool two_sided);
+    std::vector<std::uint8_t> take();
+
+  private:
+    static constexpr int is_float = 5126, is_unsigned_int = 5125, is_unsigned_byte = 5121,
+                         of_vertices = 34962, of_triangles = 34963;
+    template <class Value>
+    std::size_t add_view(std::span<const Value> values, int target);
+    // Its number.
+    std::size_t add_accessor(std::size_t view, int component, std::size_t count, const char* type);
+    ModelJson attributes_of(const ModelPart& part);
+    void add_material(bool has_colours, const std::array<double, 3>& colour, bool two_sided);
+
+    ModelJson json_ = ModelJson::object();
+    std::vector<std::uint8_t> bytes_;
+};
+
+ModelWriter::ModelWriter(const GroundModel& model, const GlbLook& look) {
+    json_["asset"]["version"] = "2.0";
+    json_["asset"]["generator"] = look.generator;
+    if (!look.attribution.empty()) json_["asset"]["copyright"] = look.attribution;
+    ModelJson& origin = json_["asset"]["extras"]["origin"];
     origin["lat_deg"] = model.origin.lat_deg;
     origin["lon_deg"] = model.origin.lon_deg;
     origin["h_m"] = model.origin.h_m;
-    json["asset"]["extras"]["error_m"] = model.error_m;
+    json_["asset"]["extras"]["error_m"] = model.error_m;
+    json_["scene"] = 0;
+    json_["scenes"][0]["nodes"] = ModelJson::array();
+    for (const char* const list : {"nodes", "meshes", "materials", "bufferViews", "accessors"})
+        json_[list] = ModelJson::array();
 }
 
-void add_scene(ModelJson& json, const GlbLook& look) {
-    json["scene"] = 0;
-    json["scenes"][0]["nodes"][0] = 0;
-    json["nodes"][0]["mesh"] = 0;
-    ModelJson& primitive = json["meshes"][0]["primitives"][0];
-    primitive["attributes"]["POSITION"] = 0;
-    primitive["attributes"]["NORMAL"] = 1;
-    primitive["indices"] = 2;
-    primitive["material"] = 0;
-    ModelJson& pbr = json["materials"][0]["pbrMetallicRoughness"];
-    for (const double part : look.colour) pbr["baseColorFactor"].push_back(part);
+template <class Value>
+std::size_t ModelWriter::add_view(std::span<const Value> values, int target) {
+    ModelJson view = ModelJson::object();
+    view["buffer"] = 0;
+    view["byteOffset"] = bytes_.size();
+    view["byteLength"] = values.size_bytes();
+    view["target"] = target;
+    const std::size_t before = bytes_.size();
+    bytes_.resize(before + values.size_bytes());
+    std::memcpy(bytes_.data() + before, values.data(), values.size_bytes());
+    json_["bufferViews"].push_back(std::move(view));
+    return json_["bufferViews"].size() - 1;
+}
+
+std::size_t ModelWriter::add_accessor(std::size_t view, int component, std::size_t count, const char* type) {
+    ModelJson accessor = ModelJson::object();
+    accessor["bufferView"] = view;
+    accessor["componentType"] = component;
+    accessor["count"] = count;
+    accessor["type"] = type;
+    json_["accessors"].push_back(std::move(accessor));
+    return json_["accessors"].size() - 1;
+}
+
+ModelJson ModelWriter::attributes_of(const ModelPart& part) {
+    static_assert(sizeof(glm::vec3) == 12);
+    const std::size_t count = part.positions_m.size();
+    glm::vec3 low = part.positions_m.front(), high = low;
+    for (const glm::vec3& position : part.positions_m)
+        low = glm::min(low, position), high = glm::max(high, position);
+    ModelJson attributes = ModelJson::object();
+    const std::size_t positions =
+        add_accessor(add_view(part.positions_m, of_vertices), is_float, count, "VEC3");
+    json_["accessors"][positions]["min"] = parts_of(low);
+    json_["accessors"][positions]["max"] = parts_of(high);
+    attributes["POSITION"] = positions;
+    attributes["NORMAL"] = add_accessor(add_view(part.normals, of_vertices), is_float, count, "VEC3");
+    if (part.colours.empty()) return attributes;
+    std::vector<std::array<std::uint8_t, 4>> codes(count);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+            codes[i][j] =
+                static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(part.colours[i][j], 0.0, 1.0)));
+    const std::size_t view = add_view(std::span<const std::array<std::uint8_t, 4>>(codes), of_vertices);
+    json_["bufferViews"][view]["byteStride"] = sizeof(codes.front());
+    const std::size_t colours = add_accessor(view, is_unsigned_byte, count, "VEC3");
+    json_["accessors"][colours]["normalized"] = true;
+    attributes["COLOR_0"] = colours;
+    return attributes;
+}
+
+void ModelWriter::add_material(bool has_colours, const std::array<double, 3>& colour, bool two_sided) {
+    ModelJson material = ModelJson::object();
+    ModelJson& pbr = material["pbrMetallicRoughness"];
+    for (const double part : colour) pbr["baseColorFactor"].push_back(has_colours ? 1.0 : part);
     pbr["baseColorFactor"].push_back(1.0);
     pbr["metallicFactor"] = 0.0;
     pbr["roughnessFactor"] = 1.0;
+    if (two_sided) material["doubleSided"] = true;
+    json_["materials"].push_back(std::move(material));
+}
+
+void ModelWriter::add(const ModelPart& part, const std::array<double, 3>& colour, bool two_sided) {
+    const std::size_t number = json_["nodes"].size();
+    ModelJson mesh = ModelJson::object();
+    ModelJson& primitive = mesh["primitives"][0];
+    primitive["attributes"] = attributes_of(part);
+    primitive["indices"] =
+        add_accessor(add_view(part.indices, of_triangles), is_unsigned_int, part.indices.size(), "SCALAR");
+    primitive["material"] = number;
+    add_material(!part.colours.empty(), colour, two_sided);
+    ModelJson node = ModelJson::object();
+    if (!part.name.empty()) node["name"] = mesh["name"] = part.name;
+    node["mesh"] = number;
+    json_["meshes"].push_back(std::move(mesh));
+    json_["nodes"].push_back(std::move(node));
+    json_["scenes"][0]["nodes"].push_back(number);
+}
+
+std::vector<std::uint8_t> ModelWriter::take() {
+    json_["buffers"][0]["byteLength"] = bytes_.size();
+    return glb_around(json_.dump(-1, ' ', false, ModelJson::error_handler_t::replace), std::move(bytes_));
 }
 
 }  // namespace
 
-std::vector<std::uint8_t> model_glb_bytes(const GroundModel& model, const GlbLook& look) {
-    constexpr int is_float = 5126, is_unsigned_int = 5125, of_vertices = 34962, of_triangles = 34963;
-    static_assert(sizeof(glm::vec3) == 12);
-    std::vector<std::uint8_t> bytes;
-    append_all(bytes, model.positions_m);
-    append_all(bytes, model.normals);
-    append_all(bytes, model.indices);
-    ModelJson json = ModelJson::object();
-    add_asset(json, model, look);
-    add_scene(json, look);
-    json["bufferViews"] = ModelJson::array();
-    const std::size_t count = model.positions_m.size(), vectors = 12 * count;
-    glm::vec3 low = model.positions_m.front(), high = low;
-    for (const glm::vec3& position : model.positions_m)
-        low = glm::min(low, position), high = glm::max(high, position);
-    ModelJson positions = add_accessor(json, 0, vectors, of_vertices, is_float, count, "VEC3");
-    positions["min"] = parts_of(low);
-    positions["max"] = parts_of(high);
-    ModelJson normals = add_accessor(json, vectors, vectors, of_vertices, is_float, count, "VEC3");
-    ModelJson indices = add_accessor(json, 2 * vectors, 4 * model.indices.size(), of_triangles,
-                                     is_unsigned_int, model.indices.size(), "SCALAR");
-    json["accessors"] = ModelJson::array();
-    for (ModelJson* const one : {&positions, &normals, &indices})
-        json["accessors"].push_back(std::move(*one));
-    json["buffers"][0]["byteLength"] = bytes.size();
-    return glb_around(json.dump(-1, ' ', false, ModelJson::error_handler_t::replace), std::move(bytes));
+std::vector<std::uint8_t> model_glb_bytes(const GroundModel& model,
+                                          std::span<const std::array<double, 3>> colours,
+                                          std::span<const ModelMesh> meshes, const GlbLook& look) {
+    ModelWriter writer(model, look);
+    // Without meshes the one node is the ground.
+    writer.add({meshes.empty() ? "" : "ground", model.positions_m, model.normals, colours, model.indices},
+               look.colour, false);
+    for (const ModelMesh& mesh : meshes)
+        writer.add({mesh.name, mesh.positions_m, mesh.normals, mesh.colours, mesh.indices}, look.colour,
+                   true);
+    return writer.take();
 }
 
 }  // namespace oro

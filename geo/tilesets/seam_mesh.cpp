@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "geo/tilesets/cut_rims.h"
-#include "geo/tilesets/tile_boxes.h"
+#include "geo/tilesets/triangle_box.h"
 
 namespace oro {
 namespace {
@@ -68,7 +68,6 @@ class SeamMeshBuilder {
     bool normals_;
     GroundMesh mesh_;
     glm::dvec3 centre_steps_{};
-    double middle_lon_deg_{}, longest_edge_m_{};
     std::map<Key, std::uint32_t> numbers_;
     std::map<Corner, std::vector<glm::dvec3>> sides_;
 };
@@ -93,16 +92,6 @@ void SeamMeshBuilder::place() {
     });
     centre_steps_ = steps_to(0.5 * (low + high));
     mesh_.centre_m = lattice_.origin_m + lattice_.ecef_from_axes * (lattice_.step_m * centre_steps_);
-    middle_lon_deg_ = geodetic_from_ecef({mesh_.centre_m}).lon_deg;
-    mesh_.box = {beyond_all, beyond_all, -beyond_all, -beyond_all, beyond_all, -beyond_all};
-    TileBox& box = mesh_.box;
-    each_corner([&](const SeamCorner& corner) {
-        const Geodetic at = geodetic_from_ecef(corner.at);
-        const double lon_deg = middle_lon_deg_ + std::remainder(at.lon_deg - middle_lon_deg_, 360.0);
-        box = {std::min(box.west_deg, lon_deg),  std::min(box.south_deg, at.lat_deg),
-               std::max(box.east_deg, lon_deg),  std::max(box.north_deg, at.lat_deg),
-               std::min(box.lowest_h_m, at.h_m), std::max(box.highest_h_m, at.h_m)};
-    });
 }
 
 // The place on the map and the light are those of the corner, wherever below it the vertex is.
@@ -128,10 +117,6 @@ std::uint32_t SeamMeshBuilder::vertex(const glm::dvec3& at_m, const SeamCorner& 
 void SeamMeshBuilder::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     if (a == b || b == c || c == a) return;
     mesh_.indices.insert(mesh_.indices.end(), {a, b, c});
-    for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}})
-        longest_edge_m_ = std::max(
-            longest_edge_m_,
-            mesh_.step_m * glm::distance(glm::dvec3(mesh_.positions[from]), glm::dvec3(mesh_.positions[to])));
 }
 
 // Of every skirt of the seam, those in other tiles too: their walls then meet.
@@ -173,8 +158,7 @@ GroundMesh SeamMeshBuilder::build() {
     }
     mesh_.ground_triangles = mesh_.indices.size() / 3;
     for (const std::uint32_t number : skirts_) add_skirt(seam_.skirts[number]);
-    widen_for_flat(mesh_.box, longest_edge_m_, reach_.down_m, CutRims::longest_outwards * reach_.out_m,
-                   mesh_.step_m);
+    mesh_.box = box_of(mesh_);
     return std::move(mesh_);
 }
 

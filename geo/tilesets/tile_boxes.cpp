@@ -38,30 +38,4 @@ nlohmann::ordered_json region_json_of(const TileBox& box) {
     return list;
 }
 
-// Flat triangles and walls reach beyond their posts: down by the walls' depth, and sideways. A flat triangle
-// is nowhere higher than its highest corner, as what lies below a height above the ellipsoid is convex.
-void widen_for_flat(TileBox& box, double longest_edge_m, double down_m, double out_m, double step_m) {
-    // A chord is off the arc above it by less than this; and off a meridian or a parallel.
-    const double farthest_deg = std::max(std::abs(box.south_deg), std::abs(box.north_deg));
-    const double bend = farthest_deg > 89.0 ? 60.0 : 1.0 + std::tan(radians_from_deg(farthest_deg).rad);
-    const double sag_m = bend * longest_edge_m * longest_edge_m / wgs84_b_m + step_m + 0.01;
-    box.lowest_h_m -= down_m + sag_m;
-    box.highest_h_m += step_m + 0.01;
-    const double aside_deg = deg_from_radians(Radians{(out_m + sag_m) / (0.99 * wgs84_b_m)});
-    box.south_deg = std::max(-90.0, box.south_deg - aside_deg);
-    box.north_deg = std::min(90.0, box.north_deg + aside_deg);
-    const double outer_deg = std::max(std::abs(box.south_deg), std::abs(box.north_deg));
-    if (outer_deg > 89.0 || box.east_deg - box.west_deg > 180.0) {
-        // Around a pole, or so wide that one may lie within it.
-        box.west_deg = -180.0, box.east_deg = 180.0;
-        if (box.north_deg >= -box.south_deg) box.north_deg = 90.0;
-        if (box.south_deg <= -box.north_deg) box.south_deg = -90.0;
-        return;
-    }
-    const double lon_aside_deg = aside_deg * (1.0 + std::tan(radians_from_deg(outer_deg).rad)) /
-                                 std::cos(radians_from_deg(outer_deg).rad);
-    box.west_deg -= lon_aside_deg;
-    box.east_deg += lon_aside_deg;
-}
-
 }  // namespace oro

@@ -15,8 +15,4 @@ double size_m(const TileBox& box);
 // 22-025r4.
 nlohmann::ordered_json region_json_of(const TileBox& box);
 
-// Makes a box of the vertices of flat triangles and of walls' upper edges hold all of these. longest_edge_m:
-// of a triangle. Walls reach down and aside so far; vertices are rounded to steps.
-void widen_for_flat(TileBox& box, double longest_edge_m, double down_m, double out_m, double step_m);
-
 }  // namespace oro

@@ -1,31 +1,17 @@
 #include "geo/together/mesh_detail.h"
 
 #include <algorithm>
-#include <array>
-#include <numeric>
-#include <tuple>
+#include <utility>
 
 #include "core/cluster_frame/cluster_cut.h"
 #include "core/cluster_frame/group_rule.h"
 #include "core/mesh_file/stored_mesh.h"
 #include "core/terrain/page_on_net.h"
+#include "geo/together/lattice_mesh.h"
 #include "geo/together/mesh_surface.h"
 
 namespace oro {
 namespace {
-
-// For each vertex the first one at its place.
-std::vector<std::uint32_t> firsts_at(const std::vector<glm::dvec3>& places) {
-    std::vector<std::uint32_t> order(places.size()), first(places.size());
-    std::iota(order.begin(), order.end(), 0U);
-    const auto key = [&](std::uint32_t i) { return std::tuple(places[i].x, places[i].y, places[i].z); };
-    std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
-        return std::tuple_cat(key(a), std::tuple(a)) < std::tuple_cat(key(b), std::tuple(b));
-    });
-    for (std::size_t i = 0; i < order.size(); ++i)
-        first[order[i]] = i > 0 && places[order[i]] == places[order[i - 1]] ? first[order[i - 1]] : order[i];
-    return first;
-}
 
 constexpr std::uint32_t not_used = ~std::uint32_t{0};
 
@@ -43,32 +29,16 @@ bool lies_as_stored(const PlacedMesh& mesh, const UndulationField& undulation, d
 MeshDetail::Graph MeshDetail::graph_of(const PlacedMesh& mesh, const UndulationField& undulation,
                                        double exaggeration, int threads) {
     const std::vector<glm::dvec3> places = drawn_places_m(mesh, undulation, exaggeration);
-    const std::vector<std::uint32_t> first = firsts_at(places);
+    LatticeMesh lattice = lattice_mesh(places, mesh.triangles);
     Graph graph;
-    std::vector<std::uint32_t> number(places.size(), not_used);
-    std::vector<glm::dvec3> vertices;
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-    const glm::dvec3 origin = places[mesh.triangles.front()[0]];
-    graph.origin_m = origin;
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        std::array<glm::dvec3, 3> at{};
-        for (std::size_t k = 0; k < 3; ++k) at[k] = places[mesh.triangles[i][k]];
-        if (glm::cross(at[1] - at[0], at[2] - at[0]) == glm::dvec3(0.0)) continue;
-        std::array<std::uint32_t, 3>& triangle = triangles.emplace_back();
-        graph.triangle_of.push_back(i);
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t vertex = first[mesh.triangles[i][k]];
-            if (number[vertex] == not_used) {
-                number[vertex] = static_cast<std::uint32_t>(vertices.size());
-                vertices.push_back(places[vertex] - origin);
-                graph.places_m.push_back(places[vertex]);
-                graph.vertex_of.push_back(vertex);
-            }
-            triangle[k] = number[vertex];
-        }
-    }
+    graph.origin_m = lattice.origin_m;
+    for (const std::uint32_t vertex : lattice.vertex_of) graph.places_m.push_back(places[vertex]);
     graph.graph = std::make_shared<const MeshGraph>(
-        triangles.empty() ? MeshGraph() : build_mesh_graph(vertices, triangles, origin, {threads}));
+        lattice.triangles.empty()
+            ? MeshGraph()
+            : build_mesh_graph(lattice.vertices, lattice.triangles, lattice.origin_m, {threads}));
+    graph.vertex_of = std::move(lattice.vertex_of);
+    graph.triangle_of = std::move(lattice.triangle_of);
     return graph;
 }
 

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "core/terrain/page_on_net.h"
-#include "geo/meshes/mesh_look.h"
+#include "geo/meshes/triangle_looks.h"
 
 namespace oro {
 namespace {
@@ -76,28 +76,6 @@ glm::dvec3 normal_at(const TrianglesAround& around, const std::vector<glm::dvec3
     return glm::normalize(sum);
 }
 
-// How a mesh's triangles are coloured: by its features.
-struct FeatureLooks {
-    std::vector<std::uint32_t> looks;
-    std::vector<float> tones;
-
-    explicit FeatureLooks(const PlacedMesh& mesh) {
-        for (const MeshFeature& feature : mesh.features) {
-            looks.push_back(mesh.has_look_by_type ? look_of_type(feature.type) : mesh.look);
-            // Parts of one building have one hue.
-            tones.push_back(tone_of(feature.part_of.empty() ? feature.name : feature.part_of));
-        }
-    }
-};
-
-void add_look(const PlacedMesh& mesh, const FeatureLooks& features, std::size_t number, SeamPiece& piece) {
-    constexpr float only_tone = 0.08F;  // of a mesh without features
-    piece.look = mesh.look, piece.tone = only_tone;
-    if (mesh.feature_of.empty()) return;
-    piece.look = features.looks[mesh.feature_of[number]];
-    piece.tone = features.tones[mesh.feature_of[number]];
-}
-
 // Upright ground between a mesh that the terrain is cut out under and what is left of that: it closes the
 // gaps that levels leave, too. What the wall's first side bounds lies on its right hand.
 SeamSkirt skirt_of(const RimWall& wall, const std::vector<SeamCorner>& corners) {
@@ -154,7 +132,7 @@ std::vector<glm::dvec3> drawn_places_m(const PlacedMesh& mesh, const UndulationF
 }
 
 void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration, Seam& seam) {
-    const FeatureLooks features(mesh);
+    const TriangleLooks looks(mesh);
     const std::vector<SeamCorner> corners = drawn_vertices(mesh, undulation, exaggeration);
     std::vector<glm::dvec3> vertices_m;
     vertices_m.reserve(corners.size());
@@ -165,7 +143,8 @@ void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double 
         if (normals[number] == glm::dvec3(0.0)) continue;
         SeamPiece piece;
         piece.two_sided = true;
-        add_look(mesh, features, number, piece);
+        const TriangleLook look = looks.of(number);
+        piece.look = look.look, piece.tone = look.tone;
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t vertex = mesh.triangles[number][i];
             piece.corners[i] = corners[vertex];

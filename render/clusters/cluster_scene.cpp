@@ -110,7 +110,7 @@ bool ClusterScene::is_here(std::uint32_t cluster) const {
 }
 
 bool ClusterScene::is_drawn_by_blocks(const StreamedChoice& choice) const {
-    return lets_blocks_stand_in_ && !level_ && choice.missing > 0 && choice.without_room == 0;
+    return falls_back_to_blocks_ && !level_ && choice.missing > 0 && choice.without_room == 0;
 }
 
 // What is wanted and here is to stay.

@@ -35,7 +35,7 @@ class ClusterScene {
     // Whether a plan that does not wait, and lacks some of its cut, is drawn by the blocks of its pages (at
     // first false): a coarser cut may be the coarsest of all, for each place that it lacks takes what is
     // above it along. Not where clusters themselves are looked at, nor where a level is kept.
-    void let_blocks_stand_in(bool lets) { lets_blocks_stand_in_ = lets; }
+    void set_fallback_to_blocks(bool on) { falls_back_to_blocks_ = on; }
 
     // Puts the cut for an eye into the plan of its pages (plan_grid). Where it takes more than the GPU may
     // hold, it is a coarser one that does not, and the plan says so. model: on the ellipsoid. Errors: damage;
@@ -45,7 +45,7 @@ class ClusterScene {
     Result<void> append_full_cut(GridPlan& plan, const Camera& camera, const Tile& tile, double tau_px,
                                  const WorldModel& model, const HorizonOccluder& occluder,
                                  const HeightQuantization& coding);
-    // ... this one takes the finest cut of what is there, or blocks (let_blocks_stand_in()), and lets the
+    // ... this one takes the finest cut of what is there, or blocks (set_fallback_to_blocks()), and lets the
     // background read the rest.
     Result<void> append_resident_cut(GridPlan& plan, const Camera& camera, const Tile& tile, double tau_px,
                                      const WorldModel& model, const HorizonOccluder& occluder,
@@ -94,7 +94,7 @@ class ClusterScene {
     std::optional<ClusterView> view_;
     std::vector<std::uint32_t> drawn_;
     bool is_whole_{}, has_room_{};
-    bool lets_blocks_stand_in_{false};
+    bool falls_back_to_blocks_{false};
     std::size_t most_without_room_{};
 };
 

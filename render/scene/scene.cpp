@@ -357,9 +357,9 @@ void Scene::replace_between(std::optional<Scene> other) {
     if (other) add(std::move(*other));
 }
 
-void Scene::let_blocks_stand_in(bool lets) {
+void Scene::set_fallback_to_blocks(bool on) {
     for (GridScene& grid : grids_)
-        if (grid.clusters_) grid.clusters_->let_blocks_stand_in(lets);
+        if (grid.clusters_) grid.clusters_->set_fallback_to_blocks(on);
 }
 
 void Scene::draw_clusters(ClusterScene clusters) {

@@ -158,8 +158,8 @@ class Scene {
     // From the next plan on its ground is drawn by clusters, on the ellipsoid; pages are there for shading.
     // The scene has one grid: triangle ids are numbered by the clusters of one. Before plan_on_device().
     void draw_clusters(ClusterScene clusters);
-    // ClusterScene::let_blocks_stand_in(), where there are clusters.
-    void let_blocks_stand_in(bool lets);
+    // ClusterScene::set_fallback_to_blocks(), where there are clusters.
+    void set_fallback_to_blocks(bool on);
 
     // From the next plan on it also holds what a style needs of the terrain around (core/frame/casters.h):
     // for shadows of all its grids, on the ground of all. How open the sky is each grid's own terrain tells.

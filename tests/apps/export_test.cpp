@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -9,11 +12,13 @@
 #include <sstream>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "tests/apps/picture_pixels.h"
 #include "tests/apps/program.h"
 #include "tests/apps/said_json.h"
 #include "tests/support/test_data.h"
+#include "tests/support/tileset_rules.h"
 
 namespace {
 namespace fs = std::filesystem;
@@ -110,21 +115,29 @@ TEST(ExportCommand, A3dTilesetHasTheProvenErrors) {
     for (const auto& entry : fs::recursive_directory_iterator(out))
         if (entry.path().extension() == ".glb") bytes += entry.file_size();
     EXPECT_EQ(bytes, said["bytes"].get<std::uintmax_t>());
+    EXPECT_EQ(oro::test::broken_rules(out), Words{});
+}
+
+// A raster of one value in each band over all the ground. False where there is no gdal_create.
+bool make_raster(const fs::path& file, const std::vector<const char*>& bands) {
+    Words words{"gdal_create", "-q",        "-of",     "GTiff", "-outsize", "50",    "40",   "-ot",   "Byte",
+                "-a_srs",      "EPSG:4326", "-a_ullr", "-84.5", "36.8",     "-84.0", "36.4", "-bands"};
+    words.push_back(std::to_string(bands.size()));
+    for (const char* const value : bands) words.insert(words.end(), {"-burn", value});
+    words.push_back(file.string());
+    return run_program(words).exit_code == 0;
 }
 
 // An image of one colour over all the ground: every file has colours of vertices, and is larger for them.
 TEST(ExportCommand, A3dTilesetIsColouredByAnImage) {
     const fs::path folder = oro::test::scratch_folder(), image = folder / "red.tif";
-    const auto made = run_program(
-        {"gdal_create", "-q",      "-of",   "GTiff", "-outsize", "50",   "40",          "-bands", "3",
-         "-burn",       "255",     "-burn", "0",     "-burn",    "0",    "-ot",         "Byte",   "-a_srs",
-         "EPSG:4326",   "-a_ullr", "-84.5", "36.8",  "-84.0",    "36.4", image.string()});
-    if (made.exit_code == 127) GTEST_SKIP() << "needs gdal_create";
+    if (!make_raster(image, {"255", "0", "0"})) GTEST_SKIP() << "needs gdal_create";
     const Words part{"--bbox=-84.4,36.5,-84.3,36.6", "--json"};
     const auto plain = object_said_by(export_words("3dtiles", folder / "plain", part));
     const auto red = object_said_by(
         export_words("3dtiles", folder / "red", oro::test::joined(part, {"--drape", image.string()})));
     EXPECT_EQ(red["tiles"], plain["tiles"]);
+    EXPECT_EQ(oro::test::broken_rules(folder / "red"), Words{});
     const std::string with = bytes_of(folder / "red" / "0" / "0" / "0.glb"),
                       without = bytes_of(folder / "plain" / "0" / "0" / "0.glb");
     EXPECT_NE(with.find("COLOR_0"), std::string::npos);
@@ -137,6 +150,100 @@ TEST(ExportCommand, A3dTilesetIsColouredByAnImage) {
                    oro::test::usage, {"needs --to 3dtiles"});
     expect_refusal(run_orograph(export_words("3dtiles", folder / "t", {"--drape", "none.tif"})),
                    oro::test::failed, {"none.tif"});
+}
+
+// What a model says, and the bytes of its buffer.
+struct ModelInFile {
+    nlohmann::json gltf;
+    std::string buffer;
+
+    explicit ModelInFile(const fs::path& file) {
+        const std::string bytes = bytes_of(file);
+        std::uint32_t json_bytes = 0;
+        std::memcpy(&json_bytes, bytes.data() + 12, sizeof(json_bytes));
+        gltf = nlohmann::json::parse(bytes.substr(20, json_bytes));
+        buffer = bytes.substr(28 + json_bytes);
+    }
+    // How many vertices of a node have each colour, "RRGGBB" of light.
+    [[nodiscard]] std::map<std::string, int> colours(std::size_t node) const {
+        std::map<std::string, int> counts;
+        const auto& primitive =
+            gltf["meshes"][gltf["nodes"][node]["mesh"].get<std::size_t>()]["primitives"][0];
+        if (!primitive["attributes"].contains("COLOR_0")) return counts;
+        const auto& accessor = gltf["accessors"][primitive["attributes"]["COLOR_0"].get<std::size_t>()];
+        const auto& view = gltf["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+        for (std::size_t i = 0; i < accessor["count"].get<std::size_t>(); ++i) {
+            const std::size_t at =
+                view["byteOffset"].get<std::size_t>() + i * view["byteStride"].get<std::size_t>();
+            char text[8];
+            std::snprintf(text, sizeof(text), "%02x%02x%02x", static_cast<unsigned char>(buffer[at]),
+                          static_cast<unsigned char>(buffer[at + 1]),
+                          static_cast<unsigned char>(buffer[at + 2]));
+            ++counts[text];
+        }
+        return counts;
+    }
+};
+
+// Images and land cover colour the vertices of a model, too. The class 50 of ESA WorldCover is #8d8680 in
+// data/cover/worldcover.json: light of 0.266, 0.238 and 0.216.
+TEST(ExportCommand, AModelIsColouredByAnImageAndByLandCover) {
+    const fs::path folder = oro::test::scratch_folder(), image = folder / "red.tif",
+                   classes = folder / "classes.tif";
+    if (!make_raster(image, {"255", "0", "0"}) || !make_raster(classes, {"50"}))
+        GTEST_SKIP() << "needs gdal_create";
+    const Words part{"--bbox=-84.4,36.5,-84.3,36.6", "--json", "--max-error", "20"};
+    const auto model = [&](const char* name, const Words& more) {
+        return object_said_by(export_words("gltf", folder / name, oro::test::joined(part, more)));
+    };
+    const auto plain = model("plain.glb", {}), red = model("red.glb", {"--drape", image.string()}),
+               built = model("built.glb", {"--landcover", classes.string() + ",worldcover"});
+    EXPECT_EQ(red["triangles"], plain["triangles"]);
+    EXPECT_EQ(red["error_m"], plain["error_m"]);
+    const int vertices = plain["vertices"];
+    EXPECT_TRUE(ModelInFile(folder / "plain.glb").colours(0).empty());
+    EXPECT_EQ(ModelInFile(folder / "red.glb").colours(0), (std::map<std::string, int>{{"ff0000", vertices}}));
+    EXPECT_EQ(ModelInFile(folder / "built.glb").colours(0),
+              (std::map<std::string, int>{{"443d37", vertices}}));
+    EXPECT_EQ(ModelInFile(folder / "red.glb").gltf["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"],
+              (std::vector<double>{1.0, 1.0, 1.0, 1.0}));
+    expect_refusal(run_orograph(export_words("terrain-rgb", folder / "t", {"--drape", image.string()})),
+                   oro::test::usage, {"needs --to 3dtiles or gltf"});
+    expect_refusal(run_orograph(export_words("gltf", folder / "t.glb", {"--drape", "none.tif"})),
+                   oro::test::failed, {"none.tif"});
+}
+
+// A house of an OBJ is the second node, with its own triangles and without harm to its file.
+TEST(ExportCommand, AModelHasTheMeshesOnTheGround) {
+    const fs::path folder = oro::test::scratch_folder(), house = folder / "house.obj";
+    oro::test::write_bytes(house,
+                           "v -84.35 36.55 420\nv -84.3495 36.55 420\nv -84.3495 36.5505 420\n"
+                           "v -84.35 36.5505 440\nf 1 2 3\nf 1 3 4\n");
+    const Words part{"--bbox=-84.4,36.5,-84.3,36.6",
+                     "--json",
+                     "--max-error",
+                     "20",
+                     "--mesh-file",
+                     house.string(),
+                     "--mesh-crs",
+                     "EPSG:4326"};
+    const auto said = object_said_by(export_words("gltf", folder / "house.glb", part));
+    EXPECT_EQ(said["meshes"]["triangles"], 2);
+    const ModelInFile model(folder / "house.glb");
+    ASSERT_EQ(model.gltf["nodes"].size(), 2U);
+    EXPECT_EQ(model.gltf["nodes"][0]["name"], "ground");
+    EXPECT_EQ(model.gltf["nodes"][1]["name"], "house.obj");
+    EXPECT_TRUE(model.colours(0).empty());
+    // The grey of meshes that do not say what they are of: 0.40, 0.395 and 0.385.
+    EXPECT_EQ(model.colours(1).size(), 1U);
+    EXPECT_EQ(model.colours(1).count("666562"), 1U);
+    expect_refusal(run_orograph(export_words("cog", folder / "t.tif", {"--mesh-file", house.string()})),
+                   oro::test::usage, {"--mesh-file", "3D Tiles and models alone"});
+    expect_refusal(run_orograph(export_words("gltf", folder / "house.glb",
+                                             {"--overwrite", "--mesh-file", (folder / "house.glb").string(),
+                                              "--mesh-crs", "EPSG:4326"})),
+                   oro::test::failed, {"house.glb"});
+    EXPECT_EQ(ModelInFile(folder / "house.glb").gltf, model.gltf);
 }
 
 // Parts by themselves, and then all: the files of one go, and nothing else is left.

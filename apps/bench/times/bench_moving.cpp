@@ -93,7 +93,7 @@ class MovingEye {
         double processor_s = loaded_s_ + seconds_since(start);
         add(times_.loaded, processor_s);
         begun_.push_back(start = Clock::now());
-        scene_.let_blocks_stand_in(true);
+        scene_.set_fallback_to_blocks(true);
         ORO_TRY(FramePlan plan, scene_.plan({camera, whole_picture(camera), options_.tau_px}));
         const double planned_s = seconds_since(start);
         add(times_.planned, planned_s);

@@ -23,6 +23,11 @@
 namespace oro {
 namespace {
 
+// One of triangles, which have colours, and meshes beside the ground.
+bool is_mesh_format(const std::string& to) {
+    return to == "3dtiles" || to == "gltf";
+}
+
 Result<void> check_file(const ExportOptions& options) {
     const std::string name = lower_case(options.out);
     if (options.to == "gltf" && !name.ends_with(".glb"))
@@ -44,8 +49,7 @@ Result<void> check_words(const ExportOptions& options) {
     const char* const needed = "needs --to terrain-rgb or quantized-mesh";
     if (options.zoom && !has_zooms) return refused("--zoom", *options.zoom, needed);
     if (options.hole_height_m && !has_zooms) return refused("--hole-height", "", needed);
-    const bool has_error = *options.to == "gltf" || *options.to == "3dtiles";
-    if (options.max_error_m && !has_error)
+    if (options.max_error_m && !is_mesh_format(*options.to))
         return refused("--max-error", all_digits(*options.max_error_m), "needs --to gltf or 3dtiles");
     if (options.no_normals && *options.to != "3dtiles")
         return refused("--no-normals", "", "needs --to 3dtiles");
@@ -54,11 +58,12 @@ Result<void> check_words(const ExportOptions& options) {
     if (!options.shard.empty() && (*options.to == "cog" || *options.to == "gltf"))
         return refused("--shard", options.shard, "needs --to 3dtiles, quantized-mesh or terrain-rgb");
     if (const Result<Shard> shard = parse_shard(options.shard); !shard.ok()) return shard.error();
-    if (!options.drape.empty() && *options.to != "3dtiles")
-        return refused("--drape", options.drape.front(), "needs --to 3dtiles");
+    if (!options.drape.empty() && !is_mesh_format(*options.to))
+        return refused("--drape", options.drape.front(), "needs --to 3dtiles or gltf");
     ORO_CHECK(check_layer_words(options));
-    if (!options.landcover.empty() && *options.to != "3dtiles" && options.canopy.empty())
-        return refused("--landcover", options.landcover.front(), "needs --to 3dtiles, or --canopy class");
+    if (!options.landcover.empty() && !is_mesh_format(*options.to) && options.canopy.empty())
+        return refused("--landcover", options.landcover.front(),
+                       "needs --to 3dtiles or gltf, or --canopy class");
     if (!options.landcover.empty() && !options.drape.empty())
         return refused("--landcover", options.landcover.front(),
                        "colours the ground, and so does --drape: give one");
@@ -103,19 +108,23 @@ std::string source_heights_words(const Region& region) {
 
 Result<void> run_export(const ExportOptions& options) {
     ORO_CHECK(check_words(options));
-    if (*options.to != "3dtiles")
-        ORO_CHECK(check_without_meshes(options.region, "goes into 3D Tiles alone (--to 3dtiles)"));
+    if (!is_mesh_format(*options.to))
+        ORO_CHECK(check_without_meshes(options.region,
+                                       "goes into 3D Tiles and models alone (--to 3dtiles or gltf)"));
     ORO_TRY(const RegionRequest request, region_request(options.region));
     ORO_TRY(const PostLayer layer, open_post_layer(options));
     ProgressBar bar(options.quiet);
     ORO_TRY(Region region, open_region(request, bar.progress()));
     leave_covered_grids_out(region);
-    if (*options.to != "3dtiles" && region.meshes && !region.meshes->empty())
-        add_note(region.grids.front().notes, counted(region.meshes->size(), "mesh", "meshes") +
-                                                 " of this baked region " +
-                                                 (region.meshes->size() == 1 ? "is" : "are") +
-                                                 " left out: meshes go into 3D Tiles alone (--to 3dtiles)");
-    ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, region)}));
+    if (!is_mesh_format(*options.to) && region.meshes && !region.meshes->empty())
+        add_note(region.grids.front().notes,
+                 counted(region.meshes->size(), "mesh", "meshes") + " of this baked region " +
+                     (region.meshes->size() == 1 ? "is" : "are") +
+                     " left out: meshes go into 3D Tiles and models alone (--to 3dtiles or gltf)");
+    ORO_CHECK(spare_inputs({options.out}, {files_of_ground(options.region.paths, region),
+                                           {request.meshes.files, "which the meshes are in"},
+                                           {options.drape, "which the colours are in"},
+                                           {options.landcover, "which the land cover is in"}}));
     if (layer.canopy) ORO_CHECK(spare_inputs({options.out}, {{layer.files(), "which the canopy is in"}}));
     if (*options.to == "cog") return export_cog(options, region, layer, bar);
     if (*options.to == "gltf") return export_gltf(options, region, bar);

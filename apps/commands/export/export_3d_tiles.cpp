@@ -15,16 +15,12 @@
 #include "apps/report/json_text.h"
 #include "apps/report/region_json.h"
 #include "core/base/parallel.h"
-#include "core/base/srgb.h"
 #include "geo/files/whole_folder.h"
 #include "geo/tilesets/ground_tileset.h"
 #include "geo/tilesets/region_tiles.h"
 
 namespace oro {
 namespace {
-
-// Of meshes, sRGB.
-constexpr double mesh_grey = 0.72;
 
 // "zurich.city.json: EPSG:2056 CH1903+ / LV95, heights above sea level (EGM96)"
 std::string meshes_words(const std::vector<PlacedMesh>& meshes) {
@@ -45,9 +41,7 @@ TilesetRequest request_of(const ExportOptions& options, const Region& region) {
         {"geometricError",
          "metres; no point of the surface of all posts is farther from what a tile has for it"}};
     if (region.meshes) {
-        TilesetMeshes meshes{region.meshes, {}};
-        for (double& part : meshes.colour) part = light_of_srgb(mesh_grey);
-        request.meshes = std::move(meshes);
+        request.meshes = TilesetMeshes{region.meshes, palette_of_meshes()};
         request.undulation = &region.grids.front().field.undulation;
         request.metadata.emplace_back("meshes", meshes_words(*region.meshes));
     }
@@ -123,6 +117,12 @@ struct AllTiles {
     }
 };
 
+void tell_level(const TilesetLevel& level) {
+    std::printf("  %5d  %6s  %10s  %8s\n", level.level, grouped(level.tiles).c_str(),
+                grouped(level.triangles).c_str(),
+                level.tiles > 0 ? figure(level.largest_error_m).c_str() : "n/a");
+}
+
 void tell_levels(const Region& region, const TilesetWritten& written) {
     std::printf("Metres from the ground, at most (proven):\n");
     for (std::size_t i = 0; i < written.grids.size(); ++i) {
@@ -132,16 +132,27 @@ void tell_levels(const Region& region, const TilesetWritten& written) {
                         grouped(static_cast<std::uint64_t>(posts.columns())).c_str(),
                         grouped(static_cast<std::uint64_t>(posts.rows())).c_str());
         std::printf("  level   tiles   triangles   largest\n");
-        for (const TilesetLevel& level : written.grids[i])
-            std::printf("  %5d  %6s  %10s  %8s\n", level.level, grouped(level.tiles).c_str(),
-                        grouped(level.triangles).c_str(),
-                        level.tiles > 0 ? figure(level.largest_error_m).c_str() : "n/a");
+        for (const TilesetLevel& level : written.grids[i]) tell_level(level);
     }
     if (written.between.tiles > 0)
         std::printf("Between grids: %s in %s, %s bytes, %s m from the ground at most\n",
                     counted(written.between.triangles, "triangle", "triangles").c_str(),
                     counted(written.between.tiles, "tile", "tiles").c_str(),
                     grouped(written.between.bytes).c_str(), figure(written.between.largest_error_m).c_str());
+}
+
+void tell_meshes(const TilesetWritten& written) {
+    std::printf(
+        "Meshes: %s in %s, %s bytes", counted(written.meshes.triangles, "triangle", "triangles").c_str(),
+        counted(written.meshes.tiles, "tile", "tiles").c_str(), grouped(written.meshes.bytes).c_str());
+    if (written.meshes.largest_error_m > 0.0)
+        std::printf("; of their things none larger than %s m is missing",
+                    figure(written.meshes.largest_error_m).c_str());
+    std::printf("\n");
+    if (written.mesh_levels.empty()) return;
+    std::printf("Metres from large things of meshes, at most (proven):\n");
+    std::printf("  level   tiles   triangles   largest\n");
+    for (const TilesetLevel& level : written.mesh_levels) tell_level(level);
 }
 
 void tell_tileset(const ExportOptions& options, const Region& region, const TilesetWritten& written) {
@@ -151,10 +162,12 @@ void tell_tileset(const ExportOptions& options, const Region& region, const Tile
                                 all.bytes, "geometric_error_m", written.geometric_error_m, "heights",
                                 heights_words(region), "attribution", attribution_of(region));
         add_levels_json(region, written, json);
-        if (region.meshes)
+        if (region.meshes) {
             json["meshes"] =
                 json_object("tiles", written.meshes.tiles, "triangles", written.meshes.triangles, "bytes",
                             written.meshes.bytes, "largest_missing_m", written.meshes.largest_error_m);
+            if (!written.mesh_levels.empty()) json["meshes"]["levels"] = levels_json(written.mesh_levels);
+        }
         json["notes"] = all_notes(region);
         std::printf("%s\n", json_text(json, true).c_str());
         return;
@@ -163,11 +176,7 @@ void tell_tileset(const ExportOptions& options, const Region& region, const Tile
                 grouped(all.bytes).c_str());
     std::printf("Heights: h, above the ellipsoid WGS84; the data's are %s\n", heights_words(region).c_str());
     tell_levels(region, written);
-    if (region.meshes)
-        std::printf("Meshes: %s in %s, %s bytes; of their things none larger than %s m is missing\n",
-                    counted(written.meshes.triangles, "triangle", "triangles").c_str(),
-                    counted(written.meshes.tiles, "tile", "tiles").c_str(),
-                    grouped(written.meshes.bytes).c_str(), figure(written.meshes.largest_error_m).c_str());
+    if (region.meshes) tell_meshes(written);
 }
 
 // What the bytes of a grid's tiles depend on.

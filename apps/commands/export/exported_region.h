@@ -12,6 +12,7 @@
 #include "core/base/result.h"
 #include "geo/region/region.h"
 #include "geo/tilesets/glb.h"
+#include "geo/tilesets/mesh_palette.h"
 #include "geo/web_maps/terrain_tiles.h"
 
 namespace oro {
@@ -35,11 +36,14 @@ Result<void> export_terrain_rgb(const ExportOptions& options, const Region& regi
 // Writes the ground of a region as 3D Tiles whose errors are proven, and tells them on standard output.
 // Errors (usage): too many posts; those of WholeFolder, RegionTiles::of() and write_tileset().
 Result<void> export_3d_tiles(const ExportOptions& options, const Region& region, ProgressBar& bar);
-// Writes the ground of a region's one grid as one model, and tells how far it is from it at most. Errors
-// (usage): several grids, too many triangles; what WholeFile says.
+// Writes the ground of a region's one grid and the meshes on it as one model, and tells how far it is from
+// the ground at most. Errors (usage): several grids, too many triangles; those of ExportedFacts and
+// WholeFile.
 Result<void> export_gltf(const ExportOptions& options, const Region& region, ProgressBar& bar);
 // What meshes of the ground look like, and whose they are.
 GlbLook look_of(const Region& region);
+// What meshes on the ground are coloured with.
+MeshPalette palette_of_meshes();
 // Refuses several grids where what is written is made of one.
 Result<void> check_one_grid(const ExportOptions& options, const Region& region);
 // Refuses a folder that cannot be written, before anything is read; with `overwrite` also one that holds more

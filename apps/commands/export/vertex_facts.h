@@ -28,6 +28,8 @@ class ExportedFacts {
                                                      std::size_t grid, const std::array<double, 3>& plain);
 
     [[nodiscard]] const std::vector<GroundSource>& sources() const { return sources_; }
+    // Whether an image or land cover colours the ground.
+    [[nodiscard]] bool has_colours() const { return images_ != nullptr || cover_ != nullptr; }
     // What the colours come from, for a key of tiles that are kept: fingerprints of all files.
     [[nodiscard]] const std::string& key() const { return key_; }
     // What a user must know of the files, one line each.

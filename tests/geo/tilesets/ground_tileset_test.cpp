@@ -12,6 +12,7 @@
 
 #include "core/truth/triangle_bvh.h"
 #include "core/truth/true_surface.h"
+#include "tests/geo/tilesets/held_triangles.h"
 #include "tests/geo/tilesets/read_tileset.h"
 #include "tests/geo/tilesets/tile_geometry.h"
 #include "tests/support/net_terrain.h"
@@ -266,20 +267,69 @@ TEST(GroundTileset, TakesEveryPostWhereNothingMayBeOff) {
                   exported.written.grids.front()[i].triangles);
 }
 
+// Each region holds every point of its triangles, and is no deeper than the sagitta of the widest below the
+// lowest vertex, or than the regions of tiles below it.
+void expect_tight_regions(const std::vector<ReadTile>& tiles) {
+    int outside = 0;
+    for (const ReadTile& tile : tiles) {
+        double lowest_h_m = 1.0e9, highest_h_m = -1.0e9, sagitta_m = 0.0;
+        for (const glm::dvec3& post : tile.posts_m) {
+            const double h_m = geodetic_from_ecef({post}).h_m;
+            lowest_h_m = std::min(lowest_h_m, h_m);
+            highest_h_m = std::max(highest_h_m, h_m);
+        }
+        for (const auto& of : tile.triangles) {
+            const std::array corners_m{tile.posts_m[of[0]], tile.posts_m[of[1]], tile.posts_m[of[2]]};
+            constexpr int points_of_side = 12;
+            outside += test::points_outside(tile.region, corners_m, points_of_side);
+            sagitta_m = std::max(sagitta_m, test::sagitta_m(corners_m, lowest_h_m));
+        }
+        double deepest_m = lowest_h_m - sagitta_m - 1.0;
+        highest_h_m += 1.0;
+        for (const int child : tile.children) {
+            deepest_m = std::min(deepest_m, tiles[static_cast<std::size_t>(child)].region[4]);
+            highest_h_m = std::max(highest_h_m, tiles[static_cast<std::size_t>(child)].region[5]);
+        }
+        EXPECT_GE(tile.region[4], deepest_m) << tile.uri;
+        EXPECT_LE(tile.region[5], highest_h_m) << tile.uri;
+    }
+    EXPECT_EQ(outside, 0);
+}
+
 // 180 E is in the middle; the pole is inside a turned one.
 TEST(GroundTileset, RegionsHoldAcrossTheAntimeridianAndAPole) {
     const Exported over(test::made_field(10.0, 179.8, 600.0, 200, 240, [](double lat, double lon) {
         return static_cast<float>(100.0 * (lat - 9.0) + 50.0 * (lon - 179.0));
     }));
     expect_sound_tree(over.tiles);
+    expect_tight_regions(over.tiles);
     EXPECT_GT(over.tiles.front().region[0], over.tiles.front().region[2]);
     const test::PlaneOfPosts plane{200, 200, {89.99, 20.0}, 60.0, 10.0};
     const Exported pole(test::net_field(plane, [](double row, double column) {
         return static_cast<float>(100.0 + std::sin(0.1 * row) * 30.0 + column);
     }));
     expect_sound_tree(pole.tiles);
+    expect_tight_regions(pole.tiles);
     EXPECT_EQ(held_to_errors(pole, 5000).above, 0);
     EXPECT_NEAR(pole.tiles.front().region[3], 0.5 * std::numbers::pi, 1e-12);
+}
+
+// Posts 20 km apart around a pole and over the antimeridian, with triangles of hundreds of kilometres.
+TEST(GroundTileset, RegionsOfCoarsePostsHoldTrianglesAndAreNoDeeper) {
+    for (const double lat_deg : {-88.0, 70.0}) {
+        const test::PlaneOfPosts plane{130, 130, {lat_deg, 179.0}, 20000.0, 30.0};
+        const Exported exported(test::net_field(plane,
+                                                [](double row, double column) {
+                                                    return static_cast<float>(1000.0 * std::sin(0.1 * row) *
+                                                                              std::cos(0.07 * column));
+                                                }),
+                                4000.0);
+        expect_sound_tree(exported.tiles);
+        expect_tight_regions(exported.tiles);
+        // The grid ends 1,300 km from its middle.
+        EXPECT_GT(exported.tiles.front().region[3] - exported.tiles.front().region[1], 0.2);
+        EXPECT_TRUE(lat_deg > 0.0 || exported.tiles.front().region[3] < -1.1);
+    }
 }
 
 // Whether a line to a place is above all ground on its way: one at a low angle may come in below the rim,

@@ -12,10 +12,13 @@
 #include <set>
 
 #include "core/earth/ellipsoid.h"
+#include "core/seam/cleared_map.h"  // gpu::mesh_look_...
 #include "geo/opening/open_region.h"
 #include "geo/tilesets/ground_tileset.h"
 #include "tests/geo/tilesets/read_tileset.h"
+#include "tests/geo/tilesets/tile_geometry.h"
 #include "tests/support/test_data.h"
+#include "tests/support/tileset_rules.h"
 
 namespace oro {
 namespace {
@@ -93,29 +96,6 @@ void draw(const std::vector<ReadTile>& tiles, int number, double refined_m, Draw
     for (const int child : tile.children) draw(tiles, child, refined_m, drawn);
 }
 
-// Errors never grow downwards; a tile's region holds its own vertices and the regions of its children.
-void expect_sound_tree(const std::vector<ReadTile>& tiles, int number) {
-    const ReadTile& tile = tiles[static_cast<std::size_t>(number)];
-    for (const glm::dvec3& post : tile.posts_m) {
-        const Geodetic at = geodetic_from_ecef({post});
-        EXPECT_GE(radians_from_deg(at.lon_deg).rad, tile.region[0]);
-        EXPECT_GE(radians_from_deg(at.lat_deg).rad, tile.region[1]);
-        EXPECT_LE(radians_from_deg(at.lon_deg).rad, tile.region[2]);
-        EXPECT_LE(radians_from_deg(at.lat_deg).rad, tile.region[3]);
-        EXPECT_GE(at.h_m, tile.region[4]);
-        EXPECT_LE(at.h_m, tile.region[5]);
-    }
-    for (const int child : tile.children) {
-        const ReadTile& below = tiles[static_cast<std::size_t>(child)];
-        EXPECT_LE(below.error_m, tile.error_m);
-        for (std::size_t i = 0; i < 6; ++i)
-            EXPECT_TRUE(i < 2 || i == 4 ? below.region[i] >= tile.region[i]
-                                        : below.region[i] <= tile.region[i])
-                << i;
-        expect_sound_tree(tiles, child);
-    }
-}
-
 // A town and the ground that it stands on, as one tileset.
 struct TownTiles {
     explicit TownTiles(const Region& region, bool without_too = false)
@@ -131,7 +111,7 @@ struct TownTiles {
         ground.grids.front().finest_error_m = usual_finest_error_m(grid.field.grid);
         const bool wrote = !without_too || write_tileset(without, ground, request, {}).ok();
         EXPECT_TRUE(wrote);
-        request.meshes = TilesetMeshes{region.meshes, {0.7, 0.7, 0.7}, 256};
+        request.meshes = TilesetMeshes{region.meshes, {}, 256};
         request.undulation = &grid.field.undulation;
         auto done = write_tileset(with, ground, request, {});
         EXPECT_TRUE(done.ok()) << done.error().line();
@@ -189,7 +169,7 @@ TEST(MeshTiles, NothingLargerThanTheErrorIsMissing) {
     EXPECT_EQ(town.written.meshes.triangles, mesh.triangles.size());
     EXPECT_GT(town.written.meshes.tiles, 10U);
     EXPECT_GE(town.tiles.front().error_m, town.tiles[static_cast<std::size_t>(root)].error_m);
-    expect_sound_tree(town.tiles, root);
+    test::expect_sound_tree(town.tiles, root);
     auto [all, names, areas, diameters_m] = TrianglesOfThings(things);
     std::mt19937 random(town_seed);
     std::discrete_distribution<std::size_t> by_area(areas.begin(), areas.end());
@@ -240,6 +220,7 @@ TEST(MeshTiles, GroundStaysAndVerticesAreWithinAMillimetre) {
     const auto region = zurich();
     if (!region) GTEST_SKIP() << "needs alps/N47E008.SRTMGL3.hgt.zip and meshes/zurich_subset_lod2.city.json";
     const TownTiles town(*region, true);
+    EXPECT_EQ(test::broken_rules(town.with), std::vector<std::string>{});
     std::size_t same = 0;
     for (const auto& entry : fs::recursive_directory_iterator(town.without)) {
         if (entry.path().extension() != ".glb") continue;
@@ -286,7 +267,8 @@ TEST(MeshTiles, GroundStaysAndVerticesAreWithinAMillimetre) {
     EXPECT_GT(turned, 5000U);
 }
 
-// A sheet without features, 6 km long: pieces of one thing, which is never missing in part unsaid.
+// A sheet without features, 6 km long, of too few triangles for levels: pieces of one thing, which is never
+// missing in part unsaid.
 TEST(MeshTiles, OneLargeThingIsCut) {
     PlacedMesh mesh;
     mesh.path = "sheet.obj";
@@ -312,6 +294,7 @@ TEST(MeshTiles, OneLargeThingIsCut) {
     for (const MeshTile& tile : *tiles) {
         triangles += tile.triangles;
         EXPECT_LE(tile.triangles, 256U);
+        EXPECT_FALSE(tile.level);
         // The whole's diagonal, 40 quads of 150 m each way, is 8.48 km; that of the box around it a little
         // more.
         EXPECT_GT(tile.error_m, tile.children.empty() ? 0.0 : 8470.0);
@@ -330,6 +313,56 @@ TEST(MeshTiles, OneLargeThingIsCut) {
     }
     EXPECT_EQ(triangles, mesh.triangles.size());
     EXPECT_EQ(different.size(), mesh.triangles.size());
+}
+
+// Features of all looks, one triangle each: a level and an upright one of a house, a road, water and a
+// meadow.
+TEST(MeshTiles, HaveTheColoursOfTheirMaterials) {
+    PlacedMesh mesh;
+    mesh.path = "town.city.json";
+    mesh.look = gpu::mesh_look_built;
+    mesh.has_look_by_type = true;
+    const std::array<const char*, 5> types{"Building", "BuildingPart", "Road", "WaterBody", "LandUse"};
+    for (std::uint32_t i = 0; i < types.size(); ++i) {
+        MeshFeature feature;
+        feature.name = std::string("thing ") + types[i];
+        feature.type = types[i];
+        feature.first_triangle = i;
+        if (i == 1) feature.part_of = "thing Building";
+        mesh.features.push_back(feature);
+        mesh.feature_of.push_back(i);
+        const double lat_deg = 46.5 + 0.001 * i, upright_m = i == 1 ? 9.0 : 0.0;
+        const double deeper_deg = i == 1 ? 0.0 : 0.0001;
+        mesh.vertices.push_back({lat_deg, 8.0, 500.0});
+        mesh.vertices.push_back({lat_deg, 8.0001, 500.0});
+        mesh.vertices.push_back({lat_deg + deeper_deg, 8.0001, 500.0 + upright_m});
+        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    const fs::path folder = test::scratch_folder();
+    MeshTilesRequest request;
+    request.look.generator = "test";
+    request.palette = {{0.3, 0.29, 0.25}, {0.25, 0.22, 0.2}, {0.01, 0.02, 0.05}};
+    const auto tiles = write_mesh_tiles(folder, std::span(&mesh, 1), {}, request);
+    ASSERT_TRUE(tiles.ok()) << tiles.error().line();
+    ASSERT_EQ(tiles->size(), 1U);
+    ReadTile read;
+    test::read_glb(test::all_bytes(folder / tiles->front().name), read);
+    ASSERT_EQ(read.colours.size(), 3 * types.size());
+    std::map<std::string, glm::dvec3> colours;
+    for (std::size_t i = 0; i < read.colours.size(); ++i)
+        colours[read.feature_types[static_cast<std::size_t>(read.features[i])]] = read.colours[i];
+    constexpr double of_a_byte = 0.51 / 255.0;
+    const auto expect_colour = [&](const char* type, const glm::dvec3& light) {
+        for (int part = 0; part < 3; ++part) EXPECT_NEAR(colours[type][part], light[part], of_a_byte) << type;
+    };
+    expect_colour("Road", {0.8 * 0.25, 0.8 * 0.22, 0.8 * 0.2});
+    expect_colour("WaterBody", {0.01, 0.02, 0.05});
+    expect_colour("LandUse", {0.3, 0.29, 0.25});
+    // Gravel is grey and dark; plaster is lighter, and not bluish.
+    EXPECT_NEAR(colours["Building"].x / colours["Building"].z, 0.24 / 0.22, 0.03);
+    EXPECT_LT(colours["Building"].x, 0.24 * 1.36);
+    EXPECT_GT(colours["BuildingPart"].x, 0.82 * 0.42 - of_a_byte);
+    EXPECT_GT(colours["BuildingPart"].x, colours["BuildingPart"].z);
 }
 
 }  // namespace

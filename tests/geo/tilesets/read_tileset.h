@@ -22,7 +22,8 @@
 namespace oro::test {
 
 struct ReadTile {
-    std::string uri;  // "" for none
+    std::string uri;     // "" for none
+    std::string refine;  // its own or what it has from those above
     double error_m{};
     std::array<double, 6> region{};  // west, south, east, north in radians, lowest, highest in metres
     int parent{-1};
@@ -237,6 +238,8 @@ inline void read_tile(const nlohmann::json& json, const std::filesystem::path& f
     tiles.back().parent = parent;
     if (parent >= 0) tiles[static_cast<std::size_t>(parent)].children.push_back(number);
     tiles.back().error_m = json["geometricError"];
+    tiles.back().refine =
+        json.value("refine", parent < 0 ? "" : tiles[static_cast<std::size_t>(parent)].refine);
     for (std::size_t i = 0; i < 6; ++i) tiles.back().region[i] = json["boundingVolume"]["region"][i];
     if (json.contains("content")) {
         tiles.back().uri = json["content"]["uri"];

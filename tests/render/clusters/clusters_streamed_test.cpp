@@ -216,15 +216,15 @@ TEST_P(StreamedClusters, BringWhatShowsBeforeWhatIsHidden) {
     }
 }
 
-// An eye that moves always lacks some clusters. Where blocks stand in no frame is coarser than tau asks for,
+// An eye that moves always lacks some clusters. With blocks as the fallback no frame is coarser than tau asks for,
 // though clusters that were left out alone would take the ground above them along, up to the coarsest. Those
 // that come in the end are the cut.
-TEST_P(StreamedClusters, BlocksStandInForACutThatLacksSome) {
+TEST_P(StreamedClusters, FallBackToBlocksWhereTheCutLacksSome) {
     constexpr unsigned seed = 345;
     std::mt19937_64 random(seed);
     constexpr std::uint64_t gpu_bytes = std::uint64_t{64} << 20U;
     test::DrawnScene blocks = scene(gpu_bytes), clusters = scene(gpu_bytes);
-    blocks.scene().let_blocks_stand_in(true);
+    blocks.scene().set_fallback_to_blocks(true);
     int by_blocks = 0, by_clusters = 0;
     for (int i = 0; i < 12; ++i) {
         SCOPED_TRACE("seed " + std::to_string(seed) + ", eye " + std::to_string(i));
