@@ -75,10 +75,9 @@ std::string without_blanks_around(const std::string& text) {
     return text.substr(first, text.find_last_not_of(" \t") + 1 - first);
 }
 
-Result<std::vector<BatchPlace>> places_of_table(const std::string& file) {
+Result<std::vector<BatchPlace>> places_of_table(const std::string& file, std::vector<std::string>& names) {
     ORO_TRY(TextLines lines, TextLines::of(file));
     std::vector<BatchPlace> places;
-    std::vector<std::string> names;
     std::vector<OtherName> others;
     char separator = ',';
     std::string line;
@@ -119,16 +118,21 @@ std::string degrees_words(double angle_deg) {
     return text;
 }
 
-Result<std::vector<BatchPlace>> places_of_vectors(const std::string& file) {
+Result<std::vector<BatchPlace>> places_of_vectors(const std::string& file, std::vector<std::string>& names) {
     ORO_TRY(const VectorFile vectors, read_vectors(file));
     std::vector<BatchPlace> places;
     for (const VectorLayer& layer : vectors.layers) {
+        bool is_layer_known = false;
         for (const VectorShape& shape : layer.shapes) {
             if (shape.kind != VectorKind::point) continue;
             if (places.size() == most_places) return too_many(file);
             BatchPlace& place = places.emplace_back();
             place.number = places.size();
-            for (const std::string& name : layer.fields) place.fields[name] = layer.text(shape, name);
+            for (const std::string& name : layer.fields) {
+                place.fields[name] = layer.text(shape, name);
+                if (!is_layer_known && std::ranges::find(names, name) == names.end()) names.push_back(name);
+            }
+            is_layer_known = true;
             for (const char* const name : {"name", "above"})
                 if (layer.field_number(name) >= 0) place.fields[name] = layer.text(shape, name);
             const VectorPlace& at = shape.paths.front().front();
@@ -155,9 +159,16 @@ std::string BatchPlace::words() const {
 }
 
 Result<std::vector<BatchPlace>> read_places(const std::string& file) {
+    std::vector<std::string> headings;
+    return read_places(file, headings);
+}
+
+Result<std::vector<BatchPlace>> read_places(const std::string& file, std::vector<std::string>& headings) {
+    headings.clear();
     const std::string lower = lower_case(file);
     const bool is_table = lower.ends_with(".csv") || lower.ends_with(".tsv") || lower.ends_with(".txt");
-    ORO_TRY(std::vector<BatchPlace> places, is_table ? places_of_table(file) : places_of_vectors(file));
+    ORO_TRY(std::vector<BatchPlace> places,
+            is_table ? places_of_table(file, headings) : places_of_vectors(file, headings));
     if (places.empty())
         return Error{ErrorKind::failed, file,
                      is_table ? "has no places: the first line names fields, each other one is a place"

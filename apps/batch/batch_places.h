@@ -27,6 +27,9 @@ struct BatchPlace {
 // text), a vector file one that read_vectors() reads: its points. Errors: those of reading; no place; a line
 // of a table with more fields than names.
 Result<std::vector<BatchPlace>> read_places(const std::string& file);
+// The same. headings: becomes the names in a table's first line, in their order, or those of the fields that
+// the points of a vector file have.
+Result<std::vector<BatchPlace>> read_places(const std::string& file, std::vector<std::string>& headings);
 
 // The text with what a place has in the place of each {field}; {{ and }} are braces. Errors (usage): a field
 // that the place does not have; a brace alone.

@@ -55,27 +55,37 @@ void check_given(const CLI::App& command, const CLI::Option& option, const std::
         refuse(option, "", missing_words(option));
 }
 
-// How many characters must change to make one word of the other.
+// How many characters must change, or swap with their neighbour, to make one word of the other.
 std::size_t distance(const std::string& from, const std::string& to) {
-    std::vector<std::size_t> row(to.size() + 1);
+    std::vector<std::size_t> before(to.size() + 1), row(to.size() + 1), next(to.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 0; i < from.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i + 1);
+        next[0] = i + 1;
         for (std::size_t j = 0; j < to.size(); ++j) {
-            const std::size_t changed = diagonal + (from[i] == to[j] ? 0 : 1);
-            diagonal = std::exchange(row[j + 1], std::min({row[j] + 1, row[j + 1] + 1, changed}));
+            next[j + 1] = std::min({next[j] + 1, row[j + 1] + 1, row[j] + (from[i] == to[j] ? 0 : 1)});
+            const bool is_swapped = i > 0 && j > 0 && from[i] == to[j - 1] && from[i - 1] == to[j];
+            if (is_swapped) next[j + 1] = std::min(next[j + 1], before[j - 1] + 1);
         }
+        before = std::exchange(row, next);
     }
     return row.back();
 }
 
+// How many characters of a word may differ from those of a name that it is like: one of three.
+std::size_t most_changes(const std::string& word, const std::string& name) {
+    const auto letters = [](const std::string& text) {
+        return text.size() - std::min(text.find_first_not_of('-'), text.size());
+    };
+    return std::min(std::size_t{2}, std::max(letters(word), letters(name)) / 3);
+}
+
 // ": did you mean --heights?", or nothing where no name is like the word.
 std::string nearest_words(const std::string& word, const std::vector<std::string>& names) {
-    constexpr std::size_t longest_word = 40, most_changes = 2;
+    constexpr std::size_t longest_word = 40;
     if (word.size() > longest_word) return {};
     const auto changes = [&](const std::string& name) { return distance(word, name); };
     const auto nearest = std::ranges::min_element(names, {}, changes);
-    if (nearest == names.end() || changes(*nearest) > most_changes) return {};
+    if (nearest == names.end() || changes(*nearest) > most_changes(word, *nearest)) return {};
     return ": did you mean " + *nearest + "?";
 }
 
@@ -120,7 +130,7 @@ Error of_left_over(const CLI::App& app) {
     const std::string near = nearest_words(name, listed_options(command));
     return refused(
         name, "",
-        command.get_name() + " has no such option" + (near.empty() ? see(command, "lists all") : near));
+        command.get_name() + " has no such option" + (near.empty() ? see(command, "all lists them") : near));
 }
 
 // Of two options that exclude each other.

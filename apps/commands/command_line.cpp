@@ -427,6 +427,7 @@ void add_sight(CLI::App& app, SightOptions& options, RealisationOptions& realisa
     set_help(command, {{"sight PATH... --from PLACE --to PLACE [OPTIONS]"},
                        "The Earth's curvature always counts. Hidden is an answer, too: the exit code is 0.",
                        "docs/commands/sight.md"});
+    list_first(command, {"--refraction"});
 }
 
 void add_profile(CLI::App& app, ProfileOptions& options) {

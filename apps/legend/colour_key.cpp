@@ -99,6 +99,21 @@ ColourKey key_of_cover(const CoverMap& cover) {
     return key;
 }
 
+// Whether colours along a bar can be told apart: those of contours are paper.
+bool has_different_colours(const ColourKey& key) {
+    constexpr int steps = 64, least_difference = 24;  // of 255
+    StripColour lowest{255, 255, 255}, highest{0, 0, 0};
+    for (int i = 0; i <= steps; ++i) {
+        const StripColour colour = key.colour(key.low + (key.high - key.low) * i / steps);
+        for (std::size_t c = 0; c < colour.size(); ++c) {
+            lowest[c] = std::min(lowest[c], colour[c]);
+            highest[c] = std::max(highest[c], colour[c]);
+            if (highest[c] - lowest[c] >= least_difference) return true;
+        }
+    }
+    return false;
+}
+
 void add_ticks(ColourKey& key, double step) {
     for (double at = std::ceil(key.low / step) * step; at <= key.high; at += step) key.ticks.push_back(at);
 }
@@ -153,6 +168,7 @@ ColourKey colour_key(const View& view, const Region& region, const Style& style,
     const HeightRange range = height_range(region.grids.front().field);
     key.low = static_cast<double>(range.lowest_m);
     key.high = std::max(key.low + 1.0, static_cast<double>(range.highest_m));
+    if (!has_different_colours(key)) return {};
     add_ticks(key, round_length(std::max(1.0, (key.high - key.low) / 2.5)));
     return key;
 }

@@ -30,8 +30,10 @@ struct ColourKey {
     std::vector<Named> names;  // of KeyShape::names
 };
 // By the heights of the region, or all slopes; what grows by nature by the snow line at the eye's or the
-// map's latitude. None where a style has one colour alone. Of a view that shows its own making (--show), what
-// that has: `every` is 1, or which posts alone are drawn, every so many-th along rows and columns.
+// map's latitude. None where a style has one colour alone,
+// or colours that nobody tells apart between the region's lowest and highest ground. Of a view that shows its
+// own making (--show), what that has: `every` is 1, or which posts alone are drawn, every so many-th along
+// rows and columns.
 ColourKey colour_key(const View& view, const Region& region, const Style& style, int every = 1);
 
 }  // namespace oro

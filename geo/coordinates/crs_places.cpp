@@ -166,7 +166,7 @@ Result<CrsPlaces> CrsPlaces::of(const std::string& crs, Reach reach) {
     start_gdal();
     const GdalMessages messages;
     const SpatialReference whole = crs_from_text(crs);
-    if (!whole) return no_place("is no coordinate reference system that PROJ knows; e.g. EPSG:2056");
+    if (!whole) return no_place(unknown_crs_words(crs, "EPSG:2056"));
     if (OSRIsLocal(whole.get()) || (!OSRIsGeographic(whole.get()) && !OSRIsProjected(whole.get())))
         return no_place("places nothing on the Earth: name a projected CRS or one of degrees");
     auto made = std::make_unique<Transformation>();

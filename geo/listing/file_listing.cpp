@@ -15,6 +15,7 @@
 #include "geo/listing/header_cache.h"
 #include "geo/opening/companions.h"
 #include "geo/opening/made_world.h"
+#include "geo/opening/region_files.h"
 #include "geo/opening/region_sources.h"
 #include "geo/posts/own_posts.h"
 #include "geo/region/region_grid.h"
@@ -210,7 +211,9 @@ Result<FileListing> list_files(const RegionRequest& request, const ListingCache&
     start_gdal();
     ORO_TRY(const SourceOverrides overrides, source_overrides(request));
     std::vector<Error> unreadable;
-    ORO_TRY(std::vector<SourcePath> paths, find_sources(request.paths, unreadable));
+    Result<std::vector<SourcePath>> searched = find_sources(request.paths, unreadable);
+    if (!searched) return with_meshes_of_folder(searched.error());
+    std::vector<SourcePath> paths = std::move(*searched);
     std::optional<BoundingBox> box;
     if (request.box) box = unwrapped(*request.box);
     std::erase_if(paths, [&](const SourcePath& path) { return lies_elsewhere(path, box); });

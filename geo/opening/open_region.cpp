@@ -143,6 +143,28 @@ Error with_order_of_box(Error fault, const RegionRequest& request) {
     return fault;
 }
 
+// That a box over the antimeridian which goes most of the way round the Earth is not one with west and east
+// swapped: then the data lie in the swapped one, and not on both sides of the antimeridian.
+Result<void> check_west_and_east(const RegionRequest& request) {
+    if (!request.box) return {};
+    const BoundingBox& box = *request.box;
+    const bool crosses = box.west_deg > box.east_deg && box.west_deg < 180.0 && box.east_deg > -180.0;
+    if (!crosses || box.west_deg - box.east_deg >= 180.0) return {};
+    const auto has_data_between = [&](double west_deg, double east_deg) {
+        RegionRequest other = request;
+        other.box = BoundingBox{west_deg, box.south_deg, east_deg, box.north_deg};
+        return has_data(other);
+    };
+    constexpr double near_deg = 90.0;  // so far from the antimeridian
+    if (!has_data_between(box.east_deg, box.west_deg) ||
+        (has_data_between(std::max(box.west_deg, 180.0 - near_deg), 180.0) &&
+         has_data_between(-180.0, std::min(box.east_deg, near_deg - 180.0))))
+        return {};
+    return Error{ErrorKind::usage, "--bbox " + bounding_box_text(box),
+                 "crosses the antimeridian, and goes most of the way round the Earth: did you mean " +
+                     bounding_box_text({box.east_deg, box.south_deg, box.west_deg, box.north_deg}) + "?"};
+}
+
 // What keep_last_region() keeps.
 struct KeptRegion {
     RegionRequest request;
@@ -220,6 +242,7 @@ std::size_t regions_read() {
 
 Result<Region> open_region(const RegionRequest& request, const Progress& progress) {
     try {
+        ORO_CHECK(check_west_and_east(request));
         Result<Region> region = read_or_kept(request, progress);
         if (region.ok()) ORO_CHECK(libraries_are_sound());
         // Also where it could not be read: a file that is being rewritten is not damaged.

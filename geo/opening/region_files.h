@@ -20,4 +20,8 @@ struct RegionFiles {
 // baked. Errors: no path was given (no_data); those of find_sources().
 [[nodiscard]] Result<RegionFiles> find_files(const RegionRequest& request);
 
+// This gives an error that says that a folder holds no elevation data, and says that it holds meshes where it
+// does. Other errors stay as they are.
+[[nodiscard]] Error with_meshes_of_folder(Error error);
+
 }  // namespace oro

@@ -271,10 +271,23 @@ Result<Place> read_single_word(const std::string& text, const std::string& plain
     return refused(text, known_forms);
 }
 
+// Whether a text is a name, of several words or of letters that no form of a place has: it has no digit.
+bool is_name(const std::string& plain) {
+    bool has_letter = false, may_be_form = true;
+    for (const char c : plain) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte < 0x20 || byte == 0x7F || (c >= '0' && c <= '9')) return false;
+        has_letter |= (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || byte >= 0x80;
+        may_be_form &= c != ' ' && c != ',' && byte < 0x80;
+    }
+    return has_letter && !may_be_form;
+}
+
 Result<Place> read_place(const std::string& text) {
     if (text.size() > longest_text) return refused(text, "is too long for a place");
     const std::string plain = trimmed(with_ascii_marks(trimmed(text)));
     if (plain.empty()) return refused(text, "is empty");
+    if (is_name(plain)) return refused(text, known_forms);
     for (const char c : plain)
         if (c < 0x20 || c > 0x7E) return refused(text, "holds a character that no form of a place has");
     const std::string small = lower(plain);

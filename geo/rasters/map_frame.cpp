@@ -11,6 +11,7 @@
 
 #include "geo/files/letter_case.h"
 #include "geo/files/raster_library.h"
+#include "geo/sources/area_of_use.h"
 #include "geo/sources/raster_crs.h"
 
 namespace oro {
@@ -61,8 +62,7 @@ Result<SpatialReference> crs_named(const MapRequest& request, const std::vector<
     const GdalMessages messages;
     const std::string text = request.crs ? *request.crs : usual_crs(boxes);
     const SpatialReference crs = crs_from_text(text);
-    if (!crs)
-        return refused_crs(request.crs, "is no coordinate reference system that PROJ knows; e.g. EPSG:32632");
+    if (!crs) return refused_crs(request.crs, unknown_crs_words(text, "EPSG:32632"));
     if (OSRIsLocal(crs.get()) || (!OSRIsGeographic(crs.get()) && !OSRIsProjected(crs.get())))
         return refused_crs(request.crs,
                            "is no map's coordinate reference system: name a projected one or one of degrees");
@@ -216,6 +216,21 @@ std::string map_unit(const std::string& text) {
     else
         OSRGetLinearUnits(crs.get(), &name);
     return name ? name : "";
+}
+
+std::string note_of_map_area(const MapFrame& frame, const MapPlace& middle) {
+    const GdalMessages messages;
+    const SpatialReference crs = crs_from_text(frame.crs);
+    const auto area = crs ? area_of_use(crs.get(), frame.crs) : std::nullopt;
+    const double outside_deg =
+        area ? outside_area_deg(*area, {middle.lon_deg, middle.lat_deg, middle.lon_deg, middle.lat_deg})
+             : 0.0;
+    if (!(outside_deg > 0.0)) return "";
+    char degrees[40];
+    std::snprintf(degrees, sizeof degrees, outside_deg < 10.0 ? "%.2g" : "%.0f", outside_deg);
+    return "the map's middle lies " + std::string(degrees) +
+           " degrees outside the area that its coordinate " + "reference system, " + crs_name(crs.get()) +
+           ", is made for (" + area_words(*area) + "): the system may be wrong";
 }
 
 struct MapPlaces::Transformation {

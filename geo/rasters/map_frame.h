@@ -48,6 +48,8 @@ Result<MapFrame> map_frame(const MapRequest& request, const PostGrid& grid);
 // Of text that is no CRS: "".
 std::string map_crs_name(const std::string& crs);
 std::string map_unit(const std::string& crs);
+// What a user must know of a map whose middle lies outside the area that its CRS is made for; "" of others.
+std::string note_of_map_area(const MapFrame& frame, const MapPlace& middle);
 
 // Turns pixels of a map into places on WGS84, by PROJ. Not safe to ask from several threads.
 class MapPlaces {

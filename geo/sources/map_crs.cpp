@@ -14,6 +14,15 @@ SpatialReference crs_from_text(const std::string& text) {
     return crs;
 }
 
+std::string unknown_crs_words(const std::string& text, const std::string& example) {
+    const std::string what = "is no coordinate reference system that PROJ knows";
+    const bool is_number =
+        !text.empty() && text.size() <= 6 && text.find_first_not_of("0123456789") == std::string::npos;
+    const GdalMessages messages;
+    if (is_number && crs_from_text("EPSG:" + text)) return what + ": did you mean EPSG:" + text + "?";
+    return what + "; e.g. " + example;
+}
+
 std::string text_of_crs(OGRSpatialReferenceH crs) {
     const char* const authority = OSRGetAuthorityName(crs, nullptr);
     const char* const code = OSRGetAuthorityCode(crs, nullptr);

@@ -21,6 +21,9 @@ SpatialReference horizontal_part(OGRSpatialReferenceH crs);
 // As GDAL takes it (EPSG:2056, PROJ or WKT text), x or longitude first; null for what PROJ does not know.
 // Nothing is fetched, and no file is read.
 SpatialReference crs_from_text(const std::string& text);
+// What is wrong with a text for which crs_from_text() gives null: "is no coordinate reference system that
+// PROJ knows; e.g. EPSG:2056", or that EPSG:2056 may be meant by 2056.
+std::string unknown_crs_words(const std::string& text, const std::string& example);
 // A short name where PROJ has the same by it, else WKT2.
 std::string text_of_crs(OGRSpatialReferenceH crs);
 

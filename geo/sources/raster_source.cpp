@@ -103,6 +103,20 @@ bool should_open(const SourcePath& path) {
     return GDALIdentifyDriverEx(path.file.c_str(), GDAL_OF_RASTER, trusted_drivers(), nullptr) != nullptr;
 }
 
+// What a file that is no raster is for, by its name; "" where that says nothing.
+std::string use_of_other_file(const std::string& path) {
+    const std::string name = lower_case(path);
+    for (const char* const ending : {".gpx", ".geojson", ".topojson", ".kml", ".kmz", ".csv", ".shp"})
+        if (name.ends_with(ending))
+            return "holds no elevation raster but tracks, points or areas: --overlay draws them, --names "
+                   "reads "
+                   "names of places";
+    for (const char* const ending : {".gml", ".citygml"})
+        if (name.ends_with(ending))
+            return "is GML: CityGML is not read; citygml-tools turns it into CityJSON";
+    return "";
+}
+
 Result<Opened> open_source(const SourcePath& path, const GdalMessages& messages) {
     Opened opened;
     ORO_TRY(opened.parts, parts_of_raster(path.file));
@@ -118,6 +132,7 @@ Result<Opened> open_source(const SourcePath& path, const GdalMessages& messages)
             return Error{ErrorKind::failed, "",
                          "cannot be opened as a raster: " + messages.last("unknown format")};
         std::string why = mark_words(path.file);
+        if (why.empty()) why = use_of_other_file(path.name);
         if (why.empty())
             why = "is not a raster in an accepted format (" + trusted_formats() +
                   "): in others a file that is cut short may pass unnoticed; gdal_translate converts them to "

@@ -40,7 +40,7 @@ std::optional<std::string> fault_of_source_crs(const std::string& text) {
     start_gdal();
     const GdalMessages messages;
     const SpatialReference crs = crs_from_text(text);
-    if (!crs) return "is no coordinate reference system that PROJ knows; e.g. EPSG:2056";
+    if (!crs) return unknown_crs_words(text, "EPSG:2056");
     if (OSRIsLocal(crs.get()) || (!OSRIsGeographic(crs.get()) && !OSRIsProjected(crs.get())))
         return OSRIsVertical(crs.get()) ? "says what heights refer to, not places: --source-vertical takes it"
                                         : "is tied to no place on the Earth";

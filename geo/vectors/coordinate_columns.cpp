@@ -1,6 +1,7 @@
 #include "geo/vectors/coordinate_columns.h"
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 
 #include "geo/files/letter_case.h"
@@ -32,6 +33,16 @@ DegreeColumns degree_columns_of(const std::vector<std::string>& names) {
                               "decimallongitude", "lon wgs84", "gps longitude", "wgs84 lon"})};
 }
 
+// Whether what a heading has in brackets, where it has some, says metres over the ground.
+bool is_in_metres(const std::string& heading) {
+    const std::size_t open = heading.find_first_of("([");
+    if (open == std::string::npos) return true;
+    std::string unit = lower_case(heading.substr(open + 1, heading.find_first_of(")]", open) - open - 1));
+    std::erase_if(unit, [](char c) { return c == '.' || c == '_'; });
+    constexpr std::array known{"m", "metre", "metres", "meter", "meters", "agl", "m agl", "m above ground"};
+    return std::ranges::any_of(known, [&](const char* name) { return unit == name; });
+}
+
 }  // namespace
 
 std::string plain_heading(std::string_view heading) {
@@ -48,6 +59,16 @@ std::string plain_heading(std::string_view heading) {
 
 DegreeColumns degree_columns(const std::vector<std::string>& headings) {
     return degree_columns_of(plain_headings(headings));
+}
+
+std::optional<std::size_t> above_ground_column(const std::vector<std::string>& headings) {
+    std::vector<std::string> names = plain_headings(headings);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (names[i].ends_with(" m")) names[i].erase(names[i].size() - 2);
+        if (!is_in_metres(headings[i])) names[i].clear();
+    }
+    return column_of(names, {"above", "above ground", "height above ground", "height agl", "agl",
+                             "mast height", "height"});
 }
 
 CoordinateColumns coordinate_columns(const std::vector<std::string>& headings) {

@@ -1,6 +1,7 @@
 // What a wrong command line is answered: one line that begins with the option, and exit code 2.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <regex>
 #include <string>
 #include <vector>
@@ -172,17 +173,64 @@ TEST(RefusedOptions, NamesThatThereAreNot) {
     expect_lines(
         {{{"plan", file, "--hieghts", "f32"}, "--hieghts: plan has no such option: did you mean --heights?"},
          {{"info", file, "--nonsense=3"},
-          "--nonsense: info has no such option (orograph info --help lists all)"},
+          "--nonsense: info has no such option (orograph info --help all lists them)"},
          {{"bake", file, "--look-at", "1,2"},
-          "--look-at: bake has no such option (orograph bake --help lists all)"},
+          "--look-at: bake has no such option (orograph bake --help all lists them)"},
          {{"doctor", "here"},
           "here: doctor takes options only, no files (orograph doctor --help lists them)"},
          {{"--tau", "1", "plan", file}, "--tau: stands before the command: orograph COMMAND --tau"},
          {{"--nonsense"}, "--nonsense: stands before the command: orograph COMMAND --nonsense"},
          {{"info", file, "--json=perhaps"}, "--json: takes no value"},
          {{"sho", file}, "there is no command \"sho\": did you mean shot?"},
-         {{"fly"}, "there is no command \"fly\": did you mean film?"},
+         {{"fly"}, "there is no command \"fly\"; these are " + oro::test::list_of_commands()},
          {{"soar"}, "there is no command \"soar\"; these are " + oro::test::list_of_commands()}});
+}
+
+// One letter of three may differ, or stand in its neighbour's place.
+TEST(RefusedOptions, OnlyNamesThatAreLikeThemAreSuggested) {
+    const std::string file = bundled();
+    const auto lists = [](const std::string& command, const std::string& option) {
+        return option + ": " + command + " has no such option (orograph " + command +
+               " --help all lists them)";
+    };
+    expect_lines({{{"horizon", file, "--at", "36.5,-84.2"}, lists("horizon", "--at")},
+                  {{"shot", file, "--scale", "3"}, lists("shot", "--scale")},
+                  {{"shot", file, "--x", "3"}, lists("shot", "--x")},
+                  {{"shot", file, "--tua", "3"}, "--tua: shot has no such option: did you mean --tau?"},
+                  {{"shot", file, "--styl", "x"}, "--styl: shot has no such option: did you mean --style?"},
+                  {{"shot", file, "--obx", "1,2,3,4"}, lists("shot", "--obx")}});
+}
+
+// What a user may take for elevation data, for a place or for a CRS.
+TEST(RefusedOptions, WhatIsSomethingElse) {
+    const auto folder = oro::test::scratch_folder();
+    const auto file = [&](const std::string& name) { return (folder / name).string(); };
+    for (const char* const name : {"t.gpx", "t.geojson", "t.KML", "t.csv", "t.shp"}) {
+        oro::test::write_bytes(folder / name, "name,lat,lon\n");
+        oro::test::expect_refusal(
+            run_orograph({"plan", file(name)}), 1,
+            {std::string(name) + ": holds no elevation raster but tracks, points or areas: "
+                                 "--overlay draws them, --names reads"});
+    }
+    oro::test::write_bytes(folder / "town.gml", "<CityModel/>");
+    oro::test::expect_refusal(
+        run_orograph({"plan", file("town.gml")}), 1,
+        {"town.gml: is GML: CityGML is not read; citygml-tools turns it into CityJSON"});
+    std::filesystem::create_directory(folder / "meshes");
+    for (const char* const name : {"meshes/a.obj", "meshes/b.ply"})
+        oro::test::write_bytes(folder / name, "v 0 0 0\n");
+    for (const char* const command : {"info", "plan"})
+        oro::test::expect_refusal(run_orograph({command, file("meshes")}), 3,
+                                  {"no elevation data under this folder, but 2 meshes: name them one by one, "
+                                   "with --mesh-file " +
+                                   file("meshes/a.obj")});
+    expect_lines({{{"plan", bundled(), "--source-crs", "2056"},
+                   "--source-crs 2056: is no coordinate reference system that PROJ knows: did you mean "
+                   "EPSG:2056?"}});
+    const std::string names = "(names are not looked up)";
+    for (const char* const place : {"Hoher Riffler", "Mont Blanc, Chamonix", "Grünhorn"})
+        oro::test::expect_refusal(run_orograph({"plan", bundled(), "--at", place}), 2,
+                                  {place, "is no known form of a place", names});
 }
 
 TEST(RefusedOptions, NamesOfFilesToWrite) {

@@ -127,7 +127,8 @@ Result<SampledTrack> sampled(const LineAlong& line, double smoothing_m, const Re
     return track;
 }
 
-// The even ground so far along the track; beyond its end straight on.
+// The even ground so far along the track; beyond its end straight on, and not upwards: a track that ends on a
+// slope would end in the sky.
 glm::dvec3 ground_along(const std::vector<glm::dvec3>& ground_m, const SampledTrack& track, double along_m,
                         double look_ahead_m) {
     const auto at = [&](double here_m) {
@@ -138,7 +139,9 @@ glm::dvec3 ground_along(const std::vector<glm::dvec3>& ground_m, const SampledTr
         return ground_m[i] * (1.0 - part) + ground_m[i + 1] * part;
     };
     if (along_m <= track.length_m) return at(along_m);
-    const glm::dvec3 way_m = ground_m.back() - at(track.length_m - std::min(look_ahead_m, track.length_m));
+    glm::dvec3 way_m = ground_m.back() - at(track.length_m - std::min(look_ahead_m, track.length_m));
+    const glm::dvec3 up = ecef_from_enu(track.places.back().lat_deg, track.places.back().lon_deg)[2];
+    way_m -= std::max(0.0, glm::dot(way_m, up)) * up;
     const double way_length_m = glm::length(way_m);
     if (!(way_length_m > 0.0)) return ground_m.back();
     return ground_m.back() + way_m * ((along_m - track.length_m) / way_length_m);

@@ -54,6 +54,10 @@ void say_notes(const ShotOptions& options, const ShotResult& shot) {
     if (const std::string note = note_of_year(shot.view.sun); !note.empty()) say(options.quiet, note);
     if (shot.view.vectors_read) say_vectors(*shot.view.vectors_read, shot.view.vectors, options.quiet);
     const Geodetic& eye = shot.view.camera.eye;
+    if (shot.view.map && options.crs) {
+        const std::string note = note_of_map_area(*shot.view.map, {eye.lat_deg, eye.lon_deg});
+        if (!note.empty()) say(options.quiet, "note: " + note);
+    }
     const auto ground = ground_h_m(grid_at(shot.region, eye.lat_deg, eye.lon_deg).field, eye.lat_deg,
                                    eye.lon_deg, shot.view.exaggeration);
     if (ground && eye.h_m < *ground) {

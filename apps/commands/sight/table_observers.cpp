@@ -11,7 +11,9 @@
 #include "apps/command_line/whole_text.h"
 #include "apps/output/overwrite_guard.h"
 #include "apps/report/figures.h"
+#include "core/base/one_line.h"
 #include "geo/files/letter_case.h"
+#include "geo/vectors/coordinate_columns.h"
 
 namespace oro {
 namespace {
@@ -33,8 +35,37 @@ Result<std::optional<double>> number_in(const BatchPlace& place, const std::stri
     return std::optional(number);
 }
 
-Result<TableObserver> observer_at(const BatchPlace& place, const ViewshedOptions& options) {
-    TableObserver observer{place.words(), place.number, "", {}, true};
+// No mast is so high. A column of heights above the sea is told by it.
+constexpr double highest_mast_m = 1000.0;
+
+// A place's height over the ground, where it has one.
+Result<std::optional<double>> above_of(const BatchPlace& place, const std::string& column) {
+    if (column.empty()) return std::optional<double>();
+    ORO_TRY(const std::optional<double> above_m, number_in(place, column));
+    if (above_m && *above_m > highest_mast_m && plain_heading(column).starts_with("height") &&
+        plain_heading(column).find("ground") == std::string::npos)
+        return Error{ErrorKind::failed, column + " " + all_digits(*above_m),
+                     "is no height of a mast over the ground: heights above the sea need another name, such "
+                     "as ele, and heights over the ground are called above"};
+    return above_m;
+}
+
+ObserverColumns columns_of(const std::vector<std::string>& headings) {
+    const DegreeColumns degrees = degree_columns(headings);
+    const std::optional<std::size_t> above = above_ground_column(headings);
+    ObserverColumns columns;
+    if (above) columns.above = headings[*above];
+    for (std::size_t i = 0; i < headings.size(); ++i) {
+        const bool is_asked = i == degrees.lat || i == degrees.lon || i == above ||
+                              plain_heading(headings[i]) == "name" || headings[i].empty();
+        if (!is_asked) columns.unused.push_back(one_line(headings[i]));
+    }
+    return columns;
+}
+
+Result<TableObserver> observer_at(const BatchPlace& place, const std::string& above_column,
+                                  const ViewshedOptions& options) {
+    TableObserver observer{place.words(), place.number, "", {}, true, false};
     if (const auto name = place.fields.find("name"); name != place.fields.end()) observer.name = name->second;
     ORO_TRY(const std::optional<double> lat_deg, number_in(place, "lat"));
     ORO_TRY(const std::optional<double> lon_deg, number_in(place, "lon"));
@@ -42,7 +73,8 @@ Result<TableObserver> observer_at(const BatchPlace& place, const ViewshedOptions
         return Error{
             ErrorKind::failed, "lat and lon",
             "are missing: a table needs columns of these names, or latitude and longitude, in degrees"};
-    ORO_TRY(const std::optional<double> above_m, number_in(place, "above"));
+    ORO_TRY(const std::optional<double> above_m, above_of(place, above_column));
+    observer.has_own_height = above_m.has_value();
     Standing& standing = observer.standing;
     standing.place_option = "--observers";
     standing.place = all_digits(*lat_deg) + "," + all_digits(*lon_deg);
@@ -80,17 +112,19 @@ Result<void> check_observers(const ObserversOptions& observers, const ViewshedOp
     return check_may_write(observers.table, options.overwrite);
 }
 
-Result<std::vector<TableObserver>> read_observers(const ObserversOptions& observers,
-                                                  const ViewshedOptions& options) {
-    ORO_TRY(const std::vector<BatchPlace> places, read_places(observers.file));
-    std::vector<TableObserver> all;
-    all.reserve(places.size());
+Result<ObserversOfFile> read_observers(const ObserversOptions& observers, const ViewshedOptions& options) {
+    std::vector<std::string> headings;
+    ORO_TRY(const std::vector<BatchPlace> places, read_places(observers.file, headings));
+    ObserversOfFile read{{}, columns_of(headings)};
+    read.all.reserve(places.size());
+    read.columns.is_above_everywhere = true;
     for (const BatchPlace& place : places) {
-        Result<TableObserver> observer = observer_at(place, options);
+        Result<TableObserver> observer = observer_at(place, read.columns.above, options);
         if (!observer.ok()) return of_place(observers.file, place.words(), observer.error());
-        all.push_back(std::move(*observer));
+        read.columns.is_above_everywhere &= observer->has_own_height;
+        read.all.push_back(std::move(*observer));
     }
-    return all;
+    return read;
 }
 
 Result<void> find_ground(const std::string& file, const SightGround& ground,
@@ -127,20 +161,41 @@ std::string observers_words(const std::string& file, const std::vector<TableObse
            first->words;
 }
 
+std::string eyes_words(const ObserverColumns& columns, const ViewshedOptions& options) {
+    const std::string of_all = options.altitude_m
+                                   ? "at H " + all_digits(*options.altitude_m) + " m"
+                                   : all_digits(options.above_m.value_or(2.0)) + " m above the " +
+                                         options.view.stand_on.value_or("ground");
+    if (columns.above.empty()) return of_all + " (the table has no column above)";
+    return "by the column " + one_line(columns.above) +
+           (columns.is_above_everywhere ? "" : "; " + of_all + " where it is empty");
+}
+
+std::string unused_words(const ObserverColumns& columns) {
+    constexpr std::size_t most = 8;
+    std::vector<std::string> named = columns.unused;
+    if (named.size() <= most) return joined(named, " and ");
+    named.resize(most);
+    named.push_back(std::to_string(columns.unused.size() - most) + " more");
+    return joined(named, " and ");
+}
+
 std::string observers_csv(const std::vector<TableObserver>& observers, const ViewshedReport& report,
                           const SightGround& ground) {
-    std::string text = "number,name,lat_deg,lon_deg,H_m,h_m,posts,seen\n";
+    std::string text = "number,name,lat_deg,lon_deg,H_m,h_m,above_m,posts,seen\n";
     std::size_t i = 0;
     for (const TableObserver& observer : observers) {
         text += std::to_string(observer.number) + "," + csv_text(observer.name) + ",";
         if (!observer.has_ground) {
-            text += observer.standing.place + ",,,,\n";
+            text += observer.standing.place + ",,,,,\n";
             continue;
         }
         const Geodetic& eye = report.question.eyes[i];
-        char line[160];
-        std::snprintf(line, sizeof line, "%.9f,%.9f,%.3f,%.3f,%zu,%zu\n", eye.lat_deg, eye.lon_deg,
-                      ground.H_m(eye), eye.h_m, report.each[i].cells, report.each[i].seen);
+        const double ground_h_m = ground.ground().h_m(eye.lat_deg, eye.lon_deg).value_or(eye.h_m);
+        char line[200];
+        std::snprintf(line, sizeof line, "%.9f,%.9f,%.3f,%.3f,%.3f,%zu,%zu\n", eye.lat_deg, eye.lon_deg,
+                      ground.H_m(eye), eye.h_m, eye.h_m - ground_h_m, report.each[i].cells,
+                      report.each[i].seen);
         text += line;
         ++i;
     }

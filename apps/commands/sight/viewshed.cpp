@@ -55,12 +55,15 @@ void say_canopy_notes(const SightGround& ground, bool quiet) {
 struct ReportedObservers {
     const ObserversOptions& options;
     std::vector<TableObserver> all;
+    ObserverColumns columns;
 };
 
 void tell_observers(const ReportedObservers& observers, const ViewshedReport& report,
                     nlohmann::ordered_json& json) {
     json["observers_of"] = path_json(observers.options.file);
     if (!observers.options.table.empty()) json["table"] = path_json(observers.options.table);
+    json["above_column"] = observers.columns.above;
+    json["columns_not_used"] = observers.columns.unused;
     json["left_out"] = nlohmann::ordered_json::array();
     std::size_t i = 0;
     for (const TableObserver& observer : observers.all) {
@@ -75,6 +78,13 @@ void tell_observers(const ReportedObservers& observers, const ViewshedReport& re
         one["seen"] = report.each[i].seen;
         ++i;
     }
+}
+
+void print_observers(const ReportedObservers& observers, const ViewshedOptions& options) {
+    std::printf("Observers: %s\n", observers_words(observers.options.file, observers.all).c_str());
+    const std::string unused = unused_words(observers.columns);
+    std::printf("Eyes: %s%s\n", eyes_words(observers.columns, options).c_str(),
+                unused.empty() ? "" : ("; not used: " + unused).c_str());
 }
 
 void tell(const ViewshedOptions& options, const ViewshedReport& report, const Standpoints& stood,
@@ -111,8 +121,7 @@ void tell(const ViewshedOptions& options, const ViewshedReport& report, const St
     }
     std::printf("%s\n", seen_words(report).c_str());
     if (probability) std::printf("%s\n", probable_words(*probability, report.cells).c_str());
-    if (!observers.all.empty())
-        std::printf("Observers: %s\n", observers_words(observers.options.file, observers.all).c_str());
+    if (!observers.all.empty()) print_observers(observers, options);
     for (std::size_t i = 0; question.are_recorded_one_by_one && i < question.eyes.size(); ++i) {
         std::printf("From: %s\n", eye_text(question.eyes[i], ground.ground()).c_str());
         if (!stood.moved.empty())
@@ -192,9 +201,11 @@ Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptio
     ORO_CHECK(check_words(options, of_table));
     ORO_CHECK(check_realisations(realisations));
     ORO_CHECK(check_target_on(options));
-    ReportedObservers observers{of_table, {}};
+    ReportedObservers observers{of_table, {}, {}};
     if (!of_table.file.empty()) {
-        ORO_TRY(observers.all, read_observers(of_table, options));
+        ORO_TRY(ObserversOfFile read, read_observers(of_table, options));
+        observers.all = std::move(read.all);
+        observers.columns = std::move(read.columns);
     }
     ViewshedQuestion question;
     ORO_CHECK(begin_question(options, question));

@@ -98,6 +98,22 @@ TEST(ShotOrtho, ItsViewDrawsItAgain) {
                    {"--size", "not together with a map's view"});
 }
 
+TEST(ShotOrtho, InACrsOfAnotherPlaceIsTold) {
+    const fs::path folder = oro::test::scratch_folder();
+    const auto said = [&](const std::string& crs) {
+        return run_orograph({"shot", bundled(), "--ortho", "--bbox", "-84.3,36.45,-84.2,36.55", "--size",
+                             "20x20", "--crs", crs, "--overwrite", "--out", (folder / "m.tif").string()})
+            .err;
+    };
+    const std::string said_of_south = said("EPSG:32716");
+    EXPECT_NE(
+        said_of_south.find("degrees outside the area that its coordinate reference system, EPSG:32716 WGS "
+                           "84 / UTM zone 16S, is made for (80 S to 0 N, 90 W to 84 W)"),
+        std::string::npos)
+        << said_of_south;
+    EXPECT_EQ(said("EPSG:32616").find("the map's middle"), std::string::npos);
+}
+
 TEST(ShotOrtho, HasAWorldFileInEveryFormat) {
     const fs::path folder = oro::test::scratch_folder();
     EXPECT_EQ(run_orograph(map(folder / "a.png", {"--size", "40x40"})).exit_code, 0);
@@ -150,8 +166,10 @@ TEST(ShotOrtho, RefusesWhatAMapCannotHave) {
         {{"--pitch", "-3"}, {"--pitch: not together with --ortho"}},
         {{"--refraction", "0.1"},
          {"--refraction: not together with --ortho: it is for pictures from an eye"}},
+        {{"--labels", "on"}, {"--labels: not together with --ortho"}},
         {{"--layers"}, {"--layers: not together with --ortho"}},
         {{"--crs", "EPSG:1"}, {"--crs EPSG:1: is no coordinate reference system that PROJ knows"}},
+        {{"--crs", "32616"}, {"--crs 32616: is no coordinate", "did you mean EPSG:32616?"}},
         {{"--crs", "/etc/passwd"}, {"--crs /etc/passwd: is no coordinate reference system that PROJ knows"}},
         {{"--crs", "EPSG:4978"}, {"--crs EPSG:4978: is no map's"}},
         {{"--crs", "+proj=ortho +lat_0=-40 +lon_0=90"}, {"cannot hold this region"}},

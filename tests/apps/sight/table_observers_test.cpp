@@ -52,8 +52,8 @@ TEST_F(TableObservers, SeeWhatEachSeesAlone) {
     EXPECT_EQ(said["left_out"], nlohmann::json::array({3}));
     const auto rows = lines_of(bytes_of(folder_ / "all.csv"));
     ASSERT_EQ(rows.size(), 5U);
-    EXPECT_EQ(rows[0], "number,name,lat_deg,lon_deg,H_m,h_m,posts,seen");
-    EXPECT_EQ(rows[3], "3,Far away,46.5,8,,,,");
+    EXPECT_EQ(rows[0], "number,name,lat_deg,lon_deg,H_m,h_m,above_m,posts,seen");
+    EXPECT_EQ(rows[3], "3,Far away,46.5,8,,,,,");
     EXPECT_TRUE(rows[2].starts_with("2,\"A; b\",36.570000000,-84.220000000,")) << rows[2];
     EXPECT_TRUE(rows[4].starts_with("4,,36.520000000,-84.280000000,")) << rows[4];
     const Words places{"36.55,-84.25", "36.57,-84.22", "36.52,-84.28"};
@@ -96,6 +96,40 @@ TEST_F(TableObservers, ColumnsHaveTheirUsualNames) {
     }
 }
 
+// Whose heights count is always told, and which columns do not; each eye's height is in the table.
+TEST_F(TableObservers, HeightsOverTheGroundHaveSeveralNames) {
+    const auto reported = [&](const std::string& table, const Words& more = {}) {
+        write_bytes(folder_ / "masts.csv", table);
+        const auto outcome = run_orograph(words(file("masts.csv"), joined({"--overwrite"}, more)));
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        const std::size_t at = outcome.out.find("Eyes: ");
+        return at == std::string::npos ? "" : outcome.out.substr(at, outcome.out.find('\n', at) - at);
+    };
+    const auto above_of_first = [&] {
+        const std::string row = lines_of(bytes_of(folder_ / "all.csv")).at(1);
+        std::vector<std::string> fields;
+        std::istringstream stream(row);
+        for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
+        return fields.at(6);
+    };
+    EXPECT_EQ(reported("Name,Latitude,Longitude,Height\nA,36.55,-84.25,30\n"), "Eyes: by the column Height");
+    EXPECT_EQ(above_of_first(), "30.000");
+    EXPECT_EQ(
+        reported("lat,lon,mast_height (m),Owner,Colour\n36.55,-84.25,25,a,b\n36.56,-84.25,,a,b\n"),
+        "Eyes: by the column mast_height (m); 2 m above the ground where it is empty; not used: Owner and "
+        "Colour");
+    EXPECT_EQ(above_of_first(), "25.000");
+    EXPECT_EQ(reported("lat,lon,height,above\n36.55,-84.25,900,12\n"),
+              "Eyes: by the column above; not used: height");
+    EXPECT_EQ(above_of_first(), "12.000");
+    EXPECT_EQ(reported("lat,lon,Height (ft),ele\n36.55,-84.25,90,500\n", {"--above", "7"}),
+              "Eyes: 7 m above the ground (the table has no column above); not used: Height (ft) and ele");
+    EXPECT_EQ(above_of_first(), "7.000");
+    const auto said = object_said_by(words(file("masts.csv"), {"--overwrite", "--json"}));
+    EXPECT_EQ(said["above_column"], "");
+    EXPECT_EQ(said["columns_not_used"], nlohmann::json({"Height (ft)", "ele"}));
+}
+
 // Points of a vector file, and what is told without --json.
 TEST_F(TableObservers, OfAVectorFile) {
     write_bytes(folder_ / "masts.geojson",
@@ -106,9 +140,10 @@ TEST_F(TableObservers, OfAVectorFile) {
                      "geometry": {"type": "Point", "coordinates": [7.5, 46.5]}}]})");
     const auto outcome = run_orograph(words(file("masts.geojson")));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_TRUE(says(outcome.out, "Observers: 1 of " + file("masts.geojson") +
-                                      "; 1 stands where there are no elevation data and is left out, place 2 "
-                                      "(Two)\nLight: "))
+    EXPECT_TRUE(says(outcome.out,
+                     "Observers: 1 of " + file("masts.geojson") +
+                         "; 1 stands where there are no elevation data and is left out, place 2 "
+                         "(Two)\nEyes: by the column above; 2 m above the ground where it is empty\nLight: "))
         << outcome.out;
 }
 
@@ -124,6 +159,8 @@ TEST_F(TableObservers, WhatIsWrongIsSaidInOneLine) {
     refused("lat,lon\n36.5,1e400\n", failed, "masts.csv, place 1: lon: \"1e400\" is no number");
     refused("lat,lon\n96.5,-84.2\n", usage, "masts.csv, place 1: --observers 96.5,-84.2: ");
     refused("lat,lon,above\n36.5,-84.2,-3\n", usage, "masts.csv, place 1: above -3: must be 0 or more");
+    refused("lat,lon,Height\n36.5,-84.2,1200\n", failed,
+            "masts.csv, place 1: Height 1200: is no height of a mast over the ground");
     refused("lat,lon\n46.5,8.2\n", no_data, "masts.csv, place 1: ");
     refused("", failed, "masts.csv: has no places");
     write_bytes(folder_ / "masts.csv", "lat,lon\n36.55,-84.25\n");

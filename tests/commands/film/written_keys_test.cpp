@@ -154,6 +154,24 @@ TEST(TrackKeys, LookAheadOverThePlain) {
     EXPECT_FALSE(track_flight(options, length_m).ok());
 }
 
+// Northwards up a slope of 1 in 2, or down one: at its end a camera looks on level ground beyond the upper
+// end, atan(150 / 500) = 16.70 degrees down as over the plain, and down the slope beyond the lower one.
+TEST(TrackKeys, EndLookingAtGroundAndNotAtTheSky) {
+    const std::string file = written("s.gpx",
+                                     R"(<gpx version="1.1"><trk><trkseg><trkpt lat="46.40" lon="7.5"/>
+                                        <trkpt lat="46.45" lon="7.5"/></trkseg></trk></gpx>)");
+    const LineAlong line = line_of_file("FLIGHT", file, std::nullopt).value();
+    const auto last_pitch_deg = [&](double rise) {
+        Region slope = plain();
+        slope.grids[0].field = test::made_field(47.0, 7.0, 120.0, 121, 121, [&](double lat, double) {
+            return static_cast<float>(3000.0 + rise * 111180.0 * (lat - 46.4));
+        });
+        return keys_along_track(line, TrackFlight{}, slope, 1.0).value().back().attitude.pitch_deg;
+    };
+    EXPECT_NEAR(last_pitch_deg(0.5), -16.70, 0.1);
+    EXPECT_LT(last_pitch_deg(-0.5), -30.0);
+}
+
 // A corner is cut by the smoothing, and stays where there is none.
 TEST(TrackKeys, AreSmoothAtCorners) {
     const std::string file = written("c.gpx",

@@ -116,5 +116,22 @@ TEST(LegendColours, AreTheStyles) {
     EXPECT_EQ(colour_key(view, region, style).shape, KeyShape::none);
 }
 
+// As in the style of contours: what differs by a hair from low to high ground is no scale.
+TEST(LegendColours, ThatNobodyTellsApartAreNoScale) {
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::made_field(
+        47.0, 8.0, 20.0, 3, 3, [](double lat, double) { return lat > 46.99 ? 2000.0F : 500.0F; });
+    Style style{};
+    style.frame.tint_count = 2;
+    style.frame.tints_as_codes = 1;
+    style.frame.tints[0] = {0.0F, gpu::vec3(0.90F)};
+    style.frame.tints[1] = {4000.0F, gpu::vec3(1.0F)};
+    const ColourKey key = colour_key(View(), region, style);
+    EXPECT_EQ(key.shape, KeyShape::none);
+    EXPECT_EQ(key.title, "");
+    style.frame.tints[0] = {0.0F, gpu::vec3(0.5F)};
+    EXPECT_EQ(colour_key(View(), region, style).shape, KeyShape::bar);
+}
+
 }  // namespace
 }  // namespace oro
