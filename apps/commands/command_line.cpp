@@ -409,6 +409,8 @@ void add_sight(CLI::App& app, SightOptions& options, RealisationOptions& realisa
                 "Height of the eye above sea level instead. Not with --above.")
         .excludes(&above);
     line.flag("--on-summit", options.on_summit, on_summit_sentence("the eye stands", "--from"));
+    line.flag("--target-on-summit", options.target_on_summit,
+              "Look at the highest post at most two posts from --to. How far that is, is told.");
     line.choice("--stand-on", options.view.stand_on, {"ground", "top"}, stand_on_sentence);
     line.number("--target", options.target_m, "METRES",
                 "Height of what is looked at over the ground at --to (default 0: the ground itself).");

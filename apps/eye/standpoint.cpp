@@ -49,7 +49,8 @@ namespace {
 const RegionGrid& grid_among(const Region& region, double lat_deg, double lon_deg, bool data_alone) {
     const RegionGrid* there = nullptr;
     for (const RegionGrid& grid : region.grids)
-        if (!(data_alone && grid.detail) && (there == nullptr || grid.rank < there->rank) && grid.field.surface_H_m(lat_deg, lon_deg))
+        if (!(data_alone && grid.detail) && (there == nullptr || grid.rank < there->rank) &&
+            grid.field.surface_H_m(lat_deg, lon_deg))
             there = &grid;
     if (there != nullptr) return *there;
     return *std::ranges::min_element(region.grids, {}, [&](const RegionGrid& grid) {
@@ -122,7 +123,9 @@ Result<void> lift_onto_top(const Standing& standing, const Region& region, doubl
     return {};
 }
 
-MovedToSummit moved_to_summit(const Geodetic& place, const HeightField& field, double exaggeration) {
+MovedToSummit moved_to_summit(const Geodetic& place, const Region& region, double exaggeration) {
+    // Posts between those of the data are so near to each other that none of few is a summit.
+    const HeightField& field = data_grid_at(region, place.lat_deg, place.lon_deg).field;
     const auto ground_m = ground_h_m(field, place.lat_deg, place.lon_deg, exaggeration);
     const auto H_over = [&](const Geodetic& at) {
         return (at.h_m - field.undulation.at_m(at.lat_deg, at.lon_deg)) / exaggeration;
@@ -160,10 +163,10 @@ namespace {
 
 // The summit near a place that is so much higher than its ground that who stands there sees a wall. On a
 // slope that goes on rising there is none: that people stand there is no mistake.
-Result<std::optional<MovedToSummit>> wall_before(const Geodetic& eye, const HeightField& field,
+Result<std::optional<MovedToSummit>> wall_before(const Geodetic& eye, const Region& region,
                                                  double exaggeration) {
-    const MovedToSummit post = moved_to_summit(eye, field, exaggeration);
-    ORO_CHECK(field.health());
+    const MovedToSummit post = moved_to_summit(eye, region, exaggeration);
+    ORO_CHECK(region.health());
     const double higher_m = post.higher_m.value_or(0.0);
     const bool hides =
         !post.goes_on_rising && higher_m > least_wall_m && eye.h_m - post.from.h_m < higher_m * exaggeration;
@@ -172,19 +175,20 @@ Result<std::optional<MovedToSummit>> wall_before(const Geodetic& eye, const Heig
 
 }  // namespace
 
-Result<Standpoint> stand(const Standing& standing, const HeightField& field, double exaggeration) {
+Result<Standpoint> stand(const Standing& standing, const Region& region, double exaggeration) {
     ORO_TRY(const Place place, place_at(standing.place_option, standing.place));
+    const HeightField& field = grid_at(region, place.lat_deg, place.lon_deg).field;
     if (!standing.on_summit) {
         ORO_TRY(const Geodetic eye, standpoint(standing, field, exaggeration));
         if (place.height_m) return Standpoint{eye, {}, {}};
-        ORO_TRY(const auto wall, wall_before(eye, field, exaggeration));
+        ORO_TRY(const auto wall, wall_before(eye, region, exaggeration));
         return Standpoint{eye, {}, wall};
     }
     if (place.height_m)
         return refused(standing.place_option, standing.place,
-                       "gives a height of its own: leave --on-summit out");
-    const MovedToSummit moved = moved_to_summit({place.lat_deg, place.lon_deg, 0.0}, field, exaggeration);
-    ORO_CHECK(field.health());
+                       std::string("gives a height of its own: leave ") + standing.summit_option + " out");
+    const MovedToSummit moved = moved_to_summit({place.lat_deg, place.lon_deg, 0.0}, region, exaggeration);
+    ORO_CHECK(region.health());
     if (moved.moved_m == 0.0) {
         ORO_TRY(const Geodetic eye, standpoint(standing, field, exaggeration));
         return Standpoint{eye, moved, {}};

@@ -24,6 +24,7 @@ struct Standing {
     const char* way_out{"--altitude METRES"};  // what to give where there is no ground
     bool on_summit{};                          // on the highest post nearby, and not on the very place
     bool on_top{};                             // on what a plumb line meets first: a roof, say
+    const char* summit_option{"--on-summit"};  // what on_summit comes from
 };
 
 struct Standpoint {
@@ -36,13 +37,14 @@ struct Standpoint {
 inline constexpr double least_wall_m = 20.0;
 
 // The highest post near a place (core/terrain/summit.h), by heights above sea level, of a surface that is
-// exaggerated. The height of `place` does not count. Posts that cannot be read count as void: field.health()
-// tells.
-MovedToSummit moved_to_summit(const Geodetic& place, const HeightField& field, double exaggeration);
+// exaggerated. Posts are those of the data: ground that is invented between them (--detail) neither has
+// summits nor changes what is told. The height of `place` does not count. Posts that cannot be read count as
+// void: region.health() tells.
+MovedToSummit moved_to_summit(const Geodetic& place, const Region& region, double exaggeration);
 
 // Where an eye stands, moved to the summit where that is asked for. Errors: those of standpoint(); a place
 // with a height of its own that is to be moved (usage).
-Result<Standpoint> stand(const Standing& standing, const HeightField& field, double exaggeration = 1.0);
+Result<Standpoint> stand(const Standing& standing, const Region& region, double exaggeration = 1.0);
 
 // Lifts a point over the ground by as much as a mesh of the region stands over the ground there; nothing
 // happens where none does, and to who is not asked to stand on top. Errors (usage): a region without meshes;

@@ -90,20 +90,19 @@ bool PointsInView::in_picture(const SeenPoint& point) const {
 }
 
 std::optional<Geodetic> PointsInView::summit_near(const Geodetic& place) const {
-    const TrueSurface& surface = ground_.surface(ground_.grid_at(place.lat_deg, place.lon_deg).value_or(0));
+    const TrueSurface& surface =
+        ground_.surface(ground_.data_grid_at(place.lat_deg, place.lon_deg).value_or(0));
     return highest_post_near(surface.field().grid, place,
                              [&](int row, int column) { return surface.post_h_m(row, column); });
 }
 
 bool PointsInView::sees_or_moves(SeenPoint& point) const {
     if (sees(point.place, seen_above_m)) return true;
+    if (!point.may_move) return false;
     const auto summit = summit_near(point.place);
     if (!summit || !sees(*summit, seen_above_m)) return false;
     put_at(*summit, point);
-    if (!point.tells_H) {
-        const double N_m = ground_.N_m(summit->lat_deg, summit->lon_deg);
-        point.H_m = H_over(summit->h_m, N_m, ground_.exaggeration()) - (canopy_m_ ? canopy_m_(*summit) : 0.0);
-    }
+    point.is_moved = true;
     return in_picture(point);
 }
 
@@ -115,13 +114,14 @@ std::optional<SeenPoint> PointsInView::placed(const NamedPoint& point, PointCoun
     }
     const double N_m = ground_.N_m(point.lat_deg, point.lon_deg), exaggeration = ground_.exaggeration(),
                  ground_H_m = H_over(*ground_h_m, N_m, exaggeration);
-    SeenPoint seen{point.name, point.lat_deg, point.lon_deg, {}, ground_H_m, false, 0.0, 0.0, {}};
+    SeenPoint seen;
+    seen.name = point.name;
+    seen.lat_deg = point.lat_deg;
+    seen.lon_deg = point.lon_deg;
+    seen.H_m = ground_H_m;
     if (canopy_m_) seen.H_m -= canopy_m_({point.lat_deg, point.lon_deg, 0.0});
     double h_m = *ground_h_m;
-    const auto tell = [&](double H_m) {
-        seen.H_m = H_m;
-        seen.tells_H = true;
-    };
+    const auto tell = [&](double H_m) { seen.H_m = H_m; };
     const double most_off_m = std::max(most_off_ground_m, most_off_ground_share * std::abs(ground_H_m));
     if (const auto own = own_h_m(point, ground_H_m + N_m, N_m)) {
         const double H_m = *own - N_m, above_m = H_m - ground_H_m;
@@ -135,6 +135,7 @@ std::optional<SeenPoint> PointsInView::placed(const NamedPoint& point, PointCoun
         ++counts.outside;
         return std::nullopt;
     }
+    seen.may_move = point.may_be_summit;
     seen.rank = point.prominence_m ? *point.prominence_m : seen.H_m - behind_all_m;
     return seen;
 }

@@ -33,8 +33,9 @@ struct SeenPoint {
     double lat_deg{};
     double lon_deg{};
     Geodetic place;  // above the ellipsoid, exaggerated as the view is
-    double H_m{};    // what is written: its own where it tells one, else the ground's
-    bool tells_H{};
+    double H_m{};    // what is written: its own where it tells one, else that of the ground at lat, lon
+    bool may_move{};
+    bool is_moved{};      // `place` is the summit nearby, and neither lat nor lon
     double distance_m{};  // along the sight line
     double rank{};        // greater ones are named first
     glm::dvec2 place_px;  // from the picture's top left corner
@@ -79,8 +80,9 @@ class PointsInView {
     [[nodiscard]] std::optional<SeenPoint> placed(const NamedPoint& point, PointCounts& counts) const;
     void put_at(const Geodetic& place, SeenPoint& point) const;
     [[nodiscard]] bool in_picture(const SeenPoint& point) const;
-    // Whether a point is seen, moved to its summit (core/terrain/summit.h) where it must be: mapped summits
-    // stand behind those of a grid of posts. The summit then is seen, too.
+    // Whether a point is seen. One that may be a summit is moved to that of the data's posts
+    // (core/terrain/summit.h) where it must be: mapped summits stand behind those of a grid of posts. The
+    // summit then is seen, too.
     [[nodiscard]] bool sees_or_moves(SeenPoint& point) const;
     [[nodiscard]] std::optional<Geodetic> summit_near(const Geodetic& place) const;
 

@@ -180,7 +180,8 @@ struct SightOptions {
     std::optional<double> above_m;
     std::optional<double> altitude_m;
     std::optional<double> target_m;
-    bool on_summit{false};  // the eye stands on the highest post near --from
+    bool on_summit{false};         // the eye stands on the highest post near --from
+    bool target_on_summit{false};  // the target is the highest post near --to
     bool json{false};
     bool quiet{false};
 };

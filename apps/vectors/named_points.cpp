@@ -1,8 +1,11 @@
 #include "apps/vectors/named_points.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
+
+#include "geo/files/letter_case.h"
 
 namespace oro {
 namespace {
@@ -20,6 +23,21 @@ std::string tidied(std::string_view name) {
     }
     while (!text.empty() && text.back() == ' ') text.pop_back();
     return text.substr(std::min(text.find_first_not_of(' '), text.size()));
+}
+
+// Of OpenStreetMap's `natural`, and the words of other files.
+bool says_summit(std::string_view kind) {
+    const std::string words = lower_case(kind);
+    return std::ranges::any_of(std::array{"peak", "volcano", "summit", "saddle", "ridge", "hill", "mountain",
+                                          "gipfel", "sommet", "cima"},
+                               [&](const char* word) { return words.find(word) != std::string::npos; });
+}
+
+bool may_be_summit(const VectorLayer& layer, const VectorShape& shape, const NamedPoint& point) {
+    if (point.stated_H_m || point.prominence_m) return true;
+    if (point.heights == HeightAbove::sea_level || point.heights == HeightAbove::ellipsoid) return true;
+    return std::ranges::any_of(std::array{"natural", "class", "type", "sym"},
+                               [&](const char* field) { return says_summit(layer.text(shape, field)); });
 }
 
 }  // namespace
@@ -70,6 +88,7 @@ std::vector<NamedPoint> named_points(const VectorFile& file, const std::string& 
             }
             point.stated_H_m = metres_from(layer.text(shape, "ele"));
             point.prominence_m = metres_from(layer.text(shape, "prominence"));
+            point.may_be_summit = may_be_summit(layer, shape, point);
             points.push_back(std::move(point));
         }
     }

@@ -18,6 +18,9 @@ struct NamedPoint {
     double height_m{};
     std::optional<double> stated_H_m;    // field `ele`, as OpenStreetMap and GPX have it
     std::optional<double> prominence_m;  // field `prominence`
+    // A field natural, class, type or sym says peak, saddle or the like, or it tells a height: its own or
+    // that of a field `ele`, or a prominence.
+    bool may_be_summit{};
 };
 
 // The points of a file that have something in the field of the name. A name is one line.

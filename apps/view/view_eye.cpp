@@ -13,19 +13,17 @@
 namespace oro {
 namespace {
 
-Result<Standpoint> standpoint_of(const ViewOptions& options, const Place& place, const Region& region,
-                                 double exaggeration) {
+Result<Standpoint> standpoint_of(const ViewOptions& options, const Region& region, double exaggeration) {
     Standing standing{"--at", *options.at, "--above", options.above_m, 2.0, options.altitude_m};
     standing.on_summit = options.on_summit;
     standing.on_top = options.stand_on.value_or("ground") == "top";
-    ORO_TRY(Standpoint stood,
-            stand(standing, grid_at(region, place.lat_deg, place.lon_deg).field, exaggeration));
+    ORO_TRY(Standpoint stood, stand(standing, region, exaggeration));
     ORO_CHECK(lift_onto_top(standing, region, exaggeration, stood.eye));
     return stood;
 }
 
-Result<void> stand_at(View& view, const ViewOptions& options, const Place& place, const Region& region) {
-    ORO_TRY(const Standpoint stood, standpoint_of(options, place, region, view.exaggeration));
+Result<void> stand_at(View& view, const ViewOptions& options, const Region& region) {
+    ORO_TRY(const Standpoint stood, standpoint_of(options, region, view.exaggeration));
     view.camera.eye = stood.eye;
     view.stood = {stood.moved, stood.wall};
     return {};
@@ -78,7 +76,7 @@ Result<void> check_eye(const ViewOptions& options, const Geodetic& eye) {
 Result<void> place_eye(View& view, const ViewOptions& options, const Region& region) {
     if (!options.at) return see_whole_region(view, options, region);
     ORO_TRY(const Place place, place_at("--at", *options.at));
-    ORO_CHECK(stands(options, place) ? stand_at(view, options, place, region)
+    ORO_CHECK(stands(options, place) ? stand_at(view, options, region)
                                      : show_place(view, options, place, region));
     ORO_CHECK(check_eye(options, view.camera.eye));
     if (options.look_at) ORO_CHECK(turn_to(view, *options.look_at, region));

@@ -58,7 +58,7 @@ Result<std::optional<Camera>> Jumps::stand(const Camera& camera, const Region& r
         const Geodetic place{shown_->lat_deg, shown_->lon_deg, 0.0};
         const HeightField& field = field_under(region, place);
         const auto ground_m = ground_h_m(field, place.lat_deg, place.lon_deg, exaggeration);
-        if (ground_m) higher = moved_to_summit(place, field, exaggeration);
+        if (ground_m) higher = moved_to_summit(place, region, exaggeration);
         ORO_CHECK(region.health());
         if (!ground_m)
             return Error{ErrorKind::no_data, place_name(place.lat_deg, place.lon_deg),

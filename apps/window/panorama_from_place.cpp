@@ -17,8 +17,7 @@ namespace oro {
 Result<View> panorama_view(const View& shown, const PanoramaChoice& choice, const Region& region) {
     View view = shown;
     const Standing standing{"--at", at_text(choice.place), "--above", choice.above_m, 2.0, std::nullopt};
-    const HeightField& field = grid_at(region, choice.place.lat_deg, choice.place.lon_deg).field;
-    ORO_TRY(const Standpoint stood, stand(standing, field, view.exaggeration));
+    ORO_TRY(const Standpoint stood, stand(standing, region, view.exaggeration));
     view.camera.eye = stood.eye;
     // A bundle of accuracy has its own air.
     if (choice.bends && view.model.air.k == 0.0 && view.accuracy.empty()) view.model.air = standard_air;

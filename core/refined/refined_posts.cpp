@@ -9,6 +9,7 @@
 
 #include "core/base/lowbias32.h"
 #include "core/base/parallel.h"
+#include "core/refined/rim_surface.h"
 #include "core/refined/taken_posts.h"
 #include "core/terrain/cell_diagonal.h"
 #include "core/terrain/triangle_heights.h"
@@ -17,7 +18,6 @@ namespace oro {
 namespace {
 
 constexpr int margin_posts = 4;      // what cubics of all halvings reach beyond a part
-constexpr int rim_posts = 6;         // over which the ground becomes that of the data
 constexpr int void_reach_posts = 2;  // so near a void post nothing is invented
 
 // Numbers of a grid's first row and column in the world, so that its posts have the same noise in any region;
@@ -189,16 +189,10 @@ class AddedNoise {
     int level_;
 };
 
-// How much of what is invented a post of the data lets be beside it: 0 on the rim of the part, on still posts
-// and near void ones, 1 inside.
+// How much of what is invented a post of the data lets be beside it: 0 on still posts and near void ones, 1
+// elsewhere.
 std::vector<float> shares_of(const TakenPosts& taken, const GridPart& part) {
     std::vector<float> shares(part.count());
-    const double rim_rows = std::min<double>(rim_posts, std::max(1.0, 0.25 * (part.rows - 1))),
-                 rim_columns = std::min<double>(rim_posts, std::max(1.0, 0.25 * (part.columns - 1)));
-    const auto smooth = [](double t) {
-        const double in = std::clamp(t, 0.0, 1.0);
-        return in * in * (3.0 - 2.0 * in);
-    };
     in_parallel(part.rows, thread_count(), [&](int down) {
         for (int right = 0; right < part.columns; ++right) {
             const int row = taken.row_of(part.first_row + down),
@@ -207,12 +201,9 @@ std::vector<float> shares_of(const TakenPosts& taken, const GridPart& part) {
             for (int i = -void_reach_posts; i <= void_reach_posts && !still; ++i)
                 for (int j = -void_reach_posts; j <= void_reach_posts && !still; ++j)
                     still = taken.has(row + i, column + j) && is_void(taken.H_m(row + i, column + j));
-            if (still) continue;
-            const double of_rows = std::min(down, part.rows - 1 - down) / rim_rows,
-                         of_columns = std::min(right, part.columns - 1 - right) / rim_columns;
-            shares[static_cast<std::size_t>(down) * static_cast<std::size_t>(part.columns) +
-                   static_cast<std::size_t>(right)] =
-                static_cast<float>(smooth(of_rows) * smooth(of_columns));
+            if (!still)
+                shares[static_cast<std::size_t>(down) * static_cast<std::size_t>(part.columns) +
+                       static_cast<std::size_t>(right)] = 1.0F;
         }
     });
     return shares;
@@ -246,6 +237,7 @@ class Joining {
           part_(part),
           invented_(invented),
           shares_(shares_of(taken, part)),
+          rim_(taken, part),
           halvings_(halvings),
           skipped_row_(taken.row_of(part.first_row) << halvings),
           skipped_column_(taken.column_of(part.first_column) << halvings),
@@ -277,9 +269,8 @@ class Joining {
                 ++found.still;
                 continue;
             }
-            const double made_m = invented_.at(skipped_row_ + fine_row, skipped_column_ + fine);
             constexpr double steps = 2048.0;
-            const double off_m = share * (made_m - *data_m);
+            const double off_m = share * (made_m(fine_row, fine) - *data_m);
             H_m[fine] = static_cast<float>(std::floor((*data_m + off_m) * steps + 0.5) / steps);
             found.sum_m2 += off_m * off_m;
             found.largest_m = std::max(found.largest_m, std::abs(off_m));
@@ -302,6 +293,13 @@ class Joining {
         const double scale = std::ldexp(1.0, -halvings_);
         return {row, column, fine_row * scale - row, fine_column * scale - column};
     }
+    // What is invented, towards the rim without noise.
+    [[nodiscard]] double made_m(int fine_row, int fine_column) const {
+        const double scale = std::ldexp(1.0, -halvings_), row = fine_row * scale,
+                     column = fine_column * scale, noise = rim_.noise_share(row, column);
+        const double within_m = invented_.at(skipped_row_ + fine_row, skipped_column_ + fine_column);
+        return noise == 1.0 ? within_m : std::lerp(rim_.H_m(row, column), within_m, noise);
+    }
     // The data's surface, as it is drawn.
     [[nodiscard]] std::optional<double> of_data_m(int fine_row, int fine_column) const {
         const double scale = std::ldexp(1.0, -halvings_);
@@ -319,7 +317,11 @@ class Joining {
         return h_at_row_column_m(field_.grid, post_m, diagonal_at, part_.first_row + fine_row * scale,
                                  part_.first_column + fine_column * scale);
     }
+    // 0 on the rim.
     [[nodiscard]] double share_at(int fine_row, int fine_column) const {
+        if (fine_row == 0 || fine_column == 0 || fine_row == (part_.rows - 1) << halvings_ ||
+            fine_column == (part_.columns - 1) << halvings_)
+            return 0.0;
         const Cell cell = cell_of(fine_row, fine_column);
         const auto share = [&](int down, int right) {
             return double{
@@ -334,6 +336,7 @@ class Joining {
     const GridPart& part_;
     const Sheet& invented_;
     std::vector<float> shares_;
+    RimSurface rim_;
     int halvings_;
     int skipped_row_, skipped_column_;
     std::vector<Diagonal> diagonals_;  // of the part's cells

@@ -50,8 +50,9 @@ struct RefinedPosts {
 // ground has it. Posts of the data keep their place and their height, to the bit. Heights follow from the
 // data around and from numbers of posts in the world alone: what is 20 posts inside of the part's rim has the
 // same bits in any part, and posts of few halvings have theirs of many. Towards the rim, over 6 posts or a
-// quarter of the part, the ground becomes that of the data, which it is on the rim; likewise beside `still`
-// posts (see above) and within 2 posts of void ones. Triangles with a void corner stay as they are. Source:
+// quarter of the part, the noise ends; on the rim the ground is that of the data, and as steep across it as
+// the data are shaded (core/refined/rim_surface.h). It is the data's, too, beside `still` posts (see above)
+// and within 2 posts of void ones. Triangles with a void corner stay as they are. Source:
 // midpoint displacement: A. Fournier, D. Fussell, L. Carpenter, Computer rendering of stochastic models,
 // CACM 25(6), 1982; the cubic: R. Keys (core/terrain/cell_diagonal.h).
 // halvings: 1 to 6. Errors: a net with corrections of its places, which has none between its posts; posts

@@ -25,6 +25,12 @@ std::optional<std::size_t> TrueGround::grid_at(double lat_deg, double lon_deg) c
     return std::nullopt;
 }
 
+std::optional<std::size_t> TrueGround::data_grid_at(double lat_deg, double lon_deg) const {
+    for (const std::size_t grid : by_rank_)
+        if (!grids_[grid].is_invented && surface(grid).h_m(lat_deg, lon_deg)) return grid;
+    return std::nullopt;
+}
+
 bool TrueGround::shows(std::size_t grid, double lat_deg, double lon_deg) const {
     for (const std::size_t before : by_rank_) {
         if (before == grid || grids_[before].rank >= grids_[grid].rank) return true;

@@ -32,6 +32,7 @@ class TrueGround {
     struct Grid {
         const TrueSurface* surface;
         int rank;
+        bool is_invented{};  // its posts lie between those of data (--detail)
     };
     // At least one grid, all with the same exaggeration. They are numbered as they are given.
     TrueGround(std::vector<Grid> grids, std::shared_ptr<const std::vector<SurfaceTriangle>> pieces);
@@ -47,6 +48,8 @@ class TrueGround {
     [[nodiscard]] std::size_t grid_at(double lat_deg, double lon_deg, std::size_t otherwise) const {
         return grids_.size() == 1 ? 0 : grid_at(lat_deg, lon_deg).value_or(otherwise);
     }
+    // The same of grids whose posts are data.
+    [[nodiscard]] std::optional<std::size_t> data_grid_at(double lat_deg, double lon_deg) const;
     // Whether none of a smaller rank has ground there.
     [[nodiscard]] bool shows(std::size_t grid, double lat_deg, double lon_deg) const;
     // Height above the ellipsoid, as TrueSurface::h_m. On a step that of the smaller rank.

@@ -92,8 +92,8 @@ Result<std::unique_ptr<const RegionGround>> RegionGround::of(const Region& regio
         if (number < cuts.grids.size() &&
             std::ranges::find(cuts.grids[number].masked_posts, 1) != cuts.grids[number].masked_posts.end())
             masked = &made->masked_.emplace_back(cuts.grids[number].masked_posts);
-        grids.push_back(
-            {&made->surfaces_.emplace_back(*field, exaggeration, thread_count(), masked), one.rank});
+        grids.push_back({&made->surfaces_.emplace_back(*field, exaggeration, thread_count(), masked),
+                         one.rank, one.detail.has_value()});
     }
     auto pieces = std::make_shared<std::vector<SurfaceTriangle>>();
     for (std::size_t i = 0; i < cuts.grids.size(); ++i) {

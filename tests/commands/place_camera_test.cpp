@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "apps/eye/standpoint.h"
 #include "apps/report/summit_words.h"
@@ -204,15 +205,16 @@ TEST(MovedToSummit, ComparesHeightsAboveSeaLevel) {
     level.undulation.lat = {1.0, 47.0, 0, -1, 2};
     level.undulation.lon = {1.0, 8.0, 0, +1, 2};
     level.undulation.N_m = {51.0F, 51.0F, 50.0F, 50.0F};
-    const MovedToSummit moved = moved_to_summit({46.503, 8.503, 0.0}, level, 1.0);
+    Region region = region_of(std::move(level));
+    const MovedToSummit moved = moved_to_summit({46.503, 8.503, 0.0}, region, 1.0);
     EXPECT_EQ(moved.moved_m, 0.0);
     EXPECT_EQ(moved.to.lat_deg, 46.503);
     EXPECT_EQ(moved.higher_m, 0.0);
     // 4 cm are no summit, 6 cm are.
-    level.H_m[49 * 101 + 50] = 100.04F;
-    EXPECT_EQ(moved_to_summit({46.5, 8.5, 0.0}, level, 1.0).moved_m, 0.0);
-    level.H_m[49 * 101 + 50] = 100.06F;
-    const MovedToSummit higher = moved_to_summit({46.5, 8.5, 0.0}, level, 1.0);
+    region.grids[0].field.H_m[49 * 101 + 50] = 100.04F;
+    EXPECT_EQ(moved_to_summit({46.5, 8.5, 0.0}, region, 1.0).moved_m, 0.0);
+    region.grids[0].field.H_m[49 * 101 + 50] = 100.06F;
+    const MovedToSummit higher = moved_to_summit({46.5, 8.5, 0.0}, region, 1.0);
     EXPECT_NEAR(higher.to.lat_deg, 46.51, 1e-9);
     ASSERT_TRUE(higher.higher_m);
     EXPECT_NEAR(*higher.higher_m, 0.06, 1e-4);
@@ -222,8 +224,9 @@ TEST(MovedToSummit, ComparesHeightsAboveSeaLevel) {
 TEST(MovedToSummit, APlaceWithoutGroundHasNoDifference) {
     HeightField holed = test::made_field(47.0, 8.0, 100.0, 101, 101, [](double, double) { return 100.0F; });
     holed.H_m[50 * 101 + 50] = void_height_m;
+    const Region region = region_of(std::move(holed));
     for (const Geodetic& place : {Geodetic{46.5, 8.5, 0.0}, Geodetic{47.005, 8.5, 0.0}}) {
-        const MovedToSummit moved = moved_to_summit(place, holed, 1.0);
+        const MovedToSummit moved = moved_to_summit(place, region, 1.0);
         EXPECT_GT(moved.moved_m, 0.0);
         EXPECT_FALSE(moved.higher_m) << place.lat_deg;
         EXPECT_NEAR(moved.H_m, 100.0, 1e-6);

@@ -43,10 +43,10 @@ ordered_json names_json(const PanoramaSheet& laid) {
     for (const PanoramaName& name : laid.names.named) {
         const SeenPoint& point = name.point;
         named.push_back(json_object("name", point.name, "lat_deg", point.lat_deg, "lon_deg", point.lon_deg,
-                                    "place", json_list(point.place.lat_deg, point.place.lon_deg), "h_m",
-                                    point.place.h_m, "H_m", point.H_m, "distance_m", point.distance_m,
-                                    "azimuth_deg", name.azimuth_deg, "elevation_deg", name.elevation_deg,
-                                    "x_px", point.place_px.x, "y_px",
+                                    "place", json_list(point.place.lat_deg, point.place.lon_deg), "moved",
+                                    point.is_moved, "h_m", point.place.h_m, "H_m", point.H_m, "distance_m",
+                                    point.distance_m, "azimuth_deg", name.azimuth_deg, "elevation_deg",
+                                    name.elevation_deg, "x_px", point.place_px.x, "y_px",
                                     laid.sheet.scene_top_px + point.place_px.y, "name_x_px", name.slot_px));
     }
     const PanoramaNames& names = laid.names;

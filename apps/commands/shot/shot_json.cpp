@@ -96,7 +96,8 @@ ordered_json names_json(const NamesInView& names) {
     for (const NameLabel& label : names.labels) {
         const SeenPoint& point = label.point;
         json.push_back(
-            json_object("name", point.name, "lat_deg", point.lat_deg, "lon_deg", point.lon_deg, "h_m",
+            json_object("name", point.name, "lat_deg", point.lat_deg, "lon_deg", point.lon_deg, "place",
+                        json_list(point.place.lat_deg, point.place.lon_deg), "moved", point.is_moved, "h_m",
                         point.place.h_m, "H_m", point.H_m, "distance_m", point.distance_m, "place_px",
                         json_list(point.place_px.x, point.place_px.y), "box_px",
                         json_list(label.box.left, label.box.top, label.box.right, label.box.bottom)));

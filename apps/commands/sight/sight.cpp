@@ -16,12 +16,11 @@
 namespace oro {
 namespace {
 
-// What stands before the eye, or is the summit that the target is not: nobody moves that.
-void say_walls(const Standpoint& from, const Standpoint& target, const SightOptions& options) {
-    say_wall(from.wall, options.quiet);
+// What stands before the eye, or is the summit that the target is not.
+void say_walls(const Standpoint& from, const Standpoint& target, bool quiet) {
+    say_wall(from.wall, quiet);
     if (target.wall)
-        say(options.quiet, "note: the target: " + wall_words(*target.wall) +
-                               (options.on_summit ? "; --on-summit moves the eye alone" : ""));
+        say(quiet, "note: the target: " + wall_words(*target.wall) + "; --target-on-summit stands there");
 }
 
 // Names the land cover at the places that are told of.
@@ -50,6 +49,8 @@ Standing asked_eye(const SightOptions& options) {
 Standing asked_target(const SightOptions& options) {
     Standing target{"--to", options.to,   "--target",          options.target_m,
                     0.0,    std::nullopt, "geo:LAT,LON,HEIGHT"};
+    target.on_summit = options.target_on_summit;
+    target.summit_option = "--target-on-summit";
     target.on_top = stands_on_top(options);
     return target;
 }
@@ -86,6 +87,7 @@ Result<void> run_sight(const SightOptions& options, const RealisationOptions& re
     bar.show(1.0, "looking");
     SightReport report = sight_between(from.eye, to, air, *ground);
     report.moved = from.moved;
+    report.target_moved = target.moved;
     std::optional<SightProbability> probability;
     if (realisations.count && report.slant_m > least_above_m) {
         ORO_TRY(probability,
@@ -102,7 +104,7 @@ Result<void> run_sight(const SightOptions& options, const RealisationOptions& re
     if (cover)
         for (const std::string& note : cover->notes()) say(options.quiet, "note: " + note);
     say_canopy(*ground, report, options.quiet);
-    say_walls(from, target, options);
+    say_walls(from, target, options.quiet);
     if (report.line.without_data_m > 0.5) {
         char note[160];
         std::snprintf(

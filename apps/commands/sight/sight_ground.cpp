@@ -117,8 +117,7 @@ Result<Standpoint> stand_over_ground(const Standing& standing, const Region& reg
                                      const TrueGround& ground) {
     ORO_CHECK(check_above(standing.above_option, standing.above_m));
     ORO_TRY(const Place place, place_at(standing.place_option, standing.place));
-    const RegionGrid& there = grid_at(region, place.lat_deg, place.lon_deg);
-    ORO_TRY(Standpoint stood, stand(standing, there.field));
+    ORO_TRY(Standpoint stood, stand(standing, region));
     Geodetic& point = stood.eye;
     ORO_CHECK(lift_onto_top(standing, region, ground.exaggeration(), point));
     if (!view_limits::sight_h_m.hold(point.h_m)) {

@@ -62,15 +62,39 @@ std::string feature_of_obstacle(const SightHit& hit, const SightGround& ground) 
     return feature == nullptr ? "" : ", " + words_of(*feature);
 }
 
-std::string hidden_text(const SightReport& report, const SightGround& ground) {
+// Nothing stands so high over its place.
+constexpr double most_higher_m = 9000.0;
+// What is so near the eye hides what is far by a height that says nothing of the target, from so much on.
+constexpr double before_eye_m = 30.0, much_higher_m = 100.0;
+
+// Whether it helps to know how much higher the target would have to be.
+bool tells_target(const SightReport& report) {
+    const auto& higher_m = report.target_clearance_deficit_m;
+    if (!higher_m || *higher_m > most_higher_m) return false;
+    return report.obstacle_distance_m >= before_eye_m || *higher_m <= much_higher_m;
+}
+
+// "Hidden: the target would have to be 8.21 m higher, or the eye 2.12 m", "Hidden by ground 5 m in front of
+// the eye: the eye would have to be 8.66 m higher"
+std::string missed_text(const SightReport& report) {
     std::string text = "Hidden";
-    if (report.target_clearance_deficit_m)
+    const bool of_target = tells_target(report);
+    if (of_target)
         text += printed(": the target would have to be %.2f m higher", *report.target_clearance_deficit_m);
+    else if (report.obstacle_distance_m > 0.0)
+        text += std::string(" by ") +
+                (report.obstacle_canopy_m    ? "canopy "
+                 : report.obstacle->mesh > 0 ? "a mesh "
+                                             : "ground ") +
+                distance_text(report.obstacle_distance_m) + " in front of the eye";
     if (report.eye_clearance_deficit_m)
-        text += printed(report.target_clearance_deficit_m ? ", or the eye %.2f m"
-                                                          : ": the eye would have to be %.2f m higher",
+        text += printed(of_target ? ", or the eye %.2f m" : ": the eye would have to be %.2f m higher",
                         *report.eye_clearance_deficit_m);
-    text += "\nFirst obstacle: ";
+    return text;
+}
+
+std::string hidden_text(const SightReport& report, const SightGround& ground) {
+    std::string text = missed_text(report) + "\nFirst obstacle: ";
     if (report.obstacle_canopy_m)
         text += printed("canopy, %.1f m over the ground, at ", *report.obstacle_canopy_m);
     else if (report.obstacle->mesh > 0)
@@ -101,6 +125,8 @@ std::string sight_text(const SightReport& report, const SightGround& ground) {
     std::string text = end_text("From:", report.from, report.from_cover, report.from_canopy_m, ground);
     if (report.moved) text += "Summit: " + summit_words("the eye stands", *report.moved) + "\n";
     text += end_text("To:  ", report.to, report.to_cover, report.to_canopy_m, ground);
+    if (report.target_moved)
+        text += "Summit: " + summit_words("the target stands", *report.target_moved) + "\n";
     text += report.obstacle ? hidden_text(report, ground) : "Visible\n";
     if (report.line.without_data_m < report.slant_m)
         text += printed(ground.region.meshes ? "Least clearance of the terrain: %.2f m, over "
@@ -120,6 +146,7 @@ ordered_json sight_json(const SightReport& report, const SightGround& ground) {
     json["from"] = end_json(report.from, report.from_cover, report.from_canopy_m, ground);
     if (report.moved) json["on_summit"] = summit_json(*report.moved);
     json["to"] = end_json(report.to, report.to_cover, report.to_canopy_m, ground);
+    if (report.target_moved) json["target_on_summit"] = summit_json(*report.target_moved);
     json["target_missed_by_m"] =
         report.obstacle ? or_null(report.target_clearance_deficit_m) : ordered_json(0.0);
     json["eye_missed_by_m"] = report.obstacle ? or_null(report.eye_clearance_deficit_m) : ordered_json(0.0);

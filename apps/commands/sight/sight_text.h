@@ -15,7 +15,8 @@ namespace oro {
 struct SightReport {
     Geodetic from;
     Geodetic to;
-    std::optional<MovedToSummit> moved;  // of an eye that was asked to stand on a summit
+    std::optional<MovedToSummit> moved;         // of an eye that was asked to stand on a summit
+    std::optional<MovedToSummit> target_moved;  // likewise of the target
     Air air;
     GeodesicPath path{};     // over the ellipsoid
     double slant_m{};        // straight

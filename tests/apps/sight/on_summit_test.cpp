@@ -122,11 +122,13 @@ TEST_F(OnSummit, AWallBeforeWhoStandsOnAFlankIsSaid) {
     const auto sight = run_orograph({"sight", tile, "--from", flank, "--to", published});
     // On a slope that goes on rising people stand on purpose.
     EXPECT_FALSE(says(sight.err, "--on-summit")) << sight.err;
-    EXPECT_TRUE(says(sight.err, "note: the target: a post 130 m away is 42.0 m higher\n")) << sight.err;
+    EXPECT_TRUE(says(
+        sight.err, "note: the target: a post 130 m away is 42.0 m higher; --target-on-summit stands there\n"))
+        << sight.err;
     const auto moved = run_orograph({"sight", tile, "--from", flank, "--to", published, "--on-summit"});
     EXPECT_TRUE(says(moved.err,
-                     "note: the target: a post 130 m away is 42.0 m higher; --on-summit moves the "
-                     "eye alone\n"))
+                     "note: the target: a post 130 m away is 42.0 m higher; --target-on-summit stands "
+                     "there\n"))
         << moved.err;
     EXPECT_FALSE(says(moved.err, note)) << moved.err;
     // Not of an eye that is over all of it, nor of one that looks at the place from elsewhere.
@@ -137,6 +139,54 @@ TEST_F(OnSummit, AWallBeforeWhoStandsOnAFlankIsSaid) {
         EXPECT_EQ(high.exit_code, 0) << high.err;
         EXPECT_FALSE(says(high.err, "a post 130 m away")) << high.err;
     }
+}
+
+// Posts that are invented between those of the data are nearer to each other, and are no summits.
+TEST_F(OnSummit, IsTheSameWithGroundBetweenPosts) {
+    for (const char* const detail : {"0", "1", "3"}) {
+        const json shot = oro::test::object_said_by(
+            {"shot", tile, "--at", published, "--on-summit", "--above", "5", "--heading", "90", "--detail",
+             std::string(detail) + (detail[0] == '0' ? "" : ",1"), "--size", "64x48", "--out",
+             folder / (std::string("d") + detail + ".png"), "--json", "-q"});
+        expect_moved(shot["on_summit"]);
+        EXPECT_EQ(shot["on_summit"]["goes_on_rising"], false) << detail;
+        EXPECT_NEAR(shot["eye"]["H_m"].get<double>(), 2005.0, 0.001) << detail;
+    }
+}
+
+TEST_F(OnSummit, MovesTheTargetOfASight) {
+    const Words sight{"sight", tile, "--from", "10.6,20.5", "--above", "3000", "--to", published};
+    const json plain = oro::test::object_said_by(oro::test::joined(sight, {"--json", "-q"}));
+    EXPECT_FALSE(plain.contains("target_on_summit"));
+    EXPECT_NEAR(plain["to"]["H_m"].get<double>(), 1958.0, 0.001);
+    const json moved =
+        oro::test::object_said_by(oro::test::joined(sight, {"--target-on-summit", "--json", "-q"}));
+    expect_moved(moved["target_on_summit"]);
+    EXPECT_FALSE(moved.contains("on_summit"));
+    EXPECT_NEAR(moved["to"]["H_m"].get<double>(), 2000.0, 0.001);
+    const auto said = run_orograph(oro::test::joined(sight, {"--target-on-summit"}));
+    EXPECT_TRUE(says(said.out, "Summit: the target stands on the highest post nearby: 10.500000 20.500000"))
+        << said.out;
+    EXPECT_FALSE(says(said.err, "note: the target")) << said.err;
+    oro::test::expect_refusal(run_orograph({"sight", tile, "--from", published, "--to", "geo:10.5,20.5,3000",
+                                            "--target-on-summit"}),
+                              oro::test::usage, {"gives a height of its own: leave --target-on-summit out"});
+}
+
+// A cone of 18 degrees before an eye that lies 5 cm over it: so near, a height of the target says nothing.
+TEST_F(OnSummit, GroundBeforeTheEyeIsSaidToHideTheTarget) {
+    const Words sight{"sight", tile, "--from", flank, "--above", "0.05", "--to"};
+    const auto far = run_orograph(oro::test::joined(sight, {"10.6,20.5"}));
+    EXPECT_TRUE(says(far.out, "Hidden by ground ")) << far.out;
+    EXPECT_TRUE(says(far.out, " m in front of the eye: the eye would have to be ")) << far.out;
+    EXPECT_FALSE(says(far.out, "the target would have to be")) << far.out;
+    // What hides is far, and a tower could be so high.
+    const auto tower =
+        run_orograph({"sight", tile, "--from", "10.48,20.5", "--above", "200", "--to", "10.52,20.5"});
+    EXPECT_TRUE(says(tower.out, "Hidden: the target would have to be ")) << tower.out;
+    const json reported = oro::test::object_said_by(oro::test::joined(sight, {"10.6,20.5", "--json", "-q"}));
+    EXPECT_GT(reported["target_missed_by_m"].get<double>(), 100.0) << "programs are told";
+    EXPECT_LT(reported["obstacle"]["distance_m"].get<double>(), 30.0);
 }
 
 TEST_F(OnSummit, GroundThatGoesOnRisingIsNoSummit) {

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <optional>
@@ -16,6 +18,7 @@
 #include "core/base/parallel.h"
 #include "core/terrain/ground.h"
 #include "geo/region/region.h"
+#include "tests/support/made_terrain.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -207,6 +210,61 @@ TEST(SeenPoints, AreCountedWhereTheyAreNotNamed) {
     EXPECT_TRUE(seen.empty());
     EXPECT_EQ(counts.beyond_data, 1);
     EXPECT_EQ(counts.outside, 1);
+}
+
+// A pyramid of 40 m a post, 1,000 m high at row 10 and column 10, and a point one post behind its top.
+TEST(SeenPoints, AreMovedWhereTheyMayBeSummitsAndKeepTheirH) {
+    const HeightField field =
+        test::made_field(47.0, 8.0, 1200.0, 21, 21, [](double, double) { return 0.0F; });
+    HeightField pyramid = field;
+    for (int row = 0; row < 21; ++row)
+        for (int column = 0; column < 21; ++column)
+            pyramid.H_m[static_cast<std::size_t>(21 * row + column)] =
+                1000.0F - 40.0F * static_cast<float>(std::max(std::abs(row - 10), std::abs(column - 10)));
+    const TrueSurface surface(pyramid, 1.0, 1);
+    Camera camera;
+    camera.eye = {47.0 - 19.0 / 1200.0, 8.0 + 10.0 / 1200.0, 850.0};
+    camera.attitude = {0.0, 5.0, 0.0};
+    camera.width_px = 800, camera.height_px = 600;
+    const PointsInView view(surface, camera, {});
+    NamedPoint point = named("p", 47.0 - 9.0 / 1200.0, 8.0 + 10.0 / 1200.0);
+    PointCounts counts;
+    EXPECT_TRUE(view.seen({point}, counts).empty()) << "a place that is hidden stays where it is";
+    EXPECT_EQ(counts.hidden, 1);
+    point.may_be_summit = true;
+    const auto moved = view.seen({point}, counts);
+    ASSERT_EQ(moved.size(), 1U);
+    EXPECT_TRUE(moved[0].is_moved);
+    EXPECT_NEAR(moved[0].place.lat_deg, 47.0 - 10.0 / 1200.0, 1e-9);
+    EXPECT_NEAR(moved[0].place.h_m, 1000.0, 1e-6);
+    EXPECT_NEAR(moved[0].H_m, 960.0, 1e-6) << "that of its own ground, from wherever it is seen";
+    // From the north it is seen where it is.
+    camera.eye.lat_deg = 47.0 - 1.0 / 1200.0;
+    camera.attitude.heading_deg = 180.0;
+    const auto stays = PointsInView(surface, camera, {}).seen({point}, counts);
+    ASSERT_EQ(stays.size(), 1U);
+    EXPECT_FALSE(stays[0].is_moved);
+    EXPECT_NEAR(stays[0].H_m, 960.0, 1e-6);
+}
+
+TEST(NamedPoints, MayBeSummitsWhereTheirFileSaysSo) {
+    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "kinds_of_points.geojson";
+    const auto feature = [](const std::string& fields, const std::string& place) {
+        return R"({"type":"Feature","properties":{)" + fields +
+               R"(},"geometry":{"type":"Point","coordinates":[)" + place + "]}}";
+    };
+    std::ofstream(path) << R"({"type":"FeatureCollection","features":[)" +
+                               feature(R"("name":"peak","natural":"peak")", "9.5,47.2") + "," +
+                               feature(R"("name":"saddle","natural":"saddle")", "9.5,47.2") + "," +
+                               feature(R"("name":"ele","ele":"665")", "9.5,47.2") + "," +
+                               feature(R"("name":"village","place":"village")", "9.5,47.2") + "," +
+                               feature(R"("name":"bare")", "9.5,47.2") + "]}";
+    const auto file = read_vectors(path.string());
+    ASSERT_TRUE(file.ok()) << file.error().line();
+    std::string may_be;
+    for (const NamedPoint& point : named_points(*file, "name"))
+        if (point.may_be_summit) may_be += point.name + " ";
+    EXPECT_EQ(may_be, "peak saddle ele ");
 }
 
 TEST(NamedPoints, ReadMetresAsPeopleWriteThem) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <random>
@@ -114,6 +115,41 @@ TEST(RefinedPosts, OnTheRimLieOnTheDatasSurface) {
         EXPECT_NEAR(made.field.H_at_post_m(along, 0), straight(10 + post, 10, 1, 0), 2.0e-4);
         EXPECT_NEAR(made.field.H_at_post_m(along, last), straight(10 + post, 39, 1, 0), 2.0e-4);
     }
+}
+
+// Across the rim the ground is as steep as the data are shaded: by the posts on both sides. A kink there is
+// an edge in the light. The slope of the made ground is that of a parabola through its first three posts.
+TEST(RefinedPosts, OnTheRimAreAsSteepAcrossAsTheDataAreShaded) {
+    const HeightField field = random_field(9, 50, 50);
+    const GridPart part{10, 30, 10, 30};
+    constexpr int halvings = 5, along = 1 << halvings, last = 29 * along;
+    const RefinedPosts made = refined(field, part, halvings);
+    const auto made_m = [&](int row, int column) { return double{made.field.H_at_post_m(row, column)}; };
+    const auto into = [&](auto&& post_m) {
+        return along * (4.0 * post_m(1) - 3.0 * post_m(0) - post_m(2)) / 2.0;
+    };
+    double kinks_m = 0.0, most_m = 0.0;
+    for (int post = 10; post < 40; ++post) {
+        const int at = (post - 10) * along;
+        const auto data_m = [&](int row, int column) { return double{field.H_at_post_m(row, column)}; };
+        const double north_m = into([&](int i) { return made_m(i, at); }),
+                     south_m = into([&](int i) { return made_m(last - i, at); }),
+                     west_m = into([&](int i) { return made_m(at, i); }),
+                     east_m = into([&](int i) { return made_m(at, last - i); });
+        const bool near_corner = post < 13 || post > 36;
+        for (const auto& [made_slope_m, before_m, after_m] :
+             {std::array{north_m, data_m(9, post), data_m(11, post)},
+              {south_m, data_m(40, post), data_m(38, post)},
+              {west_m, data_m(post, 9), data_m(post, 11)},
+              {east_m, data_m(post, 40), data_m(post, 38)}}) {
+            if (near_corner) continue;  // the other rim is straight there
+            most_m = std::max(most_m, std::abs(made_slope_m - 0.5 * (after_m - before_m)));
+            kinks_m = std::max(kinks_m, std::abs(after_m - before_m) / 2.0);
+        }
+    }
+    std::printf("up to %.3f m a post off, of slopes of up to %.1f m\n", most_m, kinks_m);
+    EXPECT_GT(kinks_m, 10.0);
+    EXPECT_LT(most_m, 0.4);  // metres a post
 }
 
 TEST(RefinedPosts, OfTwoPartsAreTheSameWhereBothAreFarFromTheirRims) {
