@@ -351,8 +351,8 @@ TEST_F(GridsOverEachOther, AreMappedTogether) {
 TEST_F(GridsOverEachOther, StandInPanoramasWithNames) {
     const fs::path names = folder_ / "names.geojson", picture = folder_ / "around.png";
     std::ofstream(names) << R"({"type":"FeatureCollection","features":[
-        {"type":"Feature","properties":{"name":"Inside"},"geometry":{"type":"Point","coordinates":[-84.30,36.555]}},
-        {"type":"Feature","properties":{"name":"Near"},"geometry":{"type":"Point","coordinates":[-84.34,36.535]}}]})";
+        {"type":"Feature","properties":{"natural":"peak","name":"Inside"},"geometry":{"type":"Point","coordinates":[-84.30,36.555]}},
+        {"type":"Feature","properties":{"natural":"peak","name":"Near"},"geometry":{"type":"Point","coordinates":[-84.34,36.535]}}]})";
     const json reported =
         object_said_by({"panorama", coarse_, fine_, "--at", "36.53,-84.37", "--above", "600", "--width",
                         "360", "--names", names, "--json", "-q", "--out", picture});
