@@ -24,8 +24,7 @@ std::string without_clusters(const Region& region, const View& view) {
 // What asks for clusters, and for nothing else; "": nothing does.
 std::string asks_for_clusters(const View& view) {
     if (view.mesh_level) return "--mesh-level";
-    if (view.show == Show::clusters || view.show == Show::groups)
-        return "--show " + std::string(name_in(show_names, *view.show));
+    if (is_of_clusters(view.show)) return "--show " + std::string(name_in(show_names, *view.show));
     return view.mesh == "clusters" ? "--mesh clusters" : "";
 }
 

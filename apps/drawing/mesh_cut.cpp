@@ -11,7 +11,7 @@
 namespace oro {
 
 Result<bool> draws_mesh_clusters(const Region& region, const View& view) {
-    if (!region.meshes || view.show == Show::clusters || view.show == Show::groups) return false;
+    if (!region.meshes || is_of_clusters(view.show)) return false;
     if (view.mesh != "clusters" && !view.mesh_level) return false;
     const char* const asks = view.mesh_level ? "--mesh-level" : "--mesh clusters";
     if (view.map) return Error{ErrorKind::usage, asks, "is not for maps of a region with meshes"};

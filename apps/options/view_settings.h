@@ -24,6 +24,10 @@ enum class Edges { smooth, steps };
 // What a picture shows of its own making, in the place of colours: whether the last of a frame's rounds drew
 // it, how coarse, which meshlet, which triangle, how many triangles, which cluster, which group of clusters.
 enum class Show { visible, levels, meshlets, triangles, overdraw, clusters, groups };
+// Whether what is shown is there of clusters alone.
+constexpr bool is_of_clusters(std::optional<Show> show) {
+    return show == Show::clusters || show == Show::groups;
+}
 
 // Which lines lie over the ground: of latitude and longitude, or of the CRS of the data.
 enum class Graticule { geographic, projected };

@@ -157,15 +157,4 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
         std::move(file), drawn.fingerprints};
 }
 
-Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
-                                    const Region& region, const RegionGround& ground,
-                                    const std::optional<SeenPlace>& middle, const Gpu& gpu, Scene& scene,
-                                    const Style& style, std::span<const std::uint8_t> strip,
-                                    const RenderProgress& progress) {
-    ORO_TRY(DrawnPicture picture,
-            draw_picture(files, overwrite, view, region, ground, middle, gpu, scene, style, strip, progress));
-    ORO_CHECK(picture.file.commit());
-    return picture.report;
-}
-
 }  // namespace oro

@@ -49,11 +49,4 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
 // memory for; any message of the validation layer, where it is on.
 Result<void> check_drawn(const Gpu& gpu, Scene& scene, const PictureReport& report);
 
-// Writes a picture as above, and gives the file its name.
-Result<PictureReport> write_picture(const PictureFiles& files, bool overwrite, const View& view,
-                                    const Region& region, const RegionGround& ground,
-                                    const std::optional<SeenPlace>& middle, const Gpu& gpu, Scene& scene,
-                                    const Style& style, std::span<const std::uint8_t> strip,
-                                    const RenderProgress& progress);
-
 }  // namespace oro

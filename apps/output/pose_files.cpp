@@ -5,12 +5,14 @@
 #include <filesystem>
 #include <utility>
 
+#include "apps/eye/standpoint.h"
 #include "apps/output/ground_overlay.h"
 #include "apps/output/kml_element.h"
 #include "apps/output/relative_reference.h"
 #include "apps/output/stac_item.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
+#include "apps/report/region_json.h"
 #include "core/earth/rotation.h"
 
 namespace oro {
@@ -98,6 +100,14 @@ Result<PoseText> geopose_of(const std::string& picture, const View& view, const 
 }
 
 }  // namespace
+
+PoseFacts pose_facts(const View& view, const Region& region) {
+    const Geodetic& eye = view.camera.eye;
+    PoseFacts facts;
+    facts.N_m = grid_at(region, eye.lat_deg, eye.lon_deg).field.undulation.at_m(eye.lat_deg, eye.lon_deg);
+    facts.attribution = attribution_of(region);
+    return facts;
+}
 
 std::array<double, 4> geopose_quaternion(const Attitude& attitude) {
     glm::dquat turn = rotation_about(90.0 - attitude.heading_deg, {0.0, 0.0, 1.0}) *

@@ -11,6 +11,7 @@
 #include "core/base/result.h"
 #include "core/earth/camera.h"
 #include "geo/files/whole_file.h"
+#include "geo/region/region.h"
 
 namespace oro {
 
@@ -21,6 +22,12 @@ struct PoseChoice {
     bool stac{};
 };
 
+// Those that a command's options ask for: of shot, panorama, film and view.
+template <class Options>
+PoseChoice poses_asked(const Options& options) {
+    return {options.kml, options.geopose, options.stac};
+}
+
 // What they say that the view does not.
 struct PoseFacts {
     double N_m{};               // the geoid's undulation at the eye: KML's altitudes are above sea level
@@ -28,6 +35,9 @@ struct PoseFacts {
     double above_level_px{};    // of a panorama: the picture's rows above the eye's level
     double ground_h_m{};        // of a map: the ground in its middle, above the ellipsoid; 0 where is none
 };
+
+// What they say of any picture from an eye over a region: its N, and who is to be named.
+PoseFacts pose_facts(const View& view, const Region& region);
 
 // A unit quaternion (x, y, z, w) with w not below 0: the rotation from the camera's axes to east, north, up
 // of its place. The camera's axes are those of yaw, pitch and roll in GeoPose: x ahead along the line of

@@ -110,8 +110,7 @@ DetailStep step_now(const Viewer& viewer) {
 // What a frame would be drawn from now, and what of it is missing.
 Result<FramePlan> plan_now(Viewer& viewer, const Camera& camera, const DetailStep& step) {
     require_fields(*viewer.scene, viewer.style.frame, step);
-    viewer.scene->set_fallback_to_blocks(viewer.view.show != Show::clusters &&
-                                         viewer.view.show != Show::groups);
+    viewer.scene->set_fallback_to_blocks(!is_of_clusters(viewer.view.show));
     const double tau_px = viewer.view.tau_px * step.tau_factor;
     ORO_TRY(FramePlan plan, viewer.scene->plan({camera, whole_tile(camera), tau_px, viewer.view.model}));
     viewer.is_missing = !plan.is_settled();

@@ -54,7 +54,7 @@ void keep_choices(const View& shown, View& view) {
     // What draws it, and whether by clusters, is chosen anew.
     view.mesh = shown.mesh == "grid" ? "grid" : "auto";
     view.mesh_level.reset();
-    if (view.show == Show::clusters || view.show == Show::groups) view.show.reset();
+    if (is_of_clusters(view.show)) view.show.reset();
     view.style_text = shown.style_text;
     view.sea_asked = shown.sea_asked;
     view.rim_asked = shown.rim_asked;

@@ -6,14 +6,12 @@
 #include "apps/accuracy/beyond_data.h"
 #include "apps/drawing/drape.h"
 #include "apps/drawing/mesh_cut.h"
-#include "apps/eye/standpoint.h"
 #include "apps/legend/legend.h"
 #include "apps/navigation/view_history.h"
 #include "apps/output/picture_file.h"
 #include "apps/output/pose_files.h"
 #include "apps/report/json_text.h"
 #include "apps/report/progress_bar.h"
-#include "apps/report/region_json.h"
 #include "apps/window/frames.h"
 #include "apps/window/window_start.h"
 #include "core/lod/ground_means.h"
@@ -41,12 +39,8 @@ View pictured(View view, const PictureChoice& choice) {
 Result<void> write_with_poses(Viewer& viewer, const PictureFiles& files, const View& view,
                               const RegionGround& ground, const std::optional<SeenPlace>& middle,
                               std::span<const std::uint8_t> strip, PoseChoice poses) {
-    PoseFacts facts;
-    const Geodetic& eye = view.camera.eye;
-    facts.N_m =
-        grid_at(viewer.region, eye.lat_deg, eye.lon_deg).field.undulation.at_m(eye.lat_deg, eye.lon_deg);
-    facts.attribution = attribution_of(viewer.region);
-    ORO_TRY(const std::vector<PoseText> texts, pose_texts(files.picture, poses, view, facts));
+    ORO_TRY(const std::vector<PoseText> texts,
+            pose_texts(files.picture, poses, view, pose_facts(view, viewer.region)));
     ORO_TRY(std::vector<WholeFile> written, pose_files(texts, false));
     ORO_TRY(DrawnPicture picture, draw_picture(files, false, view, viewer.region, ground, middle, viewer.gpu,
                                                *viewer.scene, viewer.style, strip, {}));
@@ -152,10 +146,6 @@ void show_finer_scene(Viewer& viewer) {
     viewer.meshes.tau_px = 0.0;
     viewer.is_missing = false;
     viewer.wants_picture = true;
-}
-
-PoseChoice poses_asked(const WindowOptions& options) {
-    return {options.kml, options.geopose, options.stac};
 }
 
 Result<void> take_picture(Viewer& viewer) {

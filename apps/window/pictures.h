@@ -23,8 +23,6 @@ Result<void> follow_with_meshes(Viewer& viewer);
 Result<void> begin_finer_scene(Viewer& viewer);
 // The scene that came is the one that is shown.
 void show_finer_scene(Viewer& viewer);
-// The files beside a picture that the window's options ask for.
-PoseChoice poses_asked(const WindowOptions& options);
 // Writes a picture of the view into the working folder: the bytes that shot draws of it. Waits for full
 // detail. What goes wrong with the file is told; errors: those of the device, of text and of posts.
 Result<void> take_picture(Viewer& viewer);

@@ -214,8 +214,7 @@ Result<FramePlan> plan_second(Viewer& viewer, const DetailStep& step) {
                           viewer.follows_eye ? Eye::moves : Eye::rests));
     const Camera camera = scaled_camera(second.view.camera, step.scale);
     require_fields(*second.scene, second.style.frame, step);
-    second.scene->set_fallback_to_blocks(second.view.show != Show::clusters &&
-                                         second.view.show != Show::groups);
+    second.scene->set_fallback_to_blocks(!is_of_clusters(second.view.show));
     ORO_TRY(FramePlan plan, second.scene->plan({camera, whole_tile(camera),
                                                 second.view.tau_px * step.tau_factor, second.view.model}));
     second.is_missing = !plan.is_settled();

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <glm/common.hpp>
-#include <limits>
+#include <utility>
+
+#include "core/mesh_graph/longest_axis.h"
 
 namespace oro {
 namespace {
@@ -20,20 +21,10 @@ class Halving {
             std::sort(parts.back().begin(), parts.back().end());
             return;
         }
-        constexpr double endless = std::numeric_limits<double>::infinity();
-        glm::dvec3 low(endless), high(-endless);
-        for (const std::uint32_t triangle : triangles)
-            low = glm::min(low, middles_[triangle]), high = glm::max(high, middles_[triangle]);
-        const glm::dvec3 size = high - low;
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
         const auto before =
             static_cast<std::size_t>(share(triangles.size(), depth) * static_cast<double>(triangles.size()));
         const std::size_t half = std::clamp<std::size_t>(before, 1, triangles.size() - 1);
-        std::nth_element(triangles.begin(), triangles.begin() + static_cast<std::ptrdiff_t>(half),
-                         triangles.end(), [&](std::uint32_t a, std::uint32_t b) {
-                             const double one = middles_[a][axis], other = middles_[b][axis];
-                             return one != other ? one < other : a < b;
-                         });
+        divide_along_longest_axis(triangles, middles_, half);
         halve(triangles.first(half), depth + 1);
         halve(triangles.subspan(half), depth + 1);
     }

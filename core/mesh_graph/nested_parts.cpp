@@ -1,44 +1,26 @@
 #include "core/mesh_graph/nested_parts.h"
 
 #include <algorithm>
-#include <glm/common.hpp>
-#include <limits>
 #include <numeric>
 #include <utility>
+
+#include "core/mesh_graph/longest_axis.h"
 
 namespace oro {
 namespace {
 
-class PartHalving {
-  public:
-    PartHalving(std::span<const glm::dvec3> middles, std::vector<std::uint32_t>& part_of)
-        : middles_(middles), part_of_(part_of) {}
-
-    void halve(std::span<std::uint32_t> triangles, int times, std::uint32_t number) {
-        if (times == 0) {
-            for (const std::uint32_t triangle : triangles) part_of_[triangle] = number;
-            return;
-        }
-        constexpr double beyond_all = std::numeric_limits<double>::infinity();
-        glm::dvec3 low(beyond_all), high(-beyond_all);
-        for (const std::uint32_t triangle : triangles)
-            low = glm::min(low, middles_[triangle]), high = glm::max(high, middles_[triangle]);
-        const glm::dvec3 size = high - low;
-        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-        const std::size_t half = triangles.size() / 2;
-        std::nth_element(triangles.begin(), triangles.begin() + static_cast<std::ptrdiff_t>(half),
-                         triangles.end(), [&](std::uint32_t a, std::uint32_t b) {
-                             const double one = middles_[a][axis], other = middles_[b][axis];
-                             return one != other ? one < other : a < b;
-                         });
-        halve(triangles.first(half), times - 1, 2 * number);
-        halve(triangles.subspan(half), times - 1, 2 * number + 1);
+// number: of the part that these triangles are, among those of as many divisions.
+void halve(std::span<std::uint32_t> triangles, std::span<const glm::dvec3> middles, int times,
+           std::uint32_t number, std::vector<std::uint32_t>& part_of) {
+    if (times == 0) {
+        for (const std::uint32_t triangle : triangles) part_of[triangle] = number;
+        return;
     }
-
-  private:
-    std::span<const glm::dvec3> middles_;
-    std::vector<std::uint32_t>& part_of_;
-};
+    const std::size_t half = triangles.size() / 2;
+    divide_along_longest_axis(triangles, middles, half);
+    halve(triangles.first(half), middles, times - 1, 2 * number, part_of);
+    halve(triangles.subspan(half), middles, times - 1, 2 * number + 1, part_of);
+}
 
 }  // namespace
 
@@ -54,7 +36,7 @@ NestedParts nested_parts(std::span<const glm::dvec3> middles, int depth) {
     parts.part_of.resize(middles.size());
     std::vector<std::uint32_t> all(middles.size());
     std::iota(all.begin(), all.end(), 0U);
-    PartHalving(middles, parts.part_of).halve(all, 2 * depth, 0);
+    halve(all, middles, 2 * depth, 0, parts.part_of);
     return parts;
 }
 

@@ -154,9 +154,7 @@ void add_facts(Views& views, const VertexFacts& facts, const OrderedMesh& order)
     if (!facts.colours.empty()) {
         std::vector<Bytes> colours(facts.colours.size());
         for (std::size_t i = 0; i < colours.size(); ++i)
-            for (std::size_t part = 0; part < 3; ++part)
-                colours[order.numbers[i]][part] = static_cast<std::uint8_t>(
-                    std::lround(255.0 * std::clamp(facts.colours[i][part], 0.0, 1.0)));
+            colours[order.numbers[i]] = colour_bytes(facts.colours[i]);
         add_vertices(views, colours, "COLOR_0", nullptr, component_unsigned_byte);
     }
     if (!facts.sources.empty()) {
@@ -345,6 +343,13 @@ Json gltf_json(const GroundMesh& mesh, const VertexFacts& facts, const GlbLook& 
 }
 
 }  // namespace
+
+std::array<std::uint8_t, 4> colour_bytes(const std::array<double, 3>& light) {
+    std::array<std::uint8_t, 4> bytes{};
+    for (std::size_t part = 0; part < light.size(); ++part)
+        bytes[part] = static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(light[part], 0.0, 1.0)));
+    return bytes;
+}
 
 std::vector<std::uint8_t> glb_bytes(const GroundMesh& mesh, const VertexFacts& facts, const GlbLook& look) {
     Views views = views_of(mesh, facts, ordered(mesh));

@@ -44,6 +44,9 @@ struct GlbLook {
     bool two_sided{};                    // triangles are seen from behind, too
 };
 
+// A colour (linear light; what is not 0 to 1 is taken as the nearer end) as a vertex has it in a file: bytes
+// that stand for 0 to 1, the fourth unused, as vertices begin at multiples of four.
+std::array<std::uint8_t, 4> colour_bytes(const std::array<double, 3>& light);
 // The bytes of a .glb of a mesh that has a triangle: one node, which takes whole steps along the mesh's axes
 // to their place, in double; one mesh, one buffer that is compressed (EXT_meshopt_compression; a viewer that
 // does not know it cannot read the file). y is up in glTF, so ECEF's (x, y, z) is (x, z, -y); viewers of 3D

@@ -102,10 +102,7 @@ ModelJson ModelWriter::attributes_of(const ModelPart& part) {
     attributes["NORMAL"] = add_accessor(add_view(part.normals, of_vertices), is_float, count, "VEC3");
     if (part.colours.empty()) return attributes;
     std::vector<std::array<std::uint8_t, 4>> codes(count);
-    for (std::size_t i = 0; i < count; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-            codes[i][j] =
-                static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(part.colours[i][j], 0.0, 1.0)));
+    std::ranges::transform(part.colours, codes.begin(), colour_bytes);
     const std::size_t view = add_view(std::span<const std::array<std::uint8_t, 4>>(codes), of_vertices);
     json_["bufferViews"][view]["byteStride"] = sizeof(codes.front());
     const std::size_t colours = add_accessor(view, is_unsigned_byte, count, "VEC3");

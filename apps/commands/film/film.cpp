@@ -221,12 +221,8 @@ Result<void> look_at_files(const FilmOptions& options, const FilmFiles& files, F
 // replaced.
 Result<std::vector<WholeFile>> missing_poses(const FilmOptions& options, const std::string& file,
                                              const View& view, const Region& region) {
-    const Geodetic& eye = view.camera.eye;
-    const double N_m =
-        grid_at(region, eye.lat_deg, eye.lon_deg).field.undulation.at_m(eye.lat_deg, eye.lon_deg);
     ORO_TRY(std::vector<PoseText> texts,
-            pose_texts(file, {options.kml, options.geopose, options.stac}, view,
-                       PoseFacts{.N_m = N_m, .attribution = attribution_of(region)}));
+            pose_texts(file, poses_asked(options), view, pose_facts(view, region)));
     std::vector<PoseText> missing;
     for (PoseText& one : texts) {
         ORO_TRY(const bool there, is_there(one.file));
@@ -318,8 +314,7 @@ Result<void> film_it(const FilmOptions& options, const FilmFiles& files, const C
     std::vector<std::string> written;
     for (const FilmFrame& frame : frames) {
         written.push_back(files.frame(frame.number));
-        for (const std::string& pose :
-             pose_paths(written.back(), {options.kml, options.geopose, options.stac}))
+        for (const std::string& pose : pose_paths(written.back(), poses_asked(options)))
             written.push_back(pose);
     }
     if (!files.movie.empty()) written.push_back(files.movie);

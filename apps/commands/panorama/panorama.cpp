@@ -28,10 +28,6 @@
 namespace oro {
 namespace {
 
-PoseChoice poses_asked(const PanoramaOptions& options) {
-    return {options.kml, options.geopose, options.stac};
-}
-
 Result<void> check_out(const PanoramaOptions& options) {
     if (options.out.empty())
         return refused("--out", "", "is missing: name the file to write (.png, .jpg, .tif or .svg)");
@@ -86,10 +82,7 @@ void tell(const PanoramaOptions& options, const Style& style, const PanoramaRepo
 
 // The files beside the panorama, without names yet. The view's camera has the whole sheet's size.
 Result<std::vector<WholeFile>> poses_of(const PanoramaOptions& options, const PanoramaReport& report) {
-    const Geodetic& eye = report.view.camera.eye;
-    PoseFacts facts;
-    facts.N_m = report.region.grids.front().field.undulation.at_m(eye.lat_deg, eye.lon_deg);
-    facts.attribution = attribution_of(report.region);
+    PoseFacts facts = pose_facts(report.view, report.region);
     facts.above_level_px = report.laid.sheet.scene_top_px + report.laid.around.above_px;
     ORO_TRY(const std::vector<PoseText> texts,
             pose_texts(options.out, poses_asked(options), report.view, facts));

@@ -186,10 +186,7 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
 // drawn.
 Result<std::vector<WholeFile>> poses_of(const ShotOptions& options, const PictureFiles& files,
                                         const ShotResult& shot) {
-    const Geodetic& eye = shot.view.camera.eye;
-    PoseFacts facts;
-    facts.N_m = shot.region.grids.front().field.undulation.at_m(eye.lat_deg, eye.lon_deg);
-    facts.attribution = attribution_of(shot.region);
+    PoseFacts facts = pose_facts(shot.view, shot.region);
     facts.ground_h_m = shot.middle ? shot.middle->h_m : 0.0;
     ORO_TRY(const std::vector<PoseText> texts,
             pose_texts(files.picture, poses_asked(options), shot.view, facts));

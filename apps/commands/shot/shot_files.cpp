@@ -64,10 +64,6 @@ bool is_check(const ShotOptions& options, const PictureFiles& files) {
     return options.out.empty() && !options.overwrite && fs::is_regular_file(files.picture, ignored);
 }
 
-PoseChoice poses_asked(const ShotOptions& options) {
-    return {options.kml, options.geopose, options.stac};
-}
-
 std::vector<std::string> written_files(const ShotOptions& options, const PictureFiles& files) {
     std::vector<std::string> all;
     if (!is_check(options, files)) all.push_back(files.picture);

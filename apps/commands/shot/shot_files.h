@@ -20,9 +20,6 @@ Result<PictureFiles> shot_files(const ShotOptions& options);
 // A picture drawn again from its own view: drawn without a name and compared, so that nothing is replaced.
 bool is_check(const ShotOptions& options, const PictureFiles& files);
 
-// The files beside a picture that tell where it was taken from.
-PoseChoice poses_asked(const ShotOptions& options);
-
 std::vector<std::string> written_files(const ShotOptions& options, const PictureFiles& files);
 
 // Before anything takes time: that all files can be written where they shall be.

@@ -232,6 +232,14 @@ struct LevelCheck {
     std::uint64_t drawn_triangles{};
 };
 
+inline void print_check(const LevelCheck& check, unsigned seed, int cuts) {
+    std::printf(
+        "seed %u: %llu places, %llu over; %llu drawn, %llu over; %llu triangles a cut\n", seed,
+        static_cast<unsigned long long>(check.places), static_cast<unsigned long long>(check.places_over),
+        static_cast<unsigned long long>(check.drawn), static_cast<unsigned long long>(check.drawn_over),
+        static_cast<unsigned long long>(check.drawn_triangles / static_cast<unsigned>(cuts)));
+}
+
 // Random places of the mesh and drawn ones of random cuts, as many of each for each cut. Errors are taken
 // `share` times.
 inline LevelCheck check_levels(const LevelTiles& levels, int cuts, int places, double share,
@@ -294,15 +302,7 @@ inline std::size_t open_edges(const LevelTiles& levels, const std::vector<int>& 
 
 // Flat triangles reach below their corners' heights above the ellipsoid, and beside their meridians.
 inline void expect_triangles_in_region(const ReadTile& tile) {
-    for (const auto& [a, b, c] : triangles_in_space(tile)) {
-        const Geodetic at = geodetic_from_ecef({(a + b + c) / 3.0});
-        EXPECT_GE(radians_from_deg(at.lon_deg).rad, tile.region[0]);
-        EXPECT_GE(radians_from_deg(at.lat_deg).rad, tile.region[1]);
-        EXPECT_LE(radians_from_deg(at.lon_deg).rad, tile.region[2]);
-        EXPECT_LE(radians_from_deg(at.lat_deg).rad, tile.region[3]);
-        EXPECT_GE(at.h_m, tile.region[4]);
-        EXPECT_LE(at.h_m, tile.region[5]);
-    }
+    for (const auto& [a, b, c] : triangles_in_space(tile)) expect_in_region(tile, (a + b + c) / 3.0);
 }
 
 // Fewer triangles on each depth than on the one below, the last ones all, and errors that fall.

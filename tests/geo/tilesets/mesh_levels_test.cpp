@@ -48,11 +48,7 @@ TEST(MeshLevels, PlacesAreWithinTheirErrorsInAnyCut) {
     const LevelTiles& levels = levels_of_ball();
     std::mt19937 random(levels_seed);
     const LevelCheck check = check_levels(levels, 20, 5000, 1.0, random);
-    std::printf(
-        "seed %u: %llu places, %llu over; %llu drawn, %llu over; %llu triangles a cut\n", levels_seed,
-        static_cast<unsigned long long>(check.places), static_cast<unsigned long long>(check.places_over),
-        static_cast<unsigned long long>(check.drawn), static_cast<unsigned long long>(check.drawn_over),
-        static_cast<unsigned long long>(check.drawn_triangles / 20));
+    print_check(check, levels_seed, 20);
     EXPECT_EQ(check.places, 100000U);
     EXPECT_EQ(check.places_over, 0U);
     EXPECT_EQ(check.drawn_over, 0U);

@@ -72,11 +72,7 @@ TEST(ScanLevels, OfAnAirborneScanAreWithinTheirErrors) {
     expect_levels(levels, 3);
     std::mt19937 random(scan_seed);
     const LevelCheck check = check_levels(levels, 50, 2000, 1.0, random);
-    std::printf(
-        "seed %u: %llu places, %llu over; %llu drawn, %llu over; %llu triangles a cut\n", scan_seed,
-        static_cast<unsigned long long>(check.places), static_cast<unsigned long long>(check.places_over),
-        static_cast<unsigned long long>(check.drawn), static_cast<unsigned long long>(check.drawn_over),
-        static_cast<unsigned long long>(check.drawn_triangles / 50));
+    print_check(check, scan_seed, 50);
     EXPECT_EQ(check.places_over, 0U);
     EXPECT_EQ(check.drawn_over, 0U);
     const LevelCheck halved = check_levels(levels, 20, 2000, 0.5, random);

@@ -43,18 +43,21 @@ inline void random_cut(const std::vector<ReadTile>& tiles, int number, std::mt19
     for (const int child : tile.children) random_cut(tiles, child, random, cut);
 }
 
+// Of a tile's boundingVolume.region, for a place in ECEF.
+inline void expect_in_region(const ReadTile& tile, const glm::dvec3& place_m) {
+    const Geodetic at = geodetic_from_ecef({place_m});
+    EXPECT_GE(radians_from_deg(at.lon_deg).rad, tile.region[0]);
+    EXPECT_GE(radians_from_deg(at.lat_deg).rad, tile.region[1]);
+    EXPECT_LE(radians_from_deg(at.lon_deg).rad, tile.region[2]);
+    EXPECT_LE(radians_from_deg(at.lat_deg).rad, tile.region[3]);
+    EXPECT_GE(at.h_m, tile.region[4]);
+    EXPECT_LE(at.h_m, tile.region[5]);
+}
+
 // Errors never grow downwards; a tile's region holds its own vertices and the regions of its children.
 inline void expect_sound_tree(const std::vector<ReadTile>& tiles, int number) {
     const ReadTile& tile = tiles[static_cast<std::size_t>(number)];
-    for (const glm::dvec3& post : tile.posts_m) {
-        const Geodetic at = geodetic_from_ecef({post});
-        EXPECT_GE(radians_from_deg(at.lon_deg).rad, tile.region[0]);
-        EXPECT_GE(radians_from_deg(at.lat_deg).rad, tile.region[1]);
-        EXPECT_LE(radians_from_deg(at.lon_deg).rad, tile.region[2]);
-        EXPECT_LE(radians_from_deg(at.lat_deg).rad, tile.region[3]);
-        EXPECT_GE(at.h_m, tile.region[4]);
-        EXPECT_LE(at.h_m, tile.region[5]);
-    }
+    for (const glm::dvec3& post : tile.posts_m) expect_in_region(tile, post);
     for (const int child : tile.children) {
         const ReadTile& below = tiles[static_cast<std::size_t>(child)];
         EXPECT_LE(below.error_m, tile.error_m);
