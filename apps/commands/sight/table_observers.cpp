@@ -50,11 +50,18 @@ Result<std::optional<double>> above_of(const BatchPlace& place, const std::strin
     return above_m;
 }
 
-ObserverColumns columns_of(const std::vector<std::string>& headings) {
+Result<ObserverColumns> columns_of(const std::vector<std::string>& headings) {
     const DegreeColumns degrees = degree_columns(headings);
     const std::optional<std::size_t> above = above_ground_column(headings);
     ObserverColumns columns;
     if (above) columns.above = headings[*above];
+    const auto is_above = [&](const std::string& heading) {
+        return plain_heading(heading) == plain_heading(columns.above);
+    };
+    if (above && std::ranges::count_if(headings, is_above) > 1)
+        return Error{ErrorKind::failed, one_line(columns.above),
+                     "is the name of several columns: keep the one with heights over the ground, or call it "
+                     "above"};
     for (std::size_t i = 0; i < headings.size(); ++i) {
         const bool is_asked = i == degrees.lat || i == degrees.lon || i == above ||
                               plain_heading(headings[i]) == "name" || headings[i].empty();
@@ -115,7 +122,9 @@ Result<void> check_observers(const ObserversOptions& observers, const ViewshedOp
 Result<ObserversOfFile> read_observers(const ObserversOptions& observers, const ViewshedOptions& options) {
     std::vector<std::string> headings;
     ORO_TRY(const std::vector<BatchPlace> places, read_places(observers.file, headings));
-    ObserversOfFile read{{}, columns_of(headings)};
+    Result<ObserverColumns> columns = columns_of(headings);
+    if (!columns.ok()) return Error{columns.error().kind, observers.file, columns.error().line()};
+    ObserversOfFile read{{}, std::move(*columns)};
     read.all.reserve(places.size());
     read.columns.is_above_everywhere = true;
     for (const BatchPlace& place : places) {

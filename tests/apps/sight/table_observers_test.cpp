@@ -130,6 +130,16 @@ TEST_F(TableObservers, HeightsOverTheGroundHaveSeveralNames) {
     EXPECT_EQ(said["columns_not_used"], nlohmann::json({"Height (ft)", "ele"}));
 }
 
+TEST_F(TableObservers, TwoColumnsOfHeightsAreRefused) {
+    for (const char* const headings :
+         {"lat,lon,Height,Height", "lat,lon,Height,height", "lat,lon,above,Above"}) {
+        write_bytes(folder_ / "two.csv", std::string(headings) + "\n36.55,-84.25,2,300\n");
+        const auto outcome = run_orograph(words(file("two.csv"), {"--overwrite"}));
+        EXPECT_EQ(outcome.exit_code, 1) << headings;
+        EXPECT_NE(outcome.err.find("is the name of several columns"), std::string::npos) << outcome.err;
+    }
+}
+
 // Points of a vector file, and what is told without --json.
 TEST_F(TableObservers, OfAVectorFile) {
     write_bytes(folder_ / "masts.geojson",
