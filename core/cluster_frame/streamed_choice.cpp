@@ -132,8 +132,9 @@ class StreamedCut {
         }
     }
 
-    Result<StreamedChoice> take(std::size_t room, const ShownClusters& shown) {
+    Result<StreamedChoice> take(std::size_t room, const ShownClusters& shown, LackingCut lacking) {
         want(room, shown);
+        if (lacking == LackingCut::is_left_out && choice_.missing > 0) return std::move(choice_);
         OfferedCut offered(clusters_, view_, kept_.offer);
         for (const Met& met : kept_.met) {
             if (met.user != no_group && answer(met.user) != Answer::open) continue;
@@ -347,7 +348,8 @@ StreamedChoiceMemory::~StreamedChoiceMemory() = default;
 
 Result<StreamedChoice> select_resident_cut(RegionClusters& clusters, const ClusterView& view,
                                            std::size_t room, const IsClusterHere& is_here,
-                                           const ShownClusters& shown, StreamedChoiceMemory* memory) {
+                                           const ShownClusters& shown, StreamedChoiceMemory* memory,
+                                           LackingCut lacking) {
     StreamedChoiceMemory own;
     StreamedChoiceMemory::Kept& kept = memory != nullptr ? memory->kept() : own.kept();
     std::size_t without_room = 0;
@@ -356,7 +358,7 @@ Result<StreamedChoice> select_resident_cut(RegionClusters& clusters, const Clust
         cut.walk();
         if (cut.in_cut() <= room) {
             cut.close_what_lacks();
-            return cut.take(room, shown);
+            return cut.take(room, shown, lacking);
         }
         without_room = cut.in_cut() - room;
     }
@@ -369,7 +371,7 @@ Result<StreamedChoice> select_resident_cut(RegionClusters& clusters, const Clust
     StreamedCut fitting(clusters, coarser, is_here, kept);
     fitting.walk();
     fitting.close_what_lacks();
-    ORO_TRY(StreamedChoice choice, fitting.take(room, shown));
+    ORO_TRY(StreamedChoice choice, fitting.take(room, shown, LackingCut::is_drawn));
     choice.without_room = without_room;
     choice.missing = std::max(choice.missing, without_room);
     return choice;

@@ -28,6 +28,10 @@ struct StreamedChoice {
     std::size_t without_room{};  // clusters that the cut has too many for the room: a coarser one is drawn
 };
 
+// What a choice says of a cut that lacks something, though there is room for it: a coarser one that is here,
+// or nothing, for another surface is drawn in its place.
+enum class LackingCut { is_drawn, is_left_out };
+
 // Whether a cluster is on the GPU.
 using IsClusterHere = std::function<bool(std::uint32_t cluster)>;
 
@@ -56,10 +60,12 @@ class StreamedChoiceMemory {
 // there is something to go back to when the eye moves; of these the coarsest, as far as there is room.
 // room: clusters that the GPU may hold beside the roots. shown: by the last frame; what comes in the place of
 // clusters that it hid is hidden, and comes last. It changes nothing else. memory: null: of this choice
-// alone. Errors: damage.
+// alone. Where a cut that lacks something is left out, what is drawn and offered of it stays empty. Errors:
+// damage.
 Result<StreamedChoice> select_resident_cut(RegionClusters& clusters, const ClusterView& view,
                                            std::size_t room, const IsClusterHere& is_here,
                                            const ShownClusters& shown = {},
-                                           StreamedChoiceMemory* memory = nullptr);
+                                           StreamedChoiceMemory* memory = nullptr,
+                                           LackingCut lacking = LackingCut::is_drawn);
 
 }  // namespace oro

@@ -24,6 +24,18 @@ std::size_t most_on_the_way(std::uint64_t bytes) {
         std::clamp<std::uint64_t>(bytes / 4 / bytes_on_the_way, 1, most_between_frames));
 }
 
+// Those of what has come, of groups first, that are to be sent.
+template <typename IsSent>
+std::vector<ClusterStore::Loaded> loaded_of(const ClusterStream::Ready& ready, const IsSent& is_sent) {
+    std::vector<ClusterStore::Loaded> loaded;
+    const auto add = [&](const RegionClusters::LoadedCluster& cluster) {
+        if (is_sent(cluster)) loaded.push_back({cluster.number, cluster.counts, cluster.block.get()});
+    };
+    for (const RegionClusters::LoadedGroup& group : ready.groups) std::ranges::for_each(group.seen, add);
+    std::ranges::for_each(ready.clusters, add);
+    return loaded;
+}
+
 }  // namespace
 
 ClusterScene::ClusterScene(std::unique_ptr<RegionClusters> clusters, ClusterStore store,
@@ -88,10 +100,7 @@ Result<void> ClusterScene::append_resident_cut(GridPlan& plan, const Camera& cam
     view_.emplace(camera, tile, tau_px, model, occluder, coding, level_);
     ORO_TRY(StreamedChoice choice, choose_here());
     request(choice);
-    if (is_drawn_by_blocks(choice))
-        choice.drawn.clusters.clear();
-    else
-        ORO_CHECK(draw(choice.drawn, choice.offer, camera, plan));
+    if (!is_drawn_by_blocks(choice)) ORO_CHECK(draw(choice.drawn, choice.offer, camera, plan));
     drawn_ = std::move(choice.drawn.clusters);
     plan.clusters.missing = choice.missing;
     plan.clusters.without_room = choice.without_room;
@@ -109,16 +118,20 @@ bool ClusterScene::is_here(std::uint32_t cluster) const {
                                        std::ranges::binary_search(clusters_->roots(), cluster));
 }
 
+LackingCut ClusterScene::lacking_cut() const {
+    return falls_back_to_blocks_ && !level_ ? LackingCut::is_left_out : LackingCut::is_drawn;
+}
+
 bool ClusterScene::is_drawn_by_blocks(const StreamedChoice& choice) const {
-    return falls_back_to_blocks_ && !level_ && choice.missing > 0 && choice.without_room == 0;
+    return lacking_cut() == LackingCut::is_left_out && choice.missing > 0 && choice.without_room == 0;
 }
 
 // What is wanted and here is to stay.
 Result<StreamedChoice> ClusterScene::choose_here() {
-    ORO_TRY(StreamedChoice choice,
-            select_resident_cut(
-                *clusters_, *view_, store_.capacity() - clusters_->roots().size(),
-                [&](std::uint32_t cluster) { return is_here(cluster); }, shown_, &choice_memory_));
+    ORO_TRY(StreamedChoice choice, select_resident_cut(
+                                       *clusters_, *view_, store_.capacity() - clusters_->roots().size(),
+                                       [&](std::uint32_t cluster) { return is_here(cluster); }, shown_,
+                                       &choice_memory_, lacking_cut()));
     for (const std::uint32_t cluster : choice.clusters_wanted)
         if (store_.is_here(cluster)) store_.use(cluster);
     return choice;
@@ -148,11 +161,14 @@ bool ClusterScene::has_capacity() const {
     return store_.size() < store_.capacity() && groups().bytes() + bytes_on_the_way <= groups().most_bytes();
 }
 
-// A group's clusters come with it: which of them are wanted is known once it is.
-Result<StreamedChoice> ClusterScene::send(ClusterStream::Ready ready) {
+void ClusterScene::keep(ClusterStream::Ready& ready) {
     for (RegionClusters::LoadedGroup& group : ready.groups) clusters_->keep(group);
     for (const RegionClusters::LoadedCluster& cluster : ready.clusters)
         clusters_->keep(cluster.number, cluster.reach);
+}
+
+// A group's clusters come with it: which of them are wanted is known once it is.
+Result<StreamedChoice> ClusterScene::send_wanted(const ClusterStream::Ready& ready) {
     store_.begin_frame();
     ORO_TRY(StreamedChoice choice, choose_here());
     std::ranges::fill(is_wanted_, char{0});
@@ -160,14 +176,9 @@ Result<StreamedChoice> ClusterScene::send(ClusterStream::Ready ready) {
         if (cluster >= is_wanted_.size()) is_wanted_.resize(cluster + std::size_t{1});
         is_wanted_[cluster] = 1;
     }
-    std::vector<ClusterStore::Loaded> loaded;
-    const auto add = [&](const RegionClusters::LoadedCluster& cluster) {
-        if (cluster.number < is_wanted_.size() && is_wanted_[cluster.number] != 0)
-            loaded.push_back({cluster.number, cluster.counts, cluster.block.get()});
-    };
-    for (const RegionClusters::LoadedGroup& group : ready.groups) std::ranges::for_each(group.seen, add);
-    std::ranges::for_each(ready.clusters, add);
-    ORO_CHECK(store_.send(loaded));
+    ORO_CHECK(store_.send(loaded_of(ready, [&](const RegionClusters::LoadedCluster& cluster) {
+        return cluster.number < is_wanted_.size() && is_wanted_[cluster.number] != 0;
+    })));
     return Result<StreamedChoice>(std::move(choice));
 }
 
@@ -181,15 +192,28 @@ void ClusterScene::request_rest(StreamedChoice choice) {
     request(choice);
 }
 
+// Where all has room nothing is chosen: the next plan says what is wanted, and until then the background goes
+// on with what the last one has requested.
+Result<void> ClusterScene::send_ahead(const ClusterStream::Ready& ready) {
+    std::size_t count = ready.clusters.size();
+    for (const RegionClusters::LoadedGroup& group : ready.groups) count += group.seen.size();
+    if (store_.size() + count <= store_.capacity())
+        return store_.send(loaded_of(ready, [](const RegionClusters::LoadedCluster&) { return true; }));
+    ORO_TRY(StreamedChoice sent, send_wanted(ready));
+    request_rest(std::move(sent));
+    return {};
+}
+
 Result<bool> ClusterScene::advance(NextPlan next) {
     if (!view_) return false;
     ORO_TRY(ClusterStream::Ready ready, stream_->take());
     if (ready.groups.empty() && ready.clusters.empty()) return false;
-    ORO_TRY(StreamedChoice sent, send(std::move(ready)));
+    keep(ready);
     if (next == NextPlan::anyway) {
-        request_rest(std::move(sent));
+        ORO_CHECK(send_ahead(ready));
         return true;
     }
+    ORO_CHECK(send_wanted(ready));
     ORO_TRY(const StreamedChoice choice, choose_here());
     request(choice);
     const bool is_other = !is_drawn_by_blocks(choice) && choice.drawn.clusters != drawn_;

@@ -57,8 +57,8 @@ class ClusterScene {
     // is there.
     void forget_frames();
     // Sends what is ready of what the last of these plans lacks: true when the next one will be better; or,
-    // where another is made anyway, once anything has come, which takes half as long. Does not wait for what
-    // is not ready. Errors: damage, the device.
+    // where another is made anyway, once anything has come: without a walk through the graph while there is
+    // room. Does not wait for what is not ready. Errors: damage, the device.
     Result<bool> advance(NextPlan next = NextPlan::if_better);
 
     // Whether some more may come without an eviction.
@@ -73,13 +73,16 @@ class ClusterScene {
   private:
     ClusterScene(std::unique_ptr<RegionClusters> clusters, ClusterStore store, std::size_t most_on_the_way);
     [[nodiscard]] bool is_here(std::uint32_t cluster) const;
+    [[nodiscard]] LackingCut lacking_cut() const;
     [[nodiscard]] bool is_drawn_by_blocks(const StreamedChoice& choice) const;
     Result<void> draw(const ClusterChoice& choice, const ClusterOffer& offer, const Camera& camera,
                       GridPlan& plan);
     Result<StreamedChoice> choose_here();
     void request(const StreamedChoice& choice);
     void request_rest(StreamedChoice choice);
-    Result<StreamedChoice> send(ClusterStream::Ready ready);
+    void keep(ClusterStream::Ready& ready);
+    Result<StreamedChoice> send_wanted(const ClusterStream::Ready& ready);
+    Result<void> send_ahead(const ClusterStream::Ready& ready);
 
     std::unique_ptr<RegionClusters> clusters_;
     ClusterStore store_;

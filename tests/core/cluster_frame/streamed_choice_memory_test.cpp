@@ -35,6 +35,24 @@ class StreamedChoicesWithMemory : public test::StreamedChoices {
         for (std::size_t i = 0; i < kept.offer.asked.size(); ++i)
             EXPECT_EQ(std::memcmp(&kept.offer.asked[i], &fresh.offer.asked[i], sizeof(gpu::AskedGroup)), 0);
     }
+    // Nothing is drawn of a cut that lacks something and would have room; the same is wanted.
+    void expect_left_out(RegionClusters& region, const ClusterView& eye, std::size_t room,
+                         const IsClusterHere& is_here, const ShownClusters& shown,
+                         const StreamedChoice& whole) {
+        const auto choice =
+            select_resident_cut(region, eye, room, is_here, shown, nullptr, LackingCut::is_left_out);
+        ASSERT_TRUE(choice.ok());
+        if (whole.missing == 0 || whole.without_room > 0) return expect_same(*choice, whole);
+        left_out_ += whole.drawn.clusters.empty() ? 0U : 1U;
+        EXPECT_TRUE(choice->drawn.clusters.empty());
+        EXPECT_TRUE(choice->offer.clusters.empty());
+        EXPECT_EQ(choice->groups_wanted, whole.groups_wanted);
+        EXPECT_EQ(choice->clusters_wanted, whole.clusters_wanted);
+        EXPECT_EQ(choice->clusters_to_come, whole.clusters_to_come);
+        EXPECT_EQ(choice->to_come_hidden, whole.to_come_hidden);
+        EXPECT_EQ(choice->missing, whole.missing);
+    }
+    std::size_t left_out_{};
 };
 
 TEST_F(StreamedChoicesWithMemory, AreThoseFromNothing) {
@@ -71,6 +89,8 @@ TEST_F(StreamedChoicesWithMemory, AreThoseFromNothing) {
             const auto fresh = select_resident_cut(*other, eye, room, is_here, shown);
             ASSERT_TRUE(kept.ok() && fresh.ok());
             expect_same(*kept, *fresh);
+            // Where all is read a choice finds out nothing, which the next one would know.
+            if (read_share == 1.0) expect_left_out(*other, eye, room, is_here, shown, *fresh);
             drawn += fresh->drawn.clusters.size();
             to_come += fresh->clusters_to_come.size();
             coarser += fresh->offer.clusters.size() - fresh->offer.in_cut;
@@ -91,6 +111,7 @@ TEST_F(StreamedChoicesWithMemory, AreThoseFromNothing) {
     EXPECT_GT(coarser, 1000U);
     EXPECT_GT(to_come, 400U);
     EXPECT_GT(without_room, 10U);
+    EXPECT_GT(left_out_, 100U);
 }
 
 }  // namespace
