@@ -25,7 +25,7 @@ Result<MeshBake> bake_meshes(const Region& region, const std::string& out) {
         ORO_CHECK(check_path_of_part(path));
         bake.parts.push_back({path, static_cast<std::uint32_t>(number)});
         ORO_TRY(const BakedMeshReport report,
-                write_baked_mesh(path, mesh, region.grids.front().field.undulation, thread_count()));
+                write_baked_mesh(path, mesh, region.grids.front().field.undulation, thread_count(), &region));
         bake.reports.push_back(report);
     }
     return bake;

@@ -8,6 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/mesh_file/mesh_check.h"
 #include "geo/meshes/placed_mesh.h"
+#include "geo/together/mesh_ground.h"
 
 namespace oro {
 
@@ -41,7 +42,14 @@ Result<void> check_baked_meshes(const Region& region) {
     if (!region.meshes) return {};
     for (const PlacedMesh& mesh : *region.meshes) {
         if (!mesh.stored) continue;
-        if (const auto wrong = understated_error(*mesh.stored, thread_count()))
+        MeshGround ground;
+        if (mesh.stored->ground_fingerprint != 0) {
+            ground = ground_below_parts(*mesh.stored, region, 1.0);
+            if (fingerprint_of(ground, mesh.stored->origin_ecef_m()) != mesh.stored->ground_fingerprint)
+                return Error{ErrorKind::failed, mesh.path,
+                             "its levels were made over other ground than the file has"};
+        }
+        if (const auto wrong = understated_error(*mesh.stored, thread_count(), &ground))
             return Error{ErrorKind::failed, mesh.path, "the mesh " + *wrong};
     }
     return {};

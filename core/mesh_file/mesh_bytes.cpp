@@ -13,13 +13,15 @@
 #include "core/mesh_file/leaf_code.h"
 #include "core/mesh_graph/group_sphere.h"
 
-// The order of the bytes: MeshNumbers; groups of each level, 4 bytes each; then, range coded, the leaves,
-// each with its count, its triangles and its user; and level by level the groups, each with the count of its
-// clusters, its maps, its error and its clusters' users.
+// The order of the bytes: MeshNumbers; the ground's fingerprint where there is one, which a bit of the
+// levels' count says; groups of each level, 4 bytes each; then, range coded, the leaves, each with its count,
+// its triangles and its user; and level by level the groups, each with the count of its clusters, its maps,
+// its error and its clusters' users.
 namespace oro {
 namespace {
 
 constexpr std::uint32_t most_levels = 80, most_used_triangles = 4096;
+constexpr std::uint32_t has_ground = 1U << 31U;  // beside the number of levels
 
 struct MeshNumbers {
     LatticeSteps origin{}, least{};
@@ -413,7 +415,10 @@ Result<std::vector<std::byte>> mesh_to_bytes(const MeshToStore& mesh) {
     std::vector<std::uint32_t> groups(numbers.levels, 0);
     for (const ClusterGroup& group : mesh.graph.clusters.groups) ++groups[group.level - 1];
     NumberWriter writer;
-    visit_numbers(writer, numbers);
+    MeshNumbers written = numbers;
+    if (mesh.ground_fingerprint != 0) written.levels |= has_ground;
+    visit_numbers(writer, written);
+    if (mesh.ground_fingerprint != 0) writer(mesh.ground_fingerprint);
     for (const std::uint32_t count : groups) writer(count);
     RangeEncoder coder;
     StoredMesh stored;
@@ -431,6 +436,7 @@ std::optional<std::string> mesh_from_bytes(std::span<const std::byte> bytes, Sto
     NumberReader reader(bytes);
     MeshNumbers numbers;
     visit_numbers(reader, numbers);
+    if ((numbers.levels & has_ground) != 0) reader(mesh.ground_fingerprint), numbers.levels &= ~has_ground;
     if (reader.rest().empty()) return "is cut off";
     if (std::string wrong = implausible(numbers); !wrong.empty()) return wrong;
     std::vector<std::uint32_t> groups(numbers.levels);

@@ -26,6 +26,7 @@ struct MeshToStore {
     std::span<const std::uint32_t> labels;  // of each triangle of the mesh, below label_count; or empty
     std::uint32_t label_count{};
     const MeshGraph& graph;
+    std::uint64_t ground_fingerprint{};  // StoredMesh::ground_fingerprint
 };
 
 // The same mesh gives the same bytes. Told are the mesh's triangles and places, and of each group which of

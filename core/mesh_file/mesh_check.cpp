@@ -21,12 +21,16 @@ constexpr double slack_m = 1.0e-4, least_m = 1.0e-3;
 
 class ErrorCheck {
   public:
-    ErrorCheck(const StoredMesh& mesh, int threads)
+    ErrorCheck(const StoredMesh& mesh, int threads, const MeshGround* ground)
         : graph_(mesh.graph.clusters),
           threads_(threads),
           vertices_m_(vertices_of(mesh)),
           original_of_(mesh.graph.original_of),
-          mesh_(leaves()) {}
+          mesh_(leaves()) {
+        if (ground == nullptr || ground->triangles.empty()) return;
+        ground_.emplace(ground->triangles);
+        ground_off_m_ = ground->off_m;
+    }
 
     std::optional<std::string> run() {
         begin_pieces();
@@ -61,6 +65,9 @@ class ErrorCheck {
         return all;
     }
     void begin_pieces();
+    void add_ground(const ClusterGroup& group, double reach_m, std::vector<Corners>& made,
+                    std::vector<int>& users) const;
+    void hand_over(const std::vector<HandedPieces>& handed, std::size_t groups_above);
     std::string level(std::size_t first, std::size_t end);
     std::string group(std::size_t number, std::size_t first, std::size_t next_first, HandedPieces& handed);
 
@@ -69,6 +76,8 @@ class ErrorCheck {
     std::vector<glm::dvec3> vertices_m_;
     std::span<const std::uint32_t> original_of_;
     NearestTriangles mesh_;
+    std::optional<NearestTriangles> ground_;
+    double ground_off_m_{};
     std::vector<OriginalPieces> pieces_;  // that each group of the level answers for
 };
 
@@ -88,6 +97,19 @@ void ErrorCheck::begin_pieces() {
     for (OriginalPieces& of_group : pieces_) join_whole_pieces(mesh_, of_group.whole);
 }
 
+// The ground that what a group uses may have been dropped onto.
+void ErrorCheck::add_ground(const ClusterGroup& group, double reach_m, std::vector<Corners>& made,
+                            std::vector<int>& users) const {
+    if (!ground_) return;
+    std::vector<PartBox> boxes;
+    for (const std::uint32_t member : graph_.members_of(group)) {
+        PartBox& box = boxes.emplace_back();
+        for (const VertexTriangle& triangle : graph_.triangles_of(graph_.clusters[member]))
+            for (const std::uint32_t corner : triangle) box.add(vertices_m_[corner]);
+    }
+    add_ground_near(*ground_, boxes, reach_m, made, users);
+}
+
 std::string ErrorCheck::group(std::size_t number, std::size_t first, std::size_t next_first,
                               HandedPieces& handed) {
     const ClusterGroup& group = graph_.groups[number];
@@ -95,9 +117,11 @@ std::string ErrorCheck::group(std::size_t number, std::size_t first, std::size_t
     std::vector<Corners> made;
     std::vector<int> users;
     const double most_m = std::max(group.error_m, least_m);
-    // Below this nothing is looked at closer: it grows to most_m.
-    const double begin_m = std::max(0.0, std::min(most_m / 1.02, most_m - 0.001));
-    DistanceCover to_mesh(mesh_, begin_m);
+    // Below this nothing is looked at closer: it grows to as much.
+    const auto begin_m = [](double as_much_m) {
+        return std::max(0.0, std::min(as_much_m / 1.02, as_much_m - 0.001));
+    };
+    DistanceCover to_mesh(mesh_, begin_m(most_m));
     for (std::uint32_t i = 0; i < group.made; ++i) {
         const Cluster& cluster = graph_.clusters[group.first_made + i];
         for (std::uint32_t k = cluster.first_triangle; k < cluster.first_triangle + cluster.triangles; ++k) {
@@ -123,10 +147,13 @@ std::string ErrorCheck::group(std::size_t number, std::size_t first, std::size_t
         std::snprintf(text, sizeof text, "has a group %zu that made nothing", number);
         return text;
     }
+    add_ground(group, most_m, made, users);
     const NearestTriangles tree(made);
-    DistanceCover from_mesh(tree, begin_m, users);
+    DistanceCover from_mesh(tree, begin_m(most_m - ground_off_m_), users);
+    if (ground_) from_mesh.put_on_ground_first(*ground_);
     handed = hand_on(mesh_, pieces, from_mesh, {});
-    if (handed.bound_m > most_m + slack_m) return said(handed.bound_m, "a place of the mesh");
+    const double found_m = handed.bound_m + ground_off_m_;
+    if (found_m > most_m + slack_m) return said(found_m, "a place of the mesh");
     return "";
 }
 
@@ -142,23 +169,29 @@ std::string ErrorCheck::level(std::size_t first, std::size_t end) {
     std::size_t next_end = end;
     while (next_end < graph_.groups.size() && graph_.groups[next_end].level == graph_.groups[first].level + 1)
         ++next_end;
-    std::vector<OriginalPieces> next(next_end - end);
-    if (next.empty()) return "";
+    hand_over(handed, next_end - end);
+    return "";
+}
+
+// For what lies on the ground no group answers any more.
+void ErrorCheck::hand_over(const std::vector<HandedPieces>& handed, std::size_t groups_above) {
+    std::vector<OriginalPieces> next(groups_above);
+    if (next.empty()) return;
     for (const HandedPieces& one : handed) {
         for (const auto& [piece, user] : one.whole)
-            next[static_cast<std::size_t>(user)].whole.push_back(piece);
-        for (const auto& [part, user] : one.parts) next[static_cast<std::size_t>(user)].parts.push_back(part);
+            if (user != on_ground) next[static_cast<std::size_t>(user)].whole.push_back(piece);
+        for (const auto& [part, user] : one.parts)
+            if (user != on_ground) next[static_cast<std::size_t>(user)].parts.push_back(part);
     }
     pieces_ = std::move(next);
     in_parallel(static_cast<int>(pieces_.size()), threads_,
                 [&](int i) { join_whole_pieces(mesh_, pieces_[static_cast<std::size_t>(i)].whole); });
-    return "";
 }
 
 }  // namespace
 
-std::optional<std::string> understated_error(const StoredMesh& mesh, int threads) {
-    return ErrorCheck(mesh, threads).run();
+std::optional<std::string> understated_error(const StoredMesh& mesh, int threads, const MeshGround* ground) {
+    return ErrorCheck(mesh, threads, ground).run();
 }
 
 }  // namespace oro

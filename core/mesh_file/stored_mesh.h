@@ -24,6 +24,8 @@ struct StoredMesh {
     std::vector<std::uint32_t> labels;
     std::uint32_t label_count{};
     MeshGraph graph;
+    // Of the ground that the graph was built over; 0: of none. It tells whether ground is the same.
+    std::uint64_t ground_fingerprint{};
 
     // Where a vertex is, metres from the origin: exact.
     [[nodiscard]] glm::dvec3 from_origin_m(std::uint32_t vertex) const {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/mesh_graph/mesh_ground.h"
+
 namespace oro {
 namespace {
 
@@ -25,6 +27,10 @@ int DistanceCover::user_of(std::uint32_t place) const {
 
 // Any triangle that is near enough will do: mostly a neighbour's.
 DistanceCover::Corner DistanceCover::corner(const glm::dvec3& at, std::uint32_t hint) const {
+    if (ground_ != nullptr) {
+        const NearestTriangles::Near nearest = set_.nearest(at, hint);
+        return {at, nearest.distance2, nearest.place, true};
+    }
     const double accepted = accepted_m();
     const NearestTriangles::Near near =
         set_.within(at, accepted * accepted, std::numeric_limits<double>::infinity(), hint);
@@ -187,7 +193,25 @@ void DistanceCover::take(const Polygon& polygon, std::uint32_t triangle, int use
     taken_.push_back(taken);
 }
 
+// Whether one triangle of the ground is near enough to all corners.
+bool DistanceCover::lies_on_ground(const OriginalPart& part) {
+    const double accepted2 = accepted_m() * accepted_m();
+    for (std::size_t i = 0; i < part.count; ++i) {
+        const NearestTriangles::Near near =
+            ground_->within(part.corners[i], 0.0, accepted2, NearestTriangles::nothing);
+        if (near.place == NearestTriangles::nothing) return false;
+        double most2 = near.distance2;
+        for (std::size_t k = 0; k < part.count && most2 <= accepted2; ++k)
+            most2 = std::max(most2, ground_->distance2(near.place, part.corners[k]));
+        if (most2 > accepted2) continue;
+        bound_m_ = std::max(bound_m_, std::sqrt(most2));
+        return true;
+    }
+    return false;
+}
+
 int DistanceCover::cover(const OriginalPart& part) {
+    if (ground_ != nullptr && lies_on_ground(part)) return on_ground;
     Polygon polygon;
     polygon.count = part.count, polygon.has_marked = part.has_marked;
     for (std::size_t i = 0; i < part.count; ++i) {
@@ -200,6 +224,13 @@ int DistanceCover::cover(const OriginalPart& part) {
 int DistanceCover::cover_ball(const glm::dvec3& middle, double radius_m) {
     const double rest = accepted_m() - radius_m;
     if (rest <= 0.0) return none;
+    if (ground_ != nullptr) {
+        const NearestTriangles::Near below =
+            ground_->within(middle, rest * rest, rest * rest, NearestTriangles::nothing);
+        if (below.place == NearestTriangles::nothing) return none;
+        bound_m_ = std::max(bound_m_, std::sqrt(below.distance2) + radius_m);
+        return on_ground;
+    }
     const NearestTriangles::Near near = set_.within(middle, rest * rest, rest * rest, hint_);
     if (near.place == NearestTriangles::nothing) return none;
     return accept(std::sqrt(near.distance2) + radius_m, near.place);

@@ -39,6 +39,11 @@ class DistanceCover {
     DistanceCover(const NearestTriangles& set, double accepted_m, std::span<const int> users = {})
         : set_(set), users_(users), found_m_(accepted_m) {}
 
+    // What is near enough to the ground goes to on_ground (core/mesh_graph/mesh_ground.h), whole; the rest to
+    // the user of the nearest triangle, not of any that is near enough, so that what belongs together stays
+    // together. ground outlives this.
+    void put_on_ground_first(const NearestTriangles& ground) { ground_ = &ground; }
+
     // Covers a polygon. Gives its user; or in_parts, when take(part, user) was called for each part.
     int cover(const OriginalPart& polygon);
     // The user of a ball with all that is in it, where it is accepted; else none, and nothing is covered.
@@ -88,6 +93,7 @@ class DistanceCover {
     [[nodiscard]] double accepted_m() const;
     [[nodiscard]] int user_of(std::uint32_t place) const;
     Corner corner(const glm::dvec3& at, std::uint32_t hint) const;
+    [[nodiscard]] bool lies_on_ground(const OriginalPart& part);
     void note(const Corner& corner);
     void make_exact(Polygon& polygon) const;
     [[nodiscard]] Best by_triangle(const Polygon& polygon, std::uint32_t place, double stop2) const;
@@ -103,6 +109,7 @@ class DistanceCover {
 
     const NearestTriangles& set_;
     std::span<const int> users_;
+    const NearestTriangles* ground_{};
     double found_m_;
     double bound_m_{};
     std::uint32_t hint_{NearestTriangles::nothing};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "core/base/parallel.h"
@@ -36,6 +37,8 @@ class MeshGraphBuilder {
           options_(options),
           mesh_(corners_of(triangles)) {
         begin(triangles);
+        if (options.ground != nullptr && !options.ground->triangles.empty())
+            ground_.emplace(options.ground->triangles);
         if (options.parts != nullptr) begin_parts(std::max(0, options.parts->depth - 1));
     }
 
@@ -78,6 +81,7 @@ class MeshGraphBuilder {
         return {vertices_[triangle.corners[0]], vertices_[triangle.corners[1]],
                 vertices_[triangle.corners[2]]};
     }
+    [[nodiscard]] double ground_off_m() const { return ground_ ? options_.ground->off_m : 0.0; }
     void begin(std::span<const std::array<std::uint32_t, 3>> triangles);
     void begin_pieces();
     void begin_parts(int depth);
@@ -89,6 +93,7 @@ class MeshGraphBuilder {
     void simplify(double more);
     void measure(bool goes_on);
     void measure_group(std::size_t number, HandedPieces& handed);
+    void end_chains(const std::vector<HandedPieces>& handed, MeshPlaceChains& chains) const;
     void hand_over(std::vector<HandedPieces>& handed);
     void add_clusters();
     void add_clusters_of(std::size_t first, std::size_t last);
@@ -102,6 +107,7 @@ class MeshGraphBuilder {
     glm::dvec3 origin_m_;
     const MeshGraphOptions& options_;
     NearestTriangles mesh_;
+    std::optional<NearestTriangles> ground_;
     double spacing_m_{};
     int part_depth_{};                  // of the parts that groups keep within
     std::size_t coarse_{};              // triangles of all of them that are few enough to join them
@@ -111,8 +117,10 @@ class MeshGraphBuilder {
     std::vector<std::uint32_t> seen_;  // by vertex: the group that has it, or shared
     std::uint32_t first_group_{};      // the level's
     std::uint32_t level_{};
-    std::vector<std::size_t> first_made_;  // of each group of the level, in live_, and the end
-    std::vector<double> believed_m_;       // of each
+    std::vector<std::size_t> first_made_;              // of each group of the level, in live_, and the end
+    std::vector<double> believed_m_;                   // of each
+    std::vector<double> least_error_m_;                // that it is to have, for what it dropped
+    std::vector<std::vector<PartBox>> on_the_ground_;  // that it dropped
     std::vector<OriginalPieces> pieces_;
     std::vector<std::vector<std::uint32_t>> members_;  // clusters that each group of the next level uses
     MeshGraph graph_;
@@ -139,7 +147,9 @@ void MeshGraphBuilder::begin(std::span<const std::array<std::uint32_t, 3>> trian
     const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
     std::nth_element(sides.begin(), middle, sides.end());
     spacing_m_ = *middle;
-    if (options_.chains != nullptr) options_.chains->groups.assign(triangles.size(), {});
+    if (options_.chains == nullptr) return;
+    options_.chains->groups.assign(triangles.size(), {});
+    options_.chains->on_ground.assign(triangles.size(), 0);
 }
 
 void MeshGraphBuilder::begin_parts(int depth) {
@@ -224,7 +234,8 @@ void MeshGraphBuilder::simplify(double more) {
     std::vector<std::vector<LevelTriangle>> of_group(group_count_);
     for (std::size_t i = 0; i < live_.size(); ++i) of_group[group_[i]].push_back(std::move(live_[i]));
     live_.clear();
-    believed_m_.assign(group_count_, 0.0);
+    believed_m_.assign(group_count_, 0.0), least_error_m_.assign(group_count_, 0.0);
+    on_the_ground_.assign(group_count_, {});
     GraphLevel level;
     level.groups = group_count_;
     std::vector<std::size_t> before(group_count_);
@@ -235,14 +246,19 @@ void MeshGraphBuilder::simplify(double more) {
     in_parallel(static_cast<int>(group_count_), options_.threads, [&](int number) {
         const auto i = static_cast<std::size_t>(number);
         const double below_m = graph_.clusters.groups[first_group_ + i].error_m;
-        SimplifierLimits limits{below_m, more * std::max(growth * below_m, first_share * spacing_m_),
-                                std::min(0.01, 0.05 * spacing_m_), spacing_m_};
+        SimplifierLimits limits{below_m,
+                                more * std::max(growth * below_m, first_share * spacing_m_),
+                                std::min(0.01, 0.05 * spacing_m_),
+                                spacing_m_,
+                                ground_ ? &*ground_ : nullptr,
+                                ground_off_m()};
         SpaceSimplifier simplifier(vertices_, mesh_, limits);
         simplifier.simplify(
             std::move(of_group[i]), [&](std::uint32_t vertex) { return is_border(vertex); },
             static_cast<std::size_t>(options_.kept_share * static_cast<double>(before[i])));
         of_group[i] = simplifier.take();
-        believed_m_[i] = simplifier.reached_m();
+        believed_m_[i] = simplifier.reached_m(), least_error_m_[i] = simplifier.least_error_m();
+        on_the_ground_[i] = simplifier.on_the_ground();
     });
     first_made_.assign(1, 0);
     for (std::uint32_t i = 0; i < group_count_; ++i) {
@@ -265,7 +281,20 @@ void MeshGraphBuilder::measure(bool goes_on) {
     in_parallel(static_cast<int>(groups), options_.threads, [&](int i) {
         measure_group(static_cast<std::size_t>(i), handed[static_cast<std::size_t>(i)]);
     });
+    if (options_.chains != nullptr) end_chains(handed, *options_.chains);
     if (goes_on) hand_over(handed);
+}
+
+// Places whose pieces lie on the ground from here on.
+void MeshGraphBuilder::end_chains(const std::vector<HandedPieces>& handed, MeshPlaceChains& chains) const {
+    for (const HandedPieces& one : handed) {
+        for (const auto& [piece, user] : one.whole)
+            if (user == on_ground)
+                each_triangle(mesh_, piece,
+                              [&](std::uint32_t place) { chains.on_ground[mesh_.number(place)] = 1; });
+        for (const auto& [part, user] : one.parts)
+            if (user == on_ground && part.has_marked) chains.on_ground[mesh_.number(part.triangle)] = 1;
+    }
 }
 
 void MeshGraphBuilder::measure_group(std::size_t number, HandedPieces& handed) {
@@ -290,12 +319,17 @@ void MeshGraphBuilder::measure_group(std::size_t number, HandedPieces& handed) {
         }
         most_m = std::max(most_m, live_[i].from_original_m);
     }
+    // What was dropped lies on the ground.
+    const double believed_m = std::max(most_m, to_mesh.found_m());
+    if (!on_the_ground_[number].empty())
+        add_ground_near(*ground_, on_the_ground_[number], believed_m, made, users);
     const NearestTriangles tree(made);
-    DistanceCover from_mesh(tree, std::max(most_m, to_mesh.found_m()), users);
+    DistanceCover from_mesh(tree, believed_m, users);
+    if (ground_) from_mesh.put_on_ground_first(*ground_);
     handed = hand_on(mesh_, pieces_[number], from_mesh,
                      options_.chains != nullptr ? std::span<const glm::dvec3>(options_.chains->places)
                                                 : std::span<const glm::dvec3>());
-    group.error_m = std::max(most_m, handed.bound_m) + rounding_m;
+    group.error_m = std::max({most_m, handed.bound_m + ground_off_m(), least_error_m_[number]}) + rounding_m;
 }
 
 void MeshGraphBuilder::hand_over(std::vector<HandedPieces>& handed) {
@@ -304,6 +338,7 @@ void MeshGraphBuilder::hand_over(std::vector<HandedPieces>& handed) {
     MeshPlaceChains* const chains = options_.chains;
     for (const HandedPieces& one : handed) {
         for (const auto& [piece, user] : one.whole) {
+            if (user == on_ground) continue;
             next[static_cast<std::size_t>(user)].whole.push_back(piece);
             if (chains == nullptr) continue;
             const std::uint32_t group = next_group + static_cast<std::uint32_t>(user);
@@ -311,6 +346,7 @@ void MeshGraphBuilder::hand_over(std::vector<HandedPieces>& handed) {
                           [&](std::uint32_t place) { chains->groups[mesh_.number(place)].push_back(group); });
         }
         for (const auto& [part, user] : one.parts) {
+            if (user == on_ground) continue;
             next[static_cast<std::size_t>(user)].parts.push_back(part);
             if (chains != nullptr && part.has_marked)
                 chains->groups[mesh_.number(part.triangle)].push_back(next_group +

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/clusters/cluster_graph.h"
+#include "core/mesh_graph/mesh_ground.h"
 #include "core/mesh_graph/nested_parts.h"
 
 namespace oro {
@@ -17,7 +18,7 @@ namespace oro {
 // of the mesh once, for any set of groups that stands where all below stand:
 // - every place that is drawn is within error_m of the mesh, of the group that made it;
 // - every place of the mesh is within error_m of what is drawn, of the last group that stands on the way up
-//   from its own triangle;
+//   from its own triangle; where ground was given, of what is drawn or of the terrain at full resolution;
 // - where the mesh is closed, what is drawn is closed.
 // Distances are those in space, so nothing is said of how far a wall moved vertically.
 struct MeshGraph {
@@ -32,6 +33,7 @@ struct MeshGraph {
 struct MeshPlaceChains {
     std::vector<glm::dvec3> places;                  // of each triangle one
     std::vector<std::vector<std::uint32_t>> groups;  // groups' numbers, rising
+    std::vector<char> on_ground;                     // above the last of them the ground answers
 };
 
 struct MeshGraphOptions {
@@ -46,6 +48,9 @@ struct MeshGraphOptions {
     // Parts are joined where there are no more triangles than these make of all parts (coarse_triangles()),
     // and half as many as when they were joined last; or where levels make no progress.
     std::size_t part_triangles{};
+    // The ground: parts of the mesh that hang together with nothing may be dropped onto it. Null: it is not
+    // known, and each place of the mesh has something of the mesh near it. Outlives the call.
+    const MeshGround* ground{};
 };
 
 // vertices: metres, from a place near the mesh. origin: that place, ECEF; groups' spheres are from the

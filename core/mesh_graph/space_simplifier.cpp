@@ -13,6 +13,8 @@ constexpr double no_limit = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t no_target = ~std::uint32_t{0};
 // Triangles less than so high, as a share of their length, are not made; nor such as turn by more.
 constexpr double least_height = 1.0e-4, least_cosine = 0.2;
+// Of its diagonal that a part costs at least where it is dropped onto the ground.
+constexpr double share_of_diagonal = 0.25;
 
 // The largest squared distance of places from some triangles, at least from2; once it is above stop2, enough.
 ORO_WIDE double farthest2(const TriangleBlock* blocks, std::size_t count, const glm::dvec3* places,
@@ -239,7 +241,9 @@ void SpaceSimplifier::push(std::uint32_t vertex) {
 void SpaceSimplifier::run(std::size_t aim) {
     for (std::uint32_t i = 0; i < vertices_.size(); ++i) evaluate(i), push(i);
     reached_m_ = limits_.free_m;
-    while (!queue_.empty()) {
+    for (;;) {
+        drop_onto_ground(queue_.empty() ? no_limit : queue_.front().cost_m, aim);
+        if (queue_.empty()) break;
         std::pop_heap(queue_.begin(), queue_.end());
         const Queued next = queue_.back();
         queue_.pop_back();
@@ -353,10 +357,11 @@ double SpaceSimplifier::cost_of_dropping(std::span<const std::uint32_t> part,
     return std::sqrt(most2);
 }
 
-void SpaceSimplifier::drop_parts(std::size_t aim) {
-    if (count_ <= aim) return;
-    // Vertices that hang together, by the least of them.
-    std::vector<std::uint32_t> part_of(vertices_.size());
+// Vertices that hang together, by the least of them.
+SpaceSimplifier::Parts SpaceSimplifier::parts() {
+    Parts found;
+    std::vector<std::uint32_t>& part_of = found.of_vertex;
+    part_of.resize(vertices_.size());
     for (std::uint32_t i = 0; i < part_of.size(); ++i) part_of[i] = i;
     const auto first = [&](std::uint32_t vertex) {
         while (part_of[vertex] != vertex) vertex = part_of[vertex] = part_of[part_of[vertex]];
@@ -370,26 +375,91 @@ void SpaceSimplifier::drop_parts(std::size_t aim) {
         }
     }
     for (std::uint32_t i = 0; i < part_of.size(); ++i) part_of[i] = first(i);
-    std::vector<std::vector<std::uint32_t>> parts(vertices_.size());
-    std::vector<char> is_held(vertices_.size(), 0);
+    found.triangles.resize(vertices_.size());
+    found.is_held.assign(vertices_.size(), 0);
     for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
         if (alive_[i] == 0) continue;
-        parts[part_of[triangles_[i].corners[0]]].push_back(i);
+        found.triangles[part_of[triangles_[i].corners[0]]].push_back(i);
         for (const std::uint32_t corner : triangles_[i].corners)
-            if (stays_[corner] != 0) is_held[part_of[corner]] = 1;
+            if (stays_[corner] != 0) found.is_held[part_of[corner]] = 1;
     }
+    return found;
+}
+
+// How far the corners and samples of a part are from the ground; no_limit where that is above the limits.
+double SpaceSimplifier::height_over_ground(std::span<const std::uint32_t> part) const {
+    const double reach_m = std::max(limits_.most_m, limits_.free_m) - limits_.ground_off_m;
+    if (reach_m < 0.0) return no_limit;
+    double most2 = 0.0;
+    std::uint32_t hint = NearestTriangles::nothing;
+    const auto is_within = [&](const glm::dvec3& place) {
+        const NearestTriangles::Near near = limits_.ground->within(place, most2, reach_m * reach_m, hint);
+        if (near.place == NearestTriangles::nothing) return false;
+        hint = near.place, most2 = std::max(most2, near.distance2);
+        return true;
+    };
+    for (const std::uint32_t i : part) {
+        for (const std::uint32_t corner : triangles_[i].corners)
+            if (!is_within(at(corner))) return no_limit;
+        for (const glm::dvec3& sample : triangles_[i].samples)
+            if (!is_within(sample)) return no_limit;
+    }
+    return std::sqrt(most2) + limits_.ground_off_m;
+}
+
+void SpaceSimplifier::find_drops() {
+    parts_ = parts();
+    for (std::uint32_t i = 0; i < parts_.triangles.size(); ++i) {
+        const std::vector<std::uint32_t>& part = parts_.triangles[i];
+        parts_left_ += part.empty() ? 0 : 1;
+        if (part.empty() || parts_.is_held[i] != 0) continue;
+        GroundDrop drop{0.0, i, {}, 0.0};
+        for (const std::uint32_t triangle : part) {
+            for (const std::uint32_t corner : triangles_[triangle].corners) drop.box.add(at(corner));
+            for (const glm::dvec3& sample : triangles_[triangle].samples) drop.box.add(sample);
+        }
+        drop.least_m = share_of_diagonal * drop.box.diagonal_m();
+        drop.cost_m = std::max(height_over_ground(part), drop.least_m);
+        if (drop.cost_m < no_limit) drops_.push_back(drop);
+    }
+    std::sort(drops_.begin(), drops_.end(), [](const GroundDrop& a, const GroundDrop& b) {
+        return a.cost_m != b.cost_m ? a.cost_m > b.cost_m : a.part > b.part;
+    });
+}
+
+void SpaceSimplifier::drop_onto_ground(double next_m, std::size_t aim) {
+    while (!drops_.empty() && parts_left_ > 1) {
+        const GroundDrop& drop = drops_.back();
+        const double most_m = count_ > aim ? std::max(limits_.most_m, reached_m_) : reached_m_;
+        if (drop.cost_m > next_m || drop.cost_m > most_m) return;
+        reached_m_ = std::max(reached_m_, drop.cost_m);
+        least_error_m_ = std::max(least_error_m_, drop.least_m);
+        for (const std::uint32_t triangle : parts_.triangles[drop.part]) {
+            if (alive_[triangle] != 0) --count_;
+            alive_[triangle] = 0;
+            for (const std::uint32_t vertex : triangles_[triangle].corners)
+                gone_[vertex] = 1, around_[vertex].clear();
+        }
+        on_the_ground_.push_back(drop.box);
+        drops_.pop_back(), --parts_left_;
+    }
+}
+
+void SpaceSimplifier::drop_parts(std::size_t aim) {
+    if (count_ <= aim) return;
+    const Parts all = parts();
     std::vector<std::pair<double, std::uint32_t>> costs;
     constexpr std::size_t most_triangles = 64;
-    for (std::uint32_t i = 0; i < parts.size(); ++i)
-        if (!parts[i].empty() && is_held[i] == 0 && parts[i].size() <= most_triangles)
-            costs.emplace_back(cost_of_dropping(parts[i], part_of, i), i);
+    for (std::uint32_t i = 0; i < all.triangles.size(); ++i)
+        if (!all.triangles[i].empty() && all.is_held[i] == 0 && all.triangles[i].size() <= most_triangles)
+            costs.emplace_back(cost_of_dropping(all.triangles[i], all.of_vertex, i), i);
     std::sort(costs.begin(), costs.end());
     for (const auto& [before, i] : costs) {
         if (count_ <= aim || before > limits_.most_m) break;
-        const double cost = cost_of_dropping(parts[i], part_of, i);
+        const double cost = cost_of_dropping(all.triangles[i], all.of_vertex, i);
         if (cost > limits_.most_m) continue;
         reached_m_ = std::max(reached_m_, cost);
-        for (const std::uint32_t triangle : parts[i]) alive_[triangle] = 0, --count_;
+        for (const std::uint32_t triangle : all.triangles[i]) alive_[triangle] = 0, --count_;
     }
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "core/mesh_graph/mesh_ground.h"
 #include "core/mesh_graph/nearest_triangles.h"
 
 namespace oro {
@@ -26,13 +27,18 @@ struct SimplifierLimits {
     double most_m{};     // what costs more is not done
     double noise_m{};    // smaller distances from the mesh are alike
     double spacing_m{};  // of the mesh's vertices
+    // Parts may be dropped onto the ground; null: it is not known.
+    const NearestTriangles* ground{};
+    double ground_off_m{};  // MeshGround::off_m
 };
 
 // Collapses edges onto one of their ends: the next is always the one whose new triangles are least far from
 // the mesh, by samples, both ways (largest distance). A collapse must leave the surface a surface: a vertex
 // with one fan of triangles, the link condition, no triangle turned over, no new edge between two vertices of
 // the border, which a neighbour may have too. Parts that hang together with nothing and are small are dropped
-// when that costs less. Nothing here is a bound: DistanceCover measures what came out.
+// when that costs less: what they cost is how far they reach from what stays, or above or below the ground. A
+// part that lies on the ground costs a quarter of its diagonal at least, for a roof is seen from above,
+// however low it is. The last part stays. Nothing here is a bound: DistanceCover measures what came out.
 class SpaceSimplifier {
   public:
     // mesh: what distances to the mesh are measured against. Both outlive this.
@@ -45,12 +51,16 @@ class SpaceSimplifier {
     void simplify(std::vector<LevelTriangle> triangles, const IsBorder& is_border, std::size_t aim) {
         begin(std::move(triangles));
         for (std::size_t i = 0; i < vertices_.size(); ++i) stays_[i] = is_border(vertices_[i]) ? 1 : 0;
+        if (limits_.ground != nullptr) find_drops();
         run(aim);
         drop_parts(aim);
     }
     [[nodiscard]] std::vector<LevelTriangle> take();
     // The largest distance that the order believes in.
     [[nodiscard]] double reached_m() const { return reached_m_; }
+    // Boxes around what was dropped onto the ground, and the least error that this is to have.
+    [[nodiscard]] const std::vector<PartBox>& on_the_ground() const { return on_the_ground_; }
+    [[nodiscard]] double least_error_m() const { return least_error_m_; }
 
   private:
     static constexpr std::size_t most_samples = 24;
@@ -70,6 +80,24 @@ class SpaceSimplifier {
 
     void begin(std::vector<LevelTriangle> triangles);
     void run(std::size_t aim);
+    // Triangles that hang together, by a vertex: the least of theirs.
+    struct Parts {
+        std::vector<std::uint32_t> of_vertex;
+        std::vector<std::vector<std::uint32_t>> triangles;
+        std::vector<char> is_held;  // it has a vertex on the border
+    };
+    // A part that may be dropped onto the ground.
+    struct GroundDrop {
+        double cost_m{};
+        std::uint32_t part{};
+        PartBox box;
+        double least_m{};  // error that it is to have, for its breadth
+    };
+    [[nodiscard]] Parts parts();
+    void find_drops();
+    [[nodiscard]] double height_over_ground(std::span<const std::uint32_t> part) const;
+    // Drops what costs no more than the next collapse.
+    void drop_onto_ground(double next_m, std::size_t aim);
     void drop_parts(std::size_t aim);
     [[nodiscard]] double cost_of_dropping(std::span<const std::uint32_t> part,
                                           const std::vector<std::uint32_t>& part_of,
@@ -108,6 +136,11 @@ class SpaceSimplifier {
     Ring ring_;
     std::vector<std::array<glm::dvec3, 3>> fan_;
     std::vector<TriangleBlock> fan_blocks_;
+    Parts parts_;                    // where there is ground, as they were at first
+    std::vector<GroundDrop> drops_;  // the dearest first
+    std::size_t parts_left_{};
+    std::vector<PartBox> on_the_ground_;
+    double least_error_m_{};
 };
 
 }  // namespace oro

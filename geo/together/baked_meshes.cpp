@@ -81,10 +81,11 @@ std::string path_of_mesh(const std::string& path, std::size_t number) {
 }
 
 Result<BakedMeshReport> write_baked_mesh(const std::string& path, const PlacedMesh& mesh,
-                                         const UndulationField& undulation, int threads) {
+                                         const UndulationField& undulation, int threads,
+                                         const Region* ground) {
     BakedMeshReport report;
     const auto start = Clock::now();
-    const MeshDetail::Graph built = MeshDetail::graph_of(mesh, undulation, 1.0, threads);
+    const MeshDetail::Graph built = MeshDetail::graph_of(mesh, undulation, 1.0, threads, ground);
     report.build_s = seconds_since(start);
     const MeshGraph& graph = *built.graph;
     std::vector<LatticeSteps> places;
@@ -94,7 +95,7 @@ Result<BakedMeshReport> write_baked_mesh(const std::string& path, const PlacedMe
         for (const std::uint32_t triangle : built.triangle_of) labels.push_back(mesh.feature_of[triangle]);
     Result<std::vector<std::byte>> bytes =
         mesh_to_bytes({lattice_point(built.origin_m).steps, places, labels,
-                       static_cast<std::uint32_t>(mesh.features.size()), graph});
+                       static_cast<std::uint32_t>(mesh.features.size()), graph, built.ground_fingerprint});
     if (!bytes) return Error{bytes.error().kind, mesh.path, bytes.error().what};
     const std::vector<std::byte> facts = compressed(facts_to_bytes(mesh));
     ORO_CHECK(write_container(path, facts, *bytes));

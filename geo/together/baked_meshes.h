@@ -9,6 +9,7 @@
 #include "core/base/result.h"
 #include "core/terrain/post_grid.h"
 #include "geo/meshes/placed_mesh.h"
+#include "geo/region/region.h"
 
 namespace oro {
 
@@ -26,10 +27,12 @@ struct BakedMeshReport {
 };
 
 // Builds the graph of a mesh, as it is drawn at no exaggeration, and writes both as a container of their own.
-// undulation: N of the region; empty: 0. The same mesh gives the same bytes by any number of threads. Errors:
-// those of writing; a mesh that no file holds (mesh_to_bytes()).
+// undulation: N of the region; empty: 0. ground: the region, where small parts may be dropped onto its
+// ground; null: they may not. The same mesh gives the same bytes by any number of threads. Errors: those of
+// writing; a mesh that no file holds (mesh_to_bytes()).
 Result<BakedMeshReport> write_baked_mesh(const std::string& path, const PlacedMesh& mesh,
-                                         const UndulationField& undulation, int threads);
+                                         const UndulationField& undulation, int threads,
+                                         const Region* ground = nullptr);
 
 // The meshes of a baked file, in their order; none where it has none. Their graphs are with them, and
 // vertices are where they are drawn: at N of the same region they are drawn there again, to the bit. Reads

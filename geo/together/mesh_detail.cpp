@@ -8,6 +8,7 @@
 #include "core/mesh_file/stored_mesh.h"
 #include "core/terrain/page_on_net.h"
 #include "geo/together/lattice_mesh.h"
+#include "geo/together/mesh_ground.h"
 #include "geo/together/mesh_surface.h"
 
 namespace oro {
@@ -15,28 +16,38 @@ namespace {
 
 constexpr std::uint32_t not_used = ~std::uint32_t{0};
 
-// Whether a mesh is drawn where its baked graph was built.
-bool lies_as_stored(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration) {
+// Whether a mesh is drawn where its baked graph was built, and over the same ground.
+bool lies_as_stored(const PlacedMesh& mesh, const Region& region, double exaggeration) {
     if (!mesh.stored) return false;
-    const std::vector<glm::dvec3> places = drawn_places_m(mesh, undulation, exaggeration);
+    const std::vector<glm::dvec3> places =
+        drawn_places_m(mesh, region.grids.front().field.undulation, exaggeration);
     for (std::size_t i = 0; i < places.size(); ++i)
         if (lattice_point(places[i]).steps != mesh.stored->places[i]) return false;
-    return true;
+    if (mesh.stored->ground_fingerprint == 0) return true;
+    const MeshGround ground = ground_below_parts(*mesh.stored, region, exaggeration);
+    return fingerprint_of(ground, mesh.stored->origin_ecef_m()) == mesh.stored->ground_fingerprint;
 }
 
 }  // namespace
 
 MeshDetail::Graph MeshDetail::graph_of(const PlacedMesh& mesh, const UndulationField& undulation,
-                                       double exaggeration, int threads) {
+                                       double exaggeration, int threads, const Region* region) {
     const std::vector<glm::dvec3> places = drawn_places_m(mesh, undulation, exaggeration);
     LatticeMesh lattice = lattice_mesh(places, mesh.triangles);
     Graph graph;
     graph.origin_m = lattice.origin_m;
     for (const std::uint32_t vertex : lattice.vertex_of) graph.places_m.push_back(places[vertex]);
+    MeshGround ground;
+    if (region != nullptr)
+        ground =
+            ground_below_parts(lattice.vertices, lattice.triangles, lattice.origin_m, *region, exaggeration);
+    graph.ground_fingerprint = fingerprint_of(ground, lattice.origin_m);
+    MeshGraphOptions options{threads};
+    options.ground = &ground;
     graph.graph = std::make_shared<const MeshGraph>(
         lattice.triangles.empty()
             ? MeshGraph()
-            : build_mesh_graph(lattice.vertices, lattice.triangles, lattice.origin_m, {threads}));
+            : build_mesh_graph(lattice.vertices, lattice.triangles, lattice.origin_m, options));
     graph.vertex_of = std::move(lattice.vertex_of);
     graph.triangle_of = std::move(lattice.triangle_of);
     return graph;
@@ -47,12 +58,12 @@ MeshDetail MeshDetail::of(const Region& region, double exaggeration, int threads
     detail.meshes_ = region.meshes;
     const UndulationField& undulation = region.grids.front().field.undulation;
     for (const PlacedMesh& mesh : *region.meshes) {
-        if (lies_as_stored(mesh, undulation, exaggeration)) {
+        if (lies_as_stored(mesh, region, exaggeration)) {
             Graph& stored = detail.graphs_.emplace_back();
             stored.graph = std::shared_ptr<const MeshGraph>(mesh.stored, &mesh.stored->graph);
             continue;
         }
-        detail.graphs_.push_back(graph_of(mesh, undulation, exaggeration, threads));
+        detail.graphs_.push_back(graph_of(mesh, undulation, exaggeration, threads, &region));
         detail.graphs_.back().places_m = {};
         ++detail.built_;
     }

@@ -32,7 +32,8 @@ struct MeshCut {
 // lattice that is drawn are one vertex.
 class MeshDetail {
   public:
-    // Takes them from the region's baked file, or builds them. region: with meshes, which it holds on to.
+    // Takes them from the region's baked file, or builds them, over the region's ground; one that was built
+    // over other ground than is there now is built again. region: with meshes, which it holds on to.
     // threads: 1 or more; the graphs are the same by any number.
     static MeshDetail of(const Region& region, double exaggeration, int threads);
 
@@ -62,10 +63,12 @@ class MeshDetail {
         glm::dvec3 origin_m{};                   // that its spheres are reckoned from
         std::vector<std::uint32_t> vertex_of;    // of the mesh, for each of the graph; empty: the same
         std::vector<std::uint32_t> triangle_of;  // likewise
+        std::uint64_t ground_fingerprint{};      // of the ground that it was built over; 0: of none
     };
-    // Builds it. Triangles without an area are left out.
+    // Builds it. Triangles without an area are left out. ground: the region whose true ground small parts may
+    // be dropped onto; null: they may not.
     static Graph graph_of(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration,
-                          int threads);
+                          int threads, const Region* ground = nullptr);
 
   private:
     [[nodiscard]] static PlacedMesh drawn(const PlacedMesh& mesh, const Graph& graph,

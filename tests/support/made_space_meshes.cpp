@@ -61,6 +61,22 @@ SpaceMesh box_town(std::uint32_t rows) {
     return mesh;
 }
 
+MeshGround hills_below_town(std::uint32_t rows) {
+    MeshGround ground;
+    constexpr double step_m = 12.0;
+    const int steps = static_cast<int>(20.0 * rows / step_m) + 4;
+    const auto at = [](int i, int k) {
+        const double x = step_m * (i - 2), y = step_m * (k - 2);
+        return glm::dvec3(x, y, 0.5 + std::sin(0.09 * x) * std::cos(0.05 * y));
+    };
+    for (int i = 0; i < steps; ++i)
+        for (int k = 0; k < steps; ++k) {
+            ground.triangles.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
+            ground.triangles.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
+        }
+    return ground;
+}
+
 SpaceMesh folded_sheet(std::uint32_t n) {
     SpaceMesh mesh;
     for (std::uint32_t i = 0; i <= n; ++i)

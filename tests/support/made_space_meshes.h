@@ -16,4 +16,7 @@ SpaceMesh box_town(std::uint32_t rows);
 // A sheet that is folded over itself like a letter, layers half a metre apart: open, no height field.
 SpaceMesh folded_sheet(std::uint32_t n);
 
+// Hills of a metre below and around box_town(rows), in triangles of 12 m: houses stand in them.
+MeshGround hills_below_town(std::uint32_t rows);
+
 }  // namespace oro::test

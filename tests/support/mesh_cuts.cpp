@@ -132,9 +132,12 @@ std::vector<char> random_standing(const ClusterGraph& graph, std::mt19937_64& ra
 }
 
 void check_cut(const SpaceMesh& mesh, const MeshGraph& graph, const MeshPlaceChains& chains,
-               const std::vector<char>& stands, std::size_t count, std::mt19937_64& random, CutCheck& check) {
+               const std::vector<char>& stands, std::size_t count, std::mt19937_64& random, CutCheck& check,
+               const MeshGround* ground) {
     constexpr double slack_m = 1.0e-6;
-    Balls all, drawn;
+    Balls all, drawn, below;
+    if (ground != nullptr)
+        for (const Corners& triangle : ground->triangles) below.add(triangle);
     for (const auto& triangle : mesh.triangles) all.add(corners_of(mesh, triangle));
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::uint32_t> made_by, original_of;
@@ -155,11 +158,15 @@ void check_cut(const SpaceMesh& mesh, const MeshGraph& graph, const MeshPlaceCha
         const std::size_t i = some(random);
         double error_m = 0.0;
         const std::vector<std::uint32_t>& chain = chains.groups[i];
-        for (std::size_t step = 0; step < chain.size() && stands[chain[step]] != 0; ++step)
-            error_m = graph.clusters.groups[chain[step]].error_m;
+        std::size_t standing = 0;
+        for (; standing < chain.size() && stands[chain[standing]] != 0; ++standing)
+            error_m = graph.clusters.groups[chain[standing]].error_m;
+        const bool is_on_ground = standing == chain.size() && chains.on_ground[i] != 0;
+        check.on_ground += is_on_ground ? 1U : 0U;
         for (std::size_t step = 0; step + 1 < chain.size(); ++step)
             check.no_link += links.contains({chain[step], chain[step + 1]}) ? 0U : 1U;
-        const double beyond = drawn.beyond(chains.places[i], error_m + slack_m, drawn.triangles.size());
+        const Balls& near = is_on_ground ? below : drawn;
+        const double beyond = near.beyond(chains.places[i], error_m + slack_m, near.triangles.size());
         ++check.places;
         check.places_over += beyond > 0.0 ? 1U : 0U;
         const std::size_t one = some_drawn(random);
@@ -190,6 +197,21 @@ MeshPlaceChains wrong_users(const MeshGraph& graph, const MeshPlaceChains& chain
         chain.push_back(*other);
     }
     return wrong;
+}
+
+std::vector<MeshGraph> dropped_for_nothing(const MeshGraph& graph, const MeshPlaceChains& chains) {
+    std::set<std::uint32_t> droppers;
+    for (std::size_t i = 0; i < chains.groups.size(); ++i)
+        if (chains.on_ground[i] != 0) droppers.insert(chains.groups[i].back());
+    std::vector<MeshGraph> mutants;
+    for (const std::uint32_t number : droppers) {
+        const ClusterGroup& group = graph.clusters.groups[number];
+        const double below_m = largest_member_error_m(graph.clusters, group);
+        if (group.error_m <= 1.01 * below_m) continue;
+        mutants.push_back(graph);
+        mutants.back().clusters.groups[number].error_m = below_m;
+    }
+    return mutants;
 }
 
 }  // namespace oro::test

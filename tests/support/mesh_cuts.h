@@ -27,6 +27,7 @@ std::vector<char> random_standing(const ClusterGraph& graph, std::mt19937_64& ra
 struct CutCheck {
     std::uint64_t places{};       // of the mesh, held against what is drawn
     std::uint64_t places_over{};  // farther than the error of the last group that stands on their chain
+    std::uint64_t on_ground{};    // of these places, held against the ground
     std::uint64_t drawn{};        // drawn places, held against the mesh
     std::uint64_t drawn_over{};   // farther than the error of the group that made them
     std::uint64_t no_link{};      // steps of chains that are no links of the graph
@@ -36,10 +37,17 @@ struct CutCheck {
 };
 // Holds `count` places of the mesh, and one of each drawn triangle up to as many, against brute force by code
 // of its own: whether any triangle is within the error and a micrometre.
+// ground: the graph's; a place that it answers for, as all groups of its chain stand, is held against the
+// ground alone, others against what is drawn alone.
 void check_cut(const SpaceMesh& mesh, const MeshGraph& graph, const MeshPlaceChains& chains,
-               const std::vector<char>& stands, std::size_t count, std::mt19937_64& random, CutCheck& check);
+               const std::vector<char>& stands, std::size_t count, std::mt19937_64& random, CutCheck& check,
+               const MeshGround* ground = nullptr);
 
 // A mutant: each chain goes, at a step by chance, to another user of the same group, and ends there.
 MeshPlaceChains wrong_users(const MeshGraph& graph, const MeshPlaceChains& chains, std::mt19937_64& random);
+
+// A mutant: of a group on whose chains places end on the ground the error is that of the groups below, as if
+// what it dropped cost nothing. Gives one for each such group, whose own error is larger.
+std::vector<MeshGraph> dropped_for_nothing(const MeshGraph& graph, const MeshPlaceChains& chains);
 
 }  // namespace oro::test

@@ -111,7 +111,7 @@ TEST_F(StreamedChoicesWithMemory, AreThoseFromNothing) {
     EXPECT_GT(coarser, 1000U);
     EXPECT_GT(to_come, 400U);
     EXPECT_GT(without_room, 10U);
-    EXPECT_GT(left_out_, 100U);
+    EXPECT_GT(left_out_, 50U);
 }
 
 }  // namespace

@@ -18,12 +18,14 @@ namespace {
 
 using namespace test;
 
-StoredMesh stored_of(const SpaceMesh& mesh) {
+StoredMesh stored_of(const SpaceMesh& mesh, const MeshGround* ground = nullptr) {
     std::vector<LatticeSteps> places;
     for (const glm::dvec3& at : mesh.vertices)
         places.push_back(
             {std::llround(2048.0 * at.x), std::llround(2048.0 * at.y), std::llround(2048.0 * at.z)});
-    const MeshGraph graph = build_mesh_graph(mesh.vertices, mesh.triangles, {0.0, 0.0, 0.0}, {2});
+    MeshGraphOptions options{2};
+    options.ground = ground;
+    const MeshGraph graph = build_mesh_graph(mesh.vertices, mesh.triangles, {0.0, 0.0, 0.0}, options);
     const auto bytes = mesh_to_bytes({{}, places, {}, 0, graph});
     EXPECT_TRUE(bytes.ok());
     StoredMesh stored;
@@ -54,6 +56,34 @@ TEST(MeshCheck, FindsALoweredError) {
     }
     // An error may be that of a group below, and larger than its own.
     EXPECT_GE(found, static_cast<int>(groups) * 3 / 4) << "of " << groups;
+}
+
+TEST(MeshCheck, HoldsWhatWasDroppedAgainstTheGround) {
+    MeshGround ground = hills_below_town(12);
+    ground.off_m = 0.002;
+    const StoredMesh mesh = stored_of(box_town(12), &ground);
+    const auto wrong = understated_error(mesh, 2, &ground);
+    EXPECT_FALSE(wrong) << *wrong;
+    EXPECT_TRUE(understated_error(mesh, 2)) << "without ground";
+    for (auto& triangle : ground.triangles)
+        for (glm::dvec3& corner : triangle) corner.z -= 2.0;
+    EXPECT_TRUE(understated_error(mesh, 2, &ground)) << "with ground that lies deeper";
+}
+
+TEST(MeshCheck, FindsADropThatCostsNothing) {
+    const MeshGround ground = hills_below_town(12);
+    const StoredMesh mesh = stored_of(box_town(12), &ground);
+    std::size_t tried = 0, found = 0;
+    for (std::size_t i = 0; i < mesh.graph.clusters.groups.size(); ++i) {
+        StoredMesh lying = mesh;
+        ClusterGroup& group = lying.graph.clusters.groups[i];
+        const double below_m = largest_member_error_m(lying.graph.clusters, group);
+        if (group.error_m <= 1.01 * below_m + 0.01) continue;
+        group.error_m = below_m;
+        ++tried, found += understated_error(lying, 2, &ground) ? 1U : 0U;
+    }
+    EXPECT_GE(tried, 3U);
+    EXPECT_EQ(found, tried);
 }
 
 TEST(MeshCheck, FindsAHole) {

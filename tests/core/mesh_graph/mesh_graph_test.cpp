@@ -119,6 +119,72 @@ TEST(MeshGraph, TestsByChainsCatchMutants) {
     EXPECT_GT(holed.open_edges, 0U);
 }
 
+struct Town {
+    SpaceMesh mesh = box_town(14);
+    MeshGround ground = hills_below_town(14);
+    MeshGraph graph;
+    MeshPlaceChains chains;
+
+    explicit Town(std::mt19937_64& random) {
+        chains.places = random_places(mesh, random);
+        MeshGraphOptions options{2, 0.65, &chains};
+        options.ground = &ground;
+        graph = build_mesh_graph(mesh.vertices, mesh.triangles, origin_m, options);
+    }
+    [[nodiscard]] CutCheck check(const MeshGraph& of, const std::vector<char>& stands,
+                                 std::mt19937_64& random) const {
+        CutCheck found;
+        check_cut(mesh, of, chains, stands, 300, random, found, &ground);
+        return found;
+    }
+};
+
+TEST(MeshGraph, OfATownOnTheGroundEndsAsOneCluster) {
+    constexpr unsigned seed = 5205;
+    std::printf("seed %u\n", seed);
+    std::mt19937_64 random(seed);
+    const Town town(random);
+    expect_sound(town.mesh, town.graph);
+    // 2,352 triangles of 196 houses, up to 16 m high and 1.5 m in the ground; without it 96 m.
+    EXPECT_LE(town.graph.clusters.levels.back().triangles_out, 128U);
+    EXPECT_LT(town.graph.largest_error_m(), 17.5);
+    std::uint64_t on_ground = 0;
+    for (int i = 0; i < 12; ++i) {
+        const std::vector<char> stands = i == 0 ? std::vector<char>(town.graph.clusters.groups.size(), 1)
+                                                : random_standing(town.graph.clusters, random);
+        const CutCheck check = town.check(town.graph, stands, random);
+        EXPECT_EQ(check.places_over, 0U) << check.worst_m;
+        EXPECT_EQ(check.drawn_over, 0U) << check.worst_m;
+        EXPECT_EQ(check.no_link, 0U);
+        EXPECT_EQ(check.open_edges, 0U);
+        on_ground += check.on_ground;
+    }
+    EXPECT_GT(on_ground, 200U);
+}
+
+TEST(MeshGraph, TestsByChainsCatchHousesThatAreDroppedForNothing) {
+    constexpr unsigned seed = 5206;
+    std::printf("seed %u\n", seed);
+    std::mt19937_64 random(seed);
+    Town town(random);
+    const std::vector<char> all(town.graph.clusters.groups.size(), 1);
+    const std::vector<MeshGraph> mutants = dropped_for_nothing(town.graph, town.chains);
+    std::size_t caught = 0;
+    for (const MeshGraph& mutant : mutants) {
+        std::uint64_t over = 0;
+        for (int i = 0; i < 20; ++i) over += town.check(mutant, all, random).places_over;
+        caught += over > 0 ? 1U : 0U;
+    }
+    // An error may also be that of what a group moved, or for the breadth of what it dropped.
+    std::printf("%zu of %zu mutants caught\n", caught, mutants.size());
+    EXPECT_GE(mutants.size(), 4U);
+    EXPECT_GE(2 * caught, mutants.size());
+    // Ground that lies 2 m deeper than the builder was given.
+    for (auto& triangle : town.ground.triangles)
+        for (glm::dvec3& corner : triangle) corner.z -= 2.0;
+    EXPECT_GT(town.check(town.graph, all, random).places_over, 0U);
+}
+
 TEST(MeshGraph, IsTheSameByAnyNumberOfThreads) {
     const SpaceMesh mesh = folded_sheet(38);
     const MeshGraph one = build_mesh_graph(mesh.vertices, mesh.triangles, origin_m, {1});

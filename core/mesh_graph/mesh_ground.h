@@ -1,0 +1,39 @@
+// The ground below a mesh, where it is known.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/mesh_graph/nearest_triangles.h"
+
+namespace oro {
+
+// Triangles of the terrain at full resolution around a mesh: of that near its small parts.
+struct MeshGround {
+    std::vector<std::array<glm::dvec3, 3>> triangles;  // metres from the place that vertices are from
+    // How far a place of one of them may be from the terrain that it stands for.
+    double off_m{};
+};
+
+// The user of a piece of a mesh that lies on the ground: no group answers for it any more.
+inline constexpr int on_ground = std::numeric_limits<int>::max();
+
+// A box around some part of a mesh.
+struct PartBox {
+    glm::dvec3 low{std::numeric_limits<double>::infinity()};
+    glm::dvec3 high{-std::numeric_limits<double>::infinity()};
+
+    void add(const glm::dvec3& place);
+    [[nodiscard]] double diagonal_m() const;
+};
+
+// Adds those triangles of the ground to `made` that may be within reach_m of a box, on_ground to `users` for
+// each. Each is added once, in the order of the tree.
+void add_ground_near(const NearestTriangles& ground, std::span<const PartBox> boxes, double reach_m,
+                     std::vector<std::array<glm::dvec3, 3>>& made, std::vector<int>& users);
+
+}  // namespace oro

@@ -1,0 +1,33 @@
+// The true ground below a mesh's small parts, for its cluster graph.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+
+#include "core/mesh_graph/mesh_ground.h"
+#include "geo/region/region.h"
+
+namespace oro {
+
+struct StoredMesh;
+
+// The triangles of a region's grids, at full resolution and that exaggeration, below and a cell around those
+// parts of a mesh that hang together with nothing and have at most 1,152 triangles. Left out is what may not
+// be the ground: cells with a void post, and cells that a grid of a smaller rank may cover or change; and
+// cells that are so large that a flat triangle is more than 2 cm off. Empty where any mesh of the region cuts
+// ground out, and where it would be more than a million triangles. vertices: metres from `origin`, ECEF.
+// The result does not depend on the order of triangles.
+[[nodiscard]] MeshGround ground_below_parts(std::span<const glm::dvec3> vertices,
+                                            std::span<const std::array<std::uint32_t, 3>> triangles,
+                                            const glm::dvec3& origin_ecef_m, const Region& region,
+                                            double exaggeration);
+// The same of a mesh that was baked.
+[[nodiscard]] MeshGround ground_below_parts(const StoredMesh& mesh, const Region& region,
+                                            double exaggeration);
+
+// Of its triangles' corners on the lattice of 2^-11 m; 0 where it is empty.
+[[nodiscard]] std::uint64_t fingerprint_of(const MeshGround& ground, const glm::dvec3& origin_ecef_m);
+
+}  // namespace oro
