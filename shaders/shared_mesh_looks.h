@@ -8,6 +8,7 @@ ORO_CONST uint mesh_look_built = 1u;   // walls of plaster and roofs, of a hue b
 ORO_CONST uint mesh_look_plain = 2u;   // one grey
 ORO_CONST uint mesh_look_paved = 3u;
 ORO_CONST uint mesh_look_water = 4u;
+ORO_CONST uint mesh_look_coloured = 5u;  // by the colours of its corners, which the file states
 ORO_CONST uint mesh_looks = 8u;  // there are fewer
 
 // Ground near meshes, from above: a map in a plane that touches the ellipsoid, of square cells. Each has two bytes,

@@ -216,6 +216,9 @@ set_tests_properties(
   MadeTerrain.OfAWholeWorldIsDrawnWithinItsCertificate
   Manual.HasEachOptionOfHelp
   MeshCheckByGrammar.ChangedMeshesAreRefusedOrTrue
+  MeshColoursSeen.AreThoseOfTheFileInTheStyleNatural
+  MeshColoursSeen.StayWithClustersAndBakedFiles
+  MeshColoursSeen.WhatIsExportedOpensAgain
   MeshLook.IsByTheFileOrAsAsked
   MeshTiles.GroundStaysAndVerticesAreWithinAMillimetre
   MeshTiles.NothingLargerThanTheErrorIsMissing

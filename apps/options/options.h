@@ -28,8 +28,9 @@ struct RegionOptions {
     std::string mesh_unit;
     std::string mesh_lod;  // of CityJSON
     std::string building_height, building_base;
-    std::string mesh_look;  // ground, built; "": by the file
-    bool cut_under{false};  // terrain is cut out under meshes that are ground
+    std::string mesh_look;             // ground, built, plain; "": by the file
+    bool cut_under{false};             // terrain is cut out under meshes that are ground
+    std::optional<double> crease_deg;  // where triangles of meshes meet at less they share their light
 };
 
 // From where, and how it looks.

@@ -78,8 +78,10 @@ void add_reading(RegionRows& rows) {
 void add_meshes(RegionRows& rows) {
     add(rows, {"--mesh-file FILE", no_trait}, &RegionOptions::mesh_files,
         "Draw a triangle mesh on the ground, and let it hide what is behind it: a surveyor's LandXML (.xml), "
-        "a town's CityJSON, OBJ, PLY, STL, glTF, surfaces with heights of a GeoPackage, and footprints of "
-        "buildings with --building-height. May be given several times. Heights without a vertical CRS are "
+        "a town's CityJSON, OBJ, PLY, STL, glTF, the finest tiles of 3D Tiles (tileset.json), surfaces with "
+        "heights of a "
+        "GeoPackage, and footprints of buildings with --building-height. May be given several times. Heights "
+        "without a vertical CRS are "
         "above sea "
         "level.");
     add(rows, {"--mesh-crs CRS", no_trait, "the one that its file states"}, &RegionOptions::mesh_crs,
@@ -92,10 +94,15 @@ void add_meshes(RegionRows& rows) {
     add(rows, {"--lod LEVEL", no_trait, "the highest that each object has"}, &RegionOptions::mesh_lod,
         "Level of detail to take from CityJSON: 1, 2, 2.2 ... Needs --mesh-file.");
     add(rows, {"--mesh-look LOOK", no_trait, "by what a file is of"}, &RegionOptions::mesh_look,
-        "Colour meshes in the style natural as ground (LandXML and TINs of a GeoPackage are), or as built: "
-        "walls of plaster and roofs (CityJSON and footprints are; OBJ, PLY, STL and glTF are grey). Needs "
-        "--mesh-file.",
-        {"ground", "built"});
+        "Colour meshes in the style natural as ground (LandXML and TINs of a GeoPackage are), as built: "
+        "walls of plaster and roofs (CityJSON and footprints are), or plain: grey (others are). Files that "
+        "state colours of their vertices are drawn in these, in the style plain, too, but for built and "
+        "plain. Needs --mesh-file.",
+        {"ground", "built", "plain"});
+    add(rows, {"--crease DEG", no_trait, "30", "", view_limits::crease_deg}, &RegionOptions::crease_deg,
+        "Draw meshes smooth where their triangles meet at less than this angle, in degrees: 0 draws all "
+        "flat, "
+        "180 all smooth. Needs --mesh-file.");
     add(rows, {"--cut-under", no_trait}, &RegionOptions::cut_under,
         "Cut the terrain out under meshes that are ground (a pit, a quarry, a cutting), inside their "
         "outline, "

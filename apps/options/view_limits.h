@@ -41,6 +41,7 @@ inline constexpr Limits time_utc_s{-62167219200, 253402300799};
 inline constexpr Limits altitude_m{-12000, 1e9};
 inline constexpr Limits above_m{-12000, 1e9};
 inline constexpr Limits feather_m{0.01, 1e6};
+inline constexpr Limits crease_deg{0, 180};
 // Ends of a line of sight: from the deepest trench to far above the air.
 inline constexpr Limits sight_h_m{-12000, 1e6};
 // Of unknown ground, above sea level.

@@ -6,7 +6,10 @@
 #include <utility>
 
 #include "apps/command_line/refusals.h"
+#include "apps/options/option_table.h"
+#include "apps/options/view_limits.h"
 #include "geo/meshes/mesh_file.h"
+#include "geo/meshes/mesh_look.h"
 
 namespace oro {
 
@@ -24,6 +27,9 @@ bool is_no_lod(const std::string& lod) {
 Result<MeshRequest> mesh_request(const RegionOptions& options) {
     MeshRequest meshes{options.mesh_files,      options.mesh_crs,      options.mesh_unit, options.mesh_lod,
                        options.building_height, options.building_base, options.mesh_look, options.cut_under};
+    if (options.crease_deg) {
+        ORO_TRY(meshes.crease_deg, within("--crease", *options.crease_deg, view_limits::crease_deg));
+    }
     std::ranges::copy_if(options.paths, std::back_inserter(meshes.files), is_mesh_file);
     const std::array<std::pair<const char*, const std::string*>, 6> given{
         {{"--mesh-crs", &meshes.crs},
@@ -37,10 +43,12 @@ Result<MeshRequest> mesh_request(const RegionOptions& options) {
             return refused(option, "", "says nothing without --mesh-file FILE");
     if (meshes.files.empty() && meshes.cut_under)
         return refused("--cut-under", "", "says nothing without --mesh-file FILE");
+    if (meshes.files.empty() && meshes.crease_deg)
+        return refused("--crease", "", "says nothing without --mesh-file FILE");
     if (meshes.building_height.empty() && !meshes.building_base.empty())
         return refused("--building-base", "", "says nothing without --building-height FIELD");
-    if (!meshes.look.empty() && meshes.look != "ground" && meshes.look != "built")
-        return refused("--mesh-look", meshes.look, "is none of ground, built");
+    if (!meshes.look.empty() && !is_mesh_look(meshes.look))
+        return refused("--mesh-look", meshes.look, "is none of ground, built, plain");
     if (is_no_lod(meshes.lod)) return refused("--lod", meshes.lod, "is no level of detail: 1, 2, 2.2, say");
     return meshes;
 }

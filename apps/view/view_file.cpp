@@ -19,6 +19,7 @@
 #include "core/light/utc_time.h"
 #include "geo/files/letter_case.h"
 #include "geo/files/text_encoding.h"
+#include "geo/meshes/mesh_look.h"
 #include "geo/pictures/picture.h"
 #include "geo/sources/raster_source.h"
 
@@ -113,8 +114,9 @@ void read_meshes(const nlohmann::json& json, MeshRequest& request) {
     if (meshes.contains("building_base")) request.building_base = json_string(meshes, "building_base");
     if (meshes.contains("cut_under")) request.cut_under = json_flag(meshes, "cut_under");
     if (meshes.contains("look")) request.look = json_string(meshes, "look");
-    if (!request.look.empty() && request.look != "ground" && request.look != "built")
-        throw JsonFault{"'look' of 'meshes' is '" + request.look + "', none of ground, built"};
+    if (!request.look.empty() && !is_mesh_look(request.look))
+        throw JsonFault{"'look' of 'meshes' is '" + request.look + "', none of ground, built, plain"};
+    if (meshes.contains("crease_deg")) request.crease_deg = number(meshes, "crease_deg", limits::crease_deg);
     if (!meshes.contains("unit")) return;
     request.unit = json_string(meshes, "unit");
     if (!metres_in(request.unit))
@@ -205,6 +207,7 @@ ordered_json meshes_json(const MeshRequest& meshes) {
     if (!meshes.building_base.empty()) json["building_base"] = meshes.building_base;
     if (!meshes.look.empty()) json["look"] = meshes.look;
     if (meshes.cut_under) json["cut_under"] = true;
+    if (meshes.crease_deg) json["crease_deg"] = *meshes.crease_deg;
     return json;
 }
 

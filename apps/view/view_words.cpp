@@ -153,6 +153,9 @@ RegionOptions region_options_of(const View& view) {
     options.mesh_lod = request.meshes.lod;
     options.building_height = request.meshes.building_height;
     options.building_base = request.meshes.building_base;
+    options.mesh_look = request.meshes.look;
+    options.cut_under = request.meshes.cut_under;
+    options.crease_deg = request.meshes.crease_deg;
     return options;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/earth/ellipsoid.h"
+#include "core/seam/vertex_colour.h"
 
 namespace oro {
 
@@ -23,6 +24,7 @@ struct SeamPiece {
     bool two_sided{};      // of a mesh, whose sides may both be seen: light is that of the eye's side
     std::uint32_t look{};  // of a mesh: gpu::mesh_look_...
     float tone{};          // of a mesh: 0 to 1, what tells its features apart
+    std::array<VertexColour, 3> colours{};  // of the corners, where the look is gpu::mesh_look_coloured
 };
 
 // Upright ground along a piece of a rim, from one surface to the other; no higher than a line where the two

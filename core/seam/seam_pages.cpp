@@ -33,6 +33,13 @@ struct SeamQuad {
     std::array<glm::dvec3, 5> vectors{};  // seam.glsl
 };
 
+// So many steps of a page's places as a colour's 24 bits count; exact.
+double steps_of_colour(VertexColour colour) {
+    const std::uint32_t code =
+        colour.red | std::uint32_t{colour.green} << 8U | std::uint32_t{colour.blue} << 16U;
+    return static_cast<double>(code) / static_cast<double>(gpu::seam_unit);
+}
+
 SeamQuad quad_of(const SeamPiece& piece) {
     SeamQuad quad;
     quad.count = 3;
@@ -43,6 +50,9 @@ SeamQuad quad_of(const SeamPiece& piece) {
     if (piece.two_sided)
         quad.vectors[3] = {1.0, static_cast<double>(piece.look) / gpu::mesh_looks,
                            static_cast<double>(piece.tone)};
+    if (piece.look == gpu::mesh_look_coloured)
+        for (std::size_t i = 0; i < 3; ++i)
+            quad.vectors[4][static_cast<int>(i)] = steps_of_colour(piece.colours[i]);
     return quad;
 }
 // A skirt's upright part, whose top reaches upwards, and what reaches down and to both sides from its foot:

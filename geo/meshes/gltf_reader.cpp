@@ -1,8 +1,7 @@
-// glTF 2.0 and GLB without extensions, in double: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
+// glTF 2.0 and GLB, in double: https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/quaternion.hpp>
@@ -11,8 +10,11 @@
 #include <optional>
 #include <utility>
 
+#include "core/earth/ellipsoid.h"
 #include "geo/meshes/mesh_readers.h"
 #include "geo/meshes/mesh_words.h"
+#include "geo/meshes/meshopt_view.h"
+#include "geo/meshes/path_beside.h"
 #include "geo/vectors/json_text.h"
 
 namespace oro {
@@ -120,6 +122,34 @@ double gltf_number(const GltfElements& from, std::size_t element, std::size_t nu
     }
 }
 
+constexpr std::string_view meshopt = "EXT_meshopt_compression";
+
+// Those that change nothing of what is read: textures are not.
+bool is_known_extension(const std::string& name) {
+    constexpr std::array<std::string_view, 9> known{"KHR_mesh_quantization",
+                                                    "KHR_materials_unlit",
+                                                    meshopt,
+                                                    "CESIUM_RTC",
+                                                    "KHR_texture_transform",
+                                                    "KHR_texture_basisu",
+                                                    "EXT_texture_webp",
+                                                    "EXT_mesh_features",
+                                                    "EXT_structural_metadata"};
+    return std::ranges::find(known, name) != known.end();
+}
+
+std::optional<JsonValue> extension_of(const JsonValue& object, std::string_view name) {
+    const auto all = gltf_member(object, "extensions");
+    return all ? gltf_member(*all, name) : std::nullopt;
+}
+
+// What colours a primitive: linear light.
+struct GltfColour {
+    glm::dvec3 factor{1.0};
+    bool is_stated{};
+    bool has_texture{};
+};
+
 class GltfReader {
   public:
     GltfReader(const JsonValue& root, std::optional<std::string_view> binary, const FileBeside& beside)
@@ -129,16 +159,22 @@ class GltfReader {
           nodes_(gltf_list(root, "nodes")),
           meshes_(gltf_list(root, "meshes")),
           accessors_(gltf_list(root, "accessors")),
-          views_(gltf_list(root, "bufferViews")) {}
+          views_(gltf_list(root, "bufferViews")),
+          materials_(gltf_list(root, "materials")),
+          opened_(views_.size()) {}
 
     Result<SourceMesh> all() {
         mesh_.format = "glTF";
         mesh_.unit = "meter";
         ORO_CHECK(check_asset());
         ORO_CHECK(read_buffers());
+        ORO_CHECK(read_centre());
         on_way_.assign(nodes_.size(), false);
         ORO_TRY(const std::vector<std::size_t> roots, roots_of_scene());
         for (const std::size_t node : roots) ORO_CHECK(read_node(node, glm::dmat4(1.0)));
+        if (!mesh_.colours.empty()) mesh_.colours.resize(mesh_.vertices.size());
+        ORO_CHECK(move_to_origin());
+        if (has_textures_) mesh_.notes.emplace_back("its textures are not read");
         if (without_triangles_ > 0)
             mesh_.notes.push_back(std::to_string(without_triangles_) +
                                   " primitives of points or lines, without triangles, left out");
@@ -154,7 +190,7 @@ class GltfReader {
             return gltf_fault("is glTF " + (text.empty() ? "without a version" : shown_word(text)) +
                               ": 2.0 is read");
         for (const JsonValue& one : gltf_list(root_, "extensionsRequired"))
-            if (one.words() != "KHR_mesh_quantization" && one.words() != "KHR_materials_unlit")
+            if (!is_known_extension(one.words()))
                 return gltf_fault("needs the extension " + shown_word(one.words()) + ", which is not read");
         return {};
     }
@@ -166,6 +202,12 @@ class GltfReader {
             const auto length = gltf_count(buffers[i], "byteLength", std::nullopt);
             if (!length) return gltf_fault(name + " has no byteLength");
             const auto uri = gltf_member(buffers[i], "uri");
+            const auto compressed = extension_of(buffers[i], meshopt);
+            const auto fallback = compressed ? gltf_member(*compressed, "fallback") : std::nullopt;
+            if (!uri && fallback && fallback->source() == "true") {
+                buffers_.emplace_back();  // what is compressed stands in another
+                continue;
+            }
             if (!uri && (i > 0 || !binary_)) return gltf_fault(name + " has no uri");
             if (uri) {
                 ORO_TRY(std::string bytes, bytes_of(uri->text(), name));
@@ -189,20 +231,9 @@ class GltfReader {
             if (!bytes) return gltf_fault(name + " has a data uri whose base64 is damaged");
             return std::move(*bytes);
         }
-        std::string path;
-        for (std::size_t i = 0; i < uri.size(); ++i) {
-            unsigned code = 0;
-            const bool is_code =
-                uri[i] == '%' && i + 2 < uri.size() &&
-                std::from_chars(&uri[i + 1], &uri[i + 1] + 2, code, 16).ptr == &uri[i + 1] + 2;
-            path.push_back(is_code ? static_cast<char>(code) : uri[i]);
-            if (is_code) i += 2;
-        }
-        if (path.empty() || path.find(':') != std::string::npos || path.starts_with('/') ||
-            path.find("..") != std::string::npos || path.find('\\') != std::string::npos ||
-            path.find('\0') != std::string::npos)
-            return gltf_fault(name + " is at " + shown_word(uri) + ": only files beside it are read");
-        return beside_(path);
+        const std::optional<std::string> path = path_beside("", uri);
+        if (!path) return gltf_fault(name + " is at " + shown_word(uri) + ": only files beside it are read");
+        return beside_(*path);
     }
 
     // Of the scene that is shown; without scenes all nodes that are no child.
@@ -253,7 +284,7 @@ class GltfReader {
             return list.size() <= otherwise.size();
         });
         if (!all || list.size() != otherwise.size())
-            return gltf_fault("a node's " + std::string(name) + " is no list of " +
+            return gltf_fault("its " + std::string(name) + " is no list of " +
                               std::to_string(otherwise.size()) + " numbers");
         return list;
     }
@@ -290,6 +321,10 @@ class GltfReader {
                 return gltf_fault("node " + std::to_string(number) + " has a mesh that is not there");
             const auto name = gltf_member(node, "name");
             mesh_.parts.push_back({name ? name->words() : "", mesh_.triangles.size()});
+            // Behind the ground of tiles that this program exports stand walls along their edges.
+            const auto extras = gltf_member(meshes_[*mesh], "extras");
+            const auto ground = extras ? gltf_count(*extras, "groundTriangles", std::nullopt) : std::nullopt;
+            most_of_primitive_ = ground.value_or(most_gltf_triangles);
             for (const JsonValue& primitive : gltf_list(meshes_[*mesh], "primitives"))
                 ORO_CHECK(read_primitive(primitive, transform));
         }
@@ -301,9 +336,122 @@ class GltfReader {
         return {};
     }
 
+    // Those of a buffer that a view or an extension of it names; name: of what asks for them.
+    [[nodiscard]] Result<std::string_view> stored_bytes(const JsonValue& at, const std::string& name) const {
+        const auto buffer = gltf_count(at, "buffer", std::nullopt), begin = gltf_count(at, "byteOffset", 0),
+                   length = gltf_count(at, "byteLength", std::nullopt);
+        if (!buffer || *buffer >= buffers_.size() || !begin || !length || *begin > buffers_[*buffer].size() ||
+            *length > buffers_[*buffer].size() - *begin)
+            return gltf_fault(name + ": its buffer view lies beyond its buffer");
+        return buffers_[*buffer].substr(*begin, *length);
+    }
+
+    Result<std::string_view> bytes_of_view(std::size_t number, const std::string& name) {
+        if (opened_[number]) return std::string_view(*opened_[number]);
+        const auto compressed = extension_of(views_[number], meshopt);
+        if (!compressed) return stored_bytes(views_[number], name);
+        MeshoptView view;
+        ORO_TRY(view.bytes, stored_bytes(*compressed, name));
+        const auto count = gltf_count(*compressed, "count", std::nullopt),
+                   stride = gltf_count(*compressed, "byteStride", std::nullopt);
+        const auto mode = gltf_member(*compressed, "mode"), filter = gltf_member(*compressed, "filter");
+        if (!count || !stride || !mode)
+            return gltf_fault("buffer view " + std::to_string(number) + " has no count, stride and mode");
+        view.count = *count, view.stride = *stride;
+        view.mode = shown_word(mode->words()), view.filter = filter ? shown_word(filter->words()) : "NONE";
+        Result<std::string> bytes = decompressed_view(view);
+        if (!bytes.ok())
+            return gltf_fault("buffer view " + std::to_string(number) + " " + bytes.error().what);
+        constexpr std::size_t most_bytes = std::size_t{1} << 31U;
+        if ((opened_bytes_ += bytes->size()) > most_bytes)
+            return gltf_fault("has more than 2 GiB when it is decompressed");
+        opened_[number] = std::make_unique<std::string>(std::move(*bytes));
+        return std::string_view(*opened_[number]);
+    }
+
+    // Of CESIUM_RTC, which adds it to all places.
+    Result<void> read_centre() {
+        const auto rtc = extension_of(root_, "CESIUM_RTC");
+        if (!rtc) return {};
+        ORO_TRY(const std::vector<double> centre, reals(*rtc, "center", std::vector<double>(3)));
+        centre_ = {centre[0], centre[1], centre[2]};
+        return {};
+    }
+
+    // What `export --to gltf` writes says where its middle is: its places are then those of ECEF.
+    Result<void> move_to_origin() {
+        const auto asset = gltf_member(root_, "asset");
+        const auto extras = asset ? gltf_member(*asset, "extras") : std::nullopt;
+        const auto origin = extras ? gltf_member(*extras, "origin") : std::nullopt;
+        if (!origin) return {};
+        std::array<double, 3> at{};
+        const std::array<std::string_view, 3> names{"lat_deg", "lon_deg", "h_m"};
+        for (std::size_t i = 0; i < names.size(); ++i) {
+            const auto value = gltf_member(*origin, names[i]);
+            if (!value || !mesh_number(value->source(), at[i]) || !std::isfinite(at[i])) return {};
+        }
+        const auto [lat_deg, lon_deg, h_m] = at;
+        constexpr double most_h_m = 1.0e5;
+        if (std::abs(lat_deg) > 90.0 || std::abs(lon_deg) > 360.0 || std::abs(h_m) > most_h_m)
+            return gltf_fault("its asset.extras.origin is no place on the Earth");
+        const glm::dvec3 middle = ecef_from_geodetic({lat_deg, lon_deg, h_m}).m;
+        const glm::dmat3 axes = ecef_from_enu(lat_deg, lon_deg);
+        for (glm::dvec3& vertex : mesh_.vertices) vertex = middle + axes * vertex;
+        mesh_.crs = ecef_crs;
+        return {};
+    }
+
+    [[nodiscard]] Result<GltfColour> colour_of(const JsonValue& primitive) const {
+        GltfColour colour;
+        if (!gltf_member(primitive, "material")) return colour;
+        const auto number = gltf_count(primitive, "material", std::nullopt);
+        if (!number || *number >= materials_.size())
+            return gltf_fault("a primitive has a material that is not there");
+        const auto pbr = gltf_member(materials_[*number], "pbrMetallicRoughness");
+        if (!pbr) return colour;
+        colour.has_texture = gltf_member(*pbr, "baseColorTexture").has_value();
+        colour.is_stated = gltf_member(*pbr, "baseColorFactor").has_value() && !colour.has_texture;
+        ORO_TRY(const std::vector<double> factor, reals(*pbr, "baseColorFactor", {1.0, 1.0, 1.0, 1.0}));
+        colour.factor = {factor[0], factor[1], factor[2]};
+        return colour;
+    }
+
+    // Of so many vertices, the last of the mesh.
+    Result<void> read_colours(const JsonValue& primitive, const JsonValue& attributes, std::size_t count) {
+        ORO_TRY(GltfColour colour, colour_of(primitive));
+        has_textures_ = has_textures_ || colour.has_texture;
+        const bool has_own = gltf_member(attributes, "COLOR_0").has_value();
+        if (!has_own && !colour.is_stated) return {};
+        mesh_.colours.resize(mesh_.vertices.size());
+        std::optional<GltfElements> own;
+        if (has_own) {
+            const auto number = gltf_count(attributes, "COLOR_0", std::nullopt);
+            const auto type = number && *number < accessors_.size() ? gltf_member(accessors_[*number], "type")
+                                                                    : std::nullopt;
+            const bool has_opacity = type && type->words() == "VEC4";
+            ORO_TRY(own, elements(number, has_opacity ? "VEC4" : "VEC3", has_opacity ? 4 : 3));
+            if (own->count != count)
+                return gltf_fault("a primitive has " + std::to_string(count) + " vertices and " +
+                                  std::to_string(own->count) + " colours");
+            const bool is_real = own->component == 5126,
+                       is_code = own->component == 5121 || own->component == 5123;
+            if (!is_real && !(is_code && own->normalized))
+                return gltf_fault("a primitive has colours of a type that colours do not have");
+        }
+        const std::size_t first = mesh_.vertices.size() - count;
+        for (std::size_t i = 0; i < count; ++i) {
+            glm::dvec3 light = colour.factor;
+            if (own)
+                for (int part = 0; part < 3; ++part)
+                    light[part] *= gltf_number(*own, i, static_cast<std::size_t>(part));
+            mesh_.colours[first + i] = colour_of_light({light.x, light.y, light.z});
+        }
+        return {};
+    }
+
     // numbers: of an element.
     [[nodiscard]] Result<GltfElements> elements(std::optional<std::size_t> number, const std::string& type,
-                                                std::size_t parts) const {
+                                                std::size_t parts) {
         if (!number || *number >= accessors_.size()) return gltf_fault("an accessor is not there");
         const JsonValue& accessor = accessors_[*number];
         const std::string name = "accessor " + std::to_string(*number);
@@ -317,15 +465,11 @@ class GltfReader {
             !count || !view || !offset)
             return gltf_fault(name + " is no list of " + type + " in a buffer view");
         if (*view >= views_.size()) return gltf_fault(name + " has a buffer view that is not there");
-        const auto buffer = gltf_count(views_[*view], "buffer", std::nullopt),
-                   begin = gltf_count(views_[*view], "byteOffset", 0),
-                   length = gltf_count(views_[*view], "byteLength", std::nullopt);
         const std::size_t element = parts * component_bytes(*component);
         const auto stride = gltf_count(views_[*view], "byteStride", element);
-        if (!buffer || *buffer >= buffers_.size() || !begin || !length || !stride || *stride < element ||
-            *begin > buffers_[*buffer].size() || *length > buffers_[*buffer].size() - *begin)
+        ORO_TRY(const std::string_view bytes, bytes_of_view(*view, name));
+        if (!stride || *stride < element)
             return gltf_fault(name + ": its buffer view lies beyond its buffer");
-        const std::string_view bytes = buffers_[*buffer].substr(*begin, *length);
         const bool fits = *count == 0 || (*offset <= bytes.size() && element <= bytes.size() - *offset &&
                                           *count - 1 <= (bytes.size() - *offset - element) / *stride);
         if (!fits) return gltf_fault(name + " lies beyond its buffer view");
@@ -350,8 +494,10 @@ class GltfReader {
         for (std::size_t i = 0; i < places.count; ++i) {
             const glm::dvec3 at(transform * glm::dvec4(gltf_number(places, i, 0), gltf_number(places, i, 1),
                                                        gltf_number(places, i, 2), 1.0));
-            mesh_.vertices.emplace_back(at.x, -at.z, at.y);  // y is up, z comes towards one who looks north
+            // y is up, z comes towards one who looks north.
+            mesh_.vertices.push_back(centre_ + glm::dvec3(at.x, -at.z, at.y));
         }
+        ORO_CHECK(read_colours(primitive, *attributes, places.count));
         if (!gltf_member(primitive, "indices"))
             return triangles(
                 *mode, places.count, [&](std::size_t i) { return i; }, first, places.count);
@@ -368,7 +514,7 @@ class GltfReader {
     Result<void> triangles(std::size_t mode, std::size_t count, const Index& index, std::size_t first,
                            std::size_t vertices) {
         const std::size_t step = mode == 4 ? 3 : 1;
-        for (std::size_t i = 0; i + 2 < count; i += step) {
+        for (std::size_t i = 0; i + 2 < count && i / step < most_of_primitive_; i += step) {
             const std::size_t turned = mode == 5 ? i % 2 : 0;
             const std::array<std::size_t, 3> corners{mode == 6 ? index(0) : index(i), index(i + 1 + turned),
                                                      index(i + 2 - turned)};
@@ -389,7 +535,12 @@ class GltfReader {
     const JsonValue root_;
     const std::optional<std::string_view> binary_;
     const FileBeside& beside_;
-    const std::vector<JsonValue> nodes_, meshes_, accessors_, views_;
+    const std::vector<JsonValue> nodes_, meshes_, accessors_, views_, materials_;
+    std::vector<std::unique_ptr<std::string>> opened_;  // bytes of views that were compressed
+    std::size_t opened_bytes_{};
+    glm::dvec3 centre_{0.0};
+    bool has_textures_{};
+    std::size_t most_of_primitive_{most_gltf_triangles};  // triangles that are read of it
     std::vector<std::unique_ptr<std::string>> own_bytes_;
     std::vector<std::string_view> buffers_;
     std::vector<bool> on_way_;

@@ -70,9 +70,25 @@ void visit_facts(Visit& visit, auto& mesh) {
     for (auto& feature : mesh.features) visit_feature(visit, feature);
 }
 
+// What few meshes have stands behind the rest, and is not there where they have none of it.
+template <class Visit>
+void visit_rare_facts(Visit& visit, auto& mesh) {
+    visit(mesh.crease_deg);
+    std::uint64_t colours = mesh.colours.size();
+    visit_count(visit, colours, 4);
+    if constexpr (!Visit::writes) mesh.colours.resize(colours);
+    for (auto& colour : mesh.colours) {
+        visit(colour.red), visit(colour.green), visit(colour.blue), visit(colour.is_stated);
+        if constexpr (!Visit::writes)
+            if (colour.is_stated > 1) visit.fail();
+    }
+    if constexpr (!Visit::writes)
+        if (!(mesh.crease_deg >= 0.0 && mesh.crease_deg <= most_crease_deg)) visit.fail();
+}
+
 }  // namespace
 
-std::vector<std::byte> facts_to_bytes(const PlacedMesh& mesh) {
+std::vector<std::byte> facts_to_bytes(const PlacedMesh& mesh, std::vector<VertexColour> colours) {
     PlacedMesh facts;
     facts.path = std::filesystem::path(mesh.path).filename().string();
     facts.format = mesh.format, facts.crs = mesh.crs, facts.heights = mesh.heights, facts.note = mesh.note;
@@ -81,8 +97,10 @@ std::vector<std::byte> facts_to_bytes(const PlacedMesh& mesh) {
     facts.not_finite = mesh.not_finite, facts.degenerate = mesh.degenerate;
     facts.most_lengthened_m = mesh.most_lengthened_m, facts.fingerprint = mesh.fingerprint;
     facts.features = mesh.features;
+    facts.crease_deg = mesh.crease_deg, facts.colours = std::move(colours);
     NumberWriter writer;
     visit_facts(writer, facts);
+    if (!facts.colours.empty() || facts.crease_deg != default_crease_deg) visit_rare_facts(writer, facts);
     return std::move(writer.bytes);
 }
 
@@ -90,6 +108,7 @@ std::optional<PlacedMesh> facts_from_bytes(std::span<const std::byte> bytes) {
     NumberReader reader(bytes);
     PlacedMesh mesh;
     visit_facts(reader, mesh);
+    if (!reader.rest().empty()) visit_rare_facts(reader, mesh);
     if (reader.is_wrong() || !std::isfinite(mesh.most_lengthened_m) || mesh.look > gpu::mesh_look_plain)
         return std::nullopt;
     for (const MeshFeature& feature : mesh.features)

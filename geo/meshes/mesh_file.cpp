@@ -115,7 +115,7 @@ bool is_mesh_file(const std::string& path) {
     if (!file->read(0, std::as_writable_bytes(std::span(bytes))).ok()) return false;
     if (ending == "xml") return first_element(bytes) == "LandXML";
     return bytes.find("\"CityJSON\"") != std::string::npos ||
-           bytes.find("\"CityObjects\"") != std::string::npos;
+           bytes.find("\"CityObjects\"") != std::string::npos || is_tileset(bytes);
 }
 
 bool is_mesh_name(const std::string& path) {
@@ -127,14 +127,15 @@ Result<SourceMesh> read_mesh(const std::string& path, const std::string& lod) {
     const bool is_geopackage = mesh_ending(path) == "gpkg",
                is_city = is_city_name(path) || mesh_ending(path) == "json";
     if (reader == nullptr && !is_geopackage && !is_city && !is_gltf_name(path))
-        return Error{ErrorKind::failed, path,
-                     "is no mesh by its name: .obj, .ply, .stl, .gltf, .glb, .xml, .landxml, .city.json and "
-                     ".gpkg are; of footprints --building-height FIELD tells how high buildings are"};
+        return Error{
+            ErrorKind::failed, path,
+            "is no mesh by its name: .obj, .ply, .stl, .gltf, .glb, .xml, .landxml, .city.json, tileset.json "
+            "and .gpkg are; of footprints --building-height FIELD tells how high buildings are"};
     const auto read_bytes = [&]() -> Result<SourceMesh> {
         ORO_TRY(const std::string bytes, mesh_bytes(path));
-        if (is_gltf_name(path))
-            return read_gltf(bytes,
-                             [&](const std::string& name) { return mesh_bytes(folder_of(path) + name); });
+        const FileBeside beside = [&](const std::string& name) { return mesh_bytes(folder_of(path) + name); };
+        if (is_gltf_name(path)) return read_gltf(bytes, beside);
+        if (!is_city_name(path) && is_city && is_tileset(bytes)) return read_tileset(bytes, beside);
         return is_city ? read_cityjson(bytes, lod) : reader(bytes);
     };
     Result<SourceMesh> read = is_geopackage ? read_geopackage_mesh(path, geopackage_limit_s) : read_bytes();

@@ -1,4 +1,4 @@
-// Files of triangle meshes: OBJ, PLY, STL, glTF, LandXML, CityJSON and GeoPackage.
+// Files of triangle meshes: OBJ, PLY, STL, glTF, 3D Tiles, LandXML, CityJSON and GeoPackage.
 #pragma once
 
 #include <string>
@@ -16,16 +16,17 @@ inline constexpr std::size_t most_mesh_bytes = std::size_t{1} << 30U;
 bool is_mesh_name(const std::string& path);
 
 // Whether a file is to be read as a mesh: by its name, and where that is .xml or .json, which much else has,
-// by its first 64 KiB: the first element is LandXML, or a member CityObjects or a text CityJSON is there.
+// by its first 64 KiB: the first element is LandXML, or a member CityObjects or a text CityJSON is there, or
+// it is a tileset.
 // False of a file that cannot be read.
 bool is_mesh_file(const std::string& path);
 
-// Reads a mesh; its name says the format: those of is_mesh_name(), .json of CityJSON, and .gpkg of a
-// GeoPackage, which is no mesh by its name alone. lod: of CityJSON, the level of detail that is read; "": the
-// highest that each object has. Numbers are kept in double (those of STL, and float ones of PLY, are float in
-// the file). Memory is taken after what a header promises was held against the file's length. Errors: the
-// file cannot be read, is larger than 1 GiB, is cut off or damaged (with the line or the byte), has an index
-// beyond its vertices, has no triangle, or none whose vertices are finite. From any thread.
+// Reads a mesh; its name says the format: those of is_mesh_name(), .json of CityJSON and 3D Tiles, and .gpkg
+// of a GeoPackage, which is no mesh by its name alone. lod: of CityJSON, the level of detail that is read;
+// "": the highest that each object has. Numbers are kept in double (those of STL, and float ones of PLY, are
+// float in the file). Memory is taken after what a header promises was held against the file's length.
+// Errors: the file cannot be read, is larger than 1 GiB, is cut off or damaged (with the line or the byte),
+// has an index beyond its vertices, has no triangle, or none whose vertices are finite. From any thread.
 Result<SourceMesh> read_mesh(const std::string& path, const std::string& lod = {});
 
 }  // namespace oro

@@ -13,8 +13,13 @@ namespace oro {
 std::uint32_t look_of_mesh(const SourceMesh& mesh, const std::string& asked) {
     if (asked == "ground") return gpu::mesh_look_ground;
     if (asked == "built") return gpu::mesh_look_built;
+    if (asked == "plain") return gpu::mesh_look_plain;
     if (mesh.kind == MeshKind::survey) return gpu::mesh_look_ground;
     return mesh.kind == MeshKind::unknown ? gpu::mesh_look_plain : gpu::mesh_look_built;
+}
+
+bool is_mesh_look(const std::string& asked) {
+    return asked == "ground" || asked == "built" || asked == "plain";
 }
 
 std::uint32_t look_of_type(const std::string& type) {

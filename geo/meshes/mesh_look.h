@@ -10,8 +10,11 @@ namespace oro {
 
 // gpu::mesh_look_... of a mesh: a CityJSON town, footprints, and polygons of a GeoPackage are built; LandXML
 // and a GeoPackage of nothing but TINs are ground; OBJ, PLY, STL and glTF, which do not say what they are of,
-// are plain. asked: "ground" or "built" in their place; "": none.
+// are plain. asked: "ground", "built" or "plain" in their place; "": none.
 std::uint32_t look_of_mesh(const SourceMesh& mesh, const std::string& asked);
+
+// Whether a word is one that may be asked for: "ground", "built" or "plain".
+bool is_mesh_look(const std::string& asked);
 
 // The same of a feature of a built mesh, by its type in CityJSON: roads are paved, water is water, land and
 // plants are ground, and all else is built.

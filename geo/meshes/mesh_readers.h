@@ -27,9 +27,18 @@ Result<SourceMesh> read_landxml(std::string_view bytes);
 Result<SourceMesh> read_cityjson(std::string_view bytes, const std::string& lod);
 // Reads a file beside the mesh's by its name.
 using FileBeside = std::function<Result<std::string>(const std::string& name)>;
-// glTF 2.0 as text or GLB, without extensions but KHR_mesh_quantization: the scene that is shown, its nodes'
-// transforms in double. y is up: east is x, north is -z. beside: asked for buffers of other files.
+// glTF 2.0 as text or GLB, without extensions that say how triangles are to be found but
+// KHR_mesh_quantization, EXT_meshopt_compression and CESIUM_RTC: the scene that is shown, its nodes'
+// transforms in double. y is up: east is x, north is -z. Colours are those of COLOR_0, times the colour of
+// the material where that has no texture. A model that says where it is (asset.extras.origin, as exports of
+// this program do) is in ECEF. beside: asked for buffers of other files.
 Result<SourceMesh> read_gltf(std::string_view bytes, const FileBeside& beside);
+// Whether a JSON text is that of 3D Tiles, by its first 64 KiB.
+bool is_tileset(std::string_view bytes);
+// The finest tiles of 3D Tiles 1.0 and 1.1: of tiles that others replace the last, of those that others are
+// added to all. Explicit tiles alone, of glTF, GLB and b3dm, and of further tilesets; in ECEF. beside: asked
+// for files by their path from the tileset's folder. Errors name the tile and its file.
+Result<SourceMesh> read_tileset(std::string_view bytes, const FileBeside& beside);
 // By OGR, which wants the file itself: TIN, PolyhedralSurface, MultiPolygon and Polygon with heights, of all
 // layers, which lie in one CRS. limit_s: seconds that it may take.
 Result<SourceMesh> read_geopackage_mesh(const std::string& path, double limit_s);

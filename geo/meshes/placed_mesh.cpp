@@ -62,13 +62,73 @@ Result<MeshScale> scale_of(const SourceMesh& mesh, const std::string& crs, const
     return scale;
 }
 
+bool is_ecef(const std::string& crs) {
+    return crs == ecef_crs;
+}
+
+// Places of a file's numbers.
+class VertexPlaces {
+  public:
+    static Result<VertexPlaces> of(const std::string& crs, const MeshScale& scale,
+                                   const UndulationField& undulation) {
+        VertexPlaces places(scale, undulation);
+        if (is_ecef(crs)) return places;
+        ORO_TRY(CrsPlaces by_crs, CrsPlaces::of(crs));
+        places.by_crs_ = std::move(by_crs);
+        return places;
+    }
+
+    // "EPSG:2056 CH1903+ / LV95"
+    [[nodiscard]] std::string name() const {
+        return by_crs_ ? by_crs_->name() : std::string(ecef_crs) + " WGS 84 (geocentric)";
+    }
+    // at: finite. Nothing where it has no place, or is more than 100 km high or deep.
+    [[nodiscard]] std::optional<PlacedVertex> vertex(const glm::dvec3& at) const {
+        constexpr double most_height_m = 1.0e5;
+        if (!by_crs_) return on_earth(at, most_height_m);
+        const Result<Place> place = by_crs_->place(at.x * scale_.plane, at.y * scale_.plane);
+        const double height_m = at.z * scale_.height_m;
+        if (!place.ok() || std::abs(height_m) > most_height_m) return std::nullopt;
+        return PlacedVertex{place->lat_deg, place->lon_deg, height_m};
+    }
+    // Why the first vertex of a mesh has no place, and what would give it one.
+    [[nodiscard]] std::string why_none(const glm::dvec3& first) const {
+        if (!by_crs_)
+            return "they lie farther than 100 km from the ellipsoid; is it in another CRS (--mesh-crs)?";
+        const Result<Place> why = by_crs_->place(first.x * scale_.plane, first.y * scale_.plane);
+        const bool is_swapped =
+            !why.ok() && by_crs_->place(first.y * scale_.plane, first.x * scale_.plane).ok();
+        return (why.ok() ? std::string("its heights are beyond 100 km") : why.error().what) +
+               (is_swapped ? "; with x and y swapped they have: x is the easting" : "; is --mesh-crs right?");
+    }
+
+  private:
+    VertexPlaces(const MeshScale& scale, const UndulationField& undulation)
+        : scale_(scale), undulation_(undulation) {}
+
+    [[nodiscard]] std::optional<PlacedVertex> on_earth(const glm::dvec3& at, double most_height_m) const {
+        const glm::dvec3 at_m = at * scale_.height_m;
+        constexpr double innermost_m = 6.0e6, outermost_m = 7.0e6;
+        if (glm::length(at_m) < innermost_m || glm::length(at_m) > outermost_m) return std::nullopt;
+        const Geodetic place = geodetic_from_ecef(Ecef{at_m});
+        if (std::abs(place.h_m) > most_height_m) return std::nullopt;
+        const double N_m = undulation_.N_m.empty() ? 0.0 : undulation_.at_m(place.lat_deg, place.lon_deg);
+        return PlacedVertex{place.lat_deg, place.lon_deg, place.h_m - N_m};
+    }
+
+    MeshScale scale_;
+    const UndulationField& undulation_;
+    std::optional<CrsPlaces> by_crs_;  // nothing: the numbers are those of ECEF
+};
+
 // A mesh while it is placed: vertices of the file, and those in the middle of long sides.
 class MeshPlacing {
   public:
-    MeshPlacing(const SourceMesh& source, const CrsPlaces& places, const MeshScale& scale)
-        : source_(source), places_(places), scale_(scale) {
+    MeshPlacing(const SourceMesh& source, const VertexPlaces& places, bool with_colours)
+        : source_(source), places_(places) {
         at_.reserve(source.vertices.size());
         for (const glm::dvec3& vertex : source.vertices) add(vertex);
+        if (with_colours) colours_ = source.colours;
     }
 
     // Cuts what is longer, and leaves out what has no place.
@@ -108,6 +168,7 @@ class MeshPlacing {
             }
         }
         mesh.vertices = std::move(vertices_);
+        mesh.colours = std::move(colours_);
         return {};
     }
     // Of each triangle that cut() made, the one of the file that it is a piece of; rising.
@@ -117,14 +178,9 @@ class MeshPlacing {
     void add(const glm::dvec3& at) {
         at_.push_back(at);
         const bool finite = std::isfinite(at.x) && std::isfinite(at.y) && std::isfinite(at.z);
-        const Result<Place> place =
-            finite ? places_.place(at.x * scale_.plane, at.y * scale_.plane) : Result<Place>(Error{});
-        constexpr double most_height_m = 1.0e5;
-        const double height_m = at.z * scale_.height_m;
-        const bool is_placed = place.ok() && std::abs(height_m) <= most_height_m;
-        placed_.push_back(is_placed);
-        vertices_.push_back(is_placed ? PlacedVertex{place->lat_deg, place->lon_deg, height_m}
-                                      : PlacedVertex{});
+        const std::optional<PlacedVertex> placed = finite ? places_.vertex(at) : std::nullopt;
+        placed_.push_back(placed.has_value());
+        vertices_.push_back(placed.value_or(PlacedVertex{}));
         ecef_.push_back(ecef_from_geodetic({vertices_.back().lat_deg, vertices_.back().lon_deg, 0.0}).m);
     }
     // By the sides' length over the ellipsoid, so that neighbours agree; of equal ones the first.
@@ -140,18 +196,21 @@ class MeshPlacing {
     std::uint32_t middle_of(std::uint32_t a, std::uint32_t b) {
         const auto [found, is_new] =
             middles_.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(at_.size()));
-        if (is_new) add(0.5 * (at_[std::min(a, b)] + at_[std::max(a, b)]));
+        if (!is_new) return found->second;
+        add(0.5 * (at_[std::min(a, b)] + at_[std::max(a, b)]));
+        constexpr double half = 0.5;
+        if (!colours_.empty()) colours_.push_back(colour_between(colours_[a], colours_[b], half));
         return found->second;
     }
 
     const SourceMesh& source_;
-    const CrsPlaces& places_;
-    const MeshScale& scale_;
+    const VertexPlaces& places_;
     std::vector<std::uint32_t> of_;
     std::vector<glm::dvec3> at_;  // in the file's numbers
     std::vector<char> placed_;
     std::vector<PlacedVertex> vertices_;
-    std::vector<glm::dvec3> ecef_;  // on the ellipsoid
+    std::vector<VertexColour> colours_;  // of these, or none
+    std::vector<glm::dvec3> ecef_;       // on the ellipsoid
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles_;
 };
 
@@ -322,7 +381,9 @@ std::uint64_t fingerprint_of(const SourceMesh& source, const std::string& crs, c
     const std::array parts{xxh64(std::as_bytes(std::span(source.vertices))),
                            xxh64(std::as_bytes(std::span(source.triangles))),
                            xxh64(std::as_bytes(std::span(how)))};
-    return xxh64(std::as_bytes(std::span(parts)));
+    const std::uint64_t all = xxh64(std::as_bytes(std::span(parts)));
+    if (source.colours.empty()) return all;
+    return xxh64(std::as_bytes(std::span(source.colours)), all);
 }
 
 Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, bool strict_datum,
@@ -331,37 +392,33 @@ Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, 
     if (crs.empty())
         return Error{ErrorKind::failed, source.path,
                      "states no coordinate reference system: --mesh-crs EPSG:2056, say, tells where it lies"};
-    Result<CrsPlaces> places = CrsPlaces::of(crs);
+    ORO_TRY(const MeshScale scale, scale_of(source, crs, request.unit));
+    const Result<VertexPlaces> places = VertexPlaces::of(crs, scale, undulation);
     if (!places.ok())
         return Error{places.error().kind,
                      request.crs.empty() ? source.path + ": " + crs : "--mesh-crs " + crs,
                      places.error().what};
-    ORO_TRY(const MeshScale scale, scale_of(source, crs, request.unit));
     PlacedMesh mesh;
     mesh.path = source.path, mesh.format = source.format, mesh.kind = source.kind;
-    mesh.crs = places->name(), mesh.heights = "sea level (EGM96)", mesh.note = scale.note;
+    mesh.crs = places->name(), mesh.note = scale.note;
+    mesh.heights = is_ecef(crs) ? "the WGS84 ellipsoid" : "sea level (EGM96)";
     for (const std::string& note : source.notes) add_note(mesh, note);
     mesh.features = source.features;
     mesh.look = look_of_mesh(source, request.look);
+    mesh.crease_deg = request.crease_deg.value_or(default_crease_deg);
     mesh.has_look_by_type = request.look.empty() && source.kind == MeshKind::city_model;
     mesh.in_file = source.triangles.size() + source.not_finite;
     mesh.not_finite = source.not_finite;
     mesh.fingerprint = fingerprint_of(source, crs, request.unit);
-    MeshPlacing placing(source, *places, scale);
+    MeshPlacing placing(source, *places, request.look.empty() || request.look == "ground");
     ORO_CHECK(placing.cut(mesh));
-    if (mesh.triangles.empty()) {
-        const glm::dvec3& first = source.vertices[source.triangles.front()[0]];
-        const Result<Place> why = places->place(first.x * scale.plane, first.y * scale.plane);
-        const bool is_swapped = !why.ok() && places->place(first.y * scale.plane, first.x * scale.plane).ok();
+    if (mesh.triangles.empty())
         return Error{ErrorKind::failed, source.path,
                      "none of its triangles has a place: " +
-                         (why.ok() ? std::string("its heights are beyond 100 km") : why.error().what) +
-                         (is_swapped ? "; with x and y swapped they have: x is the easting"
-                                     : "; is --mesh-crs right?")};
-    }
+                         places->why_none(source.vertices[source.triangles.front()[0]])};
     ORO_CHECK(check_reach(mesh));
-    if (const std::optional<StatedDatum> datum = stated_datum(crs))
-        ORO_CHECK(lift_heights(crs, *datum, scale.height_m, strict_datum, undulation, mesh));
+    const std::optional<StatedDatum> datum = is_ecef(crs) ? std::nullopt : stated_datum(crs);
+    if (datum) ORO_CHECK(lift_heights(crs, *datum, scale.height_m, strict_datum, undulation, mesh));
     drop_degenerate(undulation, placing.of(), mesh);
     if (mesh.triangles.empty())
         return Error{ErrorKind::failed, source.path, "no triangle has an area: is --mesh-unit right?"};
@@ -369,6 +426,12 @@ Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, 
 }
 
 }  // namespace
+
+bool is_coloured(const PlacedMesh& mesh, std::size_t triangle) {
+    return !mesh.colours.empty() && std::ranges::all_of(mesh.triangles[triangle], [&](std::uint32_t corner) {
+        return corner < mesh.colours.size() && mesh.colours[corner].is_stated != 0;
+    });
+}
 
 std::string note_of_mesh(const PlacedMesh& mesh) {
     const auto several = [](std::size_t count, const char* what) {
@@ -390,6 +453,7 @@ std::string note_of_mesh(const PlacedMesh& mesh) {
                       mesh.most_lengthened_m);
         note += text;
     }
+    if (!mesh.colours.empty()) note += "; its file states colours";
     return mesh.note.empty() ? note : note + "; " + mesh.note;
 }
 

@@ -18,6 +18,10 @@ namespace oro {
 
 struct StoredMesh;
 
+// As in Blender's "shade smooth by angle".
+inline constexpr double default_crease_deg = 30.0;
+inline constexpr double most_crease_deg = 180.0;
+
 // A vertex on WGS84. H is above the geoid of the region that the mesh belongs to: that vertex is drawn at
 // h = H times the exaggeration + N, as posts are.
 struct PlacedVertex {
@@ -44,6 +48,9 @@ struct PlacedMesh {
     std::string heights;  // what its heights are above: "sea level (EGM96)", "EPSG:5728 LN02 height"
     std::vector<PlacedVertex> vertices;
     std::vector<SourceTriangle> triangles;
+    // Of the vertices, as the file states them; those beyond its end have none. Empty where the file states
+    // none, or where another look was asked for.
+    std::vector<VertexColour> colours;
     std::vector<MeshFeature> features;
     std::vector<std::uint32_t> feature_of;  // number of each triangle's feature; empty where there are none
     std::uint32_t look{};                   // gpu::mesh_look_..., but for features whose type says another
@@ -59,9 +66,14 @@ struct PlacedMesh {
     std::size_t degenerate{};     // ... left out: without an area on the lattice of 2^-11 m
     std::uint64_t fingerprint{};  // XXH64 of the vertices and triangles, before cutting, and of unit and CRS
     std::string note;             // what a user must know; "" for nothing
+    // Where triangles meet at a smaller angle they share the light: the normal at their common vertex.
+    double crease_deg{default_crease_deg};
     // Of one that was baked: its triangles as its file has them, with their graph; null: it was not.
     std::shared_ptr<const StoredMesh> stored;
 };
+
+// Whether all corners of a triangle have a colour that the file states.
+bool is_coloured(const PlacedMesh& mesh, std::size_t triangle);
 
 // One line of what was placed: triangles, what was left out, what its heights are above, and its note.
 std::string note_of_mesh(const PlacedMesh& mesh);

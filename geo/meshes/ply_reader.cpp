@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -53,6 +54,17 @@ double ply_value(const char* from) {
     T value;
     std::memcpy(&value, from, sizeof value);
     return static_cast<double>(value);
+}
+
+// A part of a colour, 0 to 255, of a property's value: whole numbers reach the largest of their type, real
+// ones 1.
+std::uint8_t ply_colour_part(double value, PlyType type) {
+    const double most = type.kind == PlyType::Kind::real ? 1.0
+                        : type.bytes == 1                ? 255.0
+                        : type.bytes == 2                ? 65535.0
+                                                         : 4294967295.0;
+    return static_cast<std::uint8_t>(
+        std::lround(std::isnan(value) ? 0.0 : 255.0 * std::clamp(value / most, 0.0, 1.0)));
 }
 
 // The value of 1 to 8 bytes in this machine's order (little endian).
@@ -211,9 +223,11 @@ class PlyReader {
             }
             mesh_.vertices.reserve(element.count);
         }
+        const bool is_coloured = is_vertex && has_colours(element);
         std::vector<double> values;
         for (std::uint64_t i = 0; i < element.count; ++i) {
             glm::dvec3 place{};
+            VertexColour colour{0, 0, 0, 1};
             for (const PlyProperty& property : element.properties) {
                 if (property.count) {
                     ORO_CHECK(list(property, values));
@@ -225,10 +239,30 @@ class PlyReader {
                 if (property.name == "x") place.x = value;
                 if (property.name == "y") place.y = value;
                 if (property.name == "z") place.z = value;
+                if (!is_coloured) continue;
+                const auto part = [&] { return ply_colour_part(value, property.type); };
+                if (is_part(property.name, "red")) colour.red = part();
+                if (is_part(property.name, "green")) colour.green = part();
+                if (is_part(property.name, "blue")) colour.blue = part();
             }
             if (is_vertex) mesh_.vertices.push_back(place);
+            if (is_coloured) mesh_.colours.push_back(colour);
         }
         return {};
+    }
+
+    // "red", and "diffuse_red" as old programs write it.
+    static bool is_part(std::string_view name, std::string_view part) {
+        if (name.starts_with("diffuse_")) name.remove_prefix(std::string_view("diffuse_").size());
+        return name == part;
+    }
+    static bool has_colours(const PlyElement& element) {
+        const std::array<std::string_view, 3> parts{"red", "green", "blue"};
+        return std::ranges::all_of(parts, [&](std::string_view part) {
+            return std::ranges::any_of(element.properties, [&](const PlyProperty& property) {
+                return is_part(property.name, part) && !property.count;
+            });
+        });
     }
 
     std::string_view bytes_, rest_;

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/seam/vertex_colour.h"
+
 namespace oro {
 
 // A named part of a mesh: the triangles from `first_triangle` to the next part's first.
@@ -38,13 +40,17 @@ enum class MeshKind {
     city_model,  // features with types: buildings, roads, water
 };
 
+// Earth-centred coordinates of WGS84, metres: the CRS of 3D Tiles.
+inline constexpr const char* ecef_crs = "EPSG:4978";
+
 // What a file of triangles holds. Each triangle's vertices are there, and are finite.
 struct SourceMesh {
     std::string path;
     std::string format;  // "OBJ", "PLY", "STL", "glTF", "LandXML", "GeoPackage", "GeoPackage TIN" (nothing
-                         // else is in it), "CityJSON", "footprints"
+                         // else is in it), "CityJSON", "3D Tiles", "footprints"
     MeshKind kind{MeshKind::unknown};
-    std::vector<glm::dvec3> vertices;  // east (x), north (y), height, in the file's units
+    std::vector<glm::dvec3> vertices;   // east (x), north (y), height, in the file's units
+    std::vector<VertexColour> colours;  // of each vertex; empty: the file states none
     std::vector<SourceTriangle> triangles;
     std::vector<MeshPart> parts;
     std::vector<MeshFeature> features;  // none, or every triangle belongs to one

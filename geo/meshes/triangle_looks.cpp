@@ -1,5 +1,6 @@
 #include "geo/meshes/triangle_looks.h"
 
+#include "core/seam/cleared_map.h"  // gpu::mesh_look_...
 #include "geo/meshes/mesh_look.h"
 
 namespace oro {
@@ -13,8 +14,10 @@ TriangleLooks::TriangleLooks(const PlacedMesh& mesh) : mesh_(mesh) {
 
 TriangleLook TriangleLooks::of(std::size_t triangle) const {
     constexpr float only_tone = 0.08F;  // of a mesh without features
-    if (mesh_.feature_of.empty()) return {mesh_.look, only_tone};
-    return features_[mesh_.feature_of[triangle]];
+    TriangleLook look{mesh_.look, only_tone};
+    if (!mesh_.feature_of.empty()) look = features_[mesh_.feature_of[triangle]];
+    if (is_coloured(mesh_, triangle)) look.look = gpu::mesh_look_coloured;
+    return look;
 }
 
 }  // namespace oro

@@ -18,7 +18,7 @@ struct TriangleLook {
 class TriangleLooks {
   public:
     explicit TriangleLooks(const PlacedMesh& mesh);
-    // By the number of the triangle.
+    // By the number of the triangle. gpu::mesh_look_coloured where the file states colours of its corners.
     [[nodiscard]] TriangleLook of(std::size_t triangle) const;
 
   private:

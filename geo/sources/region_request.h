@@ -18,8 +18,10 @@ struct MeshRequest {
     // Of vector files whose polygons are the footprints of buildings: fields of a building's height over its
     // base, and of the base's own height. No height: files are meshes. No base: it is the lowest ground.
     std::string building_height, building_base;
-    std::string look;       // "ground", "built"; "": by what a file is of
+    std::string look;       // "ground", "built", "plain"; "": by what a file is of
     bool cut_under{false};  // the terrain is cut out under meshes that are ground
+    // Where triangles meet at a smaller angle they share their light, 0 to 180; nothing: PlacedMesh's own.
+    std::optional<double> crease_deg{};
     bool operator==(const MeshRequest&) const = default;
 };
 

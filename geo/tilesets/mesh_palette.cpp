@@ -31,6 +31,7 @@ std::array<double, 3> colour_of_triangle(const TriangleLook& of, const std::arra
             return parts_of_light(colour_of_building(of.tone, static_cast<float>(slope_deg)));
         }
         case gpu::mesh_look_plain:
+        case gpu::mesh_look_coloured:
             return parts_of_light(colour_of_plain_mesh());
         case gpu::mesh_look_water:
             return palette.water;
@@ -40,6 +41,12 @@ std::array<double, 3> colour_of_triangle(const TriangleLook& of, const std::arra
         default:
             return palette.ground;
     }
+}
+
+std::array<double, 3> colour_of_corner(const PlacedMesh& mesh, std::size_t triangle, std::size_t corner,
+                                       const std::array<double, 3>& of_triangle) {
+    return is_coloured(mesh, triangle) ? light_of_colour(mesh.colours[mesh.triangles[triangle][corner]])
+                                       : of_triangle;
 }
 
 std::vector<std::array<double, 3>> colours_of_triangles(const PlacedMesh& mesh,

@@ -19,9 +19,13 @@ struct MeshPalette {
 };
 
 // The colour that pictures of materials have of a triangle in the mean, linear light: plaster, tiles or
-// gravel of the building's own hue by how steep the triangle is, or what the palette has. corners_m: ECEF.
+// gravel of the building's own hue by how steep the triangle is, or what the palette has; grey where the
+// file states colours of its corners. corners_m: ECEF.
 std::array<double, 3> colour_of_triangle(const TriangleLook& of, const std::array<glm::dvec3, 3>& corners_m,
                                          const MeshPalette& palette);
+// Of a triangle's corner, 0 to 2, likewise: that which the file states, or else the triangle's.
+std::array<double, 3> colour_of_corner(const PlacedMesh& mesh, std::size_t triangle, std::size_t corner,
+                                       const std::array<double, 3>& of_triangle);
 // Of each triangle of a mesh. vertices_m: ECEF.
 std::vector<std::array<double, 3>> colours_of_triangles(const PlacedMesh& mesh,
                                                         std::span<const glm::dvec3> vertices_m,

@@ -135,7 +135,7 @@ std::vector<MeshThing> MeshTileWriter::pieces_or_levels(std::span<const glm::dve
         std::optional<ThingLevels> levels =
             levels_of_thing(places_m, triangles,
                             {request_.most_triangles, request_.whole_triangles, widest_tile_m,
-                             request_.normals, request_.threads});
+                             request_.normals, request_.threads, mesh.crease_deg});
         if (levels) {
             thing.levels = std::make_shared<const ThingLevels>(std::move(*levels));
             thing.look = TriangleLooks(mesh).of(thing.triangles.front());
@@ -325,7 +325,7 @@ GroundMesh MeshTileWriter::mesh_of(const Node& node, VertexFacts& facts) const {
                                              ? glm::vec3(0.0F)
                                              : glm::vec3(to_mesh * glm::dvec3(of.normals[triangle][j]));
                 corners.add(glm::ivec3(glm::round(at_m / made.step_m)), normal, rows[i],
-                            of.colours[triangle]);
+                            colour_of_corner(*of.mesh, triangle, j, of.colours[triangle]));
             }
     }
     return made;
@@ -334,7 +334,9 @@ GroundMesh MeshTileWriter::mesh_of(const Node& node, VertexFacts& facts) const {
 // The centre lies on the lattice, and the axes are its own: so a vertex of several tiles is at one place.
 GroundMesh MeshTileWriter::mesh_of_level(const Node& node, VertexFacts& facts) const {
     const ThingTile& level = *node.level;
-    const std::vector<glm::dvec3>& places_m = node.things.front().levels->places_m;
+    const MeshThing& thing = node.things.front();
+    const PlacedMesh& of = *meshes_[thing.mesh].mesh;
+    const std::vector<glm::dvec3>& places_m = thing.levels->places_m;
     SpaceBox box;
     for (const SourceTriangle& triangle : level.triangles)
         for (const std::uint32_t corner : triangle) box.add(places_m[corner]);
@@ -348,9 +350,15 @@ GroundMesh MeshTileWriter::mesh_of_level(const Node& node, VertexFacts& facts) c
         const auto corners_m = rounded_corners_m(*node.things.front().levels, level, level.triangles[i]);
         const std::array<double, 3> colour =
             colour_of_triangle(node.things.front().look, corners_m, request_.palette);
+        const auto colour_at = [&](std::uint32_t corner) {
+            const std::uint32_t vertex = thing.levels->place_of[corner];
+            const bool is_stated = vertex < of.colours.size() && of.colours[vertex].is_stated != 0;
+            return is_stated ? light_of_colour(of.colours[vertex]) : colour;
+        };
         for (std::size_t j = 0; j < 3; ++j)
             corners.add(glm::ivec3(glm::round(corners_m[j] / made.step_m) - centre),
-                        level.normals.empty() ? glm::vec3(0.0F) : level.normals[i][j], 0, colour);
+                        level.normals.empty() ? glm::vec3(0.0F) : level.normals[i][j], 0,
+                        colour_at(level.triangles[i][j]));
     }
     return made;
 }

@@ -31,14 +31,15 @@ ModelMesh model_mesh(const PlacedMesh& mesh, const UndulationField& undulation, 
             const std::uint32_t corner = mesh.triangles[i][j];
             const glm::vec3 normal = normals[i][j] == glm::vec3(0.0F) ? glm::vec3(0.0F, 1.0F, 0.0F)
                                                                       : y_up_of(glm::dvec3(normals[i][j]));
+            const std::array<double, 3> colour = colour_of_corner(mesh, i, j, colours[i]);
             const auto [vertex, is_new] =
-                known.try_emplace({corner, normal.x, normal.y, normal.z, colours[i]},
+                known.try_emplace({corner, normal.x, normal.y, normal.z, colour},
                                   static_cast<std::uint32_t>(made.positions_m.size()));
             made.indices.push_back(vertex->second);
             if (!is_new) continue;
             made.positions_m.push_back(y_up_of(vertices_m[corner] - origin_m));
             made.normals.push_back(normal);
-            made.colours.push_back(colours[i]);
+            made.colours.push_back(colour);
         }
     return made;
 }

@@ -223,8 +223,9 @@ void ThingTiles::add_errors(int depth) {
 }
 
 // Of all tiles of a depth together, so that light does not change from tile to tile.
-void add_level_normals(ThingLevels& levels, int depth) {
+void add_level_normals(ThingLevels& levels, int depth, double crease_deg) {
     PlacedMesh all;
+    all.crease_deg = crease_deg;
     all.vertices.resize(levels.places_m.size());
     for (const ThingTile& tile : levels.tiles)
         if (tile.depth == depth)
@@ -252,7 +253,9 @@ std::optional<ThingLevels> levels_of_thing(std::span<const glm::dvec3> places_m,
     levels.tiles = ThingTiles(mesh, *parts, request).take();
     levels.places_m.reserve(mesh.vertex_of.size());
     for (const std::uint32_t place : mesh.vertex_of) levels.places_m.push_back(places_m[place]);
-    for (int depth = 0; request.normals && depth <= levels.depth; ++depth) add_level_normals(levels, depth);
+    levels.place_of = mesh.vertex_of;
+    for (int depth = 0; request.normals && depth <= levels.depth; ++depth)
+        add_level_normals(levels, depth, request.crease_deg);
     return levels;
 }
 

@@ -4,12 +4,13 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "geo/meshes/source_mesh.h"
+#include "geo/meshes/placed_mesh.h"
 
 namespace oro {
 
@@ -19,6 +20,7 @@ struct ThingLevelsRequest {
     double widest_m{};             // of a tile that has all triangles of its part, along an axis of ECEF
     bool normals{true};
     int threads{1};
+    double crease_deg{default_crease_deg};  // of the mesh
 };
 
 // A tile: a part of a thing, or what is drawn in its stead.
@@ -40,9 +42,10 @@ struct ThingTile {
 // graph (core/mesh_graph/mesh_graph.h): they meet in vertices, and what is closed is closed. Where steps are
 // not the same on both sides of a border of tiles, its vertices are rounded apart.
 struct ThingLevels {
-    std::vector<glm::dvec3> places_m;  // ECEF, on the lattice of 2^-11 m
-    std::vector<ThingTile> tiles;      // the first is the root, each is after its parent
-    int depth{};                       // of the tiles that have all triangles
+    std::vector<glm::dvec3> places_m;     // ECEF, on the lattice of 2^-11 m
+    std::vector<std::uint32_t> place_of;  // of each of these, its number among those that were given
+    std::vector<ThingTile> tiles;         // the first is the root, each is after its parent
+    int depth{};                          // of the tiles that have all triangles
 };
 
 // places_m: ECEF, on the lattice (drawn_places_m()). triangles: of the thing, at least one, of places.

@@ -1,5 +1,6 @@
 #include "geo/together/baked_meshes.h"
 
+#include <map>
 #include <memory>
 #include <utility>
 
@@ -53,6 +54,23 @@ void add_triangles(std::shared_ptr<const StoredMesh> stored, const UndulationFie
     mesh.stored = std::move(stored);
 }
 
+// Colours of the vertices of a mesh as its bytes number them. Vertices at one place have that of the first.
+std::vector<VertexColour> stored_colours(const PlacedMesh& mesh, const MeshDetail::Graph& graph,
+                                         std::span<const LatticeSteps> places,
+                                         std::span<const std::byte> bytes) {
+    StoredMesh stored;
+    if (mesh.colours.empty() || mesh_from_bytes(bytes, stored)) return {};
+    std::map<LatticeSteps, std::uint32_t> vertex_at;
+    for (std::size_t i = 0; i < places.size(); ++i) vertex_at.emplace(places[i], graph.vertex_of[i]);
+    std::vector<VertexColour> colours(stored.places.size());
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+        const auto found = vertex_at.find(stored.places[i]);
+        if (found != vertex_at.end() && found->second < mesh.colours.size())
+            colours[i] = mesh.colours[found->second];
+    }
+    return colours;
+}
+
 Result<PlacedMesh> read_mesh_of(const Container& container, const Chunk& facts_chunk,
                                 const UndulationField& undulation) {
     ORO_TRY(const Chunk triangles_chunk, container.chunk(ChunkType::mesh_triangles, facts_chunk.grid));
@@ -70,6 +88,10 @@ Result<PlacedMesh> read_mesh_of(const Container& container, const Chunk& facts_c
         return file.damaged(triangles_chunk.offset, "the mesh has " + std::to_string(stored->label_count) +
                                                         " features, expected " +
                                                         std::to_string(mesh->features.size()));
+    if (!mesh->colours.empty() && mesh->colours.size() != stored->places.size())
+        return file.damaged(facts_chunk.offset, "colours of " + std::to_string(mesh->colours.size()) +
+                                                    " vertices, expected " +
+                                                    std::to_string(stored->places.size()));
     add_triangles(std::move(stored), undulation, *mesh);
     return std::move(*mesh);
 }
@@ -97,7 +119,8 @@ Result<BakedMeshReport> write_baked_mesh(const std::string& path, const PlacedMe
         mesh_to_bytes({lattice_point(built.origin_m).steps, places, labels,
                        static_cast<std::uint32_t>(mesh.features.size()), graph, built.ground_fingerprint});
     if (!bytes) return Error{bytes.error().kind, mesh.path, bytes.error().what};
-    const std::vector<std::byte> facts = compressed(facts_to_bytes(mesh));
+    const std::vector<std::byte> facts =
+        compressed(facts_to_bytes(mesh, stored_colours(mesh, built, places, *bytes)));
     ORO_CHECK(write_container(path, facts, *bytes));
     report.triangles = built.triangle_of.size();
     report.graph_triangles = graph.clusters.triangles.size();

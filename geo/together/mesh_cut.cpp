@@ -183,6 +183,11 @@ class RimOfCut {
         if (point.shares[1] == 1.0) return b;
         const PlacedVertex one = mesh_.vertices[a], other = mesh_.vertices[b];
         const double share = point.shares[1];
+        if (!mesh_.colours.empty()) {
+            // Vertices that were added before have none.
+            mesh_.colours.resize(mesh_.vertices.size());
+            mesh_.colours.push_back(colour_between(mesh_.colours[a], mesh_.colours[b], share));
+        }
         mesh_.vertices.push_back({std::lerp(one.lat_deg, other.lat_deg, share),
                                   std::lerp(one.lon_deg, other.lon_deg, share),
                                   std::lerp(one.H_m, other.H_m, share)});

@@ -75,6 +75,7 @@ PlacedMesh MeshDetail::drawn(const PlacedMesh& mesh, const Graph& graph,
     PlacedMesh drawn;
     drawn.path = mesh.path, drawn.format = mesh.format, drawn.crs = mesh.crs, drawn.heights = mesh.heights;
     drawn.kind = mesh.kind, drawn.look = mesh.look, drawn.has_look_by_type = mesh.has_look_by_type;
+    drawn.crease_deg = mesh.crease_deg;
     drawn.features = mesh.features, drawn.in_file = mesh.in_file, drawn.fingerprint = mesh.fingerprint;
     std::vector<std::uint32_t> number(mesh.vertices.size(), not_used);
     const ClusterGraph& all = graph.graph->clusters;
@@ -90,6 +91,9 @@ PlacedMesh MeshDetail::drawn(const PlacedMesh& mesh, const Graph& graph,
                 if (number[vertex] == not_used) {
                     number[vertex] = static_cast<std::uint32_t>(drawn.vertices.size());
                     drawn.vertices.push_back(mesh.vertices[vertex]);
+                    if (!mesh.colours.empty())
+                        drawn.colours.push_back(vertex < mesh.colours.size() ? mesh.colours[vertex]
+                                                                             : VertexColour{});
                 }
                 triangle[k] = number[vertex];
             }

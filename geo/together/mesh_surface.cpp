@@ -60,12 +60,11 @@ struct TrianglesAround {
 
 // The mean of the normals around a vertex that are within the crease's angle of a triangle's own.
 glm::dvec3 normal_at(const TrianglesAround& around, const std::vector<glm::dvec3>& normals,
-                     std::uint32_t vertex, std::size_t triangle) {
+                     std::uint32_t vertex, std::size_t triangle, double least_cosine) {
     constexpr std::size_t most_around = 64;
     const glm::dvec3 own = normals[triangle];
     const std::size_t begin = around.first[vertex], end = around.first[vertex + 1];
-    if (end - begin > most_around) return glm::normalize(own);
-    const double least_cosine = std::cos(crease_deg * std::numbers::pi / 180.0);
+    if (end - begin > most_around || least_cosine >= 1.0) return glm::normalize(own);
     glm::dvec3 sum(0.0);
     for (std::size_t i = begin; i < end; ++i) {
         const glm::dvec3& other = normals[around.triangles[i]];
@@ -74,6 +73,10 @@ glm::dvec3 normal_at(const TrianglesAround& around, const std::vector<glm::dvec3
         if (std::abs(cosine) >= least_cosine) sum += cosine < 0.0 ? -other : other;
     }
     return glm::normalize(sum);
+}
+
+double least_cosine_of(const PlacedMesh& mesh) {
+    return std::cos(mesh.crease_deg * std::numbers::pi / 180.0);
 }
 
 // Upright ground between a mesh that the terrain is cut out under and what is left of that: it closes the
@@ -139,16 +142,19 @@ void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double 
     for (const SeamCorner& corner : corners) vertices_m.push_back(corner.at.m);
     const std::vector<glm::dvec3> normals = area_normals(mesh, vertices_m);
     const TrianglesAround around(mesh);
+    const double least_cosine = least_cosine_of(mesh);
     for (std::size_t number = 0; number < mesh.triangles.size(); ++number) {
         if (normals[number] == glm::dvec3(0.0)) continue;
         SeamPiece piece;
         piece.two_sided = true;
         const TriangleLook look = looks.of(number);
         piece.look = look.look, piece.tone = look.tone;
+        if (look.look == gpu::mesh_look_coloured)
+            for (std::size_t i = 0; i < 3; ++i) piece.colours[i] = mesh.colours[mesh.triangles[number][i]];
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t vertex = mesh.triangles[number][i];
             piece.corners[i] = corners[vertex];
-            piece.corners[i].normal = normal_at(around, normals, vertex, number);
+            piece.corners[i].normal = normal_at(around, normals, vertex, number, least_cosine);
         }
         seam.pieces.push_back(piece);
     }
@@ -173,11 +179,12 @@ std::vector<std::array<glm::vec3, 3>> corner_normals(const PlacedMesh& mesh,
                                                      std::span<const glm::dvec3> vertices_m) {
     const std::vector<glm::dvec3> normals = area_normals(mesh, vertices_m);
     const TrianglesAround around(mesh);
+    const double least_cosine = least_cosine_of(mesh);
     std::vector<std::array<glm::vec3, 3>> corners(mesh.triangles.size());
     for (std::size_t number = 0; number < mesh.triangles.size(); ++number) {
         if (normals[number] == glm::dvec3(0.0)) continue;
         for (std::size_t i = 0; i < 3; ++i)
-            corners[number][i] = normal_at(around, normals, mesh.triangles[number][i], number);
+            corners[number][i] = normal_at(around, normals, mesh.triangles[number][i], number, least_cosine);
     }
     return corners;
 }

@@ -12,20 +12,18 @@
 
 namespace oro {
 
-// Triangles that meet at a smaller angle share their light: the normal at their common vertex.
-inline constexpr double crease_deg = 30.0;
-
 // Where a mesh's vertices are drawn: on the lattice of 2^-11 m, ECEF metres. undulation: N of the region;
 // empty: 0.
 std::vector<glm::dvec3> drawn_places_m(const PlacedMesh& mesh, const UndulationField& undulation,
                                        double exaggeration);
 
 // Adds a mesh's triangles to what is drawn beside the grids. undulation: N of the region; empty: 0. Normals
-// face upwards; at a vertex of more than 64 triangles each has its own.
+// face upwards; at a vertex of more than 64 triangles each has its own. Where the mesh's crease is 0 all
+// have.
 void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration, Seam& seam);
 
 // Normals at the three corners of each triangle, unit, along the axes that the vertices have (ECEF): upwards,
-// smooth where triangles meet within the crease's angle. Zero of triangles without an area.
+// smooth where triangles meet within the mesh's crease. Zero of triangles without an area.
 std::vector<std::array<glm::vec3, 3>> corner_normals(const PlacedMesh& mesh,
                                                      std::span<const glm::dvec3> vertices_m);
 

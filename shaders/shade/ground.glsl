@@ -141,6 +141,9 @@ vec3 imaged_tint(Images images, inout SurfacePoint point) {
         colour = mesh_colour(point);
         rock_colour = sky_colour = vec3(0.0);
     }
+#endif
+    if (!of_materials && has_file_colour()) colour = pixel_file_colour;
+#ifdef IN_AIR
     if (draped) {
         float by_rule = (1.0 - images.cover.a) * (1.0 - images.share);
         rock_colour *= by_rule;

@@ -26,6 +26,8 @@ layout(constant_id = 8) const bool of_materials = false;  // FrameStyle.material
 #include "shaders/choose/levels.glsl"
 #include "shaders/place/place.glsl"
 #include "shaders/place/net.glsl"
+#include "shaders/shade/srgb.glsl"
+#define FILE_COLOURS
 #include "shaders/shade/surface.glsl"
 #include "shaders/air/air.glsl"
 #include "shaders/air/sky.glsl"
@@ -35,7 +37,6 @@ layout(constant_id = 8) const bool of_materials = false;  // FrameStyle.material
 #include "shaders/cast/shown.glsl"
 #include "shaders/shade/daylight.glsl"
 #include "shaders/shade/light.glsl"
-#include "shaders/shade/srgb.glsl"
 #include "shaders/shade/water.glsl"
 #include "shaders/shade/outside.glsl"
 #include "shaders/shade/drape.glsl"

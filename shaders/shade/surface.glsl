@@ -242,6 +242,7 @@ vec2 region_place(FramePage page, vec2 post, vec3 view) {
     return region_post(page, post);
 }
 vec2 pixel_look = vec2(0.0);  // mesh_look() of a pixel that shows a mesh
+vec3 pixel_file_colour = vec3(0.0);  // ... and the colour there of one whose file states colours: linear light
 vec3 normal_of_seam(FramePage page, uvec2 posts[3], vec3 shares, float heights_m[3], vec3 at[3]) {
     vec3 normal = shares.x * seam_normal(page, posts[0]) + shares.y * seam_normal(page, posts[1]) + shares.z * seam_normal(page, posts[2]);
     vec3 view = shares.x * at[0] + shares.y * at[1] + shares.z * at[2];
@@ -255,6 +256,10 @@ vec3 normal_of_seam(FramePage page, uvec2 posts[3], vec3 shares, float heights_m
     }
     if (is_two_sided(page, posts[0])) {
         pixel_look = mesh_look(page, posts[0]);
+#ifdef FILE_COLOURS
+        if (pixel_look.x == float(mesh_look_coloured))
+            for (int i = 0; i < 3; ++i) pixel_file_colour += shares[i] * linear_from_srgb(mesh_corner_codes(page, posts[i]));
+#endif
         vec3 facing = cross(at[1] - at[0], at[2] - at[0]);
         facing = dot(facing, view) > 0.0 ? -facing : facing;
         normal = dot(normal, facing) < 0.0 ? -normal : normal;

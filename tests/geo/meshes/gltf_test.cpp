@@ -1,6 +1,7 @@
 // glTF: places by nodes' transforms in double, both kinds of file, and what is refused.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -147,6 +148,79 @@ TEST(Gltf, RefusesInOneLine) {
     none.replace(none.find("\"mesh\":0"), 8, "\"mesh\":7");
     EXPECT_EQ(gltf_refusal(none), "node 1 has a mesh that is not there");
     EXPECT_NE(gltf_refusal("{\"asset\":").find("line 1"), std::string::npos) << gltf_refusal("{\"asset\":");
+}
+
+// A triangle with colours of a type, and a material; more: members of the file.
+std::string coloured_gltf(const std::string& colours, const std::string& accessor,
+                          const std::string& material, const std::string& more = "") {
+    const std::string bytes = triangle_bytes().substr(0, 36) + colours;
+    return glb(
+        R"({"asset":{"version":"2.0"},)" + more +
+            R"("nodes":[{"mesh":0}],"meshes":[{"primitives":)"
+            R"([{"attributes":{"POSITION":0,"COLOR_0":1},"material":0}]}],"materials":[)" +
+            material +
+            R"(],"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+            R"({"bufferView":1,"count":3,)" +
+            accessor +
+            R"(}],"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":)" +
+            std::to_string(colours.size()) + R"(}],"buffers":[{"byteLength":)" +
+            std::to_string(bytes.size()) + "}]}",
+        bytes);
+}
+
+// Colours are light, and the material's is a factor: half of half is 0.25, whose code of sRGB is 137
+// (IEC 61966-2-1: 1.055 * 0.25^(1/2.4) - 0.055 = 0.5371).
+TEST(Gltf, ColoursAreLightTimesThatOfTheMaterial) {
+    const std::string half = R"({"pbrMetallicRoughness":{"baseColorFactor":[0.5,1,1,1]}})";
+    std::string real, shorts, bytes;
+    for (int vertex = 0; vertex < 3; ++vertex)
+        for (const float part : {0.5F, 1.0F, 0.0F, 0.3F}) {
+            append(real, part);
+            append(shorts, static_cast<std::uint16_t>(std::lround(part * 65535.0F)));
+            append(bytes, static_cast<std::uint8_t>(std::lround(part * 255.0F)));
+        }
+    const std::pair<std::string, std::string> kinds[] = {
+        {real, R"("componentType":5126,"type":"VEC4")"},
+        {shorts, R"("componentType":5123,"normalized":true,"type":"VEC4")"},
+        {bytes, R"("componentType":5121,"normalized":true,"type":"VEC4")"}};
+    for (const auto& [colours, accessor] : kinds) {
+        const auto mesh = read_mesh(gltf_written("coloured.glb", coloured_gltf(colours, accessor, half)));
+        ASSERT_TRUE(mesh.ok()) << mesh.error().line();
+        ASSERT_EQ(mesh->colours.size(), 3U);
+        EXPECT_NEAR(mesh->colours[1].red, 137, 1) << accessor;
+        EXPECT_EQ(mesh->colours[1].green, 255);
+        EXPECT_EQ(mesh->colours[1].blue, 0);
+        EXPECT_EQ(mesh->colours[1].is_stated, 1);
+    }
+    const auto why = [&](const std::string& accessor, const std::string& material) {
+        const auto mesh = read_mesh(gltf_written("bad.glb", coloured_gltf(bytes, accessor, material)));
+        return mesh.ok() ? "" : mesh.error().what;
+    };
+    EXPECT_EQ(why(R"("componentType":5121,"type":"VEC4")", half),
+              "a primitive has colours of a type that colours do not have");
+    EXPECT_EQ(why(R"("componentType":5121,"normalized":true,"type":"VEC2")", half),
+              "accessor 1 is no list of VEC3 in a buffer view");
+    EXPECT_EQ(why(R"("componentType":5121,"normalized":true,"type":"VEC4")",
+                  R"({"pbrMetallicRoughness":{"baseColorFactor":[1,1]}})"),
+              "its baseColorFactor is no list of 4 numbers");
+    std::string other = coloured_gltf(bytes, R"("componentType":5121,"normalized":true,"type":"VEC4")", half);
+    other.replace(other.find("\"material\":0"), 12, "\"material\":4");
+    const auto none = read_mesh(gltf_written("other.glb", other));
+    ASSERT_FALSE(none.ok());
+    EXPECT_EQ(none.error().what, "a primitive has a material that is not there");
+}
+
+// CESIUM_RTC and KHR_mesh_quantization are read though a file needs them; the centre is one of z up.
+TEST(Gltf, TheCentreOfCesiumIsAdded) {
+    gltf_written("a b.bin", triangle_bytes());
+    const auto mesh = read_mesh(gltf_written(
+        "rtc.gltf", gltf_text(beside_it, R"([{"mesh":0}])",
+                              R"("extensionsRequired":["CESIUM_RTC","KHR_mesh_quantization"],)"
+                              R"("extensions":{"CESIUM_RTC":{"center":[4278123.25,637000,4670000]}},)")));
+    ASSERT_TRUE(mesh.ok()) << mesh.error().line();
+    EXPECT_EQ(mesh->vertices[1], glm::dvec3(4278124.25, 637000.0, 4670002.0));
+    EXPECT_EQ(gltf_refusal(gltf_text(beside_it, far_node, R"("extensions":{"CESIUM_RTC":{"center":[1]}},)")),
+              "its center is no list of 3 numbers");
 }
 
 // Each cut, and each of many damaged bytes, ends in a mesh whose corners are there or in an error.

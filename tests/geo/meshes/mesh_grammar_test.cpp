@@ -19,6 +19,7 @@ class MeshGrammar {
 
     std::string text_of(const std::string& ending) {
         odds_ = below(2) == 0 ? 40 : 4000;
+        has_colours_ = below(3) == 0;
         if (ending == "obj") return obj();
         if (ending == "ply") return ply();
         return ending == "stl" ? stl() : landxml();
@@ -48,11 +49,20 @@ class MeshGrammar {
     std::string blank() { return rarely() ? one_of("\t", "  ", "\v", "\\\n") : " "; }
     std::string line_end() { return rarely() ? one_of("\r\n", "\n\n", " # x\n", "\\\n", "") : "\n"; }
 
+    // Behind a vertex's place, in files that have them.
+    std::string colour() {
+        std::string text;
+        for (std::size_t i = has_colours_ ? (rarely() ? below(5) : 3) : 0; i > 0; --i)
+            text += blank() + (rarely() ? number() : one_of("0", "1", "0.5", "255", "-1"));
+        return text;
+    }
+
     std::string obj() {
         std::string text;
         const std::size_t vertices = 3 + below(9);
         for (std::size_t i = 0; i < vertices; ++i)
-            text += "v" + blank() + number() + blank() + number() + blank() + number() + line_end();
+            text +=
+                "v" + blank() + number() + blank() + number() + blank() + number() + colour() + line_end();
         for (std::size_t i = below(6); i > 0; --i) {
             if (below(4) == 0)
                 text += one_of("o a", "g", "usemtl b", "vn 0 0 1", "l 1 2", "s off", "vt 0") + line_end();
@@ -64,20 +74,27 @@ class MeshGrammar {
         }
         return text;
     }
+    std::string colour_lines() {
+        std::string text;
+        for (const char* const part : {"red", "green", "blue"})
+            if (has_colours_ && !rarely())
+                text += "property " + one_of("uchar", "ushort", "float", "int") + " " + part + "\n";
+        return text;
+    }
     std::string ply() {
         const std::size_t vertices = 3 + below(9), faces = below(6);
         const std::string count =
             rarely() ? one_of("0", "-1", "18446744073709551616", "") : std::to_string(vertices);
         const std::string vertex_lines = "element vertex " + count + line_end() +
                                          "property double x\nproperty float y\n" +
-                                         (rarely() ? "" : "property double z\n");
+                                         (rarely() ? "" : "property double z\n") + colour_lines();
         const std::string list =
             "property list " + (rarely() ? "float" : one_of("uchar", "int", "uint8", "char")) + " " +
             one_of("int", "uint", "double", "uchar") + " vertex_ind" + one_of("ex", "ices") + "\n";
         const std::string face_lines = "element face " + std::to_string(faces) + "\n" + list;
         std::string vertex_rows, face_rows;
         for (std::size_t i = 0; i < vertices; ++i)
-            vertex_rows += number() + blank() + number() + blank() + number() + line_end();
+            vertex_rows += number() + blank() + number() + blank() + number() + colour() + line_end();
         for (std::size_t i = 0; i < faces; ++i) {
             const std::size_t corners = rarely() ? below(3) : 3 + below(6);
             face_rows += std::to_string(corners + (rarely() ? 1 : 0));
@@ -124,6 +141,7 @@ class MeshGrammar {
     }
 
     std::size_t odds_{40};  // one in so many rules is broken
+    bool has_colours_{};
     std::mt19937 random_;
 };
 
