@@ -30,11 +30,13 @@ namespace {
 constexpr const char* about =
     "Orograph draws real terrain at its true place on the Earth, and says how accurate each picture is.";
 
-// What a library says when it has no memory may pass for a mistake of the user: PROJ knows no way then.
-int reported(const oro::Error& error) {
-    if (error.kind != oro::ErrorKind::failed) {
-        if (const auto sound = oro::libraries_are_sound(); !sound.ok()) return reported(sound.error());
-    }
+// What a library says when it has no memory may pass for a mistake of the user, or for a damaged file: PROJ
+// knows no way then, and makes nothing of its geoid.
+int reported(oro::Error error) {
+    if (const auto sound = oro::libraries_are_sound();
+        !sound.ok() && error.line().find("memory") == std::string::npos)
+        error = {oro::ErrorKind::failed, sound.error().where,
+                 sound.error().what + ", so this may not be true: " + error.line()};
     std::fprintf(stderr, "orograph: %s\n", error.line().c_str());
     return static_cast<int>(error.kind);
 }

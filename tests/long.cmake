@@ -382,6 +382,7 @@ set_tests_properties(
   Unseen.NothingIsSaidWhereAllLinesEndOnData
   Unseen.TheBundledRegionEndsToo
   Unseen.TheTileThatIsMissingIsNamedWithItsBound
+  Untold.WantOfMemoryIsNotSaidToBeDamage
   Vectors.AFieldThatNoPointHasIsTold
   Vectors.AreInTheViewWhichDrawsThemAgain
   Vectors.LeavePicturesWithoutThemAsTheyWere

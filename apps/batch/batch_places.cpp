@@ -7,40 +7,16 @@
 #include <utility>
 
 #include "apps/command_line/refusals.h"
-#include "apps/search/text_lines.h"
 #include "geo/files/letter_case.h"
 #include "geo/vectors/coordinate_columns.h"
+#include "geo/vectors/csv_records.h"
+#include "geo/vectors/table_text.h"
 #include "geo/vectors/vector_file.h"
 
 namespace oro {
 namespace {
 
 constexpr std::size_t most_places = 1'000'000;
-
-// The fields of a line of a table, by RFC 4180 but that a text with quotes ends with its line.
-std::vector<std::string> fields_of_line(const std::string& line, char separator) {
-    std::vector<std::string> fields(1);
-    bool quoted = false;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        const char c = line[i];
-        if (quoted && c == '"' && i + 1 < line.size() && line[i + 1] == '"') {
-            fields.back() += line[++i];
-        } else if (c == '"' && (quoted || fields.back().empty())) {
-            quoted = !quoted;
-        } else if (c == separator && !quoted) {
-            fields.emplace_back();
-        } else {
-            fields.back() += c;
-        }
-    }
-    return fields;
-}
-
-char separator_of(const std::string& first_line) {
-    for (const char c : {'\t', ';'})
-        if (first_line.find(c) != std::string::npos) return c;
-    return ',';
-}
 
 Error too_many(const std::string& file) {
     return {ErrorKind::failed, file, "has more than 1,000,000 places: cut it"};
@@ -69,47 +45,27 @@ std::vector<OtherName> other_names(const std::vector<std::string>& names) {
     return others;
 }
 
-std::string without_blanks_around(const std::string& text) {
-    const std::size_t first = text.find_first_not_of(" \t");
-    if (first == std::string::npos) return "";
-    return text.substr(first, text.find_last_not_of(" \t") + 1 - first);
-}
-
-Result<std::vector<BatchPlace>> places_of_table(const std::string& file, std::vector<std::string>& names) {
-    ORO_TRY(TextLines lines, TextLines::of(file));
-    std::vector<BatchPlace> places;
-    std::vector<OtherName> others;
-    char separator = ',';
-    std::string line;
-    while (true) {
-        ORO_TRY(const bool more, lines.next(line));
-        if (!more) break;
-        const auto fault = [&](const std::string& what) {
-            return Error{ErrorKind::failed, file, "line " + std::to_string(lines.number()) + " " + what};
-        };
-        if (lines.is_cut()) return fault("is longer than 64 KiB");
-        if (line.find('\0') != std::string::npos) return fault("is no text");
-        if (line.find_first_not_of(" \t") == std::string::npos) continue;
-        if (names.empty()) {
-            separator = separator_of(line);
-            names = fields_of_line(line, separator);
-            others = other_names(names);
-            continue;
-        }
-        const std::vector<std::string> fields = fields_of_line(line, separator);
-        if (fields.size() > names.size())
-            return fault("has " + std::to_string(fields.size()) + " fields, and the first line names " +
-                         std::to_string(names.size()));
-        if (places.size() == most_places) return too_many(file);
-        BatchPlace& place = places.emplace_back();
-        place.number = places.size();
-        for (std::size_t i = 0; i < names.size(); ++i)
-            place.fields[names[i]] = i < fields.size() ? fields[i] : "";
-        for (const OtherName& other : others)
-            place.fields[other.field] =
-                other.column < fields.size() ? without_blanks_around(fields[other.column]) : "";
+Result<PlacesOfFile> places_of_table(const std::string& file) {
+    ORO_TRY(const TableText table, read_table_text(file));
+    const auto in_file = [&](const Error& error) { return Error{error.kind, file, error.what}; };
+    Result<CsvRecords> records = CsvRecords::of(table.text);
+    if (!records.ok()) return in_file(records.error());
+    PlacesOfFile places;
+    if (!table.note.empty()) places.notes.push_back(file + ": " + table.note);
+    places.headings = records->headings();
+    const std::vector<OtherName> others = other_names(places.headings);
+    std::vector<CsvField> fields;
+    for (;;) {
+        const Result<bool> more = records->next(fields);
+        if (!more.ok()) return in_file(more.error());
+        if (!*more) return places;
+        if (places.all.size() == most_places) return too_many(file);
+        BatchPlace& place = places.all.emplace_back();
+        place.number = places.all.size();
+        for (std::size_t i = 0; i < places.headings.size(); ++i)
+            place.fields[places.headings[i]] = fields[i].text;
+        for (const OtherName& other : others) place.fields[other.field] = fields[other.column].text;
     }
-    return places;
 }
 
 std::string degrees_words(double angle_deg) {
@@ -118,16 +74,17 @@ std::string degrees_words(double angle_deg) {
     return text;
 }
 
-Result<std::vector<BatchPlace>> places_of_vectors(const std::string& file, std::vector<std::string>& names) {
+Result<PlacesOfFile> places_of_vectors(const std::string& file) {
     ORO_TRY(const VectorFile vectors, read_vectors(file));
-    std::vector<BatchPlace> places;
+    PlacesOfFile places{{}, {}, vectors.notes};
+    std::vector<std::string>& names = places.headings;
     for (const VectorLayer& layer : vectors.layers) {
         bool is_layer_known = false;
         for (const VectorShape& shape : layer.shapes) {
             if (shape.kind != VectorKind::point) continue;
-            if (places.size() == most_places) return too_many(file);
-            BatchPlace& place = places.emplace_back();
-            place.number = places.size();
+            if (places.all.size() == most_places) return too_many(file);
+            BatchPlace& place = places.all.emplace_back();
+            place.number = places.all.size();
             for (const std::string& name : layer.fields) {
                 place.fields[name] = layer.text(shape, name);
                 if (!is_layer_known && std::ranges::find(names, name) == names.end()) names.push_back(name);
@@ -158,22 +115,15 @@ std::string BatchPlace::words() const {
            (name == fields.end() || name->second.empty() ? "" : " (" + name->second + ")");
 }
 
-Result<std::vector<BatchPlace>> read_places(const std::string& file) {
-    std::vector<std::string> headings;
-    return read_places(file, headings);
-}
-
-Result<std::vector<BatchPlace>> read_places(const std::string& file, std::vector<std::string>& headings) {
-    headings.clear();
+Result<PlacesOfFile> read_places(const std::string& file) {
     const std::string lower = lower_case(file);
     const bool is_table = lower.ends_with(".csv") || lower.ends_with(".tsv") || lower.ends_with(".txt");
-    ORO_TRY(std::vector<BatchPlace> places,
-            is_table ? places_of_table(file, headings) : places_of_vectors(file, headings));
-    if (places.empty())
+    ORO_TRY(PlacesOfFile places, is_table ? places_of_table(file) : places_of_vectors(file));
+    if (places.all.empty())
         return Error{ErrorKind::failed, file,
                      is_table ? "has no places: the first line names fields, each other one is a place"
                               : "has no points"};
-    for (BatchPlace& place : places) place.fields["number"] = std::to_string(place.number);
+    for (BatchPlace& place : places.all) place.fields["number"] = std::to_string(place.number);
     return places;
 }
 

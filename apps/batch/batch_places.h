@@ -23,13 +23,17 @@ struct BatchPlace {
     [[nodiscard]] std::string words() const;
 };
 
-// A table is a .csv (fields between commas, semicolons or tabs, the first line their names, "..." around
-// text), a vector file one that read_vectors() reads: its points. Errors: those of reading; no place; a line
-// of a table with more fields than names.
-Result<std::vector<BatchPlace>> read_places(const std::string& file);
-// The same. headings: becomes the names in a table's first line, in their order, or those of the fields that
-// the points of a vector file have.
-Result<std::vector<BatchPlace>> read_places(const std::string& file, std::vector<std::string>& headings);
+// What a file of places holds.
+struct PlacesOfFile {
+    std::vector<BatchPlace> all;
+    std::vector<std::string> headings;  // the names in a table's first line, in their order, or those of the
+                                        // fields that the points of a vector file have
+    std::vector<std::string> notes;     // what a user must know of how it was read, one line each
+};
+
+// A table is a .csv, .tsv or .txt (geo/vectors/csv_records.h), a vector file one that read_vectors() reads:
+// its points. Errors: those of reading; no place.
+Result<PlacesOfFile> read_places(const std::string& file);
 
 // The text with what a place has in the place of each {field}; {{ and }} are braces. Errors (usage): a field
 // that the place does not have; a brace alone.

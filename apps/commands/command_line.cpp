@@ -469,7 +469,8 @@ void add_viewshed(CLI::App& app, ViewshedOptions& options, RealisationOptions& r
         .allow_extra_args(false);  // what follows the place is elevation data
     shed.option("--observers", observers.file, "FILE",
                 "Observers of a table instead of --at, thousands of them: a .csv with columns lat and lon, "
-                "and above where each has its height; or the points of a vector file.")
+                "and above (or height, agl, eye) where each has its height, in metres above the ground; or "
+                "the points of a vector file.")
         .allow_extra_args(false);
     shed.option("--table", observers.table, "FILE",
                 "Write how many posts each of the --observers sees, a line each (.csv).")

@@ -15,6 +15,8 @@
 #include "apps/vectors/named_points.h"
 #include "core/base/one_line.h"
 #include "geo/vectors/coordinate_columns.h"
+#include "geo/vectors/csv_records.h"
+#include "geo/vectors/table_text.h"
 
 namespace oro {
 namespace {
@@ -30,8 +32,6 @@ struct Columns {
     int height{no_column}, other_height{no_column};  // the second counts where the first is empty
     int population{no_column};
     int kind{no_column}, code{no_column};
-    char mark{','};     // between fields
-    bool has_quotes{};  // around them
     bool is_geonames{};
 };
 
@@ -39,7 +39,7 @@ struct Columns {
 // alternatenames, latitude, longitude, feature class, feature code, ..., population (14), elevation (15), dem
 // (16), ...
 constexpr int geonames_fields = 19;
-const Columns geonames_columns{1, 4, 5, 15, 16, 14, 6, 7, '\t', false, true};
+const Columns geonames_columns{1, 4, 5, 15, 16, 14, 6, 7, true};
 
 std::string_view trimmed_field(std::string_view text) {
     const std::size_t first = text.find_first_not_of(" \t");
@@ -47,22 +47,14 @@ std::string_view trimmed_field(std::string_view text) {
     return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
-Fields fields_in(const std::string& line, char mark, bool has_quotes) {
+// Between tabs, without quotation marks, as GeoNames writes them.
+Fields fields_of_dump(const std::string& line) {
     Fields fields(1);
-    bool is_quoted = false;
-    for (std::size_t at = 0; at < line.size(); ++at) {
-        const char c = line[at];
-        if (has_quotes && c == '"') {
-            // Two of them within quotes are one.
-            if (is_quoted && at + 1 < line.size() && line[at + 1] == '"')
-                fields.back() += line[++at];
-            else
-                is_quoted = !is_quoted;
-        } else if (c == mark && !is_quoted) {
+    for (const char c : line) {
+        if (c == '\t')
             fields.emplace_back();
-        } else {
+        else
             fields.back() += c;
-        }
     }
     return fields;
 }
@@ -158,15 +150,8 @@ void find_coordinates(const Fields& headings, Columns& columns) {
 }
 
 // What the columns of a table's first line are.
-Result<Columns> columns_in(const std::string& heading, const std::string& path) {
+Result<Columns> columns_in(Fields names, const std::string& path) {
     Columns columns;
-    columns.has_quotes = true;
-    std::ptrdiff_t most = 0;
-    for (const char mark : {',', ';', '\t'}) {
-        const auto count = std::count(heading.begin(), heading.end(), mark);
-        if (count > most) columns.mark = mark;
-        most = std::max(most, count);
-    }
     struct Known {
         int Columns::*column;
         std::array<const char*, 4> names;  // the first that a table has
@@ -175,7 +160,6 @@ Result<Columns> columns_in(const std::string& heading, const std::string& path) 
                                              {&Columns::height, {"height", "h m", "", ""}},
                                              {&Columns::population, {"population", "", "", ""}},
                                              {&Columns::kind, {"class", "type", "natural", "place"}}}};
-    Fields names = fields_in(heading, columns.mark, true);
     find_coordinates(names, columns);
     for (std::string& name : names) name = folded(name);
     for (const Known& one : known) {
@@ -198,7 +182,7 @@ Result<Columns> columns_in(const std::string& heading, const std::string& path) 
 }
 
 bool is_geonames_line(const std::string& line) {
-    const Fields fields = fields_in(line, '\t', false);
+    const Fields fields = fields_of_dump(line);
     return fields.size() == geonames_fields && number_in(field_of(fields, geonames_columns.lat)) &&
            number_in(field_of(fields, geonames_columns.lon));
 }
@@ -222,48 +206,82 @@ struct LinesLeftOut {
     }
 };
 
-Result<Gazetteer> read_table(TextLines& lines, std::string line, const std::string& path,
-                             const std::optional<BoundingBox>& within, const std::stop_token& stop) {
-    Gazetteer gazetteer;
-    Columns columns = geonames_columns;
-    const bool has_heading = !is_geonames_line(line);
-    if (has_heading) {
-        ORO_TRY(columns, columns_in(line, path));
-    }
-    LinesLeftOut left_out;
-    bool is_there = !has_heading, is_any = false;
-    for (;; is_there = false) {
-        if (!is_there) {
-            ORO_TRY(const bool more, lines.next(line));
-            if (!more || stop.stop_requested()) break;
-        }
-        if (trimmed_field(line).empty()) continue;
-        SearchPlace place;
-        const std::string wrong =
-            lines.is_cut() ? "it is longer than 65,536 bytes"
-                           : place_in(fields_in(line, columns.mark, columns.has_quotes), columns, place);
+// Collects the places of a table or a dump, and which lines are none.
+class TableGazetteer {
+  public:
+    TableGazetteer(const std::string& path, const std::optional<BoundingBox>& within)
+        : path_(path), within_(within) {}
+
+    // Takes a line, with what is wrong with it or "". False: there is no room for it, and nothing more
+    // counts.
+    bool take(std::size_t line, const std::string& wrong, SearchPlace place) {
         if (!wrong.empty()) {
-            left_out.add(lines.number(), wrong);
-            continue;
+            left_out_.add(line, wrong);
+            return true;
         }
-        is_any = true;
-        if (!is_within(place, within)) continue;
-        if (gazetteer.places.size() == most_gazetteer_places) {
-            gazetteer.notes.push_back(path + ": has more than " + grouped(most_gazetteer_places) +
-                                      " places: those from line " + grouped(lines.number()) +
-                                      " on are left out");
-            break;
+        is_any_ = true;
+        if (!is_within(place, within_)) return true;
+        if (gazetteer_.places.size() == most_gazetteer_places) {
+            gazetteer_.notes.push_back(path_ + ": has more than " + grouped(most_gazetteer_places) +
+                                       " places: those from line " + grouped(line) + " on are left out");
+            return false;
         }
-        gazetteer.places.push_back(std::move(place));
+        gazetteer_.places.push_back(std::move(place));
+        return true;
     }
-    const std::string first = "line " + std::to_string(left_out.first) + ": " + left_out.why;
-    if (!is_any)
-        return Error{ErrorKind::failed, path,
-                     "has no line with a place" + (left_out.count > 0 ? "; " + first : std::string())};
-    if (left_out.count > 0)
-        gazetteer.notes.push_back(path + ": " + counted(left_out.count, "line is", "lines are") +
-                                  " left out, the first is " + first);
-    return gazetteer;
+    Result<Gazetteer> finish() {
+        const std::string first = "line " + std::to_string(left_out_.first) + ": " + left_out_.why;
+        if (!is_any_)
+            return Error{ErrorKind::failed, path_,
+                         "has no line with a place" + (left_out_.count > 0 ? "; " + first : std::string())};
+        if (left_out_.count > 0)
+            gazetteer_.notes.push_back(path_ + ": " + counted(left_out_.count, "line is", "lines are") +
+                                       " left out, the first is " + first);
+        return std::move(gazetteer_);
+    }
+    void add_note(const std::string& note) {
+        if (!note.empty()) gazetteer_.notes.push_back(path_ + ": " + note);
+    }
+
+  private:
+    const std::string& path_;
+    const std::optional<BoundingBox>& within_;
+    Gazetteer gazetteer_;
+    LinesLeftOut left_out_;
+    bool is_any_{};
+};
+
+Result<Gazetteer> read_dump(TextLines& lines, std::string line, TableGazetteer gazetteer,
+                            const std::stop_token& stop) {
+    for (bool more = true; more && !stop.stop_requested();) {
+        SearchPlace place;
+        const std::string wrong = lines.is_cut() ? "it is longer than 65,536 bytes"
+                                                 : place_in(fields_of_dump(line), geonames_columns, place);
+        if (!trimmed_field(line).empty() && !gazetteer.take(lines.number(), wrong, std::move(place))) break;
+        ORO_TRY(more, lines.next(line));
+    }
+    return gazetteer.finish();
+}
+
+Result<Gazetteer> read_table(const std::string& path, TableGazetteer gazetteer, const std::stop_token& stop) {
+    ORO_TRY(const TableText table, read_table_text(path));
+    gazetteer.add_note(table.note);
+    const auto in_file = [&](const Error& error) { return Error{error.kind, path, error.what}; };
+    Result<CsvRecords> records = CsvRecords::of(table.text);
+    if (!records.ok()) return in_file(records.error());
+    ORO_TRY(const Columns columns, columns_in(records->headings(), path));
+    std::vector<CsvField> fields;
+    Fields texts(records->headings().size());
+    while (!stop.stop_requested()) {
+        const Result<bool> more = records->next(fields);
+        if (!more.ok()) return in_file(more.error());
+        if (!*more) break;
+        for (std::size_t i = 0; i < texts.size(); ++i) texts[i] = std::move(fields[i].text);
+        SearchPlace place;
+        const std::string wrong = place_in(texts, columns, place);
+        if (!gazetteer.take(records->line(), wrong, std::move(place))) break;
+    }
+    return gazetteer.finish();
 }
 
 Result<Gazetteer> read_points(const std::string& path, const std::optional<BoundingBox>& within) {
@@ -294,7 +312,9 @@ Result<Gazetteer> read_gazetteer(const std::string& path, const std::optional<Bo
          {std::string_view("{"), std::string_view("<"), std::string_view("PK\x03\x04"),
           std::string_view("SQLite format 3"), std::string_view("fgb\x03"), shapefile})
         if (start.starts_with(of_vectors)) return read_points(path, within);
-    return read_table(lines, line, path, within, stop);
+    TableGazetteer gazetteer(path, within);
+    if (is_geonames_line(line)) return read_dump(lines, line, std::move(gazetteer), stop);
+    return read_table(path, std::move(gazetteer), stop);
 }
 
 std::vector<SearchPlace> places_of(const VectorFile& file, const std::string& name_field) {

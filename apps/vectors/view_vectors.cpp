@@ -11,6 +11,7 @@
 #include "apps/styles/colours.h"
 #include "apps/styles/style_fields.h"
 #include "apps/vectors/named_points.h"
+#include "apps/vectors/vectors_in_region.h"
 
 namespace oro {
 namespace {
@@ -36,12 +37,14 @@ std::vector<std::string> files_from(const nlohmann::json& json, const char* of) 
     return all;
 }
 
-Result<std::vector<VectorFile>> read_all(const std::vector<std::string>& files,
+Result<std::vector<VectorFile>> read_all(const std::vector<std::string>& files, const Region& region,
                                          std::vector<Fingerprints::OfSource>& fingerprints) {
     std::vector<VectorFile> all;
     for (const std::string& name : files) {
         ORO_TRY(VectorFile file, read_vectors(name));
         fingerprints.push_back({std::filesystem::path(name).filename().string(), file.fingerprint});
+        if (std::string note = note_of_place(file, region); !note.empty())
+            file.notes.push_back(std::move(note));
         all.push_back(std::move(file));
     }
     return all;
@@ -105,12 +108,12 @@ VectorChoices vectors_from(const nlohmann::json& json) {
     return choices;
 }
 
-Result<std::shared_ptr<const VectorsRead>> open_vectors(const VectorChoices& choices,
+Result<std::shared_ptr<const VectorsRead>> open_vectors(const VectorChoices& choices, const Region& region,
                                                         std::vector<Fingerprints::OfSource>& fingerprints) {
     if (!choices.any()) return std::shared_ptr<const VectorsRead>();
     auto vectors = std::make_shared<VectorsRead>();
-    ORO_TRY(vectors->names, read_all(choices.names, fingerprints));
-    ORO_TRY(vectors->overlay, read_all(choices.overlay, fingerprints));
+    ORO_TRY(vectors->names, read_all(choices.names, region, fingerprints));
+    ORO_TRY(vectors->overlay, read_all(choices.overlay, region, fingerprints));
     return std::shared_ptr<const VectorsRead>(std::move(vectors));
 }
 

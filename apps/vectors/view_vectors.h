@@ -10,6 +10,7 @@
 #include "apps/options/options.h"
 #include "apps/styles/colours.h"
 #include "core/base/result.h"
+#include "geo/region/region.h"
 #include "geo/vectors/vector_file.h"
 
 namespace oro {
@@ -46,8 +47,9 @@ Result<void> check_vectors(const ViewOptions& options, VectorChoices& choices);
 void put_vectors(const VectorChoices& choices, nlohmann::ordered_json& json);
 VectorChoices vectors_from(const nlohmann::json& json);
 
-// Reads the files; their names and fingerprints go to `fingerprints`. Errors: those of read_vectors.
-Result<std::shared_ptr<const VectorsRead>> open_vectors(const VectorChoices& choices,
+// Reads the files; their names and fingerprints go to `fingerprints`. Each has a note where its features do
+// not lie in the region (note_of_place()). Errors: those of read_vectors.
+Result<std::shared_ptr<const VectorsRead>> open_vectors(const VectorChoices& choices, const Region& region,
                                                         std::vector<Fingerprints::OfSource>& fingerprints);
 
 // Says the notes of the files, and which of them cannot give anything.

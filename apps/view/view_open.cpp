@@ -71,11 +71,11 @@ Result<void> check_kind(const View& view, const std::string& view_file, PictureK
 }
 
 // The same for all that a view names beside its elevation data.
-Result<void> open_files(View& view) {
+Result<void> open_files(const Region& region, View& view) {
     ORO_TRY(view.images, open_images(view.drape, view.drape_values, view.fingerprints->images));
     ORO_TRY(view.cover, open_cover(view.cover_choice, view.fingerprints->cover));
     ORO_TRY(view.canopy, open_canopy(view.canopy_choice, view.cover, view.fingerprints->canopy));
-    ORO_TRY(view.vectors_read, open_vectors(view.vectors, view.fingerprints->vectors));
+    ORO_TRY(view.vectors_read, open_vectors(view.vectors, region, view.fingerprints->vectors));
     return {};
 }
 
@@ -272,7 +272,7 @@ Result<void> look_at_region(const ViewOptions& options, View& view, Region& regi
     view.fingerprints = fingerprints_of(region);
     ORO_CHECK(check_own_posts(view, region));
     leave_covered_grids_out(region);
-    ORO_CHECK(open_files(view));
+    ORO_CHECK(open_files(region, view));
     ORO_CHECK(find_graticule_crs(view, region));
     if (!view.has_geoid) leave_geoid_out(region);
     const Result<void> placed = place_eye(view, options, region);
@@ -324,7 +324,7 @@ Result<void> open_recorded_view(const std::string& where, const ViewOptions& vie
     if ((!view_options.names.empty() || !view_options.overlay.empty()) && view.recorded->fingerprints)
         view.recorded->fingerprints->vectors.clear();
     ORO_CHECK(find_graticule_crs(view, region));
-    ORO_CHECK(open_files(view));
+    ORO_CHECK(open_files(region, view));
     ORO_CHECK(add_detail_of(view, region));
     return raise_by_canopy_of(view, region);
 }

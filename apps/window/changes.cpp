@@ -70,6 +70,13 @@ Result<void> take_look(Viewer& viewer, View view) {
     return follow_first_view(viewer);
 }
 
+// Says the notes of files that were read.
+void tell_notes(Viewer& viewer, const VectorsRead& vectors) {
+    for (const auto* const files : {&vectors.names, &vectors.overlay})
+        for (const VectorFile& file : *files)
+            for (const std::string& note : file.notes) tell(viewer, note);
+}
+
 }  // namespace
 
 Result<void> renew_scene(Viewer& viewer) {
@@ -159,13 +166,14 @@ Result<void> choose_exaggeration(Viewer& viewer, double factor) {
 
 Result<bool> choose_vectors(Viewer& viewer, const VectorChoices& choices) {
     std::vector<Fingerprints::OfSource> fingerprints;
-    Result<std::shared_ptr<const VectorsRead>> read = open_vectors(choices, fingerprints);
+    Result<std::shared_ptr<const VectorsRead>> read = open_vectors(choices, viewer.region, fingerprints);
     if (!read.ok()) {
         tell(viewer, read.error());
         return false;
     }
     viewer.view.vectors = choices;
     viewer.view.vectors_read = std::move(*read);
+    if (viewer.view.vectors_read) tell_notes(viewer, *viewer.view.vectors_read);
     if (viewer.view.fingerprints) viewer.view.fingerprints->vectors = std::move(fingerprints);
     index_points(viewer);
     viewer.wants_picture = true;

@@ -1,13 +1,11 @@
 #include "geo/files/kept_parts.h"
 
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <system_error>
 
-#include "geo/files/plain_file.h"
+#include "geo/files/whole_file.h"
 
 namespace oro {
 namespace {
@@ -23,15 +21,11 @@ Result<std::vector<std::uint8_t>> bytes_of_part(const std::string& path) {
     return bytes;
 }
 
-// Under a name of this process until it is whole.
+// Without a name, or under a temporary one, until it is whole: a write that fails and a signal leave nothing.
 Result<void> write_whole(const std::string& path, std::span<const std::uint8_t> bytes) {
-    const std::string temporary = path + "." + std::to_string(getpid());
-    std::error_code failed;
-    fs::remove(temporary, failed);
-    ORO_CHECK(write_plain_file(temporary, bytes));
-    fs::rename(temporary, path, failed);
-    if (failed) return Error{ErrorKind::failed, path, "cannot be written: " + failed.message()};
-    return {};
+    ORO_TRY(WholeFile file, WholeFile::create(path, true));
+    ORO_CHECK(file.write(bytes.data(), bytes.size()));
+    return file.commit_unsynced();
 }
 
 }  // namespace

@@ -128,6 +128,22 @@ Result<void> WholeFile::commit_own() {
     return {};
 }
 
+Result<void> WholeFile::commit_unsynced() {
+    assert(stream_);
+    errno = 0;
+    int why = std::fflush(stream_) == 0 ? 0 : errno;
+    const NamesHeld held;
+    if (why == 0) why = temporary_.take_temporary_name();
+    if (std::fclose(std::exchange(stream_, nullptr)) != 0 && why == 0) why = errno;
+    if (why == 0 && std::rename(temporary_.path().c_str(), path_.c_str()) != 0) why = errno;
+    if (why == 0) {
+        temporary_.forget_name();
+        return {};
+    }
+    abandon();
+    return fault(path_, "cannot be written: " + system_reason(why));
+}
+
 // A name that was taken is given back to what had it, or was nobody's before.
 void WholeFile::give_back(TemporaryFile& before, bool was_there) {
     const bool given = before.path().empty() ? !was_there && unlink(path_.c_str()) == 0

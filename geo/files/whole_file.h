@@ -43,6 +43,9 @@ class WholeFile {
     // commit() of a file that the program keeps for itself (settings): no matter which files it has read, and
     // whether they were changed meanwhile.
     Result<void> commit_own();
+    // commit_own() of one of very many files that can be made again: none is put on the disk by itself, and a
+    // power cut may take it.
+    Result<void> commit_unsynced();
 
   private:
     WholeFile() = default;

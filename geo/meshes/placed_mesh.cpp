@@ -98,7 +98,11 @@ class VertexPlaces {
         const Result<Place> why = by_crs_->place(first.x * scale_.plane, first.y * scale_.plane);
         const bool is_swapped =
             !why.ok() && by_crs_->place(first.y * scale_.plane, first.x * scale_.plane).ok();
-        return (why.ok() ? std::string("its heights are beyond 100 km") : why.error().what) +
+        const std::string reason = !why.ok() ? why.error().what
+                                   : std::abs(first.z * scale_.height_m) > 1.0e5
+                                       ? "its heights are beyond 100 km"
+                                       : "its CRS has none for some part of each";
+        return reason +
                (is_swapped ? "; with x and y swapped they have: x is the easting" : "; is --mesh-crs right?");
     }
 
@@ -133,6 +137,7 @@ class MeshPlacing {
 
     // Cuts what is longer, and leaves out what has no place.
     Result<void> cut(PlacedMesh& mesh) {
+        if (fewest_pieces() > static_cast<double>(most_placed_triangles)) return too_many();
         std::uint32_t feature = 0;
         for (std::size_t number = 0; number < source_.triangles.size(); ++number) {
             const SourceTriangle& triangle = source_.triangles[number];
@@ -152,9 +157,7 @@ class MeshPlacing {
                     mesh.triangles.push_back(one);
                     of_.push_back(static_cast<std::uint32_t>(number));
                     if (!source_.features.empty()) mesh.feature_of.push_back(feature);
-                    if (mesh.triangles.size() + open.size() > most_placed_triangles)
-                        return Error{ErrorKind::failed, source_.path,
-                                     "has more than 2,000,000 triangles with sides of 200 m and less"};
+                    if (mesh.triangles.size() + open.size() > most_placed_triangles) return too_many();
                     continue;
                 }
                 const std::uint32_t a = one[*side], b = one[(*side + 1) % 3], c = one[(*side + 2) % 3];
@@ -192,6 +195,36 @@ class MeshPlacing {
             if (length > most) longest = i, most = length;
         }
         return longest;
+    }
+    // No fewer triangles than this are left of it: one with sides of longest_side_m has most area.
+    [[nodiscard]] double fewest_pieces() const {
+        const double most_m2 = 0.25 * std::sqrt(3.0) * longest_side_m * longest_side_m;
+        double pieces = 0.0;
+        for (const SourceTriangle& triangle : source_.triangles) {
+            if (std::ranges::any_of(triangle, [&](std::uint32_t i) { return !placed_[i]; })) continue;
+            const glm::dvec3& at = ecef_[triangle[0]];
+            const double m2 = 0.5 * glm::length(glm::cross(ecef_[triangle[1]] - at, ecef_[triangle[2]] - at));
+            pieces += std::max(m2 / most_m2, 1.0);
+        }
+        return pieces;
+    }
+    [[nodiscard]] Error too_many() const {
+        double longest_m = 0.0;
+        for (const SourceTriangle& triangle : source_.triangles)
+            for (std::size_t i = 0; i < 3; ++i)
+                if (placed_[triangle[i]] && placed_[triangle[(i + 1) % 3]])
+                    longest_m =
+                        std::max(longest_m, glm::distance(ecef_[triangle[i]], ecef_[triangle[(i + 1) % 3]]));
+        if (longest_m <= longest_side_m)
+            return {ErrorKind::failed, source_.path, "has more than 2,000,000 triangles, which is the limit"};
+        char text[400];
+        std::snprintf(
+            text, sizeof text,
+            "has %zu triangle%s with sides of up to %.0f m. Sides are cut to 200 m, to be straight on the "
+            "map and in space, and that makes more than 2,000,000 triangles, which is the limit: give a "
+            "part of the mesh, or is its unit wrong (--mesh-unit)?",
+            source_.triangles.size(), source_.triangles.size() == 1 ? "" : "s", longest_m);
+        return {ErrorKind::failed, source_.path, text};
     }
     std::uint32_t middle_of(std::uint32_t a, std::uint32_t b) {
         const auto [found, is_new] =

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geo/files/line_number.h"
 #include "geo/meshes/mesh_readers.h"
 #include "geo/meshes/mesh_words.h"
 #include "geo/meshes/polygon_cut.h"
@@ -85,6 +86,7 @@ class PlyReader {
         mesh_.format = "PLY";
         ORO_CHECK(header());
         for (const PlyElement& element : elements_) ORO_CHECK(body(element));
+        ORO_CHECK(nothing_is_left());
         // Faces may stand before the vertices.
         std::vector<std::uint32_t> polygon;
         std::size_t first = 0;
@@ -139,6 +141,23 @@ class PlyReader {
             }
         }
         return fault("the header has no end");
+    }
+
+    // A header that names too few of something would leave the rest out without a word.
+    [[nodiscard]] Result<void> nothing_is_left() {
+        constexpr std::string_view blanks(" \t\r\n\v\f\0", 7);
+        const std::size_t begin = rest_.find_first_not_of(blanks);
+        if (begin == std::string_view::npos) return {};
+        rest_.remove_prefix(begin);
+        std::string counts;
+        for (const PlyElement& element : elements_)
+            counts += (counts.empty() ? "" : ", ") + std::to_string(element.count) + " of " +
+                      shown_word(element.name);
+        const std::string why =
+            "the file goes on behind all that its header names (" + counts + "): is a count in it too small?";
+        if (layout_ != PlyLayout::text) return fault(why);
+        const std::size_t at = bytes_.size() - rest_.size();
+        return mesh_fault("line", line_number(bytes_, at), why);
     }
 
     Result<void> property(std::string_view line) {

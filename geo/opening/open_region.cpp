@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -14,6 +16,7 @@
 #include "core/base/files_read.h"
 #include "geo/files/library_faults.h"
 #include "geo/files/raster_library.h"
+#include "geo/meshes/mesh_in_box.h"
 #include "geo/meshes/mesh_over_ground.h"
 #include "geo/meshes/placed_mesh.h"
 #include "geo/opening/grid_choice.h"
@@ -23,6 +26,7 @@
 #include "geo/opening/region_files.h"
 #include "geo/opening/region_sources.h"
 #include "geo/region/region_grid.h"
+#include "geo/sources/notes.h"
 #include "geo/together/baked_meshes.h"
 #include "geo/together/feather.h"
 #include "geo/together/mesh_cut.h"
@@ -34,7 +38,8 @@ namespace {
 Result<void> cut_terrain_out(Region& region) {
     if (region.grids.size() > 1)
         return Error{ErrorKind::usage, "--cut-under", "is of a region of one grid, and this one has several"};
-    auto meshes = std::make_shared<std::vector<PlacedMesh>>(*region.meshes);
+    auto meshes = std::make_shared<std::vector<PlacedMesh>>();
+    if (region.meshes) *meshes = *region.meshes;
     bool is_any = false;
     for (PlacedMesh& mesh : *meshes) {
         if (mesh.look != gpu::mesh_look_ground) continue;
@@ -48,11 +53,25 @@ Result<void> cut_terrain_out(Region& region) {
     return {};
 }
 
+// Leaves out the meshes that have nothing in the box that is asked for, with a note on each.
+void leave_outside_out(const std::optional<BoundingBox>& box, std::vector<PlacedMesh>& meshes,
+                       RegionGrid& noted) {
+    if (!box) return;
+    std::erase_if(meshes, [&](const PlacedMesh& mesh) {
+        if (reaches_into(mesh, *box)) return false;
+        add_note(noted.notes,
+                 mesh.path + ": lies wholly outside the box " + bounding_box_text(*box) + " and is left out");
+        return true;
+    });
+}
+
 // The meshes in a baked file, before those that lie on it besides. Its description has the notes on them.
-Result<void> open_baked_meshes(const std::string& path, Region& region) {
+Result<void> open_baked_meshes(const std::string& path, const std::optional<BoundingBox>& box,
+                               Region& region) {
     ORO_TRY(const std::shared_ptr<const Container> container, Container::open(path));
     ORO_TRY(std::vector<PlacedMesh> meshes,
             read_baked_meshes(*container, region.grids.front().field.undulation));
+    leave_outside_out(box, meshes, region.grids.front());
     if (meshes.empty()) return {};
     region.meshes = std::make_shared<const std::vector<PlacedMesh>>(std::move(meshes));
     return {};
@@ -68,7 +87,9 @@ Result<void> open_meshes_of(const RegionRequest& request, Region& region) {
     ORO_TRY(const auto opened,
             open_meshes(request.meshes, request.strict_datum, region.grids.front().field.undulation, fields));
     RegionGrid& first = region.grids.front();
-    for (const PlacedMesh& mesh : *opened) {
+    std::vector<PlacedMesh> inside = *opened;
+    leave_outside_out(request.box, inside, first);
+    for (const PlacedMesh& mesh : inside) {
         const std::optional<MeshOverGround> over = mesh_over_ground(mesh, fields);
         const bool is_swapped = !over && is_over_ground_swapped(mesh, fields);
         first.notes.push_back(
@@ -77,10 +98,27 @@ Result<void> open_meshes_of(const RegionRequest& request, Region& region) {
     }
     auto meshes = std::make_shared<std::vector<PlacedMesh>>();
     if (region.meshes) *meshes = *region.meshes;
-    meshes->insert(meshes->end(), opened->begin(), opened->end());
-    region.meshes = std::move(meshes);
+    meshes->insert(meshes->end(), std::make_move_iterator(inside.begin()),
+                   std::make_move_iterator(inside.end()));
+    if (!meshes->empty()) region.meshes = std::move(meshes);
     if (request.meshes.cut_under) ORO_CHECK(cut_terrain_out(region));
     return region.health();
+}
+
+// A unit of heights that no source can have: of .hgt files the format says metres (SRTM's product
+// specification), and not the user. Beside other files it is theirs, and a note says so.
+Result<void> check_height_unit(const RegionRequest& request, std::span<const ChosenGrid> grids) {
+    if (request.height_unit.empty() || request.height_unit == "m") return {};
+    const bool are_hgt = std::ranges::all_of(grids, [](const ChosenGrid& grid) {
+        return !grid.sources.empty() && std::ranges::all_of(grid.sources, [](const Source& source) {
+            return source.kind == SourceKind::hgt;
+        });
+    });
+    if (!are_hgt) return {};
+    return Error{
+        ErrorKind::usage, "--height-unit " + request.height_unit,
+        "is not for .hgt files, whose format says metres: leave it out; if a file has other heights, "
+        "gdal_translate -of GTiff makes one of it whose unit can be given"};
 }
 
 // The five steps. Of grids over each other one may lack all height: the others have ground.
@@ -91,6 +129,7 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
     ORO_TRY(RegionSources found, probe_files(files, request, progress));
     const std::vector<std::string> notes = found.notes;
     ORO_TRY(std::vector<ChosenGrid> chosen, choose_grids(std::move(found), request));
+    ORO_CHECK(check_height_unit(request, chosen));
     const auto count = static_cast<double>(chosen.size());
     const bool may_lack = chosen.size() > 1 && (!is_baked || request.box);
     std::vector<RegionGrid> grids;
@@ -118,7 +157,7 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
     if (progress) progress(1.0, "region read");
     Region region = describe_region(std::move(grids), empty, is_baked);
     if (request.feather_m > 0.0 && region.grids.size() > 1) ORO_CHECK(feather(region, request.feather_m));
-    if (is_baked) ORO_CHECK(open_baked_meshes(files.baked, region));
+    if (is_baked) ORO_CHECK(open_baked_meshes(files.baked, request.box, region));
     if (!request.meshes.files.empty()) ORO_CHECK(open_meshes_of(request, region));
     return region;
 }

@@ -68,7 +68,7 @@ std::optional<std::size_t> above_ground_column(const std::vector<std::string>& h
         if (!is_in_metres(headings[i])) names[i].clear();
     }
     return column_of(names, {"above", "above ground", "height above ground", "height agl", "agl",
-                             "mast height", "height"});
+                             "mast height", "eye height", "eye", "eyes", "height"});
 }
 
 CoordinateColumns coordinate_columns(const std::vector<std::string>& headings) {

@@ -21,9 +21,9 @@ struct DegreeColumns {
 DegreeColumns degree_columns(const std::vector<std::string>& headings);
 
 // The column of heights over the ground in metres, for what stands on it: above, above ground, height above
-// ground, agl, mast height, height ... The first of these names that a table has counts. Brackets must hold a
-// unit of metres: "Height (ft)" and "Height (m a.s.l.)" are none. Only for tables of things that stand on the
-// ground: of others height is mostly the one above the sea.
+// ground, agl, mast height, eye height, height ... The first of these names that a table has counts. Brackets
+// must hold a unit of metres: "Height (ft)" and "Height (m a.s.l.)" are none. Only for tables of things that
+// stand on the ground: of others height is mostly the one above the sea.
 std::optional<std::size_t> above_ground_column(const std::vector<std::string>& headings);
 
 struct CoordinateColumns {

@@ -19,7 +19,7 @@
 #include "geo/files/letter_case.h"
 #include "geo/files/raster_library.h"
 #include "geo/vectors/coordinate_columns.h"
-#include "geo/vectors/csv_table.h"
+#include "geo/vectors/csv_records.h"
 #include "geo/vectors/layer_builder.h"
 #include "geo/vectors/text_path.h"
 #include "geo/vectors/vector_readers.h"
@@ -29,8 +29,6 @@ namespace {
 
 constexpr std::size_t csv_looks_apart = 256;
 constexpr std::size_t most_csv_crs = 64;
-constexpr std::size_t longest_heading = std::size_t{1} << 16U;  // bytes in which a first line is looked for
-constexpr const char* csv_excess = "lines that have more fields than the first one";
 constexpr const char* csv_no_wkt = "geometries that are no well-known text";
 
 Error csv_fault(const std::string& what) {
@@ -42,32 +40,12 @@ struct DestroyGeometry {
 };
 using WrittenGeometry = std::unique_ptr<std::remove_pointer_t<OGRGeometryH>, DestroyGeometry>;
 
-// The columns that a table's first line names.
-CoordinateColumns columns_of(const std::vector<CsvField>& heading) {
-    std::vector<std::string> headings;
-    for (const CsvField& field : heading) headings.push_back(field.text);
-    return coordinate_columns(headings);
-}
-
-// The mark between fields with which a text's first line names columns of coordinates; 0: none does.
-char csv_mark(std::string_view text) {
-    std::vector<char> marks{',', ';', '\t', '|'};
-    if (const char named = CsvTable::named_mark(text); named != '\0') marks = {named};
-    for (const char mark : marks) {
-        CsvTable table(text.substr(0, longest_heading), mark);
-        std::vector<CsvField> heading;
-        const auto any = table.next(heading);
-        if (any.ok() && *any && columns_of(heading).kind != CoordinateColumns::Kind::none) return mark;
-    }
-    return '\0';
-}
-
 class CsvReader {
   public:
-    CsvReader(std::string_view text, std::string name, std::string crs, FileWatch& watch, VectorFile& file,
+    CsvReader(CsvRecords records, std::string name, std::string crs, FileWatch& watch, VectorFile& file,
               LeftOut& left_out)
-        : text_(text),
-          table_(text, csv_mark(text)),
+        : records_(std::move(records)),
+          columns_(coordinate_columns(records_.headings())),
           name_(std::move(name)),
           crs_(std::move(crs)),
           watch_(watch),
@@ -75,14 +53,10 @@ class CsvReader {
           left_out_(left_out) {}
 
     Result<void> all() {
-        ORO_TRY(const bool has_heading, table_.next(heading_));
-        if (!has_heading) return csv_fault("is an empty table");
-        columns_ = columns_of(heading_);
-        width_ = table_.width();
         std::vector<CsvField> fields;
         for (std::size_t count = 0;; ++count) {
             if (count % csv_looks_apart == 0 && watch_.spent()) return csv_fault(watch_.fault());
-            ORO_TRY(const bool more, table_.next(fields));
+            ORO_TRY(const bool more, records_.next(fields));
             if (!more) break;
             ORO_CHECK(record(fields));
             if (places() > most_vector_places)
@@ -104,15 +78,11 @@ class CsvReader {
     }
 
     Result<void> record(const std::vector<CsvField>& fields) {
-        if (table_.width() > width_) {
-            left_out_.add(csv_excess, {1, 1, table_.at(), line_text()});
-            return {};
-        }
         std::string crs = text_in(fields, columns_.crs), wkt;
         if (columns_.kind == Kind::wkt) {
             wkt = text_in(fields, columns_.x);
             if (wkt.empty()) {
-                left_out_.add("lines without a geometry", {1, 0, table_.at(), ""});
+                left_out_.add("lines without a geometry", {1, 0, records_.at(), ""});
                 return {};
             }
             take_srid(wkt, crs);
@@ -125,16 +95,11 @@ class CsvReader {
             geometry(wkt, layer->splitter(), to);
         else
             point(fields, layer->splitter(), to);
-        for (std::size_t i = 0; i < std::min(fields.size(), heading_.size()); ++i)
-            if (!columns_.has(i)) layer->say(heading_[i].text, fields[i].text);
+        const std::vector<std::string>& headings = records_.headings();
+        for (std::size_t i = 0; i < headings.size(); ++i)
+            if (!columns_.has(i)) layer->say(headings[i], fields[i].text);
         layer->end_record();
         return {};
-    }
-
-    // The line that was read last, as it is written.
-    [[nodiscard]] std::string line_text() const {
-        const std::string_view from = text_.substr(table_.at());
-        return std::string(from.substr(0, std::min(from.find_first_of("\r\n"), from.size())));
     }
 
     static std::string text_in(const std::vector<CsvField>& fields, std::optional<std::size_t> column) {
@@ -169,8 +134,8 @@ class CsvReader {
         const std::string& crs = stated.empty() ? crs_ : stated;
         const bool is_degrees = columns_.kind == Kind::degrees;
         if (crs.empty() && columns_.kind == Kind::plane)
-            return csv_fault("its columns " + foreign_text(heading_[*columns_.x].text) + " and " +
-                             foreign_text(heading_[*columns_.y].text) +
+            return csv_fault("its columns " + foreign_text(records_.headings()[*columns_.x]) + " and " +
+                             foreign_text(records_.headings()[*columns_.y]) +
                              " state no coordinate reference system, so where they lie is unknown: give it "
                              "a column crs (EPSG:2056), or a .prj beside it under the same name, or call "
                              "them lon and lat where they are degrees");
@@ -195,7 +160,7 @@ class CsvReader {
         TextPath path;
         const std::string x = number_in(fields, columns_.x), y = number_in(fields, columns_.y),
                           height = number_in(fields, columns_.height);
-        path.add(x, y, height, table_.at());
+        path.add(x, y, height, records_.at());
         splitter.add_point(path, to);
         ++points_;
         if (may_be_decimal_commas(fields)) ++doubtful_points_;
@@ -204,7 +169,7 @@ class CsvReader {
     // Whether whole numbers stand in the columns of a place and in the one behind them, between commas:
     // 45,80,10,1 may be 45.80 and 10.1.
     [[nodiscard]] bool may_be_decimal_commas(const std::vector<CsvField>& fields) const {
-        if (table_.mark() != ',' || columns_.kind != Kind::degrees) return false;
+        if (records_.mark() != ',' || columns_.kind != Kind::degrees) return false;
         const std::size_t behind = std::max(*columns_.x, *columns_.y) + 1;
         const auto is_whole = [&](std::size_t column) {
             return column < fields.size() && !fields[column].is_quoted && !fields[column].text.empty() &&
@@ -220,7 +185,7 @@ class CsvReader {
         const CsvField& field = fields[*column];
         const std::size_t comma = field.text.find(',');
         if (comma == std::string::npos || field.text.find_first_of(",.", comma + 1) != std::string::npos ||
-            field.text.find('.') < comma || (table_.mark() == ',' && !field.is_quoted))
+            field.text.find('.') < comma || (records_.mark() == ',' && !field.is_quoted))
             return field.text;
         const std::size_t first = field.text.starts_with('-') || field.text.starts_with('+') ? 1 : 0;
         const bool is_degree = columns_.kind == Kind::degrees && column != columns_.height;
@@ -244,7 +209,7 @@ class CsvReader {
         if (is_whole && written)
             splitter.split(written.get(), to);
         else
-            left_out_.add(csv_no_wkt, {1, 1, table_.at(), wkt});
+            left_out_.add(csv_no_wkt, {1, 1, records_.at(), wkt});
     }
 
     void note() {
@@ -267,17 +232,14 @@ class CsvReader {
                                   "longitudes and latitudes of WGS84");
     }
 
-    std::string_view text_;
-    CsvTable table_;
+    CsvRecords records_;
+    CoordinateColumns columns_;
     std::string name_, crs_;
     FileWatch& watch_;
     VectorFile& file_;
     LeftOut& left_out_;
-    std::vector<CsvField> heading_;
-    CoordinateColumns columns_;
     std::map<std::string, std::unique_ptr<LayerBuilder>> layers_;
     std::vector<std::string> order_;  // of the layers, as they came up
-    std::size_t width_{};             // fields of the first line
     std::size_t points_{}, doubtful_points_{};
     std::size_t decimal_commas_{};
     std::string first_decimal_comma_;
@@ -287,12 +249,14 @@ class CsvReader {
 }  // namespace
 
 bool is_csv(std::string_view text) {
-    return csv_mark(text) != '\0';
+    const Result<CsvRecords> records = CsvRecords::of(text);
+    return records.ok() && coordinate_columns(records->headings()).kind != CoordinateColumns::Kind::none;
 }
 
 Result<void> read_csv(std::string_view text, const std::string& name, const std::string& crs,
                       FileWatch& watch, VectorFile& file, LeftOut& left_out) {
-    return CsvReader(text, name, crs, watch, file, left_out).all();
+    ORO_TRY(CsvRecords records, CsvRecords::of(text));
+    return CsvReader(std::move(records), name, crs, watch, file, left_out).all();
 }
 
 }  // namespace oro

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cctype>
 
+#include "geo/files/foreign_text.h"
+#include "geo/files/line_number.h"
+
 namespace oro {
 namespace {
 
@@ -18,7 +21,20 @@ void trim(std::string& text) {
     text.erase(0, std::min(text.find_first_not_of(csv_blanks), text.size()));
 }
 
+// The beginning of a text.
+std::string shown(const std::string& text) {
+    constexpr std::size_t longest = 20;
+    if (text.size() <= longest) return foreign_text(text);
+    std::size_t end = longest;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // whole letters
+    return foreign_text(text.substr(0, end)) + "...";
+}
+
 }  // namespace
+
+Error CsvTable::fault_at(std::size_t at, const std::string& what) const {
+    return {ErrorKind::failed, "", "line " + std::to_string(line_number(text_, at)) + " " + what};
+}
 
 char CsvTable::named_mark(std::string_view text) {
     const bool is_named = text.size() > 5 && text.starts_with("sep=") && is_line_end(text[5]);
@@ -40,9 +56,8 @@ Result<void> CsvTable::field(CsvField& field) {
         for (;;) {
             const std::size_t end = text_.find('"', at_);
             if (end == std::string_view::npos)
-                return Error{ErrorKind::failed, "",
-                             "line " + std::to_string(1 + std::ranges::count(text_.substr(0, begin), '\n')) +
-                                 ": a quotation mark has no end"};
+                return fault_at(begin,
+                                "has a quotation mark without an end: all lines behind it are in one field");
             field.text += text_.substr(at_, end - at_);
             at_ = end + 1;
             if (at_ == text_.size() || text_[at_] != '"') break;
@@ -51,7 +66,14 @@ Result<void> CsvTable::field(CsvField& field) {
     }
     const std::size_t begin = at_;
     while (at_ < text_.size() && text_[at_] != mark_ && !is_line_end(text_[at_])) ++at_;
-    field.text += text_.substr(begin, at_ - begin);
+    std::string rest(text_.substr(begin, at_ - begin));
+    trim(rest);
+    if (field.is_quoted && !rest.empty())
+        return fault_at(begin,
+                        "has '" + shown(rest) +
+                            "' behind a field in quotation marks: a quotation mark within such a field is "
+                            "written twice");
+    field.text += rest;
     trim(field.text);
     return {};
 }
@@ -60,7 +82,7 @@ Result<bool> CsvTable::next(std::vector<CsvField>& fields) {
     for (;;) {
         while (at_ < text_.size() && is_line_end(text_[at_])) ++at_;
         if (at_ == text_.size()) return false;
-        line_at_ = at_;
+        record_at_ = at_;
         std::size_t count = 0;
         for (;;) {
             if (count == fields.size()) fields.emplace_back();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geo/files/foreign_text.h"
+#include "geo/files/line_number.h"
 
 namespace oro {
 
@@ -61,8 +62,8 @@ class LeftOut {
         std::string words =
             std::to_string(part.count) + " " + (part.count == 1 ? of_one(reason.words) : reason.words);
         if (part.at > text.size()) return words;
-        const auto line = 1 + std::ranges::count(text.substr(0, part.at), '\n');
-        words += (part.count > 1 ? ", the first in line " : ", in line ") + std::to_string(line);
+        words += (part.count > 1 ? ", the first in line " : ", in line ") +
+                 std::to_string(line_number(text, part.at));
         return part.word.empty() ? words : words + ": '" + shown(part.word) + "'";
     }
     // "3 places of lines that are no numbers" is "1 place of a line that is no number" where there is one.
@@ -78,7 +79,6 @@ class LeftOut {
               {" that are no numbers", " that is no number"},
               {" that are none", " that is none"},
               {" that count from one", " that counts from one"},
-              {" have more fields", " has more fields"},
               {" whose coordinates do not fit their type", " whose coordinates do not fit its type"},
               {" that their coordinate", " that its coordinate"},
               {", which are not followed", ", which is not followed"},

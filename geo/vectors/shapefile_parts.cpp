@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "core/base/open_file.h"
 
@@ -114,6 +115,40 @@ Result<std::uint64_t> checked_length(const std::string& file, const char* what) 
     return stated;
 }
 
+// Length of a record's content in a .shx, behind its offset in the .shp: both in words of two bytes, the high
+// byte first.
+std::uint64_t shape_bytes(const unsigned char* record) {
+    std::uint64_t words = 0;
+    for (std::size_t i = 4; i < shx_record_bytes; ++i) words = words << 8U | record[i];
+    return 2 * words;
+}
+
+// How many bytes of the .shp a .shx of so many bytes lists: header, and each shape behind a header of 8
+// bytes.
+Result<std::uint64_t> bytes_listed(const std::string& shx, std::uint64_t index_bytes) {
+    constexpr std::uint64_t shape_header_bytes = 8, block = shx_record_bytes << 13U;
+    std::uint64_t listed = shp_header_bytes;
+    const auto add = [&](const unsigned char* records, std::uint64_t bytes) {
+        for (std::uint64_t at = 0; at + shx_record_bytes <= bytes; at += shx_record_bytes)
+            listed += shape_header_bytes + shape_bytes(records + at);
+    };
+    if (is_in_memory(shx)) {
+        vsi_l_offset length = 0;
+        const unsigned char* const bytes = VSIGetMemFileBuffer(shx.c_str(), &length, FALSE);
+        if (bytes != nullptr && length >= index_bytes)
+            add(bytes + shp_header_bytes, index_bytes - shp_header_bytes);
+        return listed;
+    }
+    ORO_TRY(const OpenFile opened, OpenFile::open(shx, OpenFile::Use::read));
+    std::vector<unsigned char> bytes;
+    for (std::uint64_t at = shp_header_bytes; at < index_bytes; at += block) {
+        bytes.resize(std::min(block, index_bytes - at));
+        ORO_CHECK(opened.read(at, std::as_writable_bytes(std::span(bytes))));
+        add(bytes.data(), bytes.size());
+    }
+    return listed;
+}
+
 // The number of records of a .dbf.
 Result<std::uint64_t> checked_records(const std::string& file) {
     ORO_TRY(const PartHead head, head_of(file, ".dbf"));
@@ -135,8 +170,14 @@ Result<ShapefileParts> shapefile_parts(const std::string& file, const std::strin
         if (part->empty())
             return shapefile_fault("is a shapefile without its " + std::string(what) +
                                    ": put it beside the .shp, under the same name");
-    ORO_CHECK(checked_length(file, ".shp"));
+    ORO_TRY(const std::uint64_t shape_file_bytes, checked_length(file, ".shp"));
     ORO_TRY(const std::uint64_t index_bytes, checked_length(shx, ".shx"));
+    const Result<std::uint64_t> listed = bytes_listed(shx, index_bytes);
+    if (!listed.ok()) return shapefile_fault("its .shx " + listed.error().what);
+    if (*listed < shape_file_bytes)
+        parts.notes.push_back(shown + ": its .shp has " + std::to_string(shape_file_bytes) +
+                              " bytes, and its .shx lists " + std::to_string(*listed) +
+                              " of them: the two may not belong together, and shapes may be left out");
     if (dbf.empty()) {
         parts.notes.push_back(shown +
                               ": is a shapefile without its .dbf: its shapes are read, their names and "

@@ -89,10 +89,16 @@ const ArchiveEntry* VectorArchive::named(const std::string& name) const {
 
 const ArchiveEntry* VectorArchive::main_kml() const {
     if (const ArchiveEntry* const main = named("doc.kml"); main != nullptr) return main;
+    const std::vector<const ArchiveEntry*> all = all_kml();
+    return all.empty() ? nullptr : all.front();
+}
+
+std::vector<const ArchiveEntry*> VectorArchive::all_kml() const {
     static constexpr std::array kml{".kml"};
-    const auto first =
-        std::ranges::find_if(entries_, [](const ArchiveEntry& one) { return has_ending(one, kml); });
-    return first == entries_.end() ? nullptr : &*first;
+    std::vector<const ArchiveEntry*> all;
+    for (const ArchiveEntry& entry : entries_)
+        if (has_ending(entry, kml)) all.push_back(&entry);
+    return all;
 }
 
 Result<const ArchiveEntry*> VectorArchive::only_vector_file() const {
@@ -140,6 +146,9 @@ Result<std::string> VectorArchive::unpack(const ArchiveEntry& entry) {
                       which = shown + (unpacked_bytes_ > 0 ? ", which with the files before it" : ", which");
     if (leads_out(entry.name))
         return archive_fault("holds " + shown + ", whose name leads out of the archive: it is not opened");
+    if (const auto count = std::ranges::count(entries_, entry.name, &ArchiveEntry::name); count > 1)
+        return archive_fault("holds " + std::to_string(count) + " files of the name " + shown +
+                             ", and which of them counts is not clear: unpack it and name the file");
     if (entry.bytes > longest_vector_text - unpacked_bytes_)
         return archive_fault("holds " + which + " is longer than 1 GiB, the limit");
     const std::uint64_t bytes = unpacked_bytes_ + entry.bytes;

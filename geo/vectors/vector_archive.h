@@ -20,6 +20,8 @@ class VectorArchive {
 
     // KML's main file: doc.kml, or the first .kml; null where there is none.
     [[nodiscard]] const ArchiveEntry* main_kml() const;
+    // All .kml, in the archive's order.
+    [[nodiscard]] std::vector<const ArchiveEntry*> all_kml() const;
     // The one file of vectors that is no KML: .shp, .gpkg, .fgb, .geojson, .topojson or .gpx; where none of
     // these is there, .csv or .json. Errors (a reason, without the file's name): none, or several, and how
     // many.
@@ -32,8 +34,8 @@ class VectorArchive {
     [[nodiscard]] const ArchiveEntry* linked(const ArchiveEntry& from, const std::string& href) const;
 
     // All bytes of a file. Errors (a reason, without the archive's name): a name that leads out of the
-    // archive; a file that is damaged or locked; one with which all that was unpacked would be longer than a
-    // text may be, or longer than the archive by far.
+    // archive; a name that several files have; a file that is damaged or locked; one with which all that was
+    // unpacked would be longer than a text may be, or longer than the archive by far.
     Result<std::string> unpack(const ArchiveEntry& entry);
 
   private:

@@ -1,15 +1,14 @@
 #include "geo/vectors/vector_file.h"
 
-#include <cpl_conv.h>
-#include <cpl_string.h>
 #include <sys/stat.h>
-#include <utf8.h>
 
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,7 +20,10 @@
 #include "geo/files/memory_files.h"
 #include "geo/files/raster_library.h"
 #include "geo/files/text_encoding.h"
+#include "geo/vectors/csv_records.h"
+#include "geo/vectors/flatgeobuf_end.h"
 #include "geo/vectors/shapefile_parts.h"
+#include "geo/vectors/table_text.h"
 #include "geo/vectors/vector_archive.h"
 #include "geo/vectors/vector_readers.h"
 #include "geo/vectors/vector_shapes.h"
@@ -95,7 +97,8 @@ Result<Look> probe(const std::string& file, std::vector<std::string>& notes) {
     return look;
 }
 
-// Takes what was left out of a text, or of a dataset, into a file's notes, which call it `shown`; gives it in one.
+// Takes what was left out of a text, or of a dataset, into a file's notes, which call it `shown`; gives it in
+// one.
 std::string noted(const LeftOut& left_out, const std::string& shown, std::string_view text,
                   VectorFile& file) {
     for (std::string& note : left_out.notes(shown, text)) file.notes.push_back(std::move(note));
@@ -113,21 +116,11 @@ Result<std::string> bytes_of_file(const std::string& name) {
 
 constexpr const char* no_columns =
     "its first line names no columns of coordinates: a CSV has lat and lon, or WKT, or x and y (E and N) "
-    "with a "
-    "coordinate reference system";
+    "with a coordinate reference system";
 
 bool may_be_csv(const std::string& name) {
     const std::string lower = lower_case(name);
     return lower.ends_with(".csv") || lower.ends_with(".tsv") || lower.ends_with(".txt");
-}
-
-// Text of a spreadsheet of old in UTF-8; as it is where the library cannot turn it.
-std::string from_windows_1252(const std::string& text) {
-    const GdalMessages unsaid;
-    char* const turned = CPLRecode(text.c_str(), "CP1252", CPL_ENC_UTF8);
-    std::string utf8 = turned != nullptr ? turned : text;
-    CPLFree(turned);
-    return utf8;
 }
 
 Result<void> check_length_of_prj(std::uint64_t bytes) {
@@ -197,19 +190,21 @@ Result<std::string> read_text(VectorText from, VectorFile& file, FileWatch& watc
         } else {
             return unknown("is XML whose first element is '" + foreign_text(root) + "'");
         }
-    } else if (is_csv(text)) {
-        if (!utf8::is_valid(text.begin(), text.end())) {
-            text = from_windows_1252(text);
-            file.notes.push_back(from.shown + ": is no UTF-8 and is read as Windows-1252");
+    } else if (const bool may_be_json =
+                   first != std::string::npos && (text[first] == '{' || text[first] == '[');
+               is_csv(text) || (!may_be_json && may_be_csv(from.name))) {
+        ORO_TRY(TableText table, utf8_table(std::move(text)));
+        text = std::move(table.text);
+        if (!table.note.empty()) file.notes.push_back(from.shown + ": " + table.note);
+        if (!is_csv(text)) {
+            const Result<CsvRecords> records = CsvRecords::of(text);
+            return records.ok() ? unknown(no_columns) : records.error();
         }
         ORO_TRY(const std::string crs, from.crs_of_table());
         ORO_CHECK(read_csv(text, stem, crs, watch, file, left_out));
     } else {
         const Result<void> read = read_geojson(text, stem, watch, file, left_out);
-        if (!read.ok())
-            return first != std::string::npos && (text[first] == '{' || text[first] == '[')
-                       ? read.error()
-                       : unknown(may_be_csv(from.name) ? no_columns : "unknown format");
+        if (!read.ok()) return may_be_json ? read.error() : unknown("unknown format");
     }
     return noted(left_out, from.shown, text, file);
 }
@@ -222,6 +217,7 @@ Result<std::string> read_with_ogr(const std::string& name, DatasetFormat format,
         if (name == file.file) file.files = std::move(parts.files);
         for (std::string& note : parts.notes) file.notes.push_back(std::move(note));
     }
+    if (format == DatasetFormat::flatgeobuf) ORO_CHECK(check_flatgeobuf_end(name));
     LeftOut left_out;
     ORO_CHECK(read_dataset(name, format, watch, messages, file, left_out));
     return noted(left_out, file.file, "", file);
@@ -240,10 +236,34 @@ std::size_t places_in(const VectorFile& file) {
     return places;
 }
 
+// Which .kml of a KMZ are not read, and why; one line each.
+std::vector<std::string> unread_words(const VectorArchive& archive,
+                                      const std::vector<const ArchiveEntry*>& read,
+                                      const std::set<std::string>& beyond) {
+    std::vector<std::string> words;
+    if (!beyond.empty())
+        words.push_back("links to more than " + std::to_string(most_linked_files) +
+                        " files in it, which is the limit: " + std::to_string(beyond.size()) +
+                        " are not read, the first by name is " + foreign_text(*beyond.begin()));
+    std::vector<const ArchiveEntry*> unread = archive.all_kml();
+    std::erase_if(unread, [&](const ArchiveEntry* one) {
+        return std::ranges::find(read, one) != read.end() || beyond.contains(one->name);
+    });
+    if (unread.size() == 1)
+        words.push_back("1 .kml in it is not read, since nothing links to it: " +
+                        foreign_text(unread.front()->name));
+    if (unread.size() > 1)
+        words.push_back(std::to_string(unread.size()) +
+                        " .kml in it are not read, since nothing links to them, the first is " +
+                        foreign_text(unread.front()->name));
+    return words;
+}
+
 // Reads the main file of a KMZ, and those that network links lead to within it, each once.
 Result<std::string> read_kmz(VectorArchive& archive, const ArchiveEntry& main, VectorFile& file,
                              FileWatch& watch) {
     std::vector<const ArchiveEntry*> entries{&main};
+    std::set<std::string> beyond;  // the limit: files that are linked and not read
     std::string left_out;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const ArchiveEntry& entry = *entries[i];
@@ -251,9 +271,12 @@ Result<std::string> read_kmz(VectorArchive& archive, const ArchiveEntry& main, V
         if (i > 0) text.name = entry.name, text.shown += "/" + foreign_text(entry.name);
         text.links = [&](const std::string& href) {
             const ArchiveEntry* const linked = archive.linked(entry, href);
+            if (linked == nullptr) return false;
             const bool is_known = std::ranges::find(entries, linked) != entries.end();
-            if (linked == nullptr || (!is_known && entries.size() > most_linked_files)) return false;
-            if (!is_known) entries.push_back(linked);
+            if (!is_known && entries.size() > most_linked_files)
+                beyond.insert(linked->name);
+            else if (!is_known)
+                entries.push_back(linked);
             return true;
         };
         ORO_TRY(text.bytes, archive.unpack(entry));
@@ -263,6 +286,10 @@ Result<std::string> read_kmz(VectorArchive& archive, const ArchiveEntry& main, V
         if (places_in(file) > most_vector_places)
             return fault("has more than " + std::to_string(most_vector_places) +
                          " places, which is the limit");
+    }
+    for (const std::string& words : unread_words(archive, entries, beyond)) {
+        file.notes.push_back(file.file + ": " + words);
+        left_out += (left_out.empty() ? "" : "; ") + words;
     }
     return left_out;
 }

@@ -36,8 +36,8 @@ bool is_csv(std::string_view text);
 // Appends the points of a table to `file`, or the geometries of its column WKT: a layer for each CRS that its
 // column `crs` names. `crs`: that of the whole file (as PROJ takes one, WKT of a .prj, ...), or "". Degrees
 // without one, and geometries without one, are WGS84's. What cannot be drawn goes to `left_out`, with all its
-// places. Errors (a reason, without the file's name): metres without a CRS; a CRS that is not known; a
-// quotation mark without an end; too many places; the watch's time is spent.
+// places. Errors (a reason, without the file's name): those of CsvRecords; metres
+// without a CRS; a CRS that is not known; too many places; the watch's time is spent.
 Result<void> read_csv(std::string_view text, const std::string& name, const std::string& crs,
                       FileWatch& watch, VectorFile& file, LeftOut& left_out);
 

@@ -190,11 +190,12 @@ Result<void> end_of(const Batch& batch) {
 Result<void> run_batch(const BatchOptions& options) {
     BatchReport report;
     ORO_TRY(report.shard, parse_shard(options.shard));
-    std::vector<BatchPlace> places;
+    PlacesOfFile places;
     if (!options.each.empty()) {
         ORO_TRY(places, read_places(options.each));
     }
-    ORO_TRY(std::vector<BatchJob> jobs, read_jobs(options.jobs, places));
+    for (const std::string& note : places.notes) say(options.quiet, "note: " + note);
+    ORO_TRY(std::vector<BatchJob> jobs, read_jobs(options.jobs, places.all));
     const std::string log = options.log.empty() ? options.jobs + ".done" : options.log;
     ORO_TRY(FinishedJobs finished,
             options.check ? FinishedJobs::look_at(log) : FinishedJobs::open(log, report.shard));

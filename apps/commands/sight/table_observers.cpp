@@ -22,6 +22,18 @@ Error of_place(const std::string& file, const std::string& words, const Error& e
     return {error.kind, file + ", " + words, error.line()};
 }
 
+// A number with a comma for decimals, with a point; any other text as it is. A comma may part thousands where
+// three digits stand behind it, but of degrees.
+std::string with_point(const std::string& text, bool is_degree) {
+    const std::size_t comma = text.find(',');
+    if (comma == std::string::npos || text.find_first_of(",.", comma + 1) != std::string::npos ||
+        text.find('.') < comma || (!is_degree && text.size() - comma - 1 == 3))
+        return text;
+    std::string number = text;
+    number[comma] = '.';
+    return number;
+}
+
 // A number that a place has in a field; nothing where it has no such field, or nothing in it.
 Result<std::optional<double>> number_in(const BatchPlace& place, const std::string& name) {
     const auto field = place.fields.find(name);
@@ -30,23 +42,44 @@ Result<std::optional<double>> number_in(const BatchPlace& place, const std::stri
     std::erase(text, ' ');
     if (text.empty()) return std::optional<double>();
     double number = 0.0;
-    if (!read_whole(text, number) || !std::isfinite(number))
+    if (!read_whole(with_point(text, name == "lat" || name == "lon"), number) || !std::isfinite(number))
         return Error{ErrorKind::failed, name, "\"" + field->second + "\" is no number"};
     return std::optional(number);
+}
+
+// What is said of the first decimal comma.
+std::string note_of_commas(const BatchPlace& place, const std::string& above_column) {
+    for (const std::string& name : {std::string("lat"), std::string("lon"), above_column}) {
+        const auto field = place.fields.find(name);
+        if (field == place.fields.end()) continue;
+        const std::string number = with_point(field->second, name != above_column);
+        if (number != field->second)
+            return "has commas for decimals: '" + one_line(field->second) + "' is read as " +
+                   one_line(number);
+    }
+    return "";
 }
 
 // No mast is so high. A column of heights above the sea is told by it.
 constexpr double highest_mast_m = 1000.0;
 
+// Whether a column may as well hold heights above the sea, by its name.
+bool may_be_above_sea(const std::string& column) {
+    const std::string name = plain_heading(column);
+    return name.starts_with("height") && name.find("ground") == std::string::npos &&
+           name.find("agl") == std::string::npos;
+}
+
+constexpr const char* call_it_otherwise =
+    "heights above the sea need another name, such as ele, and heights over the ground are called above";
+
 // A place's height over the ground, where it has one.
 Result<std::optional<double>> above_of(const BatchPlace& place, const std::string& column) {
     if (column.empty()) return std::optional<double>();
     ORO_TRY(const std::optional<double> above_m, number_in(place, column));
-    if (above_m && *above_m > highest_mast_m && plain_heading(column).starts_with("height") &&
-        plain_heading(column).find("ground") == std::string::npos)
+    if (above_m && *above_m > highest_mast_m && may_be_above_sea(column))
         return Error{ErrorKind::failed, column + " " + all_digits(*above_m),
-                     "is no height of a mast over the ground: heights above the sea need another name, such "
-                     "as ele, and heights over the ground are called above"};
+                     std::string("is no height of a mast over the ground: ") + call_it_otherwise};
     return above_m;
 }
 
@@ -76,6 +109,9 @@ Result<TableObserver> observer_at(const BatchPlace& place, const std::string& ab
     if (const auto name = place.fields.find("name"); name != place.fields.end()) observer.name = name->second;
     ORO_TRY(const std::optional<double> lat_deg, number_in(place, "lat"));
     ORO_TRY(const std::optional<double> lon_deg, number_in(place, "lon"));
+    for (const auto& [field, angle_deg] : {std::pair{"lat", lat_deg}, {"lon", lon_deg}})
+        if (!angle_deg && place.fields.contains("lat") && place.fields.contains("lon"))
+            return Error{ErrorKind::failed, field, "is empty"};
     if (!lat_deg || !lon_deg)
         return Error{
             ErrorKind::failed, "lat and lon",
@@ -120,14 +156,17 @@ Result<void> check_observers(const ObserversOptions& observers, const ViewshedOp
 }
 
 Result<ObserversOfFile> read_observers(const ObserversOptions& observers, const ViewshedOptions& options) {
-    std::vector<std::string> headings;
-    ORO_TRY(const std::vector<BatchPlace> places, read_places(observers.file, headings));
-    Result<ObserverColumns> columns = columns_of(headings);
+    ORO_TRY(PlacesOfFile places, read_places(observers.file));
+    Result<ObserverColumns> columns = columns_of(places.headings);
     if (!columns.ok()) return Error{columns.error().kind, observers.file, columns.error().line()};
-    ObserversOfFile read{{}, std::move(*columns)};
-    read.all.reserve(places.size());
+    ObserversOfFile read{{}, std::move(*columns), std::move(places.notes)};
+    const std::size_t notes_of_reading = read.notes.size();
+    read.all.reserve(places.all.size());
     read.columns.is_above_everywhere = true;
-    for (const BatchPlace& place : places) {
+    for (const BatchPlace& place : places.all) {
+        if (const std::string note = note_of_commas(place, read.columns.above);
+            !note.empty() && read.notes.size() == notes_of_reading)
+            read.notes.push_back(observers.file + ": " + note);
         Result<TableObserver> observer = observer_at(place, read.columns.above, options);
         if (!observer.ok()) return of_place(observers.file, place.words(), observer.error());
         read.columns.is_above_everywhere &= observer->has_own_height;
@@ -150,6 +189,34 @@ Result<void> find_ground(const std::string& file, const SightGround& ground,
         if (!first) first = error;
     }
     return any || !first ? Result<void>() : *first;
+}
+
+Result<void> check_above_ground(const std::string& file, const ObserverColumns& columns,
+                                const SightGround& ground, const std::vector<TableObserver>& observers) {
+    // Heights of what is built are mostly less. Where all are alike they are a model's, of turbines say.
+    constexpr double least_doubtful_m = 50.0, most_off_m = 20.0, most_off_share = 0.05;
+    if (columns.above.empty() || !may_be_above_sea(columns.above)) return {};
+    std::size_t count = 0, doubtful = 0;
+    bool are_alike = true;
+    double first_m = 0.0;
+    std::string first;
+    for (const TableObserver& observer : observers) {
+        if (!observer.has_ground || !observer.has_own_height) continue;
+        const double above_m = *observer.standing.above_m;
+        if (count++ == 0) first_m = above_m;
+        are_alike &= above_m == first_m;
+        ORO_TRY(const Place place, place_at(observer.standing.place_option, observer.standing.place));
+        const std::optional<double> h_m = ground.ground().h_m(place.lat_deg, place.lon_deg);
+        if (!h_m || above_m < least_doubtful_m) continue;
+        const double H_m = ground.H_m({place.lat_deg, place.lon_deg, *h_m});
+        if (std::abs(above_m - H_m) > most_off_m + most_off_share * H_m) continue;
+        if (doubtful++ == 0)
+            first = observer.words + ": " + all_digits(above_m) + ", where the ground lies at H " +
+                    std::to_string(std::lround(H_m)) + " m";
+    }
+    if (2 * doubtful <= count || (count > 1 && are_alike)) return {};
+    return Error{ErrorKind::failed, file + ", column " + one_line(columns.above),
+                 "has the ground's own heights above the sea (" + first + "): " + call_it_otherwise};
 }
 
 std::vector<Standing> standings_of(const std::vector<TableObserver>& observers) {
@@ -176,7 +243,8 @@ std::string eyes_words(const ObserverColumns& columns, const ViewshedOptions& op
                                    : all_digits(options.above_m.value_or(2.0)) + " m above the " +
                                          options.view.stand_on.value_or("ground");
     if (columns.above.empty()) return of_all + " (the table has no column above)";
-    return "by the column " + one_line(columns.above) +
+    return "by the column " + one_line(columns.above) + ", in metres above the " +
+           options.view.stand_on.value_or("ground") +
            (columns.is_above_everywhere ? "" : "; " + of_all + " where it is empty");
 }
 

@@ -33,6 +33,7 @@ struct ObserverColumns {
 struct ObserversOfFile {
     std::vector<TableObserver> all;
     ObserverColumns columns;
+    std::vector<std::string> notes;  // of reading, one line each
 };
 
 // Errors (usage): --observers beside places of the command line, or places in a CRS; --table without
@@ -50,12 +51,17 @@ Result<ObserversOfFile> read_observers(const ObserversOptions& observers, const 
 // stand_over_ground(), which name the file and the place; no_data where none has ground.
 Result<void> find_ground(const std::string& file, const SightGround& ground,
                          std::vector<TableObserver>& observers);
+// Errors: a column that is only called height, most of whose values are the ground's own height above the sea
+// where they stand: it names the file, the column and the first such place.
+Result<void> check_above_ground(const std::string& file, const ObserverColumns& columns,
+                                const SightGround& ground, const std::vector<TableObserver>& observers);
 // Where those stand that have ground.
 std::vector<Standing> standings_of(const std::vector<TableObserver>& observers);
 
 // "9,998 of masts.csv; 2 stand where there are no elevation data and are left out, the first is place 17"
 std::string observers_words(const std::string& file, const std::vector<TableObserver>& observers);
-// "2 m above the ground (the table has no column above)" or "by the column Height"
+// "2 m above the ground (the table has no column above)" or "by the column Height, in metres above the
+// ground"
 std::string eyes_words(const ObserverColumns& columns, const ViewshedOptions& options);
 // "owner and colour", as many as fit into a line; "": all columns are asked.
 std::string unused_words(const ObserverColumns& columns);

@@ -53,15 +53,16 @@ void say_canopy_notes(const SightGround& ground, bool quiet) {
 
 // Observers of a table, where there is one.
 struct ReportedObservers {
-    const ObserversOptions& options;
+    const ObserversOptions* options;
     std::vector<TableObserver> all;
     ObserverColumns columns;
+    std::vector<std::string> notes;
 };
 
 void tell_observers(const ReportedObservers& observers, const ViewshedReport& report,
                     nlohmann::ordered_json& json) {
-    json["observers_of"] = path_json(observers.options.file);
-    if (!observers.options.table.empty()) json["table"] = path_json(observers.options.table);
+    json["observers_of"] = path_json(observers.options->file);
+    if (!observers.options->table.empty()) json["table"] = path_json(observers.options->table);
     json["above_column"] = observers.columns.above;
     json["columns_not_used"] = observers.columns.unused;
     json["left_out"] = nlohmann::ordered_json::array();
@@ -81,7 +82,7 @@ void tell_observers(const ReportedObservers& observers, const ViewshedReport& re
 }
 
 void print_observers(const ReportedObservers& observers, const ViewshedOptions& options) {
-    std::printf("Observers: %s\n", observers_words(observers.options.file, observers.all).c_str());
+    std::printf("Observers: %s\n", observers_words(observers.options->file, observers.all).c_str());
     const std::string unused = unused_words(observers.columns);
     std::printf("Eyes: %s%s\n", eyes_words(observers.columns, options).c_str(),
                 unused.empty() ? "" : ("; not used: " + unused).c_str());
@@ -116,6 +117,7 @@ void tell(const ViewshedOptions& options, const ViewshedReport& report, const St
             json["target_on"] = options.target_on.value_or("ground");
         }
         json["notes"] = all_notes(ground.region);
+        for (const std::string& note : observers.notes) json["notes"].push_back(note);
         std::printf("%s\n", json_text(json, true).c_str());
         return;
     }
@@ -139,8 +141,8 @@ Result<void> write_files(const ViewshedOptions& options, const PostRaster& raste
                          const ReportedObservers& observers, const ViewshedReport& report,
                          const SightGround& ground) {
     ORO_TRY(WholeFile shed, written_post_raster(options.out, options.overwrite, raster));
-    if (observers.options.table.empty()) return shed.commit();
-    ORO_TRY(WholeFile table, WholeFile::create(observers.options.table, options.overwrite));
+    if (observers.options->table.empty()) return shed.commit();
+    ORO_TRY(WholeFile table, WholeFile::create(observers.options->table, options.overwrite));
     const std::string text = observers_csv(observers.all, report, ground);
     ORO_CHECK(table.write(text.data(), text.size()));
     return commit_together({&table, &shed});
@@ -201,11 +203,10 @@ Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptio
     ORO_CHECK(check_words(options, of_table));
     ORO_CHECK(check_realisations(realisations));
     ORO_CHECK(check_target_on(options));
-    ReportedObservers observers{of_table, {}, {}};
+    ReportedObservers observers{&of_table, {}, {}, {}};
     if (!of_table.file.empty()) {
         ORO_TRY(ObserversOfFile read, read_observers(of_table, options));
-        observers.all = std::move(read.all);
-        observers.columns = std::move(read.columns);
+        observers = {&of_table, std::move(read.all), std::move(read.columns), std::move(read.notes)};
     }
     ViewshedQuestion question;
     ORO_CHECK(begin_question(options, question));
@@ -220,6 +221,7 @@ Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptio
     if (!of_table.table.empty()) ORO_CHECK(spare_inputs({of_table.table}, inputs, "--table"));
     Standpoints standpoints;
     ORO_CHECK(find_ground(of_table.file, *ground, observers.all));
+    ORO_CHECK(check_above_ground(of_table.file, observers.columns, *ground, observers.all));
     const std::vector<Standing> standings =
         of_table.file.empty() ? asked_eyes(options) : standings_of(observers.all);
     ORO_CHECK(
@@ -243,6 +245,7 @@ Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptio
     ORO_CHECK(write_files(options, raster, observers, report, *ground));
     bar.clear();
     say_notes(ground->region, options.quiet);
+    for (const std::string& note : observers.notes) say(options.quiet, "note: " + note);
     say_canopy_notes(*ground, options.quiet);
     say_walls(standpoints, question, options.quiet);
     if (ground->ground().grids() > 1)

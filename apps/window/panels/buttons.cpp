@@ -3,6 +3,7 @@
 
 #include "apps/window/panels/panel_parts.h"
 #include "apps/window/panels/panels.h"
+#include "apps/window/panels/top_row.h"
 
 namespace oro {
 namespace {
@@ -38,12 +39,13 @@ void build_buttons(Viewer& viewer) {
     const float gap = scaled_px(10.0F);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {scaled_px(6.0F), scaled_px(6.0F)});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {scaled_px(4.0F), scaled_px(4.0F)});
-    begin_area("##buttons", {scaled_px(310.0F), gap}, {0.0F, 0.0F});
+    const float left = scaled_px(top_row(display.x / scaled_px(1.0F)).buttons_x);
+    begin_area("##buttons", {left, gap}, {0.0F, 0.0F});
     // One beside the other where there is room for all of them.
     float width = 0.0F;
     for (const PanelButton& button : panel_buttons)
         width += ImGui::CalcTextSize(button.words).x + scaled_px(20.0F);
-    if (scaled_px(310.0F) + width < display.x - scaled_px(80.0F)) {
+    if (left + width < display.x - scaled_px(80.0F)) {
         for (const PanelButton& button : panel_buttons) {
             if (&button != panel_buttons.data()) ImGui::SameLine();
             panel_button(viewer, button);
@@ -51,6 +53,9 @@ void build_buttons(Viewer& viewer) {
     } else {
         if (ImGui::Button("≡")) ImGui::OpenPopup("##menu");
         tip("Panels");
+        // It scrolls where the window is too low for it.
+        ImGui::SetNextWindowSizeConstraints({0.0F, 0.0F},
+                                            {display.x, std::max(display.y - 2.0F * gap, 1.0F)});
         if (ImGui::BeginPopup("##menu")) {
             for (const PanelButton& button : panel_buttons)
                 if (ImGui::MenuItem(button.words, nullptr, viewer.panels.*button.is_open))

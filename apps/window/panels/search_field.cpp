@@ -7,6 +7,7 @@
 
 #include "apps/window/panels/panel_parts.h"
 #include "apps/window/panels/panels.h"
+#include "apps/window/panels/top_row.h"
 #include "apps/window/search.h"
 
 namespace oro {
@@ -78,7 +79,7 @@ void list_bookmarks(Viewer& viewer, float width) {
 void build_search_field(Viewer& viewer) {
     SearchField& field = viewer.search;
     const float gap = scaled_px(10.0F);
-    const float width = std::min(scaled_px(270.0F), ImGui::GetIO().DisplaySize.x - 4.0F * gap);
+    const float width = scaled_px(top_row(ImGui::GetIO().DisplaySize.x / scaled_px(1.0F)).field_width);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {scaled_px(6.0F), scaled_px(6.0F)});
     begin_area("##search", {gap, gap}, {0.0F, 0.0F});
     ImGui::PopStyleVar();

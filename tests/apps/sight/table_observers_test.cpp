@@ -1,6 +1,7 @@
 // orograph viewshed --observers: what thousands of masts see, as one raster and one table.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -112,16 +113,20 @@ TEST_F(TableObservers, HeightsOverTheGroundHaveSeveralNames) {
         for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
         return fields.at(6);
     };
-    EXPECT_EQ(reported("Name,Latitude,Longitude,Height\nA,36.55,-84.25,30\n"), "Eyes: by the column Height");
+    EXPECT_EQ(reported("Name,Latitude,Longitude,Height\nA,36.55,-84.25,30\n"),
+              "Eyes: by the column Height, in metres above the ground");
     EXPECT_EQ(above_of_first(), "30.000");
     EXPECT_EQ(
         reported("lat,lon,mast_height (m),Owner,Colour\n36.55,-84.25,25,a,b\n36.56,-84.25,,a,b\n"),
-        "Eyes: by the column mast_height (m); 2 m above the ground where it is empty; not used: Owner and "
-        "Colour");
+        "Eyes: by the column mast_height (m), in metres above the ground; 2 m above the ground where it is "
+        "empty; not used: Owner and Colour");
     EXPECT_EQ(above_of_first(), "25.000");
     EXPECT_EQ(reported("lat,lon,height,above\n36.55,-84.25,900,12\n"),
-              "Eyes: by the column above; not used: height");
+              "Eyes: by the column above, in metres above the ground; not used: height");
     EXPECT_EQ(above_of_first(), "12.000");
+    EXPECT_EQ(reported("lat,lon,Eye\n36.55,-84.25,1.7\n"),
+              "Eyes: by the column Eye, in metres above the ground");
+    EXPECT_EQ(above_of_first(), "1.700");
     EXPECT_EQ(reported("lat,lon,Height (ft),ele\n36.55,-84.25,90,500\n", {"--above", "7"}),
               "Eyes: 7 m above the ground (the table has no column above); not used: Height (ft) and ele");
     EXPECT_EQ(above_of_first(), "7.000");
@@ -140,6 +145,57 @@ TEST_F(TableObservers, TwoColumnsOfHeightsAreRefused) {
     }
 }
 
+// The bundled tile lies at H 500 m and more here: such heights, below the 1,000 m of which no mast is, were
+// masts of as many metres.
+TEST_F(TableObservers, HeightsOfTheGroundAboveTheSeaAreRefused) {
+    const auto ground = object_said_by(
+        {"sight", bundled(), "-q", "--json", "--from", "36.55,-84.25", "--to", "36.57,-84.22"});
+    const std::string H = std::to_string(std::lround(ground["from"]["H_m"].get<double>()) - 2 + 10);
+    write_bytes(folder_ / "masts.csv", "lat,lon,Height\n36.55,-84.25," + H + "\n");
+    const auto outcome = run_orograph(words(file("masts.csv")));
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_TRUE(says(outcome.err,
+                     "masts.csv, column Height: has the ground's own heights above the sea (place 1: " + H +
+                         ", where the ground lies at H "))
+        << outcome.err;
+    // Under a name that leaves no doubt it is taken; and so are masts, and turbines of one model.
+    for (const std::string& table :
+         {"lat,lon,above\n36.55,-84.25," + H + "\n", std::string("lat,lon,Height\n36.55,-84.25,45\n"),
+          "lat,lon,Height\n36.55,-84.25," + H + "\n36.5501,-84.25," + H + "\n"}) {
+        write_bytes(folder_ / "masts.csv", table);
+        const auto taken = run_orograph(words(file("masts.csv"), {"--overwrite"}));
+        EXPECT_EQ(taken.exit_code, 0) << table << taken.err;
+    }
+}
+
+// How the file was read is said, of observers as of names.
+TEST_F(TableObservers, NotesOfTheFileAreSaid) {
+    write_bytes(folder_ / "masts.csv", "name,lat,lon\nGr\xfcn,36.55,-84.25\n");
+    const auto outcome = run_orograph(joined(
+        {"viewshed", bundled(), "--radius", "2", "--observers", file("masts.csv"), "--out", file("all.tif")},
+        {}));
+    EXPECT_TRUE(says(outcome.err, "note: " + file("masts.csv") + ": is no UTF-8 and is read as Windows-1252"))
+        << outcome.err;
+}
+
+// As --names reads them.
+TEST_F(TableObservers, DecimalCommasAreReadAndTold) {
+    write_bytes(folder_ / "masts.csv", "lat;lon;above\n36,55;-84,25;1,5\n36,56;-84,25;2\n");
+    const auto outcome =
+        run_orograph({"viewshed", bundled(), "--radius", "2", "--observers", file("masts.csv"), "--out",
+                      file("all.tif"), "--table", file("all.csv")});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_TRUE(says(outcome.err,
+                     "note: " + file("masts.csv") + ": has commas for decimals: '36,55' is read as 36.55"))
+        << outcome.err;
+    const auto rows = lines_of(bytes_of(folder_ / "all.csv"));
+    EXPECT_TRUE(rows.at(1).starts_with("1,,36.550000000,-84.250000000,")) << rows[1];
+    EXPECT_TRUE(says(rows[1], ",1.500,")) << rows[1];
+    write_bytes(folder_ / "masts.csv", "lat;lon;above\n36,55;-84,25;1,500\n");
+    expect_refusal(run_orograph(words(file("masts.csv"), {"--overwrite"})), oro::test::failed,
+                   {"place 1: above: \"1,500\" is no number"});
+}
+
 // Points of a vector file, and what is told without --json.
 TEST_F(TableObservers, OfAVectorFile) {
     write_bytes(folder_ / "masts.geojson",
@@ -150,10 +206,12 @@ TEST_F(TableObservers, OfAVectorFile) {
                      "geometry": {"type": "Point", "coordinates": [7.5, 46.5]}}]})");
     const auto outcome = run_orograph(words(file("masts.geojson")));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_TRUE(says(outcome.out,
-                     "Observers: 1 of " + file("masts.geojson") +
-                         "; 1 stands where there are no elevation data and is left out, place 2 "
-                         "(Two)\nEyes: by the column above; 2 m above the ground where it is empty\nLight: "))
+    EXPECT_TRUE(says(
+        outcome.out,
+        "Observers: 1 of " + file("masts.geojson") +
+            "; 1 stands where there are no elevation data and is left out, place 2 "
+            "(Two)\nEyes: by the column above, in metres above the ground; 2 m above the ground where it "
+            "is empty\nLight: "))
         << outcome.out;
 }
 
@@ -171,6 +229,10 @@ TEST_F(TableObservers, WhatIsWrongIsSaidInOneLine) {
     refused("lat,lon,above\n36.5,-84.2,-3\n", usage, "masts.csv, place 1: above -3: must be 0 or more");
     refused("lat,lon,Height\n36.5,-84.2,1200\n", failed,
             "masts.csv, place 1: Height 1200: is no height of a mast over the ground");
+    refused("lat,lon\n36.5,\n", failed, "masts.csv, place 1: lon: is empty");
+    refused("name,lat,lon\n\"A,36.5,-84.2\nB,36.6,-84.2\n", failed,
+            "masts.csv: line 2 has a quotation mark without an end");
+    refused("lat,lon\n36.5,-84.2,8\n", failed, "masts.csv: line 2 has 3 fields, and the first line names 2");
     refused("lat,lon\n46.5,8.2\n", no_data, "masts.csv, place 1: ");
     refused("", failed, "masts.csv: has no places");
     write_bytes(folder_ / "masts.csv", "lat,lon\n36.55,-84.25\n");

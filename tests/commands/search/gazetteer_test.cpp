@@ -89,13 +89,17 @@ TEST(Gazetteer, LinesThatAreNoneAreSaidByTheirNumber) {
         "bad.csv", "name,lat,lon\nEiger,46.5,8.0\nMönch,46.5\nA,91,8\n,46,8\n\nB,46,x\nC,46,8\nD\xff,46,8\n");
     const auto read = read_gazetteer(file);
     ASSERT_TRUE(read.ok()) << read.error().line();
-    EXPECT_EQ(read->places.size(), 2U);
-    ASSERT_EQ(read->notes.size(), 1U);
-    EXPECT_EQ(read->notes[0], file + ": 5 lines are left out, the first is line 3: its longitude is ''");
+    EXPECT_EQ(read->places.size(), 3U);
+    EXPECT_EQ(read->places[2].name, "D\xc3\xbf");
+    ASSERT_EQ(read->notes.size(), 2U);
+    EXPECT_EQ(read->notes[0], file + ": is no UTF-8 and is read as Windows-1252");
+    EXPECT_EQ(read->notes[1], file + ": 4 lines are left out, the first is line 3: its longitude is ''");
     const auto cut = read_gazetteer(written(
-        "long.csv", "name,lat,lon\nEiger,46.5,8.0\n" + std::string(70000, 'x') + ",46,8\nMönch,46.5,8"));
+        "long.txt", geonames("Eiger", "46.5", "8.0", "T", "MT", "0", "3967", "3913") +
+                        geonames(std::string(70000, 'x'), "46.5", "8.0", "T", "MT", "0", "3967", "3913") +
+                        geonames("Mönch", "46.5", "8.0", "T", "MT", "0", "4107", "4099")));
     EXPECT_EQ(cut->places.size(), 2U);
-    EXPECT_NE(cut->notes.at(0).find("line 3: it is longer than 65,536 bytes"), std::string::npos)
+    EXPECT_NE(cut->notes.at(0).find("line 2: it is longer than 65,536 bytes"), std::string::npos)
         << cut->notes[0];
     const auto short_line = read_gazetteer(
         written("CH.txt", geonames("Eiger", "46.5", "8.0", "T", "MT", "0", "3967", "3913") + "1\tMönch\n"));
@@ -116,6 +120,9 @@ TEST(Gazetteer, WhatIsNoneIsOneError) {
     EXPECT_NE(fault("a.csv", "just text\n").find("its first line names no column 'name'"), std::string::npos);
     EXPECT_NE(fault("a.csv", "name,x,why\n").find("names no column 'lat'"), std::string::npos);
     EXPECT_EQ(fault("a.csv", "name,lat,lon\n"), "has no line with a place");
+    EXPECT_EQ(fault("a.csv", "name,lat,lon\n\"A,46,8\nB,47,8\n"),
+              "line 2 has a quotation mark without an end: all lines behind it are in one field");
+    EXPECT_EQ(fault("a.csv", "name;lat;lon\nA;46;8;9\n"), "line 2 has 4 fields, and the first line names 3");
     EXPECT_EQ(fault("a.csv", "name,lat,lon\nA,b,c\n"),
               "has no line with a place; line 2: its latitude is 'b'");
     EXPECT_FALSE(read_gazetteer((oro::test::scratch_folder() / "none.txt").string()).ok());

@@ -53,6 +53,32 @@ TEST(BadMeshes, HugeIndicesNameTheirLine) {
               "");
 }
 
+// What a header does not count was left out without a word.
+TEST(BadMeshes, APlyWithMoreThanItsHeaderNamesIsRefused) {
+    const auto ply = [](const char* format, int vertices, int faces) {
+        return "ply\nformat " + std::string(format) + " 1.0\nelement vertex " + std::to_string(vertices) +
+               "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+               std::to_string(faces) + "\nproperty list uchar int vertex_indices\nend_header\n";
+    };
+    const std::string body = "0 0 0\n1 0 0\n0 1 0\n1 1 1\n3 0 1 2\n3 1 2 3\n";
+    EXPECT_EQ(why_not_read("a.ply", ply("ascii", 4, 2) + body + " \n\n"), "");
+    EXPECT_EQ(why_not_read("a.ply", ply("ascii", 4, 1) + body),
+              "line 15: the file goes on behind all that its header names (4 of vertex, 1 of face): is a "
+              "count in it "
+              "too small?");
+    std::string binary = ply("binary_little_endian", 3, 1);
+    const std::size_t header = binary.size();
+    for (const float value : {0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F})
+        binary.append(reinterpret_cast<const char*>(&value), sizeof value);
+    const std::string face("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13);
+    EXPECT_EQ(why_not_read("b.ply", binary + face), "");
+    EXPECT_EQ(
+        why_not_read("b.ply", binary + face + face),
+        "byte " + std::to_string(header + 36 + 13) +
+            ": the file goes on behind all that its header names (3 of vertex, 1 of face): is a count in it "
+            "too small?");
+}
+
 TEST(BadMeshes, LandXmlWithoutSurfacesSaysSo) {
     EXPECT_EQ(why_not_read("a.xml", "<LandXML><Units/></LandXML>"), "no triangles");
     EXPECT_EQ(why_not_read("b.xml", "<LandXML><Surfaces/></LandXML>"), "no triangles");

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "core/earth/ellipsoid.h"
+#include "geo/meshes/mesh_in_box.h"
 
 namespace oro {
 namespace {
@@ -102,6 +103,41 @@ TEST(PlacedMesh, LongSidesAreCutAlike) {
     // 3,000 m are halved 4 times, 2,100 m likewise: 2 x 16 each.
     EXPECT_EQ(rim, 64);
     EXPECT_EQ(mesh.in_file, 2U);
+}
+
+// A thousand triangles of 5 km were refused for "more than 2,000,000 triangles with sides of 200 m and less".
+// Of a square of 200 km no fewer than 2.3 million are left: 4e10 m2 / 17,320 m2. Its diagonal has 282.8 km.
+TEST(PlacedMesh, TooManyPiecesAreToldWithTheirReason) {
+    const auto meshes = placed_from("large.obj",
+                                    "v 2500000 1080000 500\nv 2700000 1080000 500\nv 2700000 1280000 500\n"
+                                    "v 2500000 1280000 500\nf 1 2 3\nf 1 3 4\n",
+                                    "EPSG:2056");
+    ASSERT_FALSE(meshes.ok());
+    EXPECT_TRUE(meshes.error().what.starts_with("has 2 triangles with sides of up to 282"))
+        << meshes.error().what;
+    for (const char* const words :
+         {"Sides are cut to 200 m", "more than 2,000,000 triangles, which is the limit", "--mesh-unit"})
+        EXPECT_NE(meshes.error().what.find(words), std::string::npos) << meshes.error().what;
+    // Between its corners, which have places, a triangle may leave what a CRS is made for.
+    const auto beyond = placed_from(
+        "beyond.obj", "v 2500000 1080000 500\nv 2500000 4000000 500\nv 2500100 1080000 500\nf 1 2 3\n",
+        "EPSG:2056");
+    ASSERT_FALSE(beyond.ok());
+    EXPECT_EQ(beyond.error().what.find("heights are beyond"), std::string::npos) << beyond.error().what;
+}
+
+// In degrees: a triangle across the antimeridian, and boxes beside it.
+TEST(PlacedMesh, WhatReachesIntoABox) {
+    const auto meshes = placed_from(
+        "fiji.obj", "v 179.9995 -17 5\nv -179.9995 -17 5\nv 180 -16.999 5\nf 1 2 3\n", "EPSG:4326");
+    ASSERT_TRUE(meshes.ok()) << meshes.error().line();
+    const PlacedMesh& mesh = (*meshes)->front();
+    EXPECT_TRUE(reaches_into(mesh, {179.0, -18.0, -179.0, -16.0}));
+    EXPECT_TRUE(reaches_into(mesh, {-180.0, -18.0, -179.9998, -16.0}));
+    EXPECT_TRUE(reaches_into(mesh, {179.0, -17.5, 180.0, -16.9995}));
+    EXPECT_FALSE(reaches_into(mesh, {-179.99, -18.0, -179.0, -16.0}));
+    EXPECT_FALSE(reaches_into(mesh, {179.0, -18.0, -179.0, -17.1}));
+    EXPECT_FALSE(reaches_into(mesh, {-1.0, -18.0, 1.0, -16.0}));
 }
 
 TEST(PlacedMesh, RefusesWhatHasNoPlace) {

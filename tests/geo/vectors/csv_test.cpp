@@ -106,16 +106,15 @@ TEST(Csv, DecimalCommasAreReadWhereTheyAreNoMarksAndElseCounted) {
     EXPECT_EQ(points_of(semicolons), "A 45.8000 -10.1000 1234.5");
     EXPECT_EQ(notes_of(semicolons), "has commas for decimals: '-10,1' is read as -10.1");
     EXPECT_EQ(points_of(written("a.csv", "name,lat,lon\nA,\"45,80\",\"10,1\"\n")), "A 45.8000 10.1000 nan");
-    const std::string bare = written("a.csv", "name,lat,lon\nA,46.5,8.25\nB,45,80,10,1\n");
-    EXPECT_EQ(points_of(bare), "A 46.5000 8.2500 nan");
-    EXPECT_EQ(notes_of(bare),
-              "left out 1 line that has more fields than the first one, in line 3: 'B,45,80,10,1'");
+    EXPECT_EQ(points_of(written("a.csv", "name,lat,lon\nA,46.5,8.25\nB,45,80,10,1\n")),
+              "error: line 3 has 5 fields, and the first line names 3: a text with a comma needs quotation "
+              "marks, and decimal commas need semicolons between fields");
     // The first line has as many fields as such a line.
     EXPECT_EQ(notes_of(written("a.csv", "name,lat,lon,ele,id\nA,45,80,10,1\n")),
               "all its degrees are whole numbers between commas; if commas stand for decimals, part its "
               "fields by semicolons");
-    EXPECT_EQ(points_of(written("a.csv", "name,lat,lon,ele\nA,46.5,8.25,\nB,45,80,10,\n")),
-              "A 46.5000 8.2500 nan");
+    EXPECT_EQ(points_of(written("a.csv", "name;lat;lon;ele\nA;46.5;8.25;\nB;45;8;10;\n")),
+              "error: line 3 has 5 fields, and the first line names 4");
     // Of metres it may part thousands.
     const std::string metres =
         written("a.csv", "name;x;y;crs\nA;2600000,5;1200000,25;2056\nB;500,000;200,000;2056\n");
@@ -140,8 +139,54 @@ TEST(Csv, WhatHasNoPlaceIsLeftOutAndCounted) {
               "latitudes of WGS84 | left out 4 geometries that are no well-known text, the first in line 3: "
               "'POINT(8,5 46,3)' | left out 1 line without a geometry, in line 7");
     EXPECT_EQ(notes_of(written("a.csv", "lat,lon\n46,8\n47,\"8\n")),
-              "error: line 3: a quotation mark has no end");
+              "error: line 3 has a quotation mark without an end: all lines behind it are in one field");
     EXPECT_EQ(notes_of(written("a.csv", "lat,lon\n")), "error: holds no points, lines or polygons");
+}
+
+// A quotation mark that is not closed where it should be ends at the next one, lines later: those in between
+// were in one field, and the place had the coordinates of another. RFC 4180, section 2, rule 7: a quotation
+// mark within a field is written twice.
+TEST(Csv, QuotationMarksThatSwallowLinesAreRefused) {
+    EXPECT_EQ(
+        points_of(written("a.csv", "name,lat,lon\nA,46,8\n\"B,47,8\n\"C\",48,8\n")),
+        "error: line 4 has 'C\"' behind a field in quotation marks: a quotation mark within such a field "
+        "is written twice");
+    EXPECT_EQ(points_of(written("a.csv", "name,lat,lon\r\nA,46,8\r\n\"two\r\nlines\",47,8\r\n\"C,48,8\r\n")),
+              "error: line 5 has a quotation mark without an end: all lines behind it are in one field");
+    EXPECT_EQ(points_of(written("a.csv", "name,lat,lon\rA,46,8\r\"B,47,8\r")),
+              "error: line 3 has a quotation mark without an end: all lines behind it are in one field");
+    EXPECT_EQ(points_of(written("a.csv", "\"name,lat,lon\nA,46,8\n")),
+              "error: line 1 has a quotation mark without an end: all lines behind it are in one field");
+    // Blanks may stand there, and a mark within a field that begins without one is text.
+    EXPECT_EQ(points_of(written("a.csv", "name,lat,lon\n\"A\" , \"46\" ,8\n5\" gun,47,8\n")),
+              "A 46.0000 8.0000 nan; 5\" gun 47.0000 8.0000 nan");
+}
+
+TEST(Csv, LinesHaveAsManyFieldsAsTheFirst) {
+    EXPECT_EQ(points_of(written("a.csv", "name\tlat\tlon\nA\t46\t8\nB\t47\t8\tmore\n")),
+              "error: line 3 has 4 fields, and the first line names 3");
+    // What spreadsheets leave out at the end of a line is empty.
+    EXPECT_EQ(points_of(written("a.csv", "name,lat,lon,ele,note\nA,46,8\nB,47,8\n")),
+              "A 46.0000 8.0000 nan; B 47.0000 8.0000 nan");
+    // 8.2 was read of 8.2512 where a file was cut.
+    EXPECT_EQ(points_of(written("a.csv", "name,lat,lon,ele\nA,46,8.25,1200\nB,47,8.2")),
+              "error: line 3 is the last one and has 3 of 4 fields and no end: the file is cut");
+    EXPECT_EQ(points_of(written("a.csv", "name,lat,lon\nA,46,8\nB,47,8")),
+              "A 46.0000 8.0000 nan; B 47.0000 8.0000 nan");
+    EXPECT_EQ(points_of(written("a.csv", "name,lat,Lat,lon\nA,46,47,8\n")),
+              "error: line 1 names two columns 'lat': which of them counts is not clear");
+}
+
+TEST(Csv, Utf16WithoutAMarkIsRefusedByItsName) {
+    std::string wide;
+    for (const char c : std::string("name,lat,lon\nA,46.5,8.25\n")) wide += c, wide += '\0';
+    EXPECT_EQ(
+        points_of(written("a.csv", wide)),
+        "error: is no text, or UTF-16 without a byte order mark (it holds zero bytes): save it as UTF-8");
+    EXPECT_EQ(points_of(written("a.csv", "\xff\xfe" + wide)), "A 46.5000 8.2500 nan");
+    std::string other = "\xfe\xff";
+    for (const char c : std::string("name;lat;lon\nA;46.5;8.25\n")) other += '\0', other += c;
+    EXPECT_EQ(points_of(written("a.csv", other)), "A 46.5000 8.2500 nan");
 }
 
 TEST(Csv, FieldsInQuotationMarksHoldMarksAndEndsOfLines) {

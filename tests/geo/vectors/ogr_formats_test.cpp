@@ -123,6 +123,23 @@ TEST(Shapefile, PartsThatDoNotBelongTogetherAreTold) {
                                       "belong together"});
 }
 
+// A .shx and a .dbf that agree, of one shape of a .shp with two: the other was left out without a word. A
+// .shp has a header of 100 bytes, and 28 for each point with its header of 8.
+TEST(Shapefile, ShapesThatTheIndexDoesNotListAreTold) {
+    const std::string file =
+        vector_dataset("a.shp", "ESRI Shapefile", 4326, {{"POINT (8 46)", "A"}, {"POINT (9 47)", "B"}});
+    const std::string other = vector_dataset("b.shp", "ESRI Shapefile", 4326, {{"POINT (8 46)", "A"}});
+    for (const char* const ending : {".dbf", ".shx"})
+        fs::copy_file(fs::path(other).replace_extension(ending), fs::path(file).replace_extension(ending),
+                      fs::copy_options::overwrite_existing);
+    const auto read = read_vectors(file);
+    ASSERT_TRUE(read.ok()) << read.error().line();
+    EXPECT_EQ(read->notes,
+              std::vector<std::string>{
+                  file + ": its .shp has 156 bytes, and its .shx lists 128 of them: the two may not "
+                         "belong together, and shapes may be left out"});
+}
+
 // Cut at any byte each of its files is an error, and no file is silently shorter.
 TEST(Shapefile, CutAtAnyByteIsAnError) {
     const std::string file = vector_dataset(
@@ -141,6 +158,22 @@ TEST(Shapefile, CutAtAnyByteIsAnError) {
         std::ofstream(part, std::ios::binary) << whole;
     }
     EXPECT_EQ(error_in(file), "is read");
+}
+
+// Features that the header does not count were left out without a word. GDAL writes the count, 2 here, as
+// eight bytes.
+TEST(FlatGeobuf, FeaturesThatItsHeaderDoesNotCountAreRefused) {
+    const std::string file =
+        vector_dataset("a.fgb", "FlatGeobuf", 4326, {{"POINT (8 46)", "A"}, {"POINT (9 47)", "B"}});
+    EXPECT_EQ(error_in(file), "is read");
+    const std::string whole = bytes_in(file);
+    std::ofstream(file, std::ios::binary | std::ios::app) << "more";
+    EXPECT_EQ(error_in(file),
+              "goes on for 4 bytes behind the 2 features that its header counts: is the count too small?");
+    EXPECT_EQ(
+        error_in(test::written_zip("a.zip", {{"a.fgb", whole + "more"}})),
+        "a.fgb: goes on for 4 bytes behind the 2 features that its header counts: is the count too small?");
+    EXPECT_EQ(error_in(test::written_zip("a.zip", {{"a.fgb", whole}})), "is read");
 }
 
 TEST(FlatGeobuf, IsReadWithItsNamesAndItsCoordinateReferenceSystem) {

@@ -43,14 +43,12 @@ class CsvGrammar final : public VectorGrammar {
     std::string place_line() {
         ++places_;
         std::string lat = coordinate(89.0), lon = coordinate(179.0);
-        // Commas for decimals need quotation marks where commas part fields, or it is another line.
-        const bool is_bare = errs(9);
+        // Commas for decimals need quotation marks where commas part fields, or the table is refused.
         const auto number_field = [&](const std::string& text) {
-            return text.find(mark_) != std::string::npos && !is_bare ? quoted(text) : text;
+            return text.find(mark_) != std::string::npos ? quoted(text) : text;
         };
         std::string line = field(words()) + mark_ + number_field(lat) + mark_ + number_field(lon);
         line += mark_ + (errs(6) ? std::string("high") : chance(3) ? "" : "1234.5");
-        if (errs(9)) line += mark_ + std::string("more");
         if (errs(9)) line = field("cut");
         return line + end();
     }

@@ -116,7 +116,7 @@ TEST(KmlFile, IsReadFromAKmz) {
                       other = kml_of("<Point><coordinates>9,47</coordinates></Point>");
     EXPECT_EQ(
         line_of(test::written_zip("a.kmz", {{"files/x.png", "x"}, {"b.kml", other}, {"doc.kml", text}})),
-        "point 8 46");
+        "point 8 46 | 1 .kml in it is not read, since nothing links to it: b.kml");
     EXPECT_EQ(line_of(test::written_zip("a.kmz", {{"in/b.kml", other}})), "point 9 47");
     EXPECT_EQ(line_of(test::written_zip("a.zip", {{"a.txt", "x"}})),
               "error: is packed and holds no .kml, .shp, .gpkg, .fgb, .geojson, .topojson, .gpx or .csv: "

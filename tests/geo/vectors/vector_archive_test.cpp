@@ -70,15 +70,17 @@ TEST(KmzLinks, LinksWithinAKmzAreFollowed) {
     EXPECT_EQ(said_of(written_zip("p.kmz", {{"doc.kml", doc}, {"layers/", ""}, {"layers/p.kml", layer}})),
               "p Peak 36.6000 -84.2700");
     // Paths begin at the file with the link; names are written with escapes, or as they are.
-    EXPECT_EQ(said_of(written_zip(
-                  "a.kmz", {{"doc.kml", test::kml(kml_point("A", "8,46") + kml_link("./in/b%20c.kml#d") +
-                                                  kml_link("<![CDATA[in/50 %.kml]]>"))},
-                            {"in/b c.kml",
-                             test::kml("<name>L</name>" + kml_point("B", "9,47") + kml_link("deep/e.kml"))},
-                            {"in/50 %.kml", kml_point("C", "10,48")},
-                            {"in/deep/e.kml", test::kml(kml_point("E", "11,49"))},
-                            {"in/nobody.kml", test::kml(kml_point("F", "12,50"))}})),
-              " A 46.0000 8.0000; L B 47.0000 9.0000; 50 % C 48.0000 10.0000;  E 49.0000 11.0000");
+    EXPECT_EQ(
+        said_of(written_zip(
+            "a.kmz",
+            {{"doc.kml", test::kml(kml_point("A", "8,46") + kml_link("./in/b%20c.kml#d") +
+                                   kml_link("<![CDATA[in/50 %.kml]]>"))},
+             {"in/b c.kml", test::kml("<name>L</name>" + kml_point("B", "9,47") + kml_link("deep/e.kml"))},
+             {"in/50 %.kml", kml_point("C", "10,48")},
+             {"in/deep/e.kml", test::kml(kml_point("E", "11,49"))},
+             {"in/nobody.kml", test::kml(kml_point("F", "12,50"))}})),
+        " A 46.0000 8.0000; L B 47.0000 9.0000; 50 % C 48.0000 10.0000;  E 49.0000 11.0000 | : 1 .kml in "
+        "it is not read, since nothing links to it: in/nobody.kml");
 }
 
 TEST(KmzLinks, ACycleIsReadOnce) {
@@ -101,7 +103,7 @@ TEST(KmzLinks, OneOutOfTheArchiveIsLeftOut) {
                                                    {"in/c.png", "x"}});
     EXPECT_EQ(said_of(file),
               " A 46.0000 8.0000 | : left out 11 links to other files, which are not followed, the first in "
-              "line 2");
+              "line 2 | : 1 .kml in it is not read, since nothing links to it: b.kml");
     // A note of a file that is linked names it.
     EXPECT_EQ(
         said_of(written_zip("a.kmz",
@@ -127,8 +129,23 @@ TEST(KmzLinks, SixtyFourFilesAreReadBesideTheFirst) {
     ASSERT_TRUE(read.ok()) << read.error().line();
     EXPECT_EQ(read->layers.size(), 64U);
     ASSERT_EQ(read->notes.size(), 1U);
-    EXPECT_NE(read->notes.front().find("left out 6 links to other files"), std::string::npos)
-        << read->notes.front();
+    EXPECT_EQ(read->notes.front().substr(read->file.size()),
+              ": links to more than 64 files in it, which is the limit: 6 are not read, the first by name is "
+              "64.kml");
+}
+
+// The first of two files of one name was read without a word.
+TEST(KmzLinks, TwoFilesOfOneNameAreRefused) {
+    EXPECT_EQ(
+        said_of(written_zip("a.kmz", {{"doc.kml", test::kml(kml_point("A", "8,46"))},
+                                      {"doc.kml", test::kml(kml_point("B", "9,47"))}})),
+        "error: holds 2 files of the name doc.kml, and which of them counts is not clear: unpack it and "
+        "name the file");
+    EXPECT_EQ(said_of(written_zip("a.kmz", {{"b.kml", test::kml("")},
+                                            {"c.kml", test::kml(kml_point("B", "9,47"))},
+                                            {"d.kml", test::kml(kml_point("B", "9,47"))}})),
+              "error: holds no points, lines or polygons; left out: 2 .kml in it are not read, since nothing "
+              "links to them, the first is c.kml");
 }
 
 TEST(KmzLinks, WhatIsWrongWithAFileThatIsLinkedNamesIt) {
