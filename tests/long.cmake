@@ -582,6 +582,7 @@ set_tests_properties(
   ExtremeSize.HundredMillionPosts
   ExtremeSurfaces.TwoSurfacesAMetreApart
   ExtremeSurfaces.WallEdgeOn
+  DetailRim.LeavesTheColoursOfTheDataAround
   Footprint.HoldsForMaps
   Footprint.HoldsForRandomViews
   Footprint.HoldsOnTurnedRows

@@ -10,9 +10,12 @@
 #include "core/baked/file_pages.h"
 #include "core/base/parallel.h"
 #include "core/cluster_frame/region_clusters.h"
+#include "core/lod/data_means.h"
 #include "core/lod/ground_means.h"
 #include "core/made_pages/made_pages.h"
 #include "core/seam/seam_pages.h"
+#include "core/terrain/drawn_heights.h"
+#include "geo/refined/refined_region.h"
 
 namespace oro {
 namespace {
@@ -20,6 +23,7 @@ namespace {
 // A baked grid's levels are those of its own heights; exaggerated ones, and those that its geoid was taken
 // from, need levels of their own, and to measure these, all posts in memory.
 Result<std::unique_ptr<RegionPages>> pages_of(const RegionGrid& grid, double exaggeration,
+                                              const std::shared_ptr<const DataMeans>& means,
                                               const RenderProgress& progress, const std::stop_token& stop) {
     if (const MadePostSource* const made = made_posts_of(grid.field)) {
         if (exaggeration == 1.0) return made->pages(grid.field);
@@ -28,7 +32,8 @@ Result<std::unique_ptr<RegionPages>> pages_of(const RegionGrid& grid, double exa
             "is not for made terrain whose posts are made where they are looked at; narrow the region "
             "with --bbox"};
     }
-    if (!grid.file) return pages_in_memory(grid.field, exaggeration, thread_count(), progress, stop);
+    if (!grid.file)
+        return pages_beside_detail(grid.field, exaggeration, means, thread_count(), progress, stop);
     const bool own_geoid = grid.field.undulation.N_m.size() == grid.file->outline().undulation.N_m.size();
     if (own_geoid && exaggeration == 1.0) return pages_of_file(grid.file);
     ORO_TRY(HeightField field, field_in_memory(*grid.file));
@@ -39,20 +44,51 @@ Result<std::unique_ptr<RegionPages>> pages_of(const RegionGrid& grid, double exa
     return pages_in_memory(field, exaggeration, thread_count(), progress, stop);
 }
 
+// The field of a grid with its posts in memory.
+Result<HeightField> posts_in_memory(const RegionGrid& grid) {
+    HeightField field = grid.field;
+    if (!grid.file) return field;
+    ORO_TRY(const HeightField posts, field_in_memory(*grid.file));
+    field.H_m = posts.H_m;
+    field.posts = nullptr;
+    field.range.reset();
+    if (!field.undulation.N_m.empty()) field.N_of_posts_m = posts.N_of_posts_m;
+    return field;
+}
+
 Result<std::unique_ptr<RegionPages>> pages_of_rest(const RegionGrid& grid, const GridClip& cut,
-                                                   double exaggeration, const RenderProgress& progress,
+                                                   double exaggeration,
+                                                   const std::shared_ptr<const DataMeans>& means,
+                                                   const RenderProgress& progress,
                                                    const std::stop_token& stop) {
-    HeightField rest = grid.field;
-    if (grid.file) {
-        ORO_TRY(const HeightField posts, field_in_memory(*grid.file));
-        rest.H_m = posts.H_m;
-        rest.posts = nullptr;
-        rest.range.reset();
-        if (!rest.undulation.N_m.empty()) rest.N_of_posts_m = posts.N_of_posts_m;
-    }
+    ORO_TRY(HeightField rest, posts_in_memory(grid));
     for (std::size_t post = 0; post < cut.masked_posts.size(); ++post)
         if (cut.masked_posts[post] != 0) rest.H_m[post] = void_height_m;
-    return pages_in_memory(rest, exaggeration, thread_count(), progress, stop);
+    return pages_beside_detail(rest, exaggeration, means, thread_count(), progress, stop);
+}
+
+// Pages of a grid, as grid_pages() has them.
+Result<std::unique_ptr<RegionPages>> pages_of_grid(const RegionGrid& grid, const GridClip& cut,
+                                                   double exaggeration,
+                                                   const std::shared_ptr<const DataMeans>& means,
+                                                   const RenderProgress& progress,
+                                                   const std::stop_token& stop) {
+    const bool is_cut = std::ranges::find(cut.masked_posts, 1) != cut.masked_posts.end();
+    ORO_TRY(std::unique_ptr<RegionPages> pages,
+            is_cut ? pages_of_rest(grid, cut, exaggeration, means, progress, stop)
+                   : pages_of(grid, exaggeration, means, progress, stop));
+    if (!pages) return Error{ErrorKind::failed, "levels", "nobody waits for them any more"};
+    if (!is_cut && pages->facts().triangles == 0)
+        return Error{ErrorKind::no_data, "region", "no triangle has a height at each corner"};
+    return pages;
+}
+
+// Means of all posts of the data under invented ground; null where no ground is invented.
+Result<std::shared_ptr<const DataMeans>> means_under_detail(const RegionGrid* data, double exaggeration) {
+    if (data == nullptr) return std::shared_ptr<const DataMeans>();
+    ORO_TRY(const HeightField field, posts_in_memory(*data));
+    return std::make_shared<const DataMeans>(field.grid, drawn_heights(field, exaggeration, thread_count()),
+                                             exaggeration);
 }
 
 std::uint64_t bytes_of(const std::optional<int>& mb) {
@@ -64,24 +100,19 @@ std::uint64_t bytes_of(const std::optional<int>& mb) {
 Result<std::unique_ptr<RegionPages>> grid_pages(const RegionGrid& grid, const GridClip& cut,
                                                 double exaggeration, const RenderProgress& progress,
                                                 const std::stop_token& stop) {
-    const bool is_cut = std::ranges::find(cut.masked_posts, 1) != cut.masked_posts.end();
-    ORO_TRY(std::unique_ptr<RegionPages> pages, is_cut
-                                                    ? pages_of_rest(grid, cut, exaggeration, progress, stop)
-                                                    : pages_of(grid, exaggeration, progress, stop));
-    if (!pages) return Error{ErrorKind::failed, "levels", "nobody waits for them any more"};
-    if (!is_cut && pages->facts().triangles == 0)
-        return Error{ErrorKind::no_data, "region", "no triangle has a height at each corner"};
-    return pages;
+    return pages_of_grid(grid, cut, exaggeration, {}, progress, stop);
 }
 
 Result<GridPages> make_grid_pages(const Region& region, const RegionCuts& cuts, double exaggeration,
                                   const RenderProgress& progress, const std::stop_token& stop) {
+    const RegionGrid* const data = data_under_detail(region);
+    ORO_TRY(const std::shared_ptr<const DataMeans> data_means, means_under_detail(data, exaggeration));
     GridPages pages;
     for (const RegionGrid& grid : region.grids) {
         const std::size_t number = pages.size();
         ORO_TRY(std::unique_ptr<RegionPages> more,
-                grid_pages(grid, cuts.grids[number], exaggeration, number == 0 ? progress : RenderProgress{},
-                           stop));
+                pages_of_grid(grid, cuts.grids[number], exaggeration, &grid == data ? data_means : nullptr,
+                              number == 0 ? progress : RenderProgress{}, stop));
         pages.push_back(std::move(more));
     }
     return pages;

@@ -15,8 +15,12 @@ namespace {
 
 class PagesInMemory : public RegionPages {
   public:
-    PagesInMemory(RegionFacts facts, LevelPyramid pyramid, DrawnHeights heights)
-        : RegionPages(std::move(facts)), pyramid_(std::move(pyramid)), heights_(std::move(heights)) {}
+    PagesInMemory(RegionFacts facts, LevelPyramid pyramid, DrawnHeights heights,
+                  std::shared_ptr<const DataMeans> data_means)
+        : RegionPages(std::move(facts)),
+          pyramid_(std::move(pyramid)),
+          heights_(std::move(heights)),
+          data_means_(std::move(data_means)) {}
 
     [[nodiscard]] Result<PageRecord> record(const PageIndex& page) const override {
         return PageRecord(at(page));
@@ -35,6 +39,10 @@ class PagesInMemory : public RegionPages {
 
     [[nodiscard]] bool knows_means() const override { return true; }
     Result<void> load_means(const PageIndex& page, gpu::PageMeans& means) const override {
+        if (data_means_) {
+            data_means_->page(page, means);
+            return {};
+        }
         std::call_once(means_made_, [&] {
             means_.emplace(facts().grid, heights_, facts().shape.exaggeration, thread_count());
         });
@@ -49,6 +57,7 @@ class PagesInMemory : public RegionPages {
 
     LevelPyramid pyramid_;
     DrawnHeights heights_;
+    std::shared_ptr<const DataMeans> data_means_;  // null: its own
     mutable std::once_flag means_made_;
     mutable std::optional<GroundMeans> means_;
 };
@@ -81,6 +90,13 @@ Result<void> RegionPages::load_places(const PageIndex& page, const gpu::PageBloc
 std::unique_ptr<RegionPages> pages_in_memory(const HeightField& field, double exaggeration, int threads,
                                              const std::function<void(double share)>& progress,
                                              const std::stop_token& stop) {
+    return pages_beside_detail(field, exaggeration, {}, threads, progress, stop);
+}
+
+std::unique_ptr<RegionPages> pages_beside_detail(const HeightField& field, double exaggeration,
+                                                 std::shared_ptr<const DataMeans> means, int threads,
+                                                 const std::function<void(double share)>& progress,
+                                                 const std::stop_token& stop) {
     RegionFacts facts{field.grid, field.grid.net ? drawn_undulation(field) : field.undulation,
                       region_shape(field, exaggeration), 0};
     DrawnHeights heights = drawn_heights(field, exaggeration, threads);
@@ -100,7 +116,8 @@ std::unique_ptr<RegionPages> pages_in_memory(const HeightField& field, double ex
     };
     Result<LevelPyramid> pyramid = build_pyramid_with(field.grid, facts.shape, heights, threads, hooks);
     if (!pyramid.ok()) return nullptr;
-    return std::make_unique<PagesInMemory>(std::move(facts), std::move(pyramid).value(), std::move(heights));
+    return std::make_unique<PagesInMemory>(std::move(facts), std::move(pyramid).value(), std::move(heights),
+                                           std::move(means));
 }
 
 }  // namespace oro

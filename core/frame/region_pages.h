@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/lod/data_means.h"
 #include "core/lod/pyramid.h"
 #include "core/terrain/page.h"
 #include "core/terrain/post_grid.h"
@@ -97,5 +98,10 @@ class RegionPagesList {
 std::unique_ptr<RegionPages> pages_in_memory(const HeightField& field, double exaggeration, int threads,
                                              const std::function<void(double share)>& progress = {},
                                              const std::stop_token& stop = {});
+// The same of the data around invented ground: `means` are those of all of the data; null: of the field.
+std::unique_ptr<RegionPages> pages_beside_detail(const HeightField& field, double exaggeration,
+                                                 std::shared_ptr<const DataMeans> means, int threads,
+                                                 const std::function<void(double share)>& progress = {},
+                                                 const std::stop_token& stop = {});
 
 }  // namespace oro
