@@ -377,6 +377,7 @@ set_tests_properties(
   TradeCommand.ReplacesOnlyWhenTold
   TradeCommand.WritesATableAndAPage
   TradePage.TheCheckFindsWhatIsWrong
+  TreesOfShots.OffDrawsWhatAStyleWithoutTreesDraws
   Unseen.APartThatWasChosenEndsAndMissesNothing
   Unseen.APictureOfAllTheDataSaysNothing
   Unseen.NothingIsSaidWhereAllLinesEndOnData

@@ -102,6 +102,14 @@ std::string unseen_sentence(const UnseenGround& unseen) {
            " m high, could rise up to " + whole(unseen.bound_px) + " px above what is drawn";
 }
 
+std::string unseen_note(const UnseenGround& unseen) {
+    if (unseen.columns_beyond == 0 || unseen.all_in_view) return {};
+    return "the view reaches past the data in " + columns(unseen, unseen.columns_beyond) + " " +
+           names(unseen) + ": ground up to " + whole(unseen.ceiling_m) + " m high there could rise up to " +
+           whole(unseen.bound_px) +
+           " px above what is drawn; give these tiles, too, or --fetch skadi gets them";
+}
+
 std::string unseen_ending(const UnseenGround& unseen) {
     if (unseen.columns_beyond == 0 || unseen.all_in_view) return {};
     return "In " + columns(unseen, unseen.columns_beyond) + " ground beyond the data could be up to " +

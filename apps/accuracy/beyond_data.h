@@ -26,6 +26,10 @@ Result<UnseenGround> unseen_in(const View& view, const Region& region, double ce
 // shows all of the data: then it shows where they end. At most 12 cells are named. Nothing is said of ground
 // beyond a part that was chosen.
 std::string unseen_sentence(const UnseenGround& unseen);
+// The same for who draws, with what helps: "the view reaches past the data in 640 of 640 columns (missing:
+// N46E010): ground up to 9,000 m high there could rise up to 312 px above what is drawn; give these tiles,
+// too, or --fetch skadi gets them".
+std::string unseen_note(const UnseenGround& unseen);
 // "In 640 of 640 columns ground beyond the data could be up to 312 px higher (missing: N46E010)."; ""
 // likewise.
 std::string unseen_ending(const UnseenGround& unseen);

@@ -12,6 +12,7 @@
 #include "apps/options/region_option_table.h"
 #include "apps/report/json_fields.h"
 #include "core/base/open_file.h"
+#include "geo/files/letter_case.h"
 
 namespace oro {
 namespace {
@@ -108,7 +109,8 @@ bool says_region(const std::string& option) {
 void read_words(BatchJob& job) {
     for (const auto& [option, value] : named_values(std::span(job.words).subspan(1))) {
         const bool is_written = std::ranges::find(written_options, option) != written_options.end();
-        if (is_written && job.command == "horizon") {
+        // With --at it writes a table, and no rasters.
+        if (is_written && job.command == "horizon" && !lower_case(value).ends_with(".csv")) {
             const HorizonFiles files = horizon_files_of(value);
             job.writes.insert(job.writes.end(), {{option, files.horizon}, {option, files.sky_view}});
             continue;

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <numeric>
 #include <string_view>
 #include <utility>
 
+#include "apps/command_line/edit_distance.h"
 #include "apps/command_line/help.h"
 
 namespace oro {
@@ -55,22 +55,6 @@ void check_given(const CLI::App& command, const CLI::Option& option, const std::
         refuse(option, "", missing_words(option));
 }
 
-// How many characters must change, or swap with their neighbour, to make one word of the other.
-std::size_t distance(const std::string& from, const std::string& to) {
-    std::vector<std::size_t> before(to.size() + 1), row(to.size() + 1), next(to.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < from.size(); ++i) {
-        next[0] = i + 1;
-        for (std::size_t j = 0; j < to.size(); ++j) {
-            next[j + 1] = std::min({next[j] + 1, row[j + 1] + 1, row[j] + (from[i] == to[j] ? 0 : 1)});
-            const bool is_swapped = i > 0 && j > 0 && from[i] == to[j - 1] && from[i - 1] == to[j];
-            if (is_swapped) next[j + 1] = std::min(next[j + 1], before[j - 1] + 1);
-        }
-        before = std::exchange(row, next);
-    }
-    return row.back();
-}
-
 // How many characters of a word may differ from those of a name that it is like: one of three.
 std::size_t most_changes(const std::string& word, const std::string& name) {
     const auto letters = [](const std::string& text) {
@@ -83,7 +67,7 @@ std::size_t most_changes(const std::string& word, const std::string& name) {
 std::string nearest_words(const std::string& word, const std::vector<std::string>& names) {
     constexpr std::size_t longest_word = 40;
     if (word.size() > longest_word) return {};
-    const auto changes = [&](const std::string& name) { return distance(word, name); };
+    const auto changes = [&](const std::string& name) { return edit_distance(word, name); };
     const auto nearest = std::ranges::min_element(names, {}, changes);
     if (nearest == names.end() || changes(*nearest) > most_changes(word, *nearest)) return {};
     return ": did you mean " + *nearest + "?";

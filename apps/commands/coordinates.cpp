@@ -1,38 +1,17 @@
 #include "apps/commands/coordinates.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <initializer_list>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/command_line/refusals.h"
+#include "apps/commands/place_texts.h"
 #include "apps/view/view.h"
-#include "core/base/file_there.h"
 #include "geo/coordinates/crs_places.h"
 #include "geo/opening/source_crs.h"
 
 namespace oro {
 namespace {
-
-// An option's text that holds a place.
-struct PlaceText {
-    const char* option;  // "--at"
-    std::string* text;
-};
-
-std::string degrees_text(std::initializer_list<double> angles_deg) {
-    std::string all;
-    for (const double angle_deg : angles_deg) {
-        char text[40];
-        // 0.1 micrometres.
-        std::snprintf(text, sizeof text, "%.12f", angle_deg);
-        all += (all.empty() ? "" : ",") + std::string(text);
-    }
-    return all;
-}
 
 Result<CrsPlaces> crs_named(const RegionOptions& region) {
     const bool is_of_source = region.coordinates == "source";
@@ -89,29 +68,11 @@ Result<void> take(RegionOptions& region, const std::vector<PlaceText>& texts, bo
     return {};
 }
 
-std::vector<PlaceText> places_of(ViewOptions& view) {
-    std::vector<PlaceText> all;
-    if (view.at) all.push_back({"--at", &*view.at});
-    if (view.look_at) all.push_back({"--look-at", &*view.look_at});
-    return all;
-}
-
 // A list of places with ; between them; a file's name stays.
 Result<void> take_along(ProfileOptions& options) {
-    std::vector<std::string> words;
-    ORO_TRY(const bool is_file, is_there(options.along));
-    const bool is_list = !is_file && options.along.find(';') != std::string::npos;
-    for (std::size_t begin = 0; is_list && begin <= options.along.size();) {
-        const std::size_t end = std::min(options.along.find(';', begin), options.along.size());
-        words.push_back(options.along.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    std::vector<PlaceText> texts;
-    for (std::string& word : words) texts.push_back({"--along", &word});
-    ORO_CHECK(take(options.region, texts));
-    if (!is_list) return {};
-    options.along.clear();
-    for (const std::string& word : words) options.along += (&word == words.data() ? "" : ";") + word;
+    ORO_TRY(AlongTexts along, AlongTexts::of(options.along));
+    ORO_CHECK(take(options.region, along.texts()));
+    options.along = along.joined();
     return {};
 }
 
@@ -119,18 +80,20 @@ Result<void> take_along(ProfileOptions& options) {
 
 Result<void> take_coordinates(CommandLine& line) {
     line.view.coordinates = line.view.region.coordinates;
-    ORO_CHECK(take(line.view.region, places_of(line.view.view), true));
-    ORO_CHECK(take(line.shot.region, places_of(line.shot.view)));
-    ORO_CHECK(take(line.panorama.region, places_of(line.panorama.view)));
-    ORO_CHECK(take(line.plan.region, places_of(line.plan.view)));
-    ORO_CHECK(take(line.trade.region, places_of(line.trade.view)));
-    ORO_CHECK(take(line.sun.region, places_of(line.sun.view)));
+    ORO_CHECK(take(line.view.region, place_texts_of(line.view.view), true));
+    ORO_CHECK(take(line.shot.region, place_texts_of(line.shot.view)));
+    ORO_CHECK(take(line.panorama.region, place_texts_of(line.panorama.view)));
+    ORO_CHECK(take(line.plan.region, place_texts_of(line.plan.view)));
+    ORO_CHECK(take(line.trade.region, place_texts_of(line.trade.view)));
+    ORO_CHECK(take(line.sun.region, place_texts_of(line.sun.view)));
     ORO_CHECK(take(line.sight.region, {{"--from", &line.sight.from}, {"--to", &line.sight.to}}));
     if (!line.profile.region.coordinates.empty()) ORO_CHECK(take_along(line.profile));
     std::vector<PlaceText> observers;
     for (std::string& at : line.viewshed.at) observers.push_back({"--at", &at});
     ORO_CHECK(take(line.viewshed.region, observers));
-    ORO_CHECK(take(line.horizon.region, {}));
+    std::vector<PlaceText> around;
+    if (!line.horizon.at.empty()) around.push_back({"--at", &line.horizon.at});
+    ORO_CHECK(take(line.horizon.region, around));
     ORO_CHECK(take(line.film.region, {}));
     ORO_CHECK(take(line.compare.region, {}));
     ORO_CHECK(take(line.bake.region, {}));

@@ -81,7 +81,11 @@ Result<Asked> asked_of(const CLI::App& app, CommandLine& line) {
         return asked;
     }
     if (is("film")) return Asked{&line.film.region, {}, line.film.quiet};
-    if (is("horizon")) return Asked{&line.horizon.region, {}, line.horizon.quiet};
+    if (is("horizon")) {
+        Asked asked{&line.horizon.region, {}, line.horizon.quiet};
+        if (!line.horizon.at.empty()) asked.places.push_back({"--at", line.horizon.at});
+        return asked;
+    }
     return Asked{&line.exporting.region, {}, line.exporting.quiet};
 }
 

@@ -92,6 +92,25 @@ void hide_looks(CLI::App& command) {
         if (is_look(row)) hide(command, {row.name});
 }
 
+void add_json(CLI::App& command, bool& json) {
+    OptionGroup(command, "Messages")
+        .flag("--json", json, "Print the results as one JSON object on standard output.");
+}
+
+void add_quiet(CLI::App& command, bool& quiet, const std::string& but) {
+    OptionGroup(command, "Messages").flag("-q,--quiet", quiet, "Print nothing but " + but + ".");
+}
+
+void add_names_of_places(CLI::App& command, const std::string& heading, std::vector<std::string>& names,
+                         const std::string& example) {
+    OptionGroup(command, heading)
+        .option("--names", names, "FILE",
+                "Let names of this file stand for places, as in " + example +
+                    ": the points of GPX, KML, GeoJSON, GeoPackage, a shapefile or a table (CSV), or a dump "
+                    "of GeoNames. May be given several times.")
+        .allow_extra_args(false);
+}
+
 void add_time(CLI::App& command, const std::string& heading, ViewOptions& options) {
     OptionGroup(command, heading)
         .option("--time", options.time, "TIME",

@@ -32,6 +32,12 @@ void hide_looks(CLI::App& command);
 // How high ground may be where there are no data, above sea level. It decides nothing that is drawn, and so
 // is no part of a view.
 void add_unseen_ceiling(CLI::App& command, const std::string& heading, std::optional<double>& ceiling_m);
+// Results as JSON, and nothing said but what `but` names.
+void add_json(CLI::App& command, bool& json);
+void add_quiet(CLI::App& command, bool& quiet, const std::string& but);
+// Files whose names stand for places, in commands that draw no names. example: "--at Eiger".
+void add_names_of_places(CLI::App& command, const std::string& heading, std::vector<std::string>& names,
+                         const std::string& example);
 void add_time(CLI::App& command, const std::string& heading, ViewOptions& options);
 void add_no_paths(CLI::App& command, const std::string& heading, bool& no_paths);
 void add_data_changed(CLI::App& command, bool& data_changed);

@@ -208,7 +208,11 @@ Result<void> run_plan(const PlanOptions& options) {
         std::printf("%s\n", json_text(json, true).c_str());
         return {};
     }
-    std::fputs(plan_text(budget, view, eye_of(view, region), choice, unseen, meshes).c_str(), stdout);
+    const PlanEye eye = eye_of(view, region);
+    std::fputs((options.all ? plan_text(budget, view, eye, choice, unseen, meshes)
+                            : plan_summary(budget, view, eye, choice, unseen))
+                   .c_str(),
+               stdout);
     if (on_ground) std::printf("On the ground, %s.\n", words_of(*on_ground).c_str());
     if (view.canopy) std::printf("%s.\n", canopy_words(*view.canopy, region).c_str());
     return {};

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <vector>
 
 #include "apps/report/figures.h"
 #include "apps/view/model_names.h"
@@ -238,15 +239,15 @@ std::string estimates_text(const Budget& budget) {
 
 }  // namespace
 
-std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye,
-                      const AccuracyChoice& choice, const UnseenGround& unseen,
-                      const std::optional<MeshForecasts>& meshes) {
-    if (budget.empty) {
-        std::string nothing =
-            eye_text(view, eye) + "nothing of the region is in view: there is nothing to predict\n";
-        if (const std::string beyond = unseen_sentence(unseen); !beyond.empty()) nothing += beyond + "\n";
-        return nothing;
-    }
+namespace {
+
+std::string nothing_text(const View& view, const PlanEye& eye, const UnseenGround& unseen) {
+    const std::string beyond = unseen_sentence(unseen);
+    return eye_text(view, eye) + "nothing of the region is in view: there is nothing to predict\n" +
+           (beyond.empty() ? "" : beyond + "\n");
+}
+
+std::string ground_text(const Budget& budget, const View& view) {
     char text[240];
     std::snprintf(
         text, sizeof text,
@@ -254,8 +255,60 @@ std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye
         "px.\n",
         metres(budget.nearest_m).c_str(), metres(budget.median_distance_m).c_str(), view.camera.width_px,
         view.camera.height_px, view.camera.vertical_fov_deg, budget.tolerance_px);
+    return text;
+}
+
+const char* origin_of(EffectGroup group) {
+    switch (group) {
+        case EffectGroup::model:
+            return "of the view's model";
+        case EffectGroup::drawing:
+            return "of drawing";
+        case EffectGroup::data:
+            break;
+    }
+    return "of the data";
+}
+
+// The largest errors that the picture has, on one line each.
+std::string largest_errors(const Budget& budget) {
+    constexpr std::size_t most = 3;
+    std::vector<const BudgetLine*> lines;
+    for (const BudgetLine& line : budget.lines)
+        if (line.in_picture && line.size) lines.push_back(&line);
+    std::ranges::stable_sort(lines, [](const BudgetLine* one, const BudgetLine* other) {
+        return one->size->worst_px > other->size->worst_px;
+    });
+    lines.resize(std::min(most, lines.size()));
+    std::string text = left_aligned("Largest errors", name_columns);
+    for (const char* const size : {"worst m", "typical", "worst px", "typical"})
+        text += left_aligned(std::string("  ") + size, size_columns);
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += "\n";
+    for (const BudgetLine* const line : lines) {
+        const EffectFacts& facts = facts_of(line->kind);
+        text += left_aligned(error_name(line->kind), name_columns) + sizes(line->size) + "  " +
+                origin_of(facts.group) + "\n";
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string plan_summary(const Budget& budget, const View& view, const PlanEye& eye,
+                         const AccuracyChoice& choice, const UnseenGround& unseen) {
+    if (budget.empty) return nothing_text(view, eye, unseen);
+    return eye_text(view, eye) + ground_text(budget, view) + "\n" + advice(budget, view, choice, unseen) +
+           "\n" + limit_of_data(budget) + "\n\n" + largest_errors(budget) +
+           "--all lists every effect, and what leaves it out.\n";
+}
+
+std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye,
+                      const AccuracyChoice& choice, const UnseenGround& unseen,
+                      const std::optional<MeshForecasts>& meshes) {
+    if (budget.empty) return nothing_text(view, eye, unseen);
     const std::string limit = pixels(budget.tolerance_px);
-    std::string out = eye_text(view, eye) + text;
+    std::string out = eye_text(view, eye) + ground_text(budget, view);
     out += "Light: " + light_words(budget.air, budget.eye_h_m) +
            (view.model.air == budget.air ? ".\n" : "; in this picture it goes straight.\n");
     out +=

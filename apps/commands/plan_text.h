@@ -23,4 +23,9 @@ std::string plan_text(const Budget& budget, const View& view, const PlanEye& eye
                       const AccuracyChoice& choice, const UnseenGround& unseen,
                       const std::optional<MeshForecasts>& meshes);
 
+// The eye, what the view is good to and what would help in some sentences, and the three largest errors of
+// the picture: some twelve lines.
+std::string plan_summary(const Budget& budget, const View& view, const PlanEye& eye,
+                         const AccuracyChoice& choice, const UnseenGround& unseen);
+
 }  // namespace oro

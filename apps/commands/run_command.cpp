@@ -5,6 +5,7 @@
 #include "apps/commands/commands.h"
 #include "apps/commands/coordinates.h"
 #include "apps/commands/fetching.h"
+#include "apps/commands/named_places.h"
 #include "core/base/files_read.h"
 
 namespace oro {
@@ -26,6 +27,7 @@ std::string joined_words(const std::vector<std::string>& words) {
 
 Result<void> run_command(CLI::App& app, CommandLine& line, const std::vector<std::string>& words) {
     ORO_CHECK(take_coordinates(line));
+    ORO_CHECK(take_named_places(line));
     ORO_CHECK(take_fetching(app, line));
     if (app.got_subcommand("shot")) return run_shot(line.shot);
     if (app.got_subcommand("panorama")) return run_panorama(line.panorama);

@@ -50,28 +50,6 @@ bool touches(const TextMask& mask, const std::vector<NameLabel>& names) {
         names, [&](const NameLabel& name) { return box.touches(name.box) || box.touches(name.leader); });
 }
 
-// Finds the labels of contour lines, without those in the way of names, and adds them to `texts`.
-Result<std::vector<LineLabel>> add_line_labels(const TextFace& face, const SeenHeights& seen,
-                                               const Style& style, const std::vector<NameLabel>& names,
-                                               std::vector<InkedText>& texts) {
-    const gpu::ContourLines& lines = style.frame.contours;
-    const double size_px = style.labels_px;
-    const InkedRows::Colour ink{code_of(lines.colour.x), code_of(lines.colour.y), code_of(lines.colour.z)};
-    ORO_TRY(const std::vector<LineLabel> labels,
-            line_labels(seen, static_cast<double>(lines.interval_m), size_px,
-                        [&](const std::string& text) { return face.width_px(text, size_px); }));
-    std::vector<LineLabel> written;
-    for (const LineLabel& label : labels) {
-        ORO_TRY(TextMask mask,
-                face.mask(label.text, {label.middle_px, label.angle_deg, size_px, halo_share * size_px}));
-        if (touches(mask, names)) continue;
-        interrupt_line(label, size_px, mask);
-        texts.push_back({std::move(mask), ink, {}});
-        written.push_back(label);
-    }
-    return written;
-}
-
 // What a view's vector files put on its picture.
 Result<void> find_vectors(const View& view, const TrueGround& ground, const TextFace& face,
                           ViewWriting& writing) {
@@ -110,6 +88,27 @@ PictureOptions picture_options(const View& view, RasterPath path) {
 
 bool has_writing(const View& view, const Style& style) {
     return style.labels_px > 0.0 || view.vectors_read || view.graticule;
+}
+
+Result<std::vector<LineLabel>> add_line_labels(const TextFace& face, const SeenHeights& seen,
+                                               const Style& style, const std::vector<NameLabel>& names,
+                                               std::vector<InkedText>& texts) {
+    const gpu::ContourLines& lines = style.frame.contours;
+    const double size_px = style.labels_px;
+    const InkedRows::Colour ink{code_of(lines.colour.x), code_of(lines.colour.y), code_of(lines.colour.z)};
+    ORO_TRY(const std::vector<LineLabel> labels,
+            line_labels(seen, static_cast<double>(lines.interval_m), size_px,
+                        [&](const std::string& text) { return face.width_px(text, size_px); }));
+    std::vector<LineLabel> written;
+    for (const LineLabel& label : labels) {
+        ORO_TRY(TextMask mask,
+                face.mask(label.text, {label.middle_px, label.angle_deg, size_px, halo_share * size_px}));
+        if (touches(mask, names)) continue;
+        interrupt_line(label, size_px, mask);
+        texts.push_back({std::move(mask), ink, {}});
+        written.push_back(label);
+    }
+    return written;
 }
 
 Result<ViewWriting> find_writing(const Gpu& gpu, Scene& scene, const View& view, const TrueGround& ground,

@@ -27,6 +27,12 @@ struct ViewWriting {
 // Whether a view can have any.
 [[nodiscard]] bool has_writing(const View& view, const Style& style);
 
+// The heights on the contour lines of a style, where they are seen, and as pixels; none where a name stands.
+// Errors: those of text.
+Result<std::vector<LineLabel>> add_line_labels(const TextFace& face, const SeenHeights& seen,
+                                               const Style& style, const std::vector<NameLabel>& names,
+                                               std::vector<InkedText>& texts);
+
 // Finds it. ground: of the view's region with its exaggeration, for the sight lines to what is named. Errors:
 // those of pages, of the device, and of text.
 Result<ViewWriting> find_writing(const Gpu& gpu, Scene& scene, const View& view, const TrueGround& ground,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/measure/shown_place.h"
 #include "render/frame/shown_ground.h"
@@ -11,32 +12,6 @@ namespace {
 
 constexpr double most_nodes = 16e6;  // 128 MB
 constexpr double steepest_tangent = 5.0;
-
-// Ground beside a node counts for as much as it is joined to it.
-std::vector<float> smoothed(const SeenHeights& seen) {
-    constexpr double weights[3] = {0.25, 0.5, 0.25};
-    std::vector<float> smooth = seen.H_m;
-    for (int row = 1; row + 1 < seen.rows; ++row) {
-        for (int column = 1; column + 1 < seen.columns; ++column) {
-            const std::size_t here = seen.at(column, row);
-            if (seen.far_m[here] <= 0.0F) continue;
-            double sum = 0.0, whole = 0.0;
-            for (int down = -1; down <= 1; ++down) {
-                for (int right = -1; right <= 1; ++right) {
-                    // Opposite nodes together, or neither: a slope stays where it is.
-                    const std::size_t one = seen.at(column + right, row + down),
-                                      opposite = seen.at(column - right, row - down);
-                    if (!seen.joined(here, one) || !seen.joined(here, opposite)) continue;
-                    const double weight = weights[down + 1] * weights[right + 1];
-                    sum += weight * static_cast<double>(seen.H_m[one]);
-                    whole += weight;
-                }
-            }
-            smooth[here] = static_cast<float>(sum / whole);
-        }
-    }
-    return smooth;
-}
 
 }  // namespace
 
@@ -71,6 +46,31 @@ SeenHeights no_heights(const Camera& camera) {
     return seen;
 }
 
+void smooth(SeenHeights& seen) {
+    constexpr double weights[3] = {0.25, 0.5, 0.25};
+    std::vector<float> smooth = seen.H_m;
+    for (int row = 1; row + 1 < seen.rows; ++row) {
+        for (int column = 1; column + 1 < seen.columns; ++column) {
+            const std::size_t here = seen.at(column, row);
+            if (seen.far_m[here] <= 0.0F) continue;
+            double sum = 0.0, whole = 0.0;
+            for (int down = -1; down <= 1; ++down) {
+                for (int right = -1; right <= 1; ++right) {
+                    // Opposite nodes together, or neither: a slope stays where it is.
+                    const std::size_t one = seen.at(column + right, row + down),
+                                      opposite = seen.at(column - right, row - down);
+                    if (!seen.joined(here, one) || !seen.joined(here, opposite)) continue;
+                    const double weight = weights[down + 1] * weights[right + 1];
+                    sum += weight * static_cast<double>(seen.H_m[one]);
+                    whole += weight;
+                }
+            }
+            smooth[here] = static_cast<float>(sum / whole);
+        }
+    }
+    seen.H_m = std::move(smooth);
+}
+
 Result<SeenHeights> seen_heights(const Gpu& gpu, Scene& scene, const Camera& camera,
                                  const PictureOptions& options, const TrueGround& ground) {
     SeenHeights seen = no_heights(camera);
@@ -84,7 +84,7 @@ Result<SeenHeights> seen_heights(const Gpu& gpu, Scene& scene, const Camera& cam
         seen.far_m[node] = static_cast<float>(point.z_m);
     };
     ORO_CHECK(shown_ground(gpu, scene, camera, options, seen.step_px, take));
-    if (seen.step_px == 1) seen.H_m = smoothed(seen);
+    if (seen.step_px == 1) smooth(seen);
     return seen;
 }
 

@@ -38,6 +38,10 @@ struct SeenHeights {
 // Nodes for a picture of that size without ground: all pixels, or fewer of those of a large picture.
 SeenHeights no_heights(const Camera& camera);
 
+// Makes each node the mean of the ground around it, binomial over 3 x 3 nodes, as pixels of fine ground are.
+// Nodes beside it count where they are joined to it.
+void smooth(SeenHeights& seen);
+
 // What a picture shows: of its triangles, as fine as tau asks for, and each node the mean of the ground
 // around it (binomial over 3 x 3 nodes), as pixels are. ground: of the scene's grids. Errors: those of the
 // device and of pages.

@@ -132,6 +132,8 @@ std::vector<std::string> legend_lines(const View& view, const Region& region, co
                                       : "Fields with hedges, and clefts of rock: invented, by a rule");
     if ((style.frame.materials.on & gpu::materials_with_trees) != 0)
         lines.emplace_back("Trees: invented, by a rule, where the ground cover is forest");
+    else if (view.trees && style.frame.materials.on != 0)
+        lines.emplace_back("Trees: left out (--trees off)");
     if ((style.frame.materials.on & gpu::materials_with_grass) != 0)
         lines.emplace_back("Grass within 60 m: invented, by a rule, where the ground cover is meadow");
     if (style.frame.contours.interval_m > 0.0F)

@@ -13,6 +13,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/commands/command_line.h"
 #include "apps/commands/coordinates.h"
+#include "apps/commands/named_places.h"
 #include "apps/commands/panorama/panorama_asked.h"
 #include "apps/commands/shot/shot_scene.h"
 #include "apps/drawing/mesh_cut.h"
@@ -24,7 +25,7 @@
 #include "apps/library/library_structures.h"
 #include "apps/library/open_regions.h"
 #include "apps/library/orograph.h"
-#include "apps/maps/ortho_map.h"
+#include "apps/maps/labelled_map.h"
 #include "apps/options/region_option_table.h"
 #include "apps/view/view_in_region.h"
 
@@ -126,6 +127,7 @@ Result<std::unique_ptr<oro::CommandLine>> command_line_of(const char* command,
         return oro::refusal_of(app, refused, words);
     }
     ORO_CHECK(oro::take_coordinates(*line));
+    ORO_CHECK(oro::take_named_places(*line));
     return line;
 }
 
@@ -224,9 +226,11 @@ Result<void> draw_rows(const PreparedShot& prepared, const oro::Gpu& gpu, oro::S
     };
     oro::PictureReport report;
     if (shot.view.map) {
-        ORO_TRY(report, oro::draw_map(
-                            gpu, scene, shot.view, ground, prepared.style, path,
-                            [&](auto row) { return unless_stopped(buffer.take_rgba(row)); }, show));
+        ORO_TRY(const oro::LabelledMap map,
+                oro::draw_labelled_map(
+                    gpu, scene, shot.view, ground, prepared.style, path,
+                    [&](auto row) { return unless_stopped(buffer.take_rgba(row)); }, show));
+        report = map.report;
     } else {
         ORO_TRY(const oro::LabelledPicture picture,
                 oro::render_labelled(

@@ -37,24 +37,6 @@ std::optional<PixelFrame> pixel_frame(const MapSquare& square, MapPlaces& places
     return frame;
 }
 
-// The ground at a place, of the grid that is the ground there; the sea on the ellipsoid where a grid has void
-// posts, if these are sea.
-std::optional<double> ground_h_m(const TrueGround& ground, const MapPlace& place, bool voids_are_sea) {
-    std::optional<double> sea_h_m;
-    for (std::size_t grid = 0; grid < ground.grids(); ++grid) {
-        const TrueSurface& surface = ground.surface(grid);
-        const PostGrid& posts = surface.field().grid;
-        const auto [row, column] = posts.post_at(place.lat_deg, place.lon_deg);
-        const bool inside =
-            row >= 0.0 && column >= 0.0 && row <= posts.rows() - 1.0 && column <= posts.columns() - 1.0;
-        if (!inside) continue;
-        const auto h_m = surface.h_at_m(row, column);
-        if (h_m && ground.shows(grid, place.lat_deg, place.lon_deg)) return h_m;
-        if (!h_m && voids_are_sea) sea_h_m = surface.field().undulation.at_m(place.lat_deg, place.lon_deg);
-    }
-    return sea_h_m;
-}
-
 void find_ground(MapPlaces& places, const TrueGround& ground, bool voids_are_sea, MapSquare& square) {
     std::vector<std::vector<std::optional<MapPlace>>> rows(static_cast<std::size_t>(square.height_px));
     for (int y = 0; y < square.height_px; ++y)
@@ -63,7 +45,7 @@ void find_ground(MapPlaces& places, const TrueGround& ground, bool voids_are_sea
         for (int x = 0; x < square.width_px; ++x) {
             const auto& place = rows[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)];
             if (!place) continue;
-            if (const auto h_m = ground_h_m(ground, *place, voids_are_sea))
+            if (const auto h_m = map_ground_h_m(ground, *place, voids_are_sea))
                 square.ground[square.number(x, y)] =
                     ecef_from_geodetic({place->lat_deg, place->lon_deg, *h_m});
         }
@@ -85,6 +67,22 @@ glm::dvec2 project(MapSquare& square) {
 }
 
 }  // namespace
+
+std::optional<double> map_ground_h_m(const TrueGround& ground, const MapPlace& place, bool voids_are_sea) {
+    std::optional<double> sea_h_m;
+    for (std::size_t grid = 0; grid < ground.grids(); ++grid) {
+        const TrueSurface& surface = ground.surface(grid);
+        const PostGrid& posts = surface.field().grid;
+        const auto [row, column] = posts.post_at(place.lat_deg, place.lon_deg);
+        const bool inside =
+            row >= 0.0 && column >= 0.0 && row <= posts.rows() - 1.0 && column <= posts.columns() - 1.0;
+        if (!inside) continue;
+        const auto h_m = surface.h_at_m(row, column);
+        if (h_m && ground.shows(grid, place.lat_deg, place.lon_deg)) return h_m;
+        if (!h_m && voids_are_sea) sea_h_m = surface.field().undulation.at_m(place.lat_deg, place.lon_deg);
+    }
+    return sea_h_m;
+}
 
 MapSquare map_square(const MapSquare& where, MapPlaces& places, const TrueGround& ground, bool voids_are_sea,
                      int finer) {

@@ -25,7 +25,7 @@ Result<void> check_map_options(const ShotOptions& options) {
     const char* const of_eye =
         first_given_of(view_option_table(), view,
                        {"--earth", "--refraction", "--air", "--precision", "--tolerance", "--edges", "--show",
-                        "--names", "--overlay", "--graticule", "--labels", "--detail"});
+                        "--names", "--overlay", "--graticule", "--detail"});
     if (of_eye != nullptr || options.verify || options.layers)
         return refused(of_eye != nullptr ? of_eye
                        : options.verify  ? "--verify"

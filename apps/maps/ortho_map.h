@@ -27,6 +27,10 @@ struct MapSquare {
     }
 };
 
+// The ground at a place of a map, above the ellipsoid: of the grid that is the ground there; the sea's
+// surface where a grid has void posts, if these are sea. Nothing where there is none.
+std::optional<double> map_ground_h_m(const TrueGround& ground, const MapPlace& place, bool voids_are_sea);
+
 // The ground of a square: by the surface, in which void posts lie at sea level where `voids_are_sea`. Then
 // the camera: straight above the square's middle, so far away that its whole width is seen within three
 // degrees, with `finer` pixels of it for one of the map's. Float32 places ground as seen from there within

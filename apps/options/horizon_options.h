@@ -10,11 +10,14 @@ namespace oro {
 
 struct HorizonOptions {
     RegionOptions region;
-    ViewOptions view;  // the air alone
+    ViewOptions view;                  // the air, and files whose names stand for places
+    std::string at;                    // around this place alone, as a table; "": around posts, as rasters
+    std::optional<double> altitude_m;  // of the eye at that place
+    bool on_summit{false};             // likewise
     std::optional<int> directions;
     std::optional<double> radius_km;
     std::optional<double> above_m;
-    std::string out;  // NAME.tif: NAME.horizon.tif and NAME.sky-view.tif are written
+    std::string out;  // NAME.tif: NAME.horizon.tif and NAME.sky-view.tif are written; of a place a .csv
     bool overwrite{false};
     bool json{false};
     bool quiet{false};

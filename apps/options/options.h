@@ -147,6 +147,7 @@ struct PlanOptions {
     ViewOptions view;
     std::string view_file;
     std::optional<double> unseen_ceiling_m;
+    bool all{false};  // each effect by itself, and not the largest alone
     bool json{false};
     bool quiet{false};
 };
@@ -193,6 +194,7 @@ struct ProfileOptions {
     std::optional<int> line;  // of a file with several, from 1
     std::optional<double> step_m;
     double climb_threshold_m{10.0};
+    std::vector<std::string> names;  // files whose names stand for places
     std::string out;
     bool overwrite{false};
     bool json{false};

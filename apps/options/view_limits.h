@@ -40,6 +40,7 @@ inline constexpr Limits time_utc_s{-62167219200, 253402300799};
 // Of options that place an eye, whose h is held to eye_h_m when it has its place.
 inline constexpr Limits altitude_m{-12000, 1e9};
 inline constexpr Limits above_m{-12000, 1e9};
+inline constexpr Limits contour_interval_m{0.1, 5000};
 inline constexpr Limits feather_m{0.01, 1e6};
 inline constexpr Limits crease_deg{0, 180};
 // Ends of a line of sight: from the deepest trench to far above the air.

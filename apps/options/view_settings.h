@@ -79,11 +79,13 @@ struct ViewSettings {
     Field<std::vector<std::string>> drape;  // images over the ground, the last on top
     Field<double> drape_opacity = Where::usual(1.0);
     Field<ImageValues> drape_values = Where::usual(ImageValues::by_file);
-    Field<std::optional<bool>> shadows;       // nothing: as the style has it
-    Field<std::optional<bool>> sky_openness;  // likewise
-    Field<std::optional<bool>> labels;        // likewise: heights on contour lines
-    Field<std::optional<Edges>> edges;        // likewise
-    Field<std::optional<Show>> show;          // nothing: the ground
+    Field<std::optional<bool>> shadows;               // nothing: as the style has it
+    Field<std::optional<bool>> sky_openness;          // likewise
+    Field<std::optional<bool>> trees;                 // likewise: those that a style invents
+    Field<std::optional<bool>> labels;                // likewise: heights on contour lines
+    Field<std::optional<double>> contour_interval_m;  // nothing: the style's, or by the view
+    Field<std::optional<Edges>> edges;                // likewise
+    Field<std::optional<Show>> show;                  // nothing: the ground
     Field<std::optional<Graticule>> graticule;
     // "auto", "mesh" or "compute": written views name the one that drew them.
     Field<std::string> pipeline = Where::usual("auto");

@@ -5,7 +5,7 @@
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
 #include "apps/fingerprints/fingerprints.h"
-#include "apps/maps/ortho_map.h"
+#include "apps/maps/labelled_map.h"
 #include "apps/report/region_json.h"
 #include "apps/view/view_paths.h"
 #include "geo/pixels/picture_difference.h"
@@ -134,10 +134,12 @@ Result<DrawnPicture> draw_picture(const PictureFiles& files, bool overwrite, con
     LabelledPicture labelled;
     if (view.map) {
         MapRows rows(files.picture, *writer, pixels, also);
-        ORO_TRY(labelled.report,
-                draw_map(
+        ORO_TRY(LabelledMap map,
+                draw_labelled_map(
                     gpu, scene, view, ground.ground(), style, path,
                     [&](std::span<const std::uint8_t> rgba) { return rows.take(rgba); }, progress));
+        labelled.report = map.report;
+        labelled.labels = std::move(map.labels);
         ORO_CHECK(rows.take_strip(strip, view.camera.width_px));
     } else {
         ORO_TRY(labelled, render_labelled(gpu, scene, view, ground.ground(), style, path, take, progress));

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <optional>
 
 #include "apps/report/different_words.h"
@@ -156,7 +155,8 @@ std::string note_of_voids(const RegionGrid& grid) {
     if (grid.in_missing > 0)
         note += (note.empty() ? "" : "; ") +
                 counted(grid.missing_cells.size(), "tile is missing: ", "tiles are missing: ") +
-                counted(grid.in_missing, "post has no height there", "posts have no height there");
+                counted(grid.in_missing, "post has no height there", "posts have no height there") +
+                (grid.file ? "" : " (orograph fetch gets tiles)");
     return note;
 }
 
@@ -184,9 +184,12 @@ std::vector<std::string> own_notes(const RegionGrid& grid) {
 
 std::vector<std::string> all_notes(const Region& region) {
     std::vector<std::string> notes;
+    const auto add_once = [&](std::string note) {
+        if (!note.empty() && std::ranges::find(notes, note) == notes.end()) notes.push_back(std::move(note));
+    };
     for (const RegionGrid& grid : region.grids) {
-        std::ranges::move(own_notes(grid), std::back_inserter(notes));
-        if (std::string holes = note_of_voids(grid); !holes.empty()) notes.push_back(std::move(holes));
+        for (std::string& note : own_notes(grid)) add_once(std::move(note));
+        add_once(note_of_voids(grid));
     }
     return notes;
 }

@@ -29,7 +29,7 @@ std::string note_of_voids(const RegionGrid& grid);
 std::string note_of_assumed_heights(const RegionGrid& grid);
 // The grid's notes and that one.
 std::vector<std::string> own_notes(const RegionGrid& grid);
-// All of these, of all grids of a region.
+// All of these, of all grids of a region, each once.
 std::vector<std::string> all_notes(const Region& region);
 // Prints all_notes() on standard error, unless quiet.
 void say_notes(const Region& region, bool quiet);

@@ -20,6 +20,7 @@
 #include "core/light/sun_position.h"
 #include "core/made_pages/made_pages.h"
 #include "geo/files/text_encoding.h"
+#include "shaders/shared_growth.h"
 
 namespace oro {
 namespace {
@@ -85,6 +86,30 @@ Result<void> label_by(const View& view, Style& style) {
         style.labels_px = 0.0;
     else if (style.labels_px == 0.0)
         style.labels_px = usual_px;
+    return {};
+}
+
+// What the view says of trees. A style of materials that has none by itself may have them, too.
+Result<void> plant_by(const View& view, gpu::FrameStyle& style) {
+    if (!view.trees) return {};
+    if (*view.trees && style.materials.on == 0)
+        return Error{ErrorKind::usage, "--trees on",
+                     "the style '" + view.style + "' knows no ground that trees could stand on"};
+    if (*view.trees)
+        style.materials.on |= gpu::materials_with_trees;
+    else
+        style.materials.on &= ~gpu::materials_with_trees;
+    return {};
+}
+
+// What the view says of how far apart contour lines stand.
+Result<void> space_contours_by(const View& view, Style& style) {
+    if (!view.contour_interval_m) return {};
+    if (!style.contours_by_view && !(style.frame.contours.interval_m > 0.0F))
+        return Error{ErrorKind::usage, "--contour-interval",
+                     "the style '" + view.style + "' has no contour lines; contours has"};
+    style.contours_by_view = false;
+    style.frame.contours.interval_m = static_cast<float>(*view.contour_interval_m);
     return {};
 }
 
@@ -171,6 +196,8 @@ Result<Style> load_style(const View& view, const HeightField& field) {
     if (view.sky_openness.value_or(false) && style.frame.light != gpu::light_sun)
         return Error{ErrorKind::usage, "--sky-openness on",
                      "the style '" + name + "' has no light of the sky"};
+    ORO_CHECK(plant_by(view, style.frame));
+    ORO_CHECK(space_contours_by(view, style));
     ORO_CHECK(label_by(view, style));
     // Both look over the ground in all directions. Where its posts are made as they are asked for, most of
     // what they would make is never shown.

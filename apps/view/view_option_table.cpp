@@ -142,10 +142,12 @@ class Rows {
 };
 
 void add_places(Rows eye) {
-    eye.add({"--at PLACE", shown_first | of_eye, "all the data"}, &ViewOptions::at,
-            "The place to look at, in the middle of the picture: latitude,longitude as in 46.57,7.99; or "
-            "degrees, minutes and seconds, UTM, MGRS, a geohash, geo:46.57,7.99; all of a cell (N46E008). "
-            "With --above, --altitude, --on-summit or --look-at: where the eye is.");
+    eye.add(
+        {"--at PLACE", shown_first | of_eye, "all the data"}, &ViewOptions::at,
+        "The place to look at, in the middle of the picture: latitude,longitude as in 46.57,7.99; or "
+        "degrees, minutes and seconds, UTM, MGRS, a geohash, geo:46.57,7.99; all of a cell (N46E008); or a "
+        "name of --names, its beginning if there is only one. "
+        "With --above, --altitude, --on-summit or --look-at: where the eye is.");
     eye.add({"--above METRES", shown_first | of_eye, "2 with --look-at or --on-summit"},
             &ViewOptions::above_m,
             "Stand at --at: height of the eye over the ground there. Needs --at. Not with --altitude.");
@@ -231,8 +233,8 @@ void add_vectors(Rows looks) {
         {"--names FILE", shown_first | changes_looks}, &ViewOptions::names,
         [](auto& view) -> auto& { return view.vectors.names; },
         "Name the points of a vector file (GPX, KML, GeoJSON, GeoPackage, shapefile, CSV ...) that the "
-        "eye sees, with height and distance. A window shows them while the eye rests. May be given several "
-        "times.");
+        "eye sees, with height and distance, and let a name stand for its place, as in --at Eiger. A window "
+        "shows them while the eye rests. May be given several times.");
     looks.setting(
         {"--names-field FIELD", changes_looks, "name"}, &ViewOptions::names_field,
         [](auto& view) -> auto& { return view.vectors.names_field; },
@@ -285,6 +287,11 @@ void add_light(Rows looks) {
 }
 
 void add_surroundings(Rows looks) {
+    looks.on_off({"--trees", changes_looks, "as the style has it; on in natural", "trees"},
+                 &ViewOptions::trees, &View::trees,
+                 "Whether the style's invented trees stand on the ground and hide what is behind them. off "
+                 "shows towns, meshes and tracks in forests, and is not together with --canopy. on is for "
+                 "styles that know the ground's materials: natural.");
     looks.choice({"--sea", changes_looks, "level", "sea"}, &ViewOptions::sea, &View::sea, sea_names,
                  "What a style with water draws as the sea: level, ground that is level, as lakes are; low, "
                  "too, what is up to 5 m above sea level and all below it; voids, what has no height.");
@@ -296,8 +303,13 @@ void add_surroundings(Rows looks) {
 void add_drawing(Rows looks) {
     looks.on_off({"--labels", changes_looks, "as the style has it; on in contours"}, &ViewOptions::labels,
                  &View::labels,
-                 "Whether every fifth contour line has its height written on it, in pictures; a window has "
-                 "none. For styles with contour lines.");
+                 "Whether every fifth contour line has its height written on it, in pictures and maps; a "
+                 "window has none. For styles with contour lines.");
+    looks.setting({"--contour-interval METRES", changes_looks, "as the view asks for, or the style says",
+                   "contour_interval_m", limits::contour_interval_m},
+                  &ViewOptions::contour_interval_m, &View::contour_interval_m,
+                  "How far apart contour lines stand in height, {}. Every fifth is thicker, and has its "
+                  "height written on it. For styles with contour lines: contours.");
     looks.choice({"--edges", changes_looks, "as the style has it", "edges"}, &ViewOptions::edges,
                  &View::edges, edge_names,
                  "Edges of the ground before the sky and before farther ground, in pictures of one sample: "

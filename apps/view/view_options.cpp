@@ -79,6 +79,15 @@ Result<void> choose_mesh_level(View& view, const ViewOptions& options) {
     return {};
 }
 
+// Who wants no trees wants none of other sources, either.
+Result<void> leave_canopy_out(View& view, const ViewOptions& options) {
+    if (options.trees != "off") return {};
+    if (!options.canopy.empty())
+        return refused("--trees", "off", "not together with --canopy, which raises the ground by trees");
+    view.canopy_choice = {};
+    return {};
+}
+
 // The options that a view from a file can be changed by.
 Result<void> apply_look(View& view, const ViewOptions& options) {
     if (options.legend) view.legend = true;
@@ -103,6 +112,7 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
         ORO_TRY(view.canopy_choice,
                 canopy_choice_from(words, options.canopy_held, !view.cover_choice.files.empty()));
     }
+    ORO_CHECK(leave_canopy_out(view, options));
     if (options.detail) {
         ORO_TRY(view.detail, detail_choice_from(*options.detail));
     }
@@ -192,8 +202,8 @@ Result<View> view_without_eye(const ViewOptions& options, RegionRequest region) 
         return refused("--look-at", "", either_words("--look-at", "--heading and --pitch"));
     if (options.altitude_m) ORO_CHECK(within("--altitude", *options.altitude_m, view_limits::altitude_m));
     if (options.above_m) ORO_CHECK(within("--above", *options.above_m, view_limits::above_m));
-    const char* const of_place =
-        first_given_of(view_option_table(), options, {"--above", "--altitude", "--on-summit", "--stand-on", "--look-at"});
+    const char* const of_place = first_given_of(
+        view_option_table(), options, {"--above", "--altitude", "--on-summit", "--stand-on", "--look-at"});
     if (!options.at && of_place) return refused(of_place, "", "says nothing without --at PLACE");
     return view;
 }

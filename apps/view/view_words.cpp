@@ -67,6 +67,8 @@ void give_light(const View& view, ViewOptions& options) {
     options.visibility_km = view.visibility_km;
     options.shadows = switch_word(view.shadows);
     options.sky_openness = switch_word(view.sky_openness);
+    options.trees = switch_word(view.trees);
+    options.contour_interval_m = view.contour_interval_m;
     options.labels = switch_word(view.labels);
     if (!view.sun || view.sun->is_usual) return;
     if (view.sun->time)

@@ -36,6 +36,7 @@ ViewOptions map_looks(const View& view, bool contours) {
     options.sun_time = all.sun_time;
     options.shadows = all.shadows;
     options.sky_openness = all.sky_openness;
+    options.trees = all.trees;
     return options;
 }
 

@@ -72,7 +72,7 @@ Result<void> write_picture_of(Viewer& viewer, const PictureChoice& choice) {
     say(viewer.options.quiet && written.ok(), viewer.message);
     if (!written.ok() || viewer.options.quiet) return {};
     ORO_TRY(const UnseenGround unseen, unseen_in(view, viewer.region, usual_unseen_ceiling_m));
-    if (const std::string note = unseen_sentence(unseen); !note.empty()) say(false, "note: " + note);
+    if (const std::string note = unseen_note(unseen); !note.empty()) say(false, "note: " + note);
     return {};
 }
 

@@ -110,7 +110,7 @@ TEST(Help, ExplainsEachOption) {
                       "--no-legend",    "--fill-voids", "--strict-datum", "-h, --help",  "--resample",
                       "--on-summit",    "--kml",        "--geopose",      "--cors",      "--dry-run",
                       "--join",         "--stac",       "--network",      "--cache",     "--no-normals",
-                      "--cut-under"};
+                      "--cut-under",    "--all"};
     for (const std::string& command : commands) {
         const auto options = options_in(help_of({command}));
         EXPECT_GE(options.size(), 2U) << command;

@@ -227,7 +227,7 @@ TEST(RefusedOptions, WhatIsSomethingElse) {
     expect_lines({{{"plan", bundled(), "--source-crs", "2056"},
                    "--source-crs 2056: is no coordinate reference system that PROJ knows: did you mean "
                    "EPSG:2056?"}});
-    const std::string names = "(names are not looked up)";
+    const std::string names = "(names need --names FILE, which holds them";
     for (const char* const place : {"Hoher Riffler", "Mont Blanc, Chamonix", "Grünhorn"})
         oro::test::expect_refusal(run_orograph({"plan", bundled(), "--at", place}), 2,
                                   {place, "is no known form of a place", names});

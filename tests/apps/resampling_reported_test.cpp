@@ -100,7 +100,7 @@ TEST_F(ResamplingReported, WithoutBeingAskedForThereIsNone) {
 }
 
 TEST_F(ResamplingReported, PlanHasARowForIt) {
-    const Outcome outcome = run_orograph(with_crs({"plan"}));
+    const Outcome outcome = run_orograph(with_crs({"plan", "--all"}));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     expect_words(outcome.out, {"\nresampled heights "});
     expect_words(outcome.err, {"heights of 1 file are resampled: its own posts are up to ",

@@ -42,5 +42,14 @@ TEST(RegionNotes, AssumedHeightsAreTold) {
         EXPECT_EQ(note_of_assumed_heights(region_from({{"a.tif", known}}).grids[0]), "");
 }
 
+// Found: a note on the geoid stood there once for each of several grids.
+TEST(RegionNotes, WhatGridsShareIsToldOnce) {
+    Region region = region_from({{"a.tif", DatumFrom::crs}});
+    region.grids[0].notes = {"the geoid is coarse"};
+    region.grids.push_back(region.grids[0]);
+    region.grids[1].notes.emplace_back("of the second alone");
+    EXPECT_EQ(all_notes(region), (std::vector<std::string>{"the geoid is coarse", "of the second alone"}));
+}
+
 }  // namespace
 }  // namespace oro

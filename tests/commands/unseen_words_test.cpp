@@ -37,6 +37,18 @@ TEST(UnseenWords, OneSentenceForEachPlace) {
               "m high, could rise up to 312 px above what is drawn");
 }
 
+// What is told with a picture says what helps.
+TEST(UnseenWords, TheNoteSaysWhatHelps) {
+    EXPECT_EQ(
+        unseen_note(beyond(1)),
+        "the view reaches past the data in 640 of 640 columns (missing: N46E010): ground up to 9,000 m high "
+        "there could rise up to 312 px above what is drawn; give these tiles, too, or --fetch skadi gets "
+        "them");
+    UnseenGround whole = beyond(1);
+    whole.all_in_view = true;
+    EXPECT_EQ(unseen_note(whole), "");
+}
+
 TEST(UnseenWords, TwelveCellsAreNamed) {
     const std::string twelve = unseen_sentence(beyond(12)), more = unseen_sentence(beyond(14));
     EXPECT_NE(twelve.find("N46E020, N46E021):"), std::string::npos) << twelve;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -42,13 +43,18 @@
 #include "core/base/files_read.h"
 #include "core/lod/ground_means.h"
 #include "core/terrain/ground.h"
+#include "geo/places/bounding_box.h"
 #include "geo/together/rim_diagonals.h"
 
 namespace oro {
 namespace {
 
-void say_notes(const ShotOptions& options, const ShotResult& shot) {
-    say_notes(shot.region, options.quiet);
+// What was printed with a picture of several views before, and is not printed again.
+using ReportedNotes = std::set<std::string>;
+
+void say_notes(const ShotOptions& options, const ShotResult& shot, ReportedNotes& reported_notes) {
+    for (const std::string& note : all_notes(shot.region))
+        if (reported_notes.insert(note).second) say(options.quiet, "note: " + note);
     say_summit(shot.on_summit, options.quiet);
     say_wall(shot.view.stood.wall, options.quiet);
     if (const std::string note = note_of_year(shot.view.sun); !note.empty()) say(options.quiet, note);
@@ -119,9 +125,19 @@ Result<std::vector<WholeFile>> layers_of(const ShotOptions& options, const Pictu
     return written;
 }
 
+// Where the data end: of several views once, unless a later one looks over cells that no other does.
+void say_unseen(const ShotOptions& options, const UnseenGround& unseen, ReportedNotes& reported_notes) {
+    const std::string note = unseen_note(unseen);
+    if (note.empty()) return;
+    bool is_new = unseen.missing.empty();
+    for (const UnseenCell& one : unseen.missing)
+        is_new |= reported_notes.insert(tile_name(one.cell.lat_deg, one.cell.lon_deg)).second;
+    if (is_new) say(options.quiet, "note: " + note);
+}
+
 // What was drawn and measured.
 void tell(const ShotOptions& options, const PictureFiles& files, bool checks, const ShotResult& shot,
-          const Gpu& gpu, const Style& style) {
+          const Gpu& gpu, const Style& style, ReportedNotes& reported_notes) {
     if (!checks) say(options.quiet, "wrote " + files.picture);
     if (!checks && shot.view.map) say(options.quiet, "wrote " + world_file_path(files.picture));
     for (const std::string& pose : pose_paths(files.picture, poses_asked(options)))
@@ -130,8 +146,7 @@ void tell(const ShotOptions& options, const PictureFiles& files, bool checks, co
         for (const char* layer : layers_of_view(shot.view.cover != nullptr, has_meshes(shot.view)))
             say(options.quiet, "wrote " + layer_path(files.picture, layer));
     // Measurements say it themselves.
-    if (const std::string note = unseen_sentence(shot.unseen); !shot.verification && !note.empty())
-        say(options.quiet, "note: " + note);
+    if (!shot.verification) say_unseen(options, shot.unseen, reported_notes);
     if (shot.verification) {
         say(options.quiet, "wrote " + files.error);
         // What was asked for: as a table, or with -q as JSON alone.
@@ -210,6 +225,7 @@ struct ShotSeries {
     std::optional<View> opened;
     Region region;
     std::shared_ptr<const Gpu> gpu;
+    ReportedNotes reported_notes;
 };
 
 // The view of a shot, and its region. listed: the view itself, of several; null: it is in its file, or in
@@ -283,7 +299,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
     ShotResult shot;
     ORO_TRY(const Style style, open_shot(options, files, listed, bar, series, shot));
     bar.clear();
-    say_notes(options, shot);
+    say_notes(options, shot, series.reported_notes);
     if (!series.gpu) {
         ORO_TRY(series.gpu, gpu_to_draw_with());
     }
@@ -299,7 +315,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
     bar.clear();
     const Result<void> finished =
         finish_shot(options, files, shot, std::move(picture.file), std::move(companions));
-    if (finished.ok() || checks) tell(options, files, checks, shot, *gpu, style);
+    if (finished.ok() || checks) tell(options, files, checks, shot, *gpu, style, series.reported_notes);
     if (finished.ok() && checks)
         say(options.quiet, files.picture + " is there already, and its view draws the same " +
                                (shot.same_bytes ? "bytes" : "pixels"));

@@ -158,6 +158,8 @@ void put_style(const ShotResult& shot, const Style& style, ordered_json& json) {
                                 : "invented, by a rule: fields with hedges, clefts and ledges of rock";
     if ((style.frame.materials.on & gpu::materials_with_trees) != 0)
         json["growth"]["trees"] = "invented, by a rule, where the ground cover is forest";
+    else if (shot.view.trees && style.frame.materials.on != 0)
+        json["growth"]["trees"] = "left out (--trees off)";
     if ((style.frame.materials.on & gpu::materials_with_grass) != 0)
         json["growth"]["grass"] = "invented, by a rule, within 60 m where the ground cover is meadow";
     json["contour_interval_m"] = nullptr;

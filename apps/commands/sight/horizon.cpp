@@ -7,6 +7,7 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
+#include "apps/commands/sight/horizon_around.h"
 #include "apps/commands/sight/horizon_part.h"
 #include "apps/commands/sight/horizon_question.h"
 #include "apps/commands/sight/sight_ground.h"
@@ -186,6 +187,10 @@ void say_horizon_notes(const HorizonOptions& options, const SightGround& ground,
 }  // namespace
 
 Result<void> run_horizon(const HorizonOptions& options) {
+    if (!options.at.empty()) return run_horizon_around(options);
+    if (options.altitude_m || options.on_summit)
+        return refused(options.altitude_m ? "--altitude" : "--on-summit", "",
+                       "says nothing without --at PLACE");
     ORO_TRY(PostHorizonsRequest request, horizon_request(options));
     ORO_TRY(const HorizonFiles files, files_to_write(options));
     ORO_TRY(const RegionRequest asked, region_request(options.region));

@@ -3,10 +3,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
+#include "apps/commands/sight/raster_styles.h"
 #include "apps/commands/sight/seen_probability.h"
 #include "apps/commands/sight/sight_ground.h"
 #include "apps/commands/sight/table_observers.h"
@@ -141,11 +144,19 @@ Result<void> write_files(const ViewshedOptions& options, const PostRaster& raste
                          const ReportedObservers& observers, const ViewshedReport& report,
                          const SightGround& ground) {
     ORO_TRY(WholeFile shed, written_post_raster(options.out, options.overwrite, raster));
-    if (observers.options->table.empty()) return shed.commit();
+    ORO_TRY(std::optional<WholeFile> style_of_qgis,
+            style_beside(options.out, raster.bands.size(), viewshed_qml));
+    std::vector<WholeFile*> files;
+    if (style_of_qgis) files.push_back(&*style_of_qgis);
+    if (observers.options->table.empty()) {
+        files.push_back(&shed);
+        return commit_together(files);
+    }
     ORO_TRY(WholeFile table, WholeFile::create(observers.options->table, options.overwrite));
     const std::string text = observers_csv(observers.all, report, ground);
     ORO_CHECK(table.write(text.data(), text.size()));
-    return commit_together({&table, &shed});
+    files.insert(files.end(), {&table, &shed});
+    return commit_together(files);
 }
 
 // The sides on which a circle leaves the box of the data.

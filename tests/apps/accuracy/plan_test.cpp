@@ -56,8 +56,8 @@ const Words table_errors{"heights in steps of 0.5 mm",   "positions rounded to f
                          "flat triangles between posts", "ground between the posts"};
 
 Outcome plan(const Words& more) {
-    Words words{"plan",      bundled(), "--at",    "36.6,-84.2", "--above", "300",
-                "--heading", "200.5",   "--pitch", "-5",         "--size",  "96x54"};
+    Words words{"plan",      "--all", bundled(), "--at", "36.6,-84.2", "--above", "300",
+                "--heading", "200.5", "--pitch", "-5",   "--size",     "96x54"};
     words.insert(words.end(), more.begin(), more.end());
     return run_orograph(words);
 }

@@ -1,6 +1,7 @@
 // What `plan` says before and after its table: where the eye is, and how good the picture.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -18,8 +19,8 @@ using oro::test::Words;
 
 Outcome reported_plan(const Words& more) {
     const auto land = oro::test::bundled_data() / "jacksboro.tif";
-    Words words{"plan",      land,    "--at",    "36.6,-84.2", "--above", "300",
-                "--heading", "200.5", "--pitch", "-5",         "--size",  "96x54"};
+    Words words{"plan",      "--all", land,      "--at", "36.6,-84.2", "--above", "300",
+                "--heading", "200.5", "--pitch", "-5",   "--size",     "96x54"};
     words.insert(words.end(), more.begin(), more.end());
     return run_orograph(words);
 }
@@ -75,6 +76,34 @@ TEST(Plan, TheLastLineIsOnTheTablesSideOfTheTolerance) {
                                                     : " px where the data reach: within the tolerance of "))
             << text;
     }
+}
+
+// Some twelve lines say how accurate the picture will be, and why; --all says the same of it, and more.
+TEST(Plan, FirstSaysHowGoodThePictureIsAndWhy) {
+    const auto land = oro::test::bundled_data() / "jacksboro.tif";
+    const Outcome brief = run_orograph({"plan", land, "--at", "36.6,-84.2", "--above", "300", "--heading",
+                                        "200.5", "--pitch", "-5", "--size", "96x54"});
+    EXPECT_EQ(brief.exit_code, 0) << brief.err;
+    const auto lines = std::count(brief.out.begin(), brief.out.end(), '\n');
+    EXPECT_GE(lines, 10) << brief.out;
+    EXPECT_LE(lines, 15) << brief.out;
+    for (const char* const words : {"Eye: 36.600000 -84.200000", "\nGround in view: ", "\nGood to ",
+                                    "\nLargest errors ", " of the data\n", "\n--all lists every effect"})
+        EXPECT_TRUE(says(brief.out, words)) << words << "\n" << brief.out;
+    EXPECT_FALSE(says(brief.out, "left out by")) << brief.out;
+    const std::string all = reported_plan({}).out;
+    const auto good = [](const std::string& text) {
+        const std::size_t at = text.find("\nGood to ");
+        return text.substr(at, text.find('\n', at + 1) - at);
+    };
+    EXPECT_EQ(good(brief.out), good(all));
+    // The first row is the largest error, which the table marks.
+    const std::size_t row = brief.out.find('\n', brief.out.find("Largest errors ")) + 1;
+    const std::string first = brief.out.substr(row, brief.out.find("  ", row) - row);
+    const std::size_t mark = all.find("\n  ^ largest error of this picture");
+    ASSERT_NE(mark, std::string::npos) << all;
+    const std::size_t begin = all.rfind('\n', mark - 1) + 1;
+    EXPECT_EQ(all.substr(begin, first.size()), first) << all;
 }
 
 TEST(Plan, QuietLeavesTheTableAlone) {

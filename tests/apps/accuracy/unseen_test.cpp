@@ -52,7 +52,7 @@ Reported reported_of(const Words& data, const Words& view, const Words& more = {
     const Outcome compared = run(joined({"compare", picture, "--json"}, more));
     reported.compared = line_with(compared.err, "past the data");
     reported.comparison = json::parse(compared.out).at("unseen");
-    reported.planned = run(joined(joined(joined({"plan"}, data), view), more)).out;
+    reported.planned = run(joined(joined(joined({"plan", "--all"}, data), view), more)).out;
     reported.plan =
         json::parse(run(joined(joined(joined({"plan", "--json"}, data), view), more)).out).at("unseen");
     return reported;
@@ -79,7 +79,11 @@ TEST(Unseen, TheTileThatIsMissingIsNamedWithItsBound) {
         "the view reaches past the data in 640 of 640 columns (missing: N46E010): terrain there, if it is up "
         "to 9,000 m high, could rise up to " +
         px + " px above what is drawn";
-    EXPECT_EQ(reported.note, "orograph: note: " + words);
+    EXPECT_EQ(reported.note,
+              "orograph: note: the view reaches past the data in 640 of 640 columns (missing: N46E010): "
+              "ground up to "
+              "9,000 m high there could rise up to " +
+                  px + " px above what is drawn; give these tiles, too, or --fetch skadi gets them");
     EXPECT_EQ(reported.verified, "Where the data end: " + words);
     EXPECT_EQ(reported.compared, reported.verified);
     EXPECT_TRUE(says(reported.planned,

@@ -52,11 +52,11 @@ TEST_F(ClustersReported, FiguresOfTheGraph) {
         EXPECT_GT(meshes[mesh]["worst_px"], 0.5) << mesh;
         EXPECT_GT(meshes[mesh]["worst_m"], 0.0) << mesh;
     }
-    const Outcome reported = run_orograph(joined({"plan", out_, "-q"}, eye()));
+    const Outcome reported = run_orograph(joined({"plan", out_, "-q", "--all"}, eye()));
     EXPECT_NE(reported.out.find("What is in view at --tau 1, by either mesh"), std::string::npos)
         << reported.out;
     EXPECT_NE(reported.out.find("the sum, are of blocks"), std::string::npos) << reported.out;
-    const Outcome by_blocks = run_orograph(joined({"plan", out_, "-q", "--mesh", "grid"}, eye()));
+    const Outcome by_blocks = run_orograph(joined({"plan", out_, "-q", "--all", "--mesh", "grid"}, eye()));
     EXPECT_EQ(by_blocks.out.find("the sum, are of blocks"), std::string::npos) << by_blocks.out;
     const Outcome checked = run_orograph({"info", out_, "--check"});
     std::uint64_t groups = 0;

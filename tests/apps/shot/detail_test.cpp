@@ -96,11 +96,11 @@ TEST_F(ShotDetail, HasARowInThePlan) {
     const Words plan{
         "plan",   oro::test::bundled(), "--at", "36.5,-84.25", "--above", "20", "--pitch", "-8", "--size",
         "160x120"};
-    const Outcome with = run_orograph(oro::test::joined(plan, {"--detail", "2,1"}));
+    const Outcome with = run_orograph(oro::test::joined(plan, {"--all", "--detail", "2,1"}));
     ASSERT_EQ(with.exit_code, 0) << with.err;
     EXPECT_TRUE(says(with.out, "invented ground")) << with.out;
     EXPECT_TRUE(says(with.out, "--detail 0")) << with.out;
-    EXPECT_FALSE(says(run_orograph(plan).out, "invented ground"));
+    EXPECT_FALSE(says(run_orograph(oro::test::joined(plan, {"--all"})).out, "invented ground"));
     const auto predicted = object_said_by(oro::test::joined(plan, {"--detail", "2,1", "--json"}));
     EXPECT_GT(predicted["invented"]["worst_px"], 0.1);
 }

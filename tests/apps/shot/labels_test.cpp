@@ -89,6 +89,33 @@ TEST_F(LabelsOfShots, AreLeftOutWhereTheViewSaysSo) {
         usage, {"--labels on", "'plain' has no contour lines"});
 }
 
+// A map of the same ground: heights on every fifth line of the interval that was asked for.
+TEST_F(LabelsOfShots, AreOnMapsToo) {
+    const Words words{
+        "shot", land,     "--ortho",      "--style", "contours", "--contour-interval",      "20",
+        "-q",   "--json", "--resolution", "8",       "--bbox",   "-84.26,36.5,-84.22,36.54"};
+    const auto map = [&](const char* out, const Words& more) {
+        return object_said_by(joined(joined(words, {"--out", path(out)}), more));
+    };
+    const json said = map("m.png", {});
+    EXPECT_EQ(said["contour_interval_m"], 20.0);
+    EXPECT_EQ(said["view"]["contour_interval_m"], 20.0);
+    ASSERT_GE(said["labels"].size(), 2U);
+    for (const json& label : said["labels"])
+        EXPECT_NEAR(std::remainder(label["H_m"].get<double>(), 100.0), 0.0, 1e-6) << label;
+    const json off = map("off.png", {"--labels", "off"});
+    EXPECT_TRUE(off["labels"].empty());
+    EXPECT_NE(pixels_of(path("m.png")).rgb, pixels_of(path("off.png")).rgb);
+    ASSERT_EQ(run_orograph({"shot", "--view", path("m.png"), "-q", "--out", path("again.png")}).exit_code, 0);
+    EXPECT_EQ(bytes_of(path("again.png")), bytes_of(path("m.png")));
+    expect_refusal(run_orograph({"shot", land, "--style", "plain", "--contour-interval", "20", "-q", "--out",
+                                 path("none.png")}),
+                   usage, {"--contour-interval: the style 'plain' has no contour lines"});
+    expect_refusal(run_orograph({"shot", land, "--style", "contours", "--contour-interval", "0.05", "-q",
+                                 "--out", path("none.png")}),
+                   usage, {"--contour-interval 0.05: must be between 0.1 and 5000"});
+}
+
 // The same ground from a baked file, by both ways of drawing: the same labels.
 TEST_F(LabelsOfShots, AreTheSameFromABakedRegion) {
     ASSERT_EQ(run_orograph({"bake", land, "--out", path("land.oro"), "-q"}).exit_code, 0);

@@ -1,6 +1,7 @@
 // Several views for one shot: a picture of each, the same as drawn alone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -50,6 +51,23 @@ TEST_F(SeveralViews, AreDrawnOneAfterTheOther) {
                                     "--view", folder / names[2], "--out", out / "view-%02d.png", "-q"});
     ASSERT_EQ(shot.exit_code, 0) << shot.err;
     expect_pictures();
+}
+
+// Found: each of them told the same of the data.
+TEST_F(SeveralViews, TellNotesOnTheDataOnce) {
+    const auto shot = run_orograph(
+        {"shot", "--view", folder / names[0], "--view", folder / names[1], "--out", out / "view-%02d.png"});
+    ASSERT_EQ(shot.exit_code, 0) << shot.err;
+    std::vector<std::string> notes;
+    for (const std::string& line : shot.err_lines())
+        if (line.starts_with("orograph: note: ")) notes.push_back(line);
+    EXPECT_EQ(
+        std::ranges::count_if(
+            notes, [](const std::string& note) { return note.find("reaches past the data") != note.npos; }),
+        1)
+        << shot.err;
+    std::ranges::sort(notes);
+    EXPECT_EQ(std::ranges::adjacent_find(notes), notes.end()) << shot.err;
 }
 
 // Paths of views start from the file that they are in: here from the list, which lies beside the pictures.

@@ -193,7 +193,8 @@ TEST_F(CanopyCommand, PlanTellsTheVegetationInMetresAndPixels) {
     EXPECT_NEAR(report["vegetation"]["worst_m"].get<double>(), 20.0, 1e-3);
     EXPECT_GT(report["vegetation"]["worst_px"].get<double>(), 1.0);
     EXPECT_EQ(report["canopy"]["held"][0]["share"], 0.0);
-    const Outcome printed = run_orograph(joined(words, {"--canopy", spruce, "--canopy-held", "0.5"}));
+    const Outcome printed =
+        run_orograph(joined(words, {"--all", "--canopy", spruce, "--canopy-held", "0.5"}));
     EXPECT_EQ(printed.exit_code, 0) << printed.err;
     EXPECT_TRUE(says(printed.out, "\nvegetation ")) << printed.out;
     EXPECT_TRUE(says(printed.out, "0.5 of it is taken to be in the data already.\n")) << printed.out;

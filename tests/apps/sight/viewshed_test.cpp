@@ -168,6 +168,34 @@ TEST(ViewshedCommand, TheSameCommandWritesTheSameBytes) {
     EXPECT_EQ(oro::test::names_in(folder), (Words{"a.tif", "b.tif"}));
 }
 
+// QGIS takes three bands for red, green and blue, unless a style beside the raster says otherwise.
+TEST(ViewshedCommand, OfThreeBandsHasAStyleForQgisBesideIt) {
+    const fs::path folder = oro::test::scratch_folder();
+    const Words shed{"viewshed",   bundled(),     "-q",          "--at",
+                     "36.5,-84.2", "--at",        "36.52,-84.2", "--radius",
+                     "2",          "--overwrite", "--out",       (folder / "a.tif").string()};
+    ASSERT_EQ(run_orograph(shed).exit_code, 0);
+    EXPECT_EQ(oro::test::names_in(folder), (Words{"a.qml", "a.tif"}));
+    // The style of the plugin.
+    EXPECT_EQ(bytes_of(folder / "a.qml"), bytes_of(oro::test::bundled_data().parent_path() / "apps" / "qgis" /
+                                                   "orograph" / "styles" / "viewshed.qml"));
+    // A user's own stays.
+    write_bytes(folder / "a.qml", "mine");
+    ASSERT_EQ(run_orograph(shed).exit_code, 0);
+    EXPECT_EQ(bytes_of(folder / "a.qml"), "mine");
+    const auto shown = oro::test::run_program({"gdalinfo", "-json", (folder / "a.tif").string()});
+    if (shown.exit_code == 127) GTEST_SKIP() << "needs gdalinfo";
+    const auto bands = oro::test::one_object(shown.out)["bands"];
+    ASSERT_EQ(bands.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(bands[i]["colorInterpretation"], i == 0 ? "Gray" : "Undefined") << i;
+        EXPECT_EQ(bands[i]["noDataValue"], -9999.0) << i;
+    }
+    EXPECT_EQ(bands[0]["description"], "seen (1) or hidden (0)");
+    EXPECT_EQ(bands[1]["description"], "missed by, metres of height (0: seen)");
+    EXPECT_EQ(bands[2]["description"], "observers that see it");
+}
+
 TEST(ViewshedCommand, WhatIsWrongIsSaidInOneLine) {
     const fs::path there = oro::test::scratch_folder() / "there.tif";
     write_bytes(there, "kept");

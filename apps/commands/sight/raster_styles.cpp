@@ -1,0 +1,44 @@
+#include "apps/commands/sight/raster_styles.h"
+
+#include <filesystem>
+#include <string_view>
+
+#include "core/base/file_there.h"
+
+namespace oro {
+
+const char* const viewshed_qml = R"(<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>
+<qgis version="3.22.16" styleCategories="Symbology">
+  <pipe>
+    <rasterrenderer type="paletted" band="1" opacity="0.6" alphaBand="-1" nodataColor="">
+      <rasterTransparency/>
+      <colorPalette>
+        <paletteEntry value="0" color="#3d3d46" label="hidden" alpha="90"/>
+        <paletteEntry value="1" color="#2ca25f" label="seen" alpha="255"/>
+      </colorPalette>
+    </rasterrenderer>
+    <brightnesscontrast brightness="0" contrast="0" gamma="1"/>
+    <huesaturation/>
+    <rasterresampler/>
+  </pipe>
+  <blendMode>0</blendMode>
+</qgis>
+)";
+
+std::string style_path(const std::string& raster) {
+    return std::filesystem::path(raster).replace_extension(".qml").string();
+}
+
+Result<std::optional<WholeFile>> style_beside(const std::string& raster, std::size_t bands, const char* qml) {
+    constexpr std::size_t shown_by_values = 2;
+    const std::string path = style_path(raster);
+    if (bands <= shown_by_values || path.starts_with("/vsi")) return std::optional<WholeFile>();
+    ORO_TRY(const bool is_taken, is_there(path));
+    if (is_taken) return std::optional<WholeFile>();
+    ORO_TRY(WholeFile file, WholeFile::create(path, false));
+    const std::string_view text(qml);
+    ORO_CHECK(file.write(text.data(), text.size()));
+    return std::optional(std::move(file));
+}
+
+}  // namespace oro
