@@ -43,13 +43,6 @@ class NodeDeviations {
     // is the first.
     [[nodiscard]] std::uint32_t edges(int node_row, int node_column) const;
 
-  private:
-    // One corner of a triangle, by its number in the region.
-    struct Post {
-        int row;
-        int column;
-    };
-    using Triangle = std::array<Post, 3>;
     // Triangle of a node, by (row, column) within it, that is there only with some edges stitched, and where
     // its quad is split so.
     struct Stitched {
@@ -58,6 +51,17 @@ class NodeDeviations {
         Diagonal diagonal;
         std::array<std::array<std::uint32_t, 2>, 3> posts;
     };
+    // All of a node of so many rows and columns of quads, for any of these edges.
+    [[nodiscard]] static std::vector<Stitched> stitched_triangles(std::uint32_t rows, std::uint32_t columns,
+                                                                  std::uint32_t edges);
+
+  private:
+    // One corner of a triangle, by its number in the region.
+    struct Post {
+        int row;
+        int column;
+    };
+    using Triangle = std::array<Post, 3>;
     enum class Cover { full, empty, equal, unequal };
     struct Quad {
         Cover cover;
@@ -82,8 +86,6 @@ class NodeDeviations {
         double placement_m;
     };
 
-    static std::vector<Stitched> stitched_triangles(std::uint32_t rows, std::uint32_t columns,
-                                                    std::uint32_t edges);
     [[nodiscard]] double triangle_deviation(const Triangle& triangle) const;
     [[nodiscard]] double crossing_deviation(const Post& from, const Post& to) const;
     // A quad by its posts in the region, and its own diagonal.

@@ -40,12 +40,20 @@ struct MadeRun {
     std::array<std::int32_t, run_posts> x, y, z, sum, weight;
 };
 
+void place_run(const MadeRow& row, std::span<const MadeColumn> columns, MadeRun& run) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        run.x[i] = gpu::made_place(row.from_axis, columns[i].cosine);
+        run.y[i] = gpu::made_place(row.from_axis, columns[i].sine);
+        run.z[i] = row.north;
+    }
+}
+
 // count: a multiple of 16.
-ORO_WIDE void add_fbm(const gpu::MadeOctave& octave, MadeRun& run, std::size_t count) {
+ORO_WIDE_16 void add_fbm(const gpu::MadeOctave& octave, MadeRun& run, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i)
         run.sum[i] += gpu::made_fbm_octave(octave, run.x[i], run.y[i], run.z[i]);
 }
-ORO_WIDE void add_ridged(const gpu::MadeOctave& octave, MadeRun& run, std::size_t count) {
+ORO_WIDE_16 void add_ridged(const gpu::MadeOctave& octave, MadeRun& run, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i)
         run.sum[i] += gpu::made_ridged_octave(octave, run.x[i], run.y[i], run.z[i], run.weight[i]);
 }
@@ -76,6 +84,27 @@ std::vector<MadeColumn> made_columns(const MadeTerrain& terrain, int first, int 
     return columns;
 }
 
+void made_row_coarse_heights(const MadeTerrain& terrain, const gpu::MadeRule& rule, int row,
+                             std::span<const MadeColumn> columns, std::uint32_t coarse_octaves,
+                             std::span<std::int32_t> steps, std::span<std::int32_t> coarse_steps) {
+    const MadeRow placed = made_row(terrain.north - row, terrain.posts_per_deg);
+    const std::int32_t middle = rule.low + ((rule.high - rule.low) >> 1);
+    MadeRun run{};
+    for (std::size_t first = 0; first < steps.size(); first += run_posts) {
+        const std::size_t count = std::min(run_posts, steps.size() - first);
+        const std::size_t whole = (count + 15) / 16 * 16;
+        place_run(placed, columns.subspan(first, count), run);
+        run.sum.fill(0);
+        for (std::uint32_t k = 0; k <= rule.octaves; ++k) {
+            if (k == coarse_octaves)
+                for (std::size_t i = 0; i < count; ++i)
+                    coarse_steps[first + i] = middle + ((run.sum[i] + 2) >> 2);
+            if (k < rule.octaves) add_fbm(rule.octave[k], run, whole);
+        }
+        for (std::size_t i = 0; i < count; ++i) steps[first + i] = gpu::made_octaves_height(rule, run.sum[i]);
+    }
+}
+
 void made_row_heights(const MadeTerrain& terrain, const gpu::MadeRule& rule, int row, int first_column,
                       std::span<const MadeColumn> columns, std::span<std::int32_t> steps) {
     const std::int64_t lat_post = terrain.north - row;
@@ -84,12 +113,7 @@ void made_row_heights(const MadeTerrain& terrain, const gpu::MadeRule& rule, int
     for (std::size_t first = 0; first < steps.size(); first += run_posts) {
         const std::size_t count = std::min(run_posts, steps.size() - first);
         const std::int64_t lon_post = terrain.west + first_column + static_cast<std::int64_t>(first);
-        for (std::size_t i = 0; i < count; ++i) {
-            const MadeColumn& column = columns[first + i];
-            run.x[i] = gpu::made_place(placed.from_axis, column.cosine);
-            run.y[i] = gpu::made_place(placed.from_axis, column.sine);
-            run.z[i] = placed.north;
-        }
+        place_run(placed, columns.subspan(first, count), run);
         if (!has_octaves(rule)) {
             for (std::size_t i = 0; i < count; ++i)
                 steps[first + i] =

@@ -18,6 +18,12 @@ std::vector<MadeColumn> made_columns(const MadeTerrain& terrain, int first, int 
 void made_row_heights(const MadeTerrain& terrain, const gpu::MadeRule& rule, int row, int first_column,
                       std::span<const MadeColumn> columns, std::span<std::int32_t> steps);
 
+// The same of fbm, and beside each height what its first `coarse_octaves` octaves give alone, which is not
+// cut off at the lowest and the highest height. coarse_octaves: at most the rule's.
+void made_row_coarse_heights(const MadeTerrain& terrain, const gpu::MadeRule& rule, int row,
+                             std::span<const MadeColumn> columns, std::uint32_t coarse_octaves,
+                             std::span<std::int32_t> steps, std::span<std::int32_t> coarse_steps);
+
 // Adds one octave's noise (2^-28, r.m.s. 0.27) times a factor at each of many places in 2^-6 m of ECEF; all
 // have the same length.
 void add_made_noise(const gpu::MadeOctave& octave, float factor, std::span<const std::int32_t> x,

@@ -59,6 +59,11 @@ class Bounds {
             steepest_ += amplitude_m(i) * noise_slope_most / cell_m(i);
     }
 
+    // Ground no nearer to the equator than so many degrees from now on.
+    void set_latitude(double from_equator_deg) {
+        narrowing_ = std::cos(radians_from_deg(from_equator_deg).rad);
+    }
+
     // Between the rule and what is linear over a level's triangles of posts, with N of it, and with heights
     // of rounded places; between these triangles and level 0's where `from_finest`.
     [[nodiscard]] MadeLevelBound::Of heights(int level, const TriangleShape& shape, bool from_finest) const {
@@ -77,6 +82,29 @@ class Bounds {
         of.cut = std::min(of.cut, range_m_) + rest_m;
         of.free = std::min(of.free, of.cut);
         return of;
+    }
+
+    // Octaves from the first on that curve less over triangles of a level than finer noise reaches.
+    [[nodiscard]] std::uint32_t coarse_octaves(int level) const {
+        const Triangle triangle = triangle_of(level, plain_shape), finest = triangle_of(0, plain_shape);
+        std::uint32_t octave = 0;
+        while (octave < rule_.octaves &&
+               curved(triangle, cell_m(octave)) + curved(finest, cell_m(octave)) < noise_most)
+            ++octave;
+        return octave;
+    }
+    // Between the first octaves over a level's triangles and level 0's triangles of all octaves.
+    [[nodiscard]] double coarse_heights(int level, std::uint32_t octaves) const {
+        const Triangle triangle = triangle_of(level, plain_shape), finest = triangle_of(0, plain_shape);
+        double most_m = 0.0;
+        for (std::uint32_t i = 0; i < rule_.octaves; ++i) {
+            const double cell = cell_m(i);
+            most_m += amplitude_m(i) *
+                      (i < octaves ? std::min(2.0 * noise_most, curved(triangle, cell) + curved(finest, cell))
+                                   : noise_most);
+        }
+        return most_m + 2.0 * (steepest_ * place_m + rounding_m) + undulation_m(level, plain_shape) +
+               undulation_m(0, plain_shape);
     }
 
     // How far a flat triangle is from the one that is linear in latitude, longitude and height
@@ -101,7 +129,8 @@ class Bounds {
     [[nodiscard]] Triangle triangle_of(int level, const TriangleShape& shape) const {
         const double step_m = std::ldexp(radians_from_deg(spacing_deg_).rad * most_radius_m, level);
         const double both = shape.longer + shape.shorter;
-        return {step_m * std::hypot(shape.longer, shape.shorter),
+        // The longer way is the worse one from north to south: posts are closest from west to east.
+        return {step_m * std::hypot(shape.longer, shape.shorter * narrowing_),
                 1.03 * both * both * step_m * step_m / least_radius_m};
     }
     // Of noise in cells: how far it is from linear over a triangle, where it is smooth and by its slope
@@ -131,6 +160,7 @@ class Bounds {
     gpu::MadeRule rule_;
     double spacing_deg_;
     double range_m_;
+    double narrowing_{1.0};  // of the distance between meridians
     UndulationSteps undulation_;
     double steepest_{};  // metres a metre
 };
@@ -141,21 +171,21 @@ void grow(MadeLevelBound::Of& level, const MadeLevelBound::Of& below) {
     level.cut = std::max(level.cut, growth * below.cut);
 }
 
-}  // namespace
-
-std::vector<MadeLevelBound> made_level_bounds(const MadeTerrain& terrain, const PostGrid& grid,
-                                              const UndulationField& undulation) {
-    const Bounds bounds(terrain, undulation);
+std::vector<MadeLevelBound> bounds_of_levels(const Bounds& bounds,
+                                             const std::vector<std::uint32_t>& coarse_octaves) {
     const double finest_sag_m = bounds.sag_m(0, plain_shape);
-    std::vector<MadeLevelBound> levels(static_cast<std::size_t>(level_count(grid)));
+    std::vector<MadeLevelBound> levels(coarse_octaves.size());
     for (int k = 0; k < static_cast<int>(levels.size()); ++k) {
         MadeLevelBound& level = levels[static_cast<std::size_t>(k)];
         level.rule = bounds.heights(k, plain_shape, false);
+        level.coarse_octaves = coarse_octaves[static_cast<std::size_t>(k)];
+        level.coarse = bounds.coarse_heights(k, level.coarse_octaves) + finest_sag_m;
         const double sag_m = bounds.sag_m(k, plain_shape) + finest_sag_m;
         const MadeLevelBound::Of plain = bounds.heights(k, plain_shape, true);
         if (k > 0) level.triangles = {plain.free + sag_m, plain.cut + sag_m};
         const MadeLevelBound::Of drawn = bounds.heights(k, stitched_shape, true);
         const double rest_m = bounds.sag_m(k, stitched_shape) + finest_sag_m + bounds.placement_m(k);
+        level.flat = rest_m + finest_sag_m;
         level.drawn = {drawn.free + rest_m, drawn.cut + rest_m};
         if (k == 0) continue;
         level.own = {plain.free + rest_m, plain.cut + rest_m};
@@ -164,6 +194,22 @@ std::vector<MadeLevelBound> made_level_bounds(const MadeTerrain& terrain, const 
         grow(level.drawn, below.drawn);
     }
     return levels;
+}
+
+}  // namespace
+
+std::vector<std::vector<MadeLevelBound>> made_level_bounds(const MadeTerrain& terrain, const PostGrid& grid,
+                                                           const UndulationField& undulation) {
+    Bounds bounds(terrain, undulation);
+    std::vector<std::uint32_t> coarse_octaves;
+    for (int level = 0; level < level_count(grid); ++level)
+        coarse_octaves.push_back(bounds.coarse_octaves(level));
+    std::vector<std::vector<MadeLevelBound>> from_deg;
+    for (int deg = 0; deg < 90; ++deg) {
+        bounds.set_latitude(deg);
+        from_deg.push_back(bounds_of_levels(bounds, coarse_octaves));
+    }
+    return from_deg;
 }
 
 }  // namespace oro

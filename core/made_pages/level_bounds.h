@@ -31,13 +31,20 @@ struct MadeLevelBound {
     // ... the same of triangles that are drawn, stitched to a coarser level or not; grows from level to level
     // by more than 1e-4 of itself.
     Of drawn;
+    // The first octaves, which are nearer to this level's triangles between posts than the noise of finer
+    // ones reaches; and, where no height is cut off, between these octaves over such triangles (by either
+    // diagonal of a cell) and the triangles of level 0, all octaves of them.
+    std::uint32_t coarse_octaves{};
+    double coarse{};
+    double flat{};  // what is between flat triangles of this level and those linear in latitude and longitude
 };
 
-// Bounds of the levels of an fbm terrain on a grid of latitudes and longitudes, finest first. The grid has
-// the terrain's spacing. Source: the error of linear interpolation over a triangle is at most a half of the
-// bound of second derivatives times the mean square distance to its corners (S. Waldron, SIAM J. Numer. Anal.
-// 35, 1998).
-std::vector<MadeLevelBound> made_level_bounds(const MadeTerrain& terrain, const PostGrid& grid,
-                                              const UndulationField& undulation);
+// Bounds of the levels of an fbm terrain on a grid of latitudes and longitudes, finest first, for ground from
+// each whole degree from the equator on polewards: number 0 holds everywhere, and none is smaller than the
+// next. Levels share their coarse octaves. The grid has the terrain's spacing. Source: the error of linear
+// interpolation over a triangle is at most a half of the bound of second derivatives times the mean square
+// distance to its corners (S. Waldron, SIAM J. Numer. Anal. 35, 1998).
+std::vector<std::vector<MadeLevelBound>> made_level_bounds(const MadeTerrain& terrain, const PostGrid& grid,
+                                                           const UndulationField& undulation);
 
 }  // namespace oro

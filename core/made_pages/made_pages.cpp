@@ -188,7 +188,7 @@ void MadePages::hold_pages_below(PyramidPage& page) const {
     if (summary.triangles == 0) return;
     const double off_m = page.summary.index.level == 0
                              ? 0.0
-                             : region_.bounds[static_cast<std::size_t>(summary.index.level)].drawn.cut;
+                             : region_.bounds()[static_cast<std::size_t>(summary.index.level)].drawn.cut;
     page.reach_m = summary.radius_m + off_m;
     if (page.summary.index.level == 0) {
         page.horizon = summary.horizon;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/base/parallel.h"
 #include "core/earth/ellipsoid.h"
@@ -11,6 +12,7 @@
 #include "core/lod/node_deviations.h"
 #include "core/lod/page_sums.h"
 #include "core/made/made_heights.h"
+#include "core/made_pages/coarse_deviations.h"
 #include "core/terrain/drawn_heights.h"
 
 namespace oro {
@@ -27,10 +29,18 @@ double node_width_m(const MadeRegion& region, int level) {
     return std::ldexp(node_quads * radians_from_deg(region.grid.lat.spacing_deg()).rad * largest_radius_m,
                       level);
 }
-// Of lod spheres: a node's holds those of the nodes below it and beside these. Their middles are at most 1.07
-// widths and `rise_m` away, and theirs are half as wide.
-double lod_radius_m(const MadeRegion& region, int level, double rise_m) {
-    return 2.2 * node_width_m(region, level) + (level + 1) * rise_m;
+
+// How far apart the middles of two nodes are at most of which one is over or beside the other's parent: 1.07
+// widths over the ground, `rise_m` in height, and what the ground bends by.
+double way_between_m(const MadeRegion& region, int level, double rise_m) {
+    const double width_m = node_width_m(region, level);
+    return std::hypot(1.07 * width_m, rise_m + width_m * width_m / (2.0 * largest_radius_m));
+}
+// Of lod spheres: a node's holds those of the nodes below it and beside these, and at last a node's posts.
+double lod_radius_of_rise_m(const MadeRegion& region, int level, double rise_m) {
+    double radius_m = 0.0;
+    for (int k = level; k >= 0; --k) radius_m += way_between_m(region, k, rise_m);
+    return radius_m;
 }
 
 // The part of a region's posts that a block is measured on: every 2^base-th, with a node of the top level
@@ -69,12 +79,17 @@ struct NodeRange {
     float highest_H_m{-std::numeric_limits<float>::infinity()};
     std::int32_t lowest{std::numeric_limits<std::int32_t>::max()};
     std::int32_t highest{std::numeric_limits<std::int32_t>::min()};
+    // H of the coarse octaves alone.
+    float lowest_coarse_m{std::numeric_limits<float>::infinity()};
+    float highest_coarse_m{-std::numeric_limits<float>::infinity()};
 
     void take(const NodeRange& other) {
         lowest_H_m = std::min(lowest_H_m, other.lowest_H_m);
         highest_H_m = std::max(highest_H_m, other.highest_H_m);
         lowest = std::min(lowest, other.lowest);
         highest = std::max(highest, other.highest);
+        lowest_coarse_m = std::min(lowest_coarse_m, other.lowest_coarse_m);
+        highest_coarse_m = std::max(highest_coarse_m, other.highest_coarse_m);
     }
 };
 
@@ -83,9 +98,12 @@ struct PartLevel {
     int rows{}, columns{};
     std::vector<NodeRange> ranges;
     std::vector<double> error_m;
-    std::vector<std::array<double, 4>> stitched_m;
-    std::vector<char> may_cut;  // heights may be cut off there, or beside it
+    std::vector<std::array<double, 4>> stitched_m;  // of its triangles that are stitched
+    std::vector<char> may_cut;                      // heights may be cut off there, or beside it
     std::vector<double> rise_m;
+    std::vector<double> lod_radius_m;
+    std::vector<std::size_t>
+        from_deg;  // of each row: nothing of it or its neighbours is nearer to the equator
 
     [[nodiscard]] std::size_t at(int row, int column) const {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
@@ -106,6 +124,7 @@ class PartMeasurement {
           across_(top.level, top.column, region.grid.columns(), region.grid.wraps_longitude()) {
         make_posts();
         heights_ = drawn_heights(part_, 1.0, threads);
+        for (std::size_t i = 0; i < coarse_steps_.size(); ++i) coarse_steps_[i] += heights_.steps[i];
         levels_.resize(static_cast<std::size_t>(top.level - base_ + 1));
         for (int i = 0; i <= top.level - base_; ++i) measure_level(i);
     }
@@ -119,12 +138,30 @@ class PartMeasurement {
     void make_posts();
     void measure_level(int i);
     void take_ranges(int i, PartLevel& level) const;
+    void take_posts(int row, int column, NodeRange& range) const;
     void look_around(PartLevel& level) const;
+    void hold_spheres(int i, PartLevel& level) const;
+    void find_latitudes(int i, PartLevel& level) const;
+    // What of a node and of its stitched triangles is measured, and what is bounded below that.
+    struct Found {
+        double own_m{};
+        PerEdge stitched_m{};
+    };
+    [[nodiscard]] Found found_at(int i, const PartLevel& level, int row, int column,
+                                 const NodeDeviations& deviations, const CoarseDeviations* coarse) const;
+    // Whether the region has a node that the part has not.
+    [[nodiscard]] bool goes_on(const PartLevel& level, int row, int column) const {
+        return (row < 0 && down_.goes_on_before) || (row >= level.rows && down_.goes_on_after) ||
+               (column < 0 && across_.goes_on_before) || (column >= level.columns && across_.goes_on_after);
+    }
+    [[nodiscard]] double most_cut_off_m(const PartLevel& level, int row, int column) const;
+    [[nodiscard]] bool ends_oddly(int i, int row, int column) const;
     [[nodiscard]] double node_error_m(int i, const PartLevel& level, int row, int column, double own_m) const;
-    [[nodiscard]] double error_below_m(int i, int row, int column, bool may_cut) const;
-    [[nodiscard]] const MadeLevelBound& bound(int i) const {
-        const std::size_t level = static_cast<std::size_t>(base_ + i);
-        return region_.bounds[std::min(level, region_.bounds.size() - 1)];
+    [[nodiscard]] double error_below_m(int i, int row, int column) const;
+    // Of level i, where a row of nodes of a level is.
+    [[nodiscard]] const MadeLevelBound& bound(int i, const PartLevel& of, int row) const {
+        const auto& levels = region_.bounds_from_deg[of.from_deg[static_cast<std::size_t>(row)]];
+        return levels[std::min(static_cast<std::size_t>(base_ + i), levels.size() - 1)];
     }
 
     const MadeRegion& region_;
@@ -133,6 +170,7 @@ class PartMeasurement {
     PartAxis down_, across_;
     HeightField part_;
     DrawnHeights heights_;
+    std::vector<std::int32_t> coarse_steps_;  // drawn heights of the coarse octaves alone, above level 3
     std::vector<PartLevel> levels_;
 };
 
@@ -147,30 +185,54 @@ void PartMeasurement::make_posts() {
         columns.push_back(
             made_column(region_.terrain.west + across_.region_post(i), region_.terrain.posts_per_deg));
     part_.H_m.resize(static_cast<std::size_t>(down_.count) * columns.size());
+    if (base_ > 0) coarse_steps_.resize(part_.H_m.size());
+    const std::size_t base = std::min(static_cast<std::size_t>(base_), region_.bounds().size() - 1);
     in_parallel(down_.count, threads_, [&](int row) {
-        made_posts_of_row(
-            region_, down_.region_post(row), columns,
-            std::span(part_.H_m).subspan(static_cast<std::size_t>(row) * columns.size(), columns.size()));
+        const std::size_t first = static_cast<std::size_t>(row) * columns.size();
+        const std::span<float> H_m = std::span(part_.H_m).subspan(first, columns.size());
+        if (base_ == 0) return made_posts_of_row(region_, down_.region_post(row), columns, H_m);
+        // Until heights are drawn: how much higher the coarse octaves are than all.
+        const std::span<std::int32_t> coarse = std::span(coarse_steps_).subspan(first, columns.size());
+        std::vector<std::int32_t> steps(columns.size());
+        made_row_coarse_heights(region_.terrain, region_.rule, down_.region_post(row), columns,
+                                region_.bounds()[base].coarse_octaves, steps, coarse);
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+            H_m[i] = static_cast<float>(static_cast<double>(steps[i]) * made_step_m);
+            coarse[i] -= steps[i];
+        }
     });
 }
 
 void PartMeasurement::take_ranges(int i, PartLevel& level) const {
     level.ranges.resize(static_cast<std::size_t>(level.rows) * static_cast<std::size_t>(level.columns));
-    const int width = node_quads << i;
     in_parallel(level.rows, threads_, [&](int row) {
         for (int column = 0; column < level.columns; ++column) {
             NodeRange& range = level.ranges[level.at(row, column)];
-            for (int r = row * width; r <= std::min((row + 1) * width, down_.count - 1); ++r) {
-                const std::size_t first =
-                    static_cast<std::size_t>(r) * static_cast<std::size_t>(across_.count);
-                for (int c = column * width; c <= std::min((column + 1) * width, across_.count - 1); ++c) {
-                    const float H_m = part_.H_m[first + static_cast<std::size_t>(c)];
-                    const std::int32_t steps = heights_.steps[first + static_cast<std::size_t>(c)];
-                    range.take({H_m, H_m, steps, steps});
-                }
+            if (i == 0) {
+                take_posts(row, column, range);
+                continue;
             }
+            const PartLevel& below = levels_[static_cast<std::size_t>(i - 1)];
+            for (int r = 2 * row; r < std::min(2 * row + 2, below.rows); ++r)
+                for (int c = 2 * column; c < std::min(2 * column + 2, below.columns); ++c)
+                    range.take(below.ranges[below.at(r, c)]);
         }
     });
+}
+
+// Of a node of the level that is measured against.
+void PartMeasurement::take_posts(int row, int column, NodeRange& range) const {
+    for (int r = row * node_quads; r <= std::min((row + 1) * node_quads, down_.count - 1); ++r) {
+        const std::size_t first = static_cast<std::size_t>(r) * static_cast<std::size_t>(across_.count);
+        for (int c = column * node_quads; c <= std::min((column + 1) * node_quads, across_.count - 1); ++c) {
+            const std::size_t at = first + static_cast<std::size_t>(c);
+            const float H_m = part_.H_m[at];
+            const std::int32_t steps = heights_.steps[at];
+            const float coarse_m =
+                base_ > 0 ? H_m + static_cast<float>(height_step_m * (coarse_steps_[at] - steps)) : H_m;
+            range.take({H_m, H_m, steps, steps, coarse_m, coarse_m});
+        }
+    }
 }
 
 // What may be over a node's ground and that of its neighbours, between the part's posts, too.
@@ -180,7 +242,7 @@ void PartMeasurement::look_around(PartLevel& level) const {
     // Of all levels that blocks below are measured against: so that none of these finds more.
     double off_m = 0.0, cut_off_m = 0.0;
     for (int of = base_; of > 0; of -= levels_of_block) {
-        const MadeLevelBound& base = region_.bounds[static_cast<std::size_t>(of)];
+        const MadeLevelBound& base = region_.bounds()[static_cast<std::size_t>(of)];
         off_m += base.rule.free;
         cut_off_m += base.triangles.cut;
     }
@@ -195,10 +257,7 @@ void PartMeasurement::look_around(PartLevel& level) const {
                     if (level.has(r, c))
                         range.take(level.ranges[level.at(r, c)]);
                     else
-                        all = all &&
-                              !((r < 0 && down_.goes_on_before) || (r >= level.rows && down_.goes_on_after) ||
-                                (c < 0 && across_.goes_on_before) ||
-                                (c >= level.columns && across_.goes_on_after));
+                        all = all && !goes_on(level, r, c);
                 }
             const bool may_cut = !all || static_cast<double>(range.highest_H_m) + off_m >= high_m ||
                                  static_cast<double>(range.lowest_H_m) - off_m <= low_m;
@@ -210,26 +269,45 @@ void PartMeasurement::look_around(PartLevel& level) const {
     }
 }
 
+// Lod spheres: of the level that is measured against by its rises alone, of the others around those below.
+void PartMeasurement::hold_spheres(int i, PartLevel& level) const {
+    const double whole_m =
+        made_step_m * (region_.terrain.high - region_.terrain.low) + region_.undulation_range_m;
+    for (int row = 0; row < level.rows; ++row)
+        for (int column = 0; column < level.columns; ++column) {
+            const double rise_m = level.rise_m[level.at(row, column)];
+            if (i == 0) {
+                level.lod_radius_m.push_back(lod_radius_of_rise_m(region_, base_, rise_m));
+                continue;
+            }
+            const PartLevel& below = levels_[static_cast<std::size_t>(i - 1)];
+            double largest_m = 0.0;
+            for (int r = 2 * row - 1; r <= 2 * row + 2; ++r)
+                for (int c = 2 * column - 1; c <= 2 * column + 2; ++c)
+                    if (below.has(r, c))
+                        largest_m = std::max(largest_m, below.lod_radius_m[below.at(r, c)]);
+                    else if (goes_on(below, r, c))
+                        largest_m =
+                            std::max(largest_m, lod_radius_of_rise_m(region_, base_ + i - 1, whole_m));
+            level.lod_radius_m.push_back(largest_m + way_between_m(region_, base_ + i, rise_m));
+        }
+}
+
 // Of the nodes of the level before that a node must not be better than (LevelBuilder::visit_nodes_below), and
 // of their triangles that are stitched to it.
-double PartMeasurement::error_below_m(int i, int row, int column, bool may_cut) const {
+double PartMeasurement::error_below_m(int i, int row, int column) const {
     const PartLevel& below = level(i - 1);
-    const double unknown_m = block_growth * bound(i - 1).drawn.cut;
-    const double not_measured_m = bound(0).triangles.where(may_cut);
+    const double unknown_m = block_growth * bound(i - 1, level(i), row).drawn.cut;
     double error_m = 0.0;
     constexpr std::size_t north_edge = 0, east_edge = 1, south_edge = 2, west_edge = 3, no_edge = 4;
     const auto take = [&](int r, int c, std::size_t edge) {
         if (!below.has(r, c)) {
-            const bool goes_on =
-                (r < 0 && down_.goes_on_before) || (r >= below.rows && down_.goes_on_after) ||
-                (c < 0 && across_.goes_on_before) || (c >= below.columns && across_.goes_on_after);
-            if (goes_on) error_m = std::max(error_m, unknown_m);
+            if (goes_on(below, r, c)) error_m = std::max(error_m, unknown_m);
             return;
         }
         const std::size_t at = below.at(r, c);
         error_m = std::max(error_m, block_growth * below.error_m[at]);
-        if (edge != no_edge)
-            error_m = std::max(error_m, below.stitched_m[at][edge] + not_measured_m + height_slack_m);
+        if (edge != no_edge) error_m = std::max(error_m, below.stitched_m[at][edge] + height_slack_m);
     };
     for (int r = 2 * row; r < 2 * row + 2; ++r) {
         for (int c = 2 * column; c < 2 * column + 2; ++c) take(r, c, no_edge);
@@ -243,21 +321,75 @@ double PartMeasurement::error_below_m(int i, int row, int column, bool may_cut) 
     return error_m;
 }
 
+// The degree from the equator that nothing of a row of nodes, or within a node's width of it, is nearer than.
+void PartMeasurement::find_latitudes(int i, PartLevel& level) const {
+    const int width = node_quads << i;
+    for (int row = 0; row < level.rows; ++row) {
+        const auto lat_deg = [&](int post) { return part_.grid.lat.at_deg(post); };
+        const double north_deg = lat_deg((row - 1) * width), south_deg = lat_deg((row + 2) * width);
+        const double nearest_deg = std::max({0.0, south_deg, -north_deg});
+        level.from_deg.push_back(static_cast<std::size_t>(std::clamp(
+            std::floor(nearest_deg), 0.0, static_cast<double>(region_.bounds_from_deg.size() - 1))));
+    }
+}
+
+bool PartMeasurement::ends_oddly(int i, int row, int column) const {
+    const int of_level = base_ + i;
+    const LevelGrid all = level_grid(region_.grid, of_level);
+    return (row + down_.first_node(of_level) == all.row.nodes() - 1 &&
+            ends_within_quad(down_.last, of_level)) ||
+           (column + across_.first_node(of_level) == all.column.nodes() - 1 &&
+            ends_within_quad(across_.last, of_level));
+}
+
+// How far heights of a node may be beyond the lowest and the highest one, where they are cut off. Cutting off
+// moves neither the triangles nor what they are compared with by more.
+double PartMeasurement::most_cut_off_m(const PartLevel& level, int row, int column) const {
+    const NodeRange& range = level.ranges[level.at(row, column)];
+    const double off_m = bound(0, level, row).coarse + 0.01;
+    const double low_m = made_step_m * region_.terrain.low, high_m = made_step_m * region_.terrain.high;
+    return std::max(0.0, static_cast<double>(range.highest_coarse_m) + off_m - high_m) +
+           std::max(0.0, low_m - static_cast<double>(range.lowest_coarse_m) + off_m);
+}
+
+PartMeasurement::Found PartMeasurement::found_at(int i, const PartLevel& level, int row, int column,
+                                                 const NodeDeviations& deviations,
+                                                 const CoarseDeviations* coarse) const {
+    Found least;
+    least.own_m = std::numeric_limits<double>::infinity();
+    least.stitched_m.fill(least.own_m);
+    const auto take = [&least](double own_m, const PerEdge& stitched_m, double rest_m) {
+        least.own_m = std::min(least.own_m, own_m + rest_m);
+        for (std::size_t edge = 0; edge < 4; ++edge)
+            least.stitched_m[edge] = std::min(least.stitched_m[edge], stitched_m[edge] + rest_m);
+    };
+    // Nobody asks for stitched triangles of the top level.
+    const bool is_top = i + 1 == static_cast<int>(levels_.size());
+    const bool by_coarse = coarse != nullptr && !ends_oddly(i, row, column);
+    const double cut_off_m = by_coarse ? most_cut_off_m(level, row, column) : 0.0;
+    if (by_coarse)
+        take(i > 0 ? coarse->own_m(row, column) : 0.0,
+             is_top ? PerEdge{} : coarse->stitched_m(row, column, deviations.edges(row, column)),
+             bound(0, level, row).coarse + bound(i, level, row).flat + cut_off_m);
+    if (!by_coarse || cut_off_m > 0.0) {
+        const NodeDeviation measured = deviations.deviation(row, column);
+        const bool may_cut = level.may_cut[level.at(row, column)] != 0;
+        take(measured.own_m, measured.stitched_m, bound(0, level, row).triangles.where(may_cut));
+    }
+    return least;
+}
+
 double PartMeasurement::node_error_m(int i, const PartLevel& level, int row, int column, double own_m) const {
     const bool may_cut = level.may_cut[level.at(row, column)] != 0;
-    const double most_m = bound(i).drawn.where(may_cut);
+    const MadeLevelBound& here = bound(i, level, row);
+    const double most_m = here.drawn.where(may_cut);
     const int of_level = base_ + i;
     if (of_level == 0) return 0.0;
-    const LevelGrid all = level_grid(region_.grid, of_level);
-    const bool odd_end =
-        (row + down_.first_node(of_level) == all.row.nodes() - 1 && ends_within_quad(down_.last, of_level)) ||
-        (column + across_.first_node(of_level) == all.column.nodes() - 1 &&
-         ends_within_quad(across_.last, of_level));
-    if (odd_end) return most_m;
+    if (ends_oddly(i, row, column)) return most_m;
     // What the others are measured against is not measured itself.
-    if (i == 0) return bound(0).own.where(may_cut);
-    const double measured_m = own_m + bound(0).triangles.where(may_cut) + of_level * height_slack_m;
-    return std::min(std::max(measured_m, error_below_m(i, row, column, may_cut)), most_m);
+    if (i == 0) return std::min(here.own.where(may_cut), here.own.free + most_cut_off_m(level, row, column));
+    const double measured_m = own_m + of_level * height_slack_m;
+    return std::min(std::max(measured_m, error_below_m(i, row, column)), most_m);
 }
 
 void PartMeasurement::measure_level(int i) {
@@ -267,14 +399,17 @@ void PartMeasurement::measure_level(int i) {
     level.columns = nodes.column.nodes();
     take_ranges(i, level);
     look_around(level);
+    hold_spheres(i, level);
+    find_latitudes(i, level);
     const NodeDeviations deviations(part_.grid, heights_, i);
+    std::optional<CoarseDeviations> coarse;
+    if (base_ > 0) coarse.emplace(part_.grid, heights_, coarse_steps_, i);
     level.error_m.resize(level.ranges.size());
     level.stitched_m.resize(level.ranges.size());
     in_parallel(level.rows, threads_, [&](int row) {
         for (int column = 0; column < level.columns; ++column) {
-            const NodeDeviation found = deviations.deviation(row, column);
-            std::array<double, 4>& stitched_m = level.stitched_m[level.at(row, column)];
-            for (std::size_t edge = 0; edge < 4; ++edge) stitched_m[edge] = found.stitched_m[edge];
+            const Found found = found_at(i, level, row, column, deviations, coarse ? &*coarse : nullptr);
+            level.stitched_m[level.at(row, column)] = found.stitched_m;
             level.error_m[level.at(row, column)] = node_error_m(i, level, row, column, found.own_m);
         }
     });
@@ -305,15 +440,15 @@ void made_posts_of_row(const MadeRegion& region, int row, std::span<const MadeCo
 MadeNode unmeasured_node(const MadeRegion& region, int level) {
     const double rise_m =
         made_step_m * (region.terrain.high - region.terrain.low) + region.undulation_range_m;
-    return {rounded_up(region.bounds[static_cast<std::size_t>(level)].drawn.cut),
-            rounded_up(lod_radius_m(region, level, rise_m))};
+    return {rounded_up(region.bounds()[static_cast<std::size_t>(level)].drawn.cut),
+            rounded_up(lod_radius_of_rise_m(region, level, rise_m))};
 }
 
 int highest_measured_level(const MadeRegion& region) {
     const double first_cell_m = std::ldexp(1.0, static_cast<int>(region.rule.octave[0].shift)) / 192.0;
     const double spacing_deg = region.grid.lat.spacing_deg();
     int level = 0;
-    while (level < static_cast<int>(region.bounds.size())) {
+    while (level < static_cast<int>(region.bounds().size())) {
         const int next = level + levels_of_block;
         // Coarser triangles know nothing of the terrain any more; a part is no larger than a quarter turn.
         // The first block is exact, and always worth it.
@@ -341,8 +476,7 @@ MeasuredBlock::MeasuredBlock(const MadeRegion& region, const PageIndex& top, int
         for (int row = 0; row < kept.rows; ++row)
             for (int column = 0; column < kept.columns; ++column) {
                 const std::size_t at = part.at(row_before + row, column_before + column);
-                kept.nodes.push_back(
-                    {rounded_up(part.error_m[at]), rounded_up(lod_radius_m(region, level, part.rise_m[at]))});
+                kept.nodes.push_back({rounded_up(part.error_m[at]), rounded_up(part.lod_radius_m[at])});
             }
     }
 }

@@ -20,8 +20,10 @@ struct MadeRegion {
     gpu::MadeRule rule;
     PostGrid grid;
     UndulationField undulation;
-    std::vector<MadeLevelBound> bounds;
+    std::vector<std::vector<MadeLevelBound>> bounds_from_deg;  // made_level_bounds()
     double undulation_range_m{};
+    // Of levels, wherever they are.
+    [[nodiscard]] const std::vector<MadeLevelBound>& bounds() const { return bounds_from_deg.front(); }
 };
 MadeRegion made_region(const MadeTerrain& terrain, const PostGrid& grid, const UndulationField& undulation);
 
@@ -38,8 +40,9 @@ struct MadeNode {
 // Of a node for which nothing is measured.
 MadeNode unmeasured_node(const MadeRegion& region, int level);
 
-// Three levels are measured together: 1 to 3 against level 0, which is exact, 4 to 6 against level 2, 7 to 9
-// against level 5, and so on.
+// Three levels are measured together: 1 to 3 against level 0, which is exact, 4 to 6 against the coarse
+// octaves at the posts of level 2, 7 to 9 at those of level 5, and so on; where heights may be cut off,
+// against level 2, 5 and so on itself.
 inline constexpr int levels_of_block = 3;
 inline int measured_against(int top_level) {
     return top_level <= levels_of_block ? 0 : top_level - levels_of_block - 1;
@@ -55,7 +58,7 @@ class MeasuredBlock {
   public:
     // top: a page whose level is a multiple of levels_of_block and at most highest_measured_level(); it may
     // be beyond the levels that the region has. Takes some 1.3 million posts, above level 3 5.3
-    // million, and 20 bytes for each while it works.
+    // million, and 24 bytes for each while it works.
     MeasuredBlock(const MadeRegion& region, const PageIndex& top, int threads);
 
     // A node by its place among those of its level, which is one of the block's; over the block's page.

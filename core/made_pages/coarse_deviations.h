@@ -1,0 +1,53 @@
+// How far a node's triangles lie from what the coarse octaves of made terrain give alone, at the posts of a
+// finer level.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/earth/extremes.h"
+#include "core/lod/node_deviations.h"
+#include "core/terrain/drawn_heights.h"
+#include "core/terrain/post_grid.h"
+
+namespace oro {
+
+// Of the nodes of one level of a grid without voids. The triangles have the drawn heights, all octaves of
+// them, at their corners. What they are compared with are the coarse octaves at all posts of the grid, and
+// linear between these: over triangles of which each lies in one of the node's, or cells of one diagonal, as
+// is least work; the bound of what is between posts holds for any (MadeLevelBound::coarse).
+class CoarseDeviations {
+  public:
+    // coarse_steps: drawn heights of the coarse octaves alone, post by post as those of `heights`. All are
+    // read where they are.
+    CoarseDeviations(const PostGrid& grid, const DrawnHeights& heights,
+                     std::span<const std::int32_t> coarse_steps, int level);
+
+    // Largest difference of a node as it is, metres. Quads that are not square are left out. Any thread.
+    [[nodiscard]] double own_m(int node_row, int node_column) const;
+    // The same of the triangles that are there where an edge is stitched to a coarser neighbour
+    // (NodeDeviation::stitched_m). edges: those with a neighbour.
+    [[nodiscard]] PerEdge stitched_m(int node_row, int node_column, std::uint32_t edges) const;
+
+  private:
+    struct Corner {
+        int row, column;
+    };
+    [[nodiscard]] std::size_t number_of(int row, int column) const {
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(heights_.columns) +
+               static_cast<std::size_t>(column);
+    }
+    [[nodiscard]] double coarse_at(int row, int column) const { return coarse_[number_of(row, column)]; }
+    void add_crossings(const Corner& from, const Corner& to, Extremes& extremes) const;
+    [[nodiscard]] double triangle_steps(const std::array<Corner, 3>& corners) const;
+
+    const DrawnHeights& heights_;
+    std::span<const std::int32_t> coarse_;
+    LevelGrid level_;
+    std::vector<NodeDeviations::Stitched> whole_node_;
+};
+
+}  // namespace oro
