@@ -52,6 +52,8 @@ set_tests_properties(
   ClustersBake.DamageIsOneLine
   ClustersBake.EightAtOnceLeaveOneFile
   ClustersBake.GoesOnWhereItWasBrokenOff
+  ChoiceOfPagesLong.IsThatOfTheProcessorsPlanAt500Eyes
+  ChoiceOfPagesLong.IsThatOfTheProcessorsPlanOfTwoGridsAt500Eyes
   ClustersBake.IsToldAndDrawn
   ClustersDrawn.OneLevelOfTheGraph
   ClustersDrawn.PanoramasOfOneLevelToo
@@ -254,6 +256,8 @@ set_tests_properties(
   Panorama.RefusesWhatCannotBe
   Panorama.SaysTheSameInAllFormats
   PanoramaPeaks.AreWhereGeographicLibHasThemAndNamedWhereTheyAreSeen
+  Paths/DrawnChoiceLong.HasTheTrianglesOfTheProcessorsPlanAt150Eyes/compute
+  Paths/DrawnChoiceLong.HasTheTrianglesOfTheProcessorsPlanAt150Eyes/mesh
   Paths/PlanOnDeviceLong.HasTheIdsOfTheProcessorsAt700Eyes/compute
   Paths/PlanOnDeviceLong.HasTheIdsOfTheProcessorsAt700Eyes/mesh
   Pipeline.APictureMeasuresNothingWhereAProcessorDraws

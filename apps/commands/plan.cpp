@@ -199,10 +199,10 @@ Result<void> run_plan(const PlanOptions& options) {
             choose_accuracy(view, region, truth->ground(), of_grids, tolerance_px));
     ORO_TRY(const UnseenGround unseen, unseen_in(view, region, ceiling_m, truth.get()));
     ORO_TRY(const std::optional<MeshForecasts> meshes, mesh_forecasts(view, region, *pages.front()));
-    ORO_TRY(const std::optional<DrawnMeshes> on_ground, drawn_meshes(region, view));
+    ORO_TRY(const std::optional<DrawnMeshes> standing, drawn_meshes(region, view));
     if (options.json) {
         ordered_json json = plan_json(budget, view, choice, unseen, meshes);
-        if (on_ground) json["meshes_on_ground"] = drawn_meshes_json(*on_ground);
+        if (standing) json["meshes_on_ground"] = drawn_meshes_json(*standing);
         if (view.canopy) json["canopy"] = canopy_json(*view.canopy, region);
         json["notes"] = all_notes(region);
         std::printf("%s\n", json_text(json, true).c_str());
@@ -213,7 +213,7 @@ Result<void> run_plan(const PlanOptions& options) {
                             : plan_summary(budget, view, eye, choice, unseen))
                    .c_str(),
                stdout);
-    if (on_ground) std::printf("On the ground, %s.\n", words_of(*on_ground).c_str());
+    if (standing) std::printf("On the ground, %s.\n", words_of(*standing).c_str());
     if (view.canopy) std::printf("%s.\n", canopy_words(*view.canopy, region).c_str());
     return {};
 }

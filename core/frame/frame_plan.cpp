@@ -19,6 +19,28 @@
 namespace oro {
 namespace {
 
+// What of a device's terms depends on the camera, but for the tables. planes: as they are tested.
+void set_view(gpu::PlanTerms& terms, const glm::dmat3& view_from_ecef, const Ecef& eye_ecef,
+              const SeenHorizon& horizon, const std::array<Plane, 5>& planes) {
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            terms.view_from_ecef[3 * column + row] = view_from_ecef[column][row];
+    for (int axis = 0; axis < 3; ++axis) {
+        terms.eye_ecef[axis] = eye_ecef.m[axis];
+        terms.horizon[axis] = horizon.eye.direction[axis];
+    }
+    for (int i = 0; i < static_cast<int>(planes.size()); ++i)
+        for (int axis = 0; axis < 4; ++axis)
+            terms.planes[4 * i + axis] = planes[static_cast<std::size_t>(i)][axis];
+}
+
+// Null where the processor makes all of the plan.
+PlanSources* sources_for(PlanMemory& memory, const ModelView& model, const Geodetic& eye) {
+    PlanSources* const sources = memory.sources();
+    if (sources == nullptr || !model.culls_nodes() || model.curvature_per_m() != 0.0) return nullptr;
+    return sources->is_near(eye.lon_deg) ? sources : nullptr;
+}
+
 // One frame's choice among a region's pages.
 class PageChoice {
   public:
@@ -321,11 +343,8 @@ void PageChoice::set_frame_page(KeptPage& page, bool by_device, gpu::FramePage& 
     set_neighbours(page, frame);
 }
 
-// Null where the processor makes all of the plan.
 PlanSources* PageChoice::sources(const Geodetic& eye) const {
-    PlanSources* const sources = memory_.sources();
-    if (sources == nullptr || !model_.culls_nodes() || model_.curvature_per_m() != 0.0) return nullptr;
-    return sources->is_near(eye.lon_deg) ? sources : nullptr;
+    return sources_for(memory_, model_, eye);
 }
 
 void PageChoice::list_pages(FrameTables& tables, PlanSources* sources, GridPlan& plan) const {
@@ -344,16 +363,7 @@ void PageChoice::leave_to_device(const FrameTables& tables, PlanSources& sources
     gpu::PlanTerms& terms = plan.device.terms;
     tables.set_eye(terms);
     terms.page_count = static_cast<gpu::uint>(plan.pages.size());
-    for (int column = 0; column < 3; ++column)
-        for (int row = 0; row < 3; ++row)
-            terms.view_from_ecef[3 * column + row] = view_from_ecef_[column][row];
-    for (int axis = 0; axis < 3; ++axis) {
-        terms.eye_ecef[axis] = eye_ecef_.m[axis];
-        terms.horizon[axis] = horizon_.eye.direction[axis];
-    }
-    for (int i = 0; i < static_cast<int>(planes_.size()); ++i)
-        for (int axis = 0; axis < 4; ++axis)
-            terms.planes[4 * i + axis] = planes_[static_cast<std::size_t>(i)][axis];
+    set_view(terms, view_from_ecef_, eye_ecef_, horizon_, planes_);
     std::vector<gpu::uint>& numbers = plan.device.numbers;
     numbers.reserve(tables.row_sources().size() + tables.column_sources().size() + plan.pages.size());
     numbers.insert(numbers.end(), tables.row_sources().begin(), tables.row_sources().end());
@@ -385,6 +395,26 @@ Result<GridPlan> plan_grid(PlanMemory& memory, const Residency& residency, const
     plan.column_terms = tables.take_columns();
     plan.constants = frame_constants(pages, camera, tile, tau_px, model, coding);
     plan.constants.page_count = static_cast<gpu::uint>(plan.pages.size());
+    plan.constants.placing_slack_m = static_cast<float>(model_view.rounding_m()) * 1.001F;
+    return plan;
+}
+
+std::optional<GridPlan> plan_without_pages(PlanMemory& memory, const FrameView& view,
+                                           const HeightQuantization& coding) {
+    const auto& [camera, tile, tau_px, model] = view;
+    const ModelView model_view(camera, model, coding);
+    PlanSources* const sources = sources_for(memory, model_view, camera.eye);
+    if (sources == nullptr) return std::nullopt;
+    const RegionPages& pages = memory.pages();
+    FrameTables tables(pages.facts().grid, camera.eye, model.earth, &memory.angles());
+    tables.leave_to(*sources);
+    GridPlan plan;
+    tables.set_eye(plan.device.terms);
+    std::array<Plane, 5> planes = frustum_planes_view(projection_of_tile(camera, tile));
+    for (Plane& plane : planes) plane.w += model_view.rounding_m();
+    set_view(plan.device.terms, camera.view_from_ecef(), camera.eye_ecef(),
+             model_view.horizon(pages.facts().shape.occluder), planes);
+    plan.constants = frame_constants(pages, camera, tile, tau_px, model, coding);
     plan.constants.placing_slack_m = static_cast<float>(model_view.rounding_m()) * 1.001F;
     return plan;
 }

@@ -6,15 +6,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "core/earth/camera.h"
 #include "core/earth/world_model.h"
 #include "core/frame/casters.h"
 #include "core/frame/height_quantization.h"
+#include "core/frame/page_numbers.h"
 #include "core/frame/region_pages.h"
 #include "core/growth/growth_plan.h"
 #include "core/growth/meadow_plan.h"
+#include "shaders/plan/shared_choice.h"
 #include "shaders/plan/shared_plan.h"
 #include "shaders/shared.h"
 
@@ -55,6 +58,15 @@ struct DevicePlan {
     // Of its rows and columns of pages and of its pages, one kind after the other
     // (core/frame/plan_sources.h).
     std::vector<gpu::uint> numbers;
+    // The device chooses the pages, too: the plan has none, and what it says of pages that are missing or
+    // hidden is what the last frame that told of it was chosen of (FrameFeedback::choice). choice lacks
+    // addresses of the frame's own buffers.
+    bool chooses{};
+    gpu::ChoiceTerms choice{};
+    std::vector<gpu::BlockChange> changes;  // pages that came and went, up to that change
+    std::uint64_t change_number{};
+    std::size_t pages_read{};  // of how many wanted pages the frame tells at most
+    std::shared_ptr<const PageNumbers> page_numbers;
 };
 
 // What a frame draws of one grid, ready for the GPU but for the addresses of its buffers and the style.
@@ -86,6 +98,10 @@ struct GridPlan {
     std::uint64_t mesh_casters{};
     std::size_t mesh_nodes{};
     glm::dvec3 mesh_origin_m{0.0};
+    // The most pages that it may have, whoever chooses them.
+    [[nodiscard]] std::size_t page_room() const {
+        return device.chooses ? device.choice.capacity : pages.size();
+    }
     // Terms of rows and columns of posts, whoever makes them.
     [[nodiscard]] std::size_t row_count() const {
         return device.on ? gpu::page_posts * std::size_t{device.terms.row_count} : row_terms.size();

@@ -148,6 +148,10 @@ Result<GridPlan> plan_grid(PlanMemory& memory, const Residency& residency, const
                            const HeightQuantization& coding = {},
                            double shading_spacing_px = gpu::shading_spacing_px,
                            const IsHidden& is_hidden = {});
+// What a plan is beside its pages, for a device that chooses them: nothing where the memory's sources do not
+// serve the view (PlanMemory::set_sources()).
+std::optional<GridPlan> plan_without_pages(PlanMemory& memory, const FrameView& view,
+                                           const HeightQuantization& coding);
 Result<std::vector<ShadowReceiver>> shadow_receivers(PlanMemory& memory, const FrameView& view,
                                                      const GridPlan& plan);
 Result<void> plan_casters(PlanMemory& memory, const std::function<std::uint64_t(const PageIndex&)>& residency,

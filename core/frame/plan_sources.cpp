@@ -65,6 +65,22 @@ PlanSources::PlanSources(const RegionPages& pages, std::span<std::byte> memory, 
     east_deg_ += std::abs(east_deg_ - west_deg_);
 }
 
+Result<void> PlanSources::fill(KeptAngles& angles) {
+    for (int level = 0; level < pages_->levels(); ++level) {
+        const LevelGrid grid = level_grid(pages_->facts().grid, level);
+        const PageLayout layout = pages_->layout(level);
+        for (int row = 0; row < layout.rows; ++row) rows(grid.row, row, angles.rows);
+        for (int column = 0; column < layout.columns; ++column) columns(grid.column, column, angles.columns);
+        for (int row = 0; row < layout.rows; ++row)
+            for (int column = 0; column < layout.columns; ++column) {
+                ORO_TRY(const PageRecord record, pages_->record({row, column, level}));
+                const PageSummary& summary = record.summary;
+                page(summary, summary.origin_ecef.m + summary.ecef_from_page * summary.centre_m);
+            }
+    }
+    return {};
+}
+
 bool PlanSources::is_near(double eye_lon_deg) const {
     constexpr double within_deg = 44.0;
     const auto is_within = [&](double lon_deg) { return std::abs(lon_deg - eye_lon_deg) < within_deg; };

@@ -29,6 +29,8 @@ class PlanSources {
     std::uint32_t columns(const LevelAxis& level, int page_column, ColumnAngles& angles);
     // centre_ecef_m: of the sphere around the page's posts.
     std::uint32_t page(const PageSummary& page, const glm::dvec3& centre_ecef_m);
+    // All of them, for a device that chooses pages by itself. Errors: as RegionPages::record().
+    Result<void> fill(KeptAngles& angles);
     // Whether the longitudes of all columns are within 45 degrees of an eye's: nearer than that a device
     // finds their sines.
     [[nodiscard]] bool is_near(double eye_lon_deg) const;

@@ -5,15 +5,24 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "core/frame/region_pages.h"
 #include "core/terrain/page_table.h"
+#include "shaders/plan/shared_choice.h"
 #include "shaders/shared.h"
 
 namespace oro {
+
+// What a frame tells of a choice of pages that the device has made (DevicePlan::chooses).
+struct MadeChoice {
+    gpu::ChoiceCounts counts{};
+    std::vector<gpu::WantedPage> wanted;  // DevicePlan::pages_read of them, or fewer
+    std::uint64_t change_number{};        // DevicePlan::change_number: the device knows of those changes
+};
 
 // What a frame tells of the nodes of its pages: gpu::feedback_words for each of them, see
 // gpu::FrameConstants::feedback. Without pages it tells nothing; of clusters, a word of gpu::cluster_...
@@ -23,6 +32,7 @@ struct FrameFeedback {
     std::vector<gpu::DrawnCluster> clusters;
     std::vector<gpu::uint> words;
     gpu::FrameConstants view{};  // by which the frame was drawn
+    std::optional<MadeChoice> choice;
 };
 
 // Whether two frames look from one place to the same part of a picture; their samples may differ.

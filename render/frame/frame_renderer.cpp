@@ -164,8 +164,8 @@ Result<void> FrameRenderer::reserve(const FramePlan& plan) {
     // Meshlets of so many pages are listed, or clusters.
     std::size_t most_pages = 64;
     for (const GridPlan& grid : plan.grids)
-        most_pages = std::max(
-            {most_pages, grid.pages.size(), grid.clusters.drawn.size() / gpu::meshlets_per_page + 1});
+        most_pages =
+            std::max({most_pages, grid.page_room(), grid.clusters.drawn.size() / gpu::meshlets_per_page + 1});
     if (compute_) ORO_CHECK(compute_->reserve(most_pages, Occlusion::most_rounds * plan.grids.size()));
     while (grids_.size() < plan.grids.size()) {
         GridFrame& grid = grids_.emplace_back();
@@ -231,6 +231,8 @@ Result<void> FrameRenderer::upload(std::size_t number, GridPlan& plan, const Fra
         ORO_CHECK(choose_shading(grid, constants));
     }
     ORO_CHECK(choose_growth(grid, plan));
+    if (plan.device.chooses && number > 0)
+        plan.device.choice.frame_counts_before = address_words(grids_[number - 1].frame_counts());
     grid.address(plan);
     if (compute_) compute_->address(constants);
     if (!compute_ && visibility_.handle) constants.visibility = address_words(visibility_.address);
@@ -249,15 +251,28 @@ void FrameRenderer::record_upload(VkCommandBuffer commands, std::size_t grids) c
 }
 
 Result<void> FrameRenderer::prepare_device_plans(const FramePlan& plan) {
-    if (plan_pass_ || std::ranges::none_of(plan.grids, [](const GridPlan& grid) { return grid.device.on; }))
-        return {};
-    ORO_TRY(PlanPass pass, PlanPass::create(*gpu_));
-    plan_pass_.emplace(std::move(pass));
+    const auto any = [&](bool DevicePlan::*is_on) {
+        return std::ranges::any_of(plan.grids, [&](const GridPlan& grid) { return grid.device.*is_on; });
+    };
+    if (!plan_pass_ && any(&DevicePlan::on)) {
+        ORO_TRY(PlanPass pass, PlanPass::create(*gpu_));
+        plan_pass_.emplace(std::move(pass));
+    }
+    if (!choice_pass_ && any(&DevicePlan::chooses)) {
+        ORO_TRY(ChoicePass pass, ChoicePass::create(*gpu_));
+        choice_pass_.emplace(std::move(pass));
+    }
     return {};
 }
 
 void FrameRenderer::record_device_plans(VkCommandBuffer commands, const FramePlan& plan) const {
     bool any = false;
+    for (std::size_t i = 0; i < plan.grids.size(); ++i) {
+        const DevicePlan& device = plan.grids[i].device;
+        if (!device.chooses) continue;
+        choice_pass_->record(commands, device.choice, grids_[i].choice_terms());
+        ChoicePass::record_end(commands);
+    }
     for (std::size_t i = 0; i < plan.grids.size(); ++i) {
         if (!plan.grids[i].device.on) continue;
         plan_pass_->record(commands, plan.grids[i].device, grids_[i].plan_terms());
@@ -327,7 +342,7 @@ Result<void> FrameRenderer::begin(FramePlan plan, const FrameAsked& asked) {
     last_grids_.clear();
     for (std::size_t i = 0; i < plan.grids.size(); ++i) {
         ORO_CHECK(upload(i, plan.grids[i], asked));
-        last_grids_.push_back(plan.grids[i].pages.empty() ? 0 : 1);
+        last_grids_.push_back(plan.grids[i].page_room() == 0 ? 0 : 1);
     }
     slot.has_images = has_images(plan);
     slot.in_parts = asked.in_parts;
@@ -375,7 +390,15 @@ Result<FrameReport> FrameRenderer::report_of(Slot& slot) {
     for (std::size_t i = 0; i < plan.grids.size(); ++i) {
         const GridPlan& grid = plan.grids[i];
         report.pages += grid.pages.size();
-        if (slot.trial.is_on) report.feedback.push_back(grids_[i].feedback_of(grid, number));
+        if (slot.trial.is_on || grid.device.chooses) {
+            report.feedback.resize(i);
+            report.feedback.push_back(slot.trial.is_on ? grids_[i].feedback_of(grid, number)
+                                                       : FrameFeedback());
+        }
+        if (grid.device.chooses) {
+            report.feedback.back().choice = grids_[i].choice_of(grid, number);
+            report.pages += report.feedback.back().choice->counts.open;
+        }
         report.counts.meshlets_beyond_frustum += static_cast<gpu::uint>(grid.clusters.beyond_frustum);
         report.counts.meshlets_beyond_horizon += static_cast<gpu::uint>(grid.clusters.beyond_horizon);
     }

@@ -13,8 +13,9 @@
 #include "core/measure/drawn_point.h"
 #include "render/device/resources.h"
 #include "render/frame/grid_frame.h"
-#include "render/pipelines/plan_pass.h"
+#include "render/pipelines/choice_pass.h"
 #include "render/pipelines/pipelines.h"
+#include "render/pipelines/plan_pass.h"
 #include "render/raster/compute_raster.h"
 #include "render/raster/occlusion.h"
 #include "render/shading/air_tables.h"
@@ -216,7 +217,8 @@ class FrameRenderer {
     std::vector<GridFrame> grids_;      // those of the plan, and as many more as earlier ones had
     std::optional<ComputeRaster> compute_;
     std::optional<Occlusion> occlusion_;
-    std::optional<PlanPass> plan_pass_;  // once a plan leaves anything to it
+    std::optional<ChoicePass> choice_pass_;  // likewise
+    std::optional<PlanPass> plan_pass_;      // once a plan leaves anything to it
     AirTables air_;
     SharedShares shared_shares_;
     MeshShadowFrame mesh_shadows_;

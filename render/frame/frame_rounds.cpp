@@ -30,7 +30,9 @@ void FrameRenderer::record_choice(VkCommandBuffer commands, const GridFrame& gri
     grid.bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
     const auto count = static_cast<std::uint32_t>(plan.pages.size());
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_->lod_test.get());
-    if (count > 0)
+    if (plan.device.chooses)
+        vkCmdDispatchIndirect(commands, grid.data().handle.get(), grid.page_groups());
+    else if (count > 0)
         vkCmdDispatch(commands, std::min(count, gpu::groups_per_row),
                       (count + gpu::groups_per_row - 1) / gpu::groups_per_row, 1);
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,

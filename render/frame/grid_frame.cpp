@@ -25,16 +25,34 @@ struct DataLayout {
     VkDeviceSize clusters;  // workgroups of their draw, then they
     VkDeviceSize asked;     // ClusterCut::asked
     VkDeviceSize boxes;     // of clusters
-    VkDeviceSize terms;     // of the plan, then the numbers of its sources
+    VkDeviceSize terms;     // of the plan,
+    VkDeviceSize choice;    // ... of the choice of its pages, where the device makes it,
+    VkDeviceSize changes;   // ... changes that it has to know,
+    VkDeviceSize counts;    // ... how many it has chosen,
+    VkDeviceSize sent;      // ... as far as is sent,
+    VkDeviceSize numbers;   // of the plan's sources
+    VkDeviceSize wanted;    // pages
     VkDeviceSize size;
 };
+constexpr VkDeviceSize aligned(VkDeviceSize size) {
+    return (size + 15) / 16 * 16;
+}
+void add_choice(const DevicePlan& plan, DataLayout& layout) {
+    layout.choice = aligned(layout.terms + sizeof(gpu::PlanTerms));
+    layout.changes = aligned(layout.choice + sizeof(gpu::ChoiceTerms));
+    layout.counts = aligned(layout.changes + plan.changes.size() * sizeof(gpu::BlockChange));
+    layout.sent = layout.counts + sizeof(gpu::ChoiceCounts);
+    layout.numbers = aligned(layout.sent);
+    const VkDeviceSize numbers = plan.terms.row_count + plan.terms.column_count + plan.choice.capacity;
+    layout.wanted = aligned(layout.numbers + numbers * sizeof(gpu::uint));
+    layout.size = layout.wanted + plan.choice.capacity * sizeof(gpu::WantedPage);
+}
 DataLayout layout_of(const GridPlan& plan) {
-    const auto aligned = [](VkDeviceSize size) { return (size + 15) / 16 * 16; };
     DataLayout layout{};
-    layout.rows = aligned(pages_offset + plan.pages.size() * sizeof(gpu::FramePage));
+    layout.rows = aligned(pages_offset + plan.page_room() * sizeof(gpu::FramePage));
     layout.columns = aligned(layout.rows + plan.row_count() * sizeof(gpu::RowTerms));
     layout.before = aligned(layout.columns + plan.column_count() * sizeof(gpu::ColumnTerms));
-    layout.clusters = aligned(layout.before + plan.pages.size() * sizeof(gpu::uint));
+    layout.clusters = aligned(layout.before + plan.page_room() * sizeof(gpu::uint));
     layout.asked = layout.boxes = layout.clusters;
     if (plan.clusters.on) {
         layout.asked = aligned(layout.clusters + cluster_groups_bytes +
@@ -44,9 +62,21 @@ DataLayout layout_of(const GridPlan& plan) {
     layout.size = layout.boxes;
     if (plan.constants.occlusion != 0) layout.size += plan.clusters.boxes.size() * sizeof(gpu::ClusterBox);
     layout.terms = layout.size = aligned(layout.size);
-    if (plan.device.on)
-        layout.size += sizeof(gpu::PlanTerms) + plan.device.numbers.size() * sizeof(gpu::uint);
+    if (!plan.device.on) return layout;
+    layout.numbers = layout.terms + sizeof(gpu::PlanTerms);
+    layout.size = layout.numbers + plan.device.numbers.size() * sizeof(gpu::uint);
+    if (plan.device.chooses) add_choice(plan.device, layout);
     return layout;
+}
+
+// Pages of a frame that the device has chosen; none where it tells of too few.
+std::vector<PageIndex> chosen_of(const GridPlan& plan, const MadeChoice& made) {
+    std::vector<PageIndex> pages;
+    if (made.counts.wanted > made.wanted.size()) return pages;
+    pages.resize(made.counts.open);
+    for (const gpu::WantedPage& page : made.wanted)
+        if (page.number < pages.size()) pages[page.number] = plan.device.page_numbers->page(page.page);
+    return pages;
 }
 
 }  // namespace
@@ -120,7 +150,7 @@ Result<void> GridFrame::reserve(const Gpu& gpu, const GridPlan& plan, std::size_
         ORO_TRY(staging_[slot], create_buffer(gpu, data_.size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                               MemoryKind::upload, "frame staging"));
     }
-    const std::size_t count = std::max<std::size_t>(plan.pages.size(), 64);
+    const std::size_t count = std::max<std::size_t>(plan.page_room(), 64);
     if (count > page_capacity_) {
         // A multiple of 4, so that each part starts at a multiple of 16 bytes.
         const std::size_t capacity = (std::max(count, 2 * page_capacity_) + 3) / 4 * 4;
@@ -133,7 +163,22 @@ Result<void> GridFrame::reserve(const Gpu& gpu, const GridPlan& plan, std::size_
     }
     ORO_CHECK(reserve_feedback(gpu, plan));
     if (plan.clusters.on) return reserve_clusters(gpu, plan);
-    return plan.constants.occlusion != 0 ? reserve_seen(gpu, plan.pages.size()) : Result<void>();
+    if (plan.constants.occlusion != 0) ORO_CHECK(reserve_seen(gpu, plan.page_room()));
+    return plan.device.chooses ? reserve_choice(gpu, plan) : Result<void>();
+}
+
+// After reserve_seen(): by its turns.
+Result<void> GridFrame::reserve_choice(const Gpu& gpu, const GridPlan& plan) {
+    const VkDeviceSize read = sizeof(gpu::ChoiceCounts) + plan.device.pages_read * sizeof(gpu::WantedPage);
+    if (choice_read_[slot_].size < read) {
+        ORO_TRY(choice_read_[slot_], create_buffer(gpu, 2 * read, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                                   MemoryKind::readback, "choice read back"));
+    }
+    const VkDeviceSize bytes = VkDeviceSize{4} * plan.device.choice.page_count;
+    if (plan.constants.occlusion == 0 || numbers_[turn_].size >= bytes) return {};
+    return replace_buffer(gpu, numbers_[turn_], bytes,
+                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                          MemoryKind::device, "numbers of pages");
 }
 
 Result<void> GridFrame::reserve_clusters(const Gpu& gpu, const GridPlan& plan) {
@@ -149,7 +194,7 @@ Result<void> GridFrame::reserve_clusters(const Gpu& gpu, const GridPlan& plan) {
 Result<void> GridFrame::reserve_feedback(const Gpu& gpu, const GridPlan& plan) {
     const bool wanted = plan.request_feedback && plan.constants.occlusion != 0;
     const std::size_t words =
-        plan.clusters.on ? plan.clusters.drawn.size() : gpu::feedback_words * plan.pages.size();
+        plan.clusters.on ? plan.clusters.drawn.size() : gpu::feedback_words * plan.page_room();
     const VkDeviceSize size = wanted ? sizeof(gpu::uint) * words : 0;
     feedback_size_[slot_] = size;
     if (feedback_.size < size)
@@ -166,10 +211,29 @@ Result<void> GridFrame::reserve_feedback(const Gpu& gpu, const GridPlan& plan) {
 }
 
 void GridFrame::record_feedback(VkCommandBuffer commands) const {
+    if (choice_terms_ != 0) {
+        const VkDeviceSize read = choice_read_bytes_ - sizeof(gpu::ChoiceCounts);
+        const std::array copies{VkBufferCopy{counts_at_, 0, sizeof(gpu::ChoiceCounts)},
+                                VkBufferCopy{wanted_at_, sizeof(gpu::ChoiceCounts), read}};
+        vkCmdCopyBuffer(commands, data_.handle.get(), choice_read_[slot_].handle.get(),
+                        static_cast<std::uint32_t>(copies.size()), copies.data());
+    }
     if (feedback_size_[slot_] == 0) return;
     const VkBufferCopy copy{0, 0, feedback_size_[slot_]};
     const Buffer& source_buffer = cluster_groups_ > 0 ? cluster_states_ : feedback_;
     vkCmdCopyBuffer(commands, source_buffer.handle.get(), feedback_read_[slot_].handle.get(), 1, &copy);
+}
+
+MadeChoice GridFrame::choice_of(const GridPlan& plan, std::size_t slot) const {
+    MadeChoice made;
+    const std::byte* const from = choice_read_[slot].mapped;
+    std::memcpy(&made.counts, from, sizeof(made.counts));
+    made.wanted.resize(std::min<std::size_t>(made.counts.wanted, plan.device.pages_read));
+    if (!made.wanted.empty())
+        std::memcpy(made.wanted.data(), from + sizeof(made.counts),
+                    made.wanted.size() * sizeof(gpu::WantedPage));
+    made.change_number = plan.device.change_number;
+    return made;
 }
 
 FrameFeedback GridFrame::feedback_of(const GridPlan& plan, std::size_t slot) const {
@@ -179,9 +243,11 @@ FrameFeedback GridFrame::feedback_of(const GridPlan& plan, std::size_t slot) con
     if (plan.clusters.on)
         feedback.clusters = plan.clusters.drawn;
     else
-        feedback.pages = plan.page_indices;
-    feedback.words.resize(size / sizeof(gpu::uint));
-    std::memcpy(feedback.words.data(), feedback_read_[slot].mapped, size);
+        feedback.pages = plan.device.chooses ? chosen_of(plan, choice_of(plan, slot)) : plan.page_indices;
+    const std::size_t words =
+        plan.device.chooses ? gpu::feedback_words * feedback.pages.size() : size / sizeof(gpu::uint);
+    feedback.words.resize(words);
+    if (words > 0) std::memcpy(feedback.words.data(), feedback_read_[slot].mapped, words * sizeof(gpu::uint));
     feedback.view = plan.constants;
     return feedback;
 }
@@ -199,8 +265,11 @@ Result<void> GridFrame::reserve_seen(const Gpu& gpu, std::size_t pages) {
 
 void GridFrame::remember(const GridPlan& plan) {
     forget();
+    before_chosen_ = plan.device.chooses;
     if (plan.clusters.on)
         clusters_before_ = ++clusters_turn_;
+    else if (plan.device.chooses)
+        pages_before_ = plan.page_room();
     else
         remember_pages(plan.page_indices);
 }
@@ -218,7 +287,7 @@ void GridFrame::remember_pages(std::span<const PageIndex> pages) {
 // FrameConstants::page_before.
 std::vector<gpu::uint> GridFrame::numbers_before(const GridPlan& plan) const {
     std::vector<gpu::uint> numbers(plan.pages.size(), gpu::no_page);
-    if (pages_before_ == 0) return numbers;
+    if (!remembers(plan)) return numbers;
     for (std::size_t i = 0; i < std::min(numbers.size(), plan.page_indices.size()); ++i) {
         const PageIndex& page = plan.page_indices[i];
         if (before_.size() <= static_cast<std::size_t>(page.level)) continue;
@@ -239,8 +308,9 @@ void GridFrame::address(GridPlan& plan) const {
         terms.pages = constants.pages;
         terms.rows = constants.row_terms;
         terms.columns = constants.column_terms;
-        terms.numbers = address_words(data_.address + layout.terms + sizeof(gpu::PlanTerms));
+        terms.numbers = address_words(data_.address + layout.numbers);
     }
+    if (plan.device.chooses) address_choice(plan);
     if (plan.clusters.on) {
         constants.clusters.drawn = address_words(data_.address + layout.clusters + cluster_groups_bytes);
         constants.cut.asked = address_words(data_.address + layout.asked);
@@ -267,11 +337,51 @@ void GridFrame::address(GridPlan& plan) const {
         at += VkDeviceSize{4} * gpu::accepted_words * page_capacity_;
     }
     constants.seen = address_words(seen_[turn_].address);
-    if (constants.occlusion != 0 && pages_before_ > 0)
+    if (constants.occlusion != 0 && !plan.clusters.on && remembers(plan))
         constants.seen_before = address_words(seen_[1 - turn_].address);
     constants.page_before = address_words(data_.address + layout.before);
     constants.feedback =
         feedback_size_[slot_] > 0 && !plan.clusters.on ? address_words(feedback_.address) : gpu::uvec2(0U);
+}
+
+VkDeviceAddress GridFrame::frame_counts() const {
+    static_assert(offsetof(gpu::FrameConstants, first_page) ==
+                  offsetof(gpu::FrameConstants, page_count) + sizeof(gpu::uint));
+    return data_.address + offsetof(gpu::FrameConstants, page_count);
+}
+
+void GridFrame::address_choice(GridPlan& plan) const {
+    const DataLayout layout = layout_of(plan);
+    gpu::ChoiceTerms& choice = plan.device.choice;
+    choice.changes = address_words(data_.address + layout.changes);
+    choice.counts = address_words(data_.address + layout.counts);
+    choice.wanted = address_words(data_.address + layout.wanted);
+    choice.pages = address_words(data_.address + pages_offset);
+    choice.numbers = address_words(data_.address + layout.numbers);
+    choice.frame_counts = address_words(frame_counts());
+    choice.plan_count = address_words(data_.address + layout.terms + offsetof(gpu::PlanTerms, page_count));
+    if (plan.constants.occlusion == 0) return;
+    choice.page_before = address_words(data_.address + layout.before);
+    choice.numbers_now = address_words(numbers_[turn_].address);
+    if (remembers(plan)) choice.numbers_before = address_words(numbers_[1 - turn_].address);
+}
+
+// What the device makes by itself is not sent.
+void GridFrame::fill_choice(const GridPlan& plan) {
+    const DataLayout layout = layout_of(plan);
+    std::byte* const to = staging_[slot_].mapped;
+    choice_terms_ = data_.address + layout.choice;
+    counts_at_ = layout.counts;
+    wanted_at_ = layout.wanted;
+    page_groups_ = layout.counts + offsetof(gpu::ChoiceCounts, groups);
+    choice_read_bytes_ = sizeof(gpu::ChoiceCounts) + plan.device.pages_read * sizeof(gpu::WantedPage);
+    sent_from_ = layout.terms;
+    sent_to_ = layout.sent;
+    std::memcpy(to + layout.choice, &plan.device.choice, sizeof(plan.device.choice));
+    if (!plan.device.changes.empty())
+        std::memcpy(to + layout.changes, plan.device.changes.data(),
+                    plan.device.changes.size() * sizeof(gpu::BlockChange));
+    std::memset(to + layout.counts, 0, sizeof(gpu::ChoiceCounts));
 }
 
 void GridFrame::fill(const GridPlan& plan) {
@@ -285,12 +395,18 @@ void GridFrame::fill(const GridPlan& plan) {
     std::memcpy(staging_[slot_].mapped, &plan.constants, sizeof(plan.constants));
     copy(pages_offset, plan.pages);
     plan_terms_ = plan.device.on ? data_.address + layout.terms : 0;
-    planned_parts_ = {{{pages_offset, plan.pages.size() * sizeof(gpu::FramePage)},
+    planned_parts_ = {{{pages_offset, plan.page_room() * sizeof(gpu::FramePage)},
                        {layout.rows, plan.row_count() * sizeof(gpu::RowTerms)},
                        {layout.columns, plan.column_count() * sizeof(gpu::ColumnTerms)}}};
     if (plan.device.on) {
         std::memcpy(staging_[slot_].mapped + layout.terms, &plan.device.terms, sizeof(plan.device.terms));
-        copy(layout.terms + sizeof(gpu::PlanTerms), plan.device.numbers);
+        copy(layout.numbers, plan.device.numbers);
+    }
+    choice_terms_ = 0;
+    if (plan.device.chooses) {
+        fill_choice(plan);
+        cluster_groups_ = 0;
+        return;
     }
     copy(layout.rows, plan.row_terms);
     copy(layout.columns, plan.column_terms);
@@ -305,8 +421,10 @@ void GridFrame::fill(const GridPlan& plan) {
 }
 
 void GridFrame::record_upload(VkCommandBuffer commands) const {
-    const VkBufferCopy copy{0, 0, size_};
-    vkCmdCopyBuffer(commands, staging_[slot_].handle.get(), data_.handle.get(), 1, &copy);
+    const std::array copies{VkBufferCopy{0, 0, choice_terms_ != 0 ? sizeof(gpu::FrameConstants) : size_},
+                            VkBufferCopy{sent_from_, sent_from_, sent_to_ - sent_from_}};
+    vkCmdCopyBuffer(commands, staging_[slot_].handle.get(), data_.handle.get(), choice_terms_ != 0 ? 2 : 1,
+                    copies.data());
     if (clears_seen_) vkCmdFillBuffer(commands, seen_[turn_].handle.get(), 0, VK_WHOLE_SIZE, 0);
     const VkDeviceSize feedback_size = feedback_size_[slot_];
     if (feedback_size > 0) vkCmdFillBuffer(commands, feedback_.handle.get(), 0, feedback_size, 0);

@@ -38,6 +38,8 @@ class GridFrame {
     // What the frame of a slot, which is done, has shown, of its plan. Nothing of a frame that was drawn at
     // once.
     [[nodiscard]] FrameFeedback feedback_of(const GridPlan& plan, std::size_t slot) const;
+    // What the device has chosen of that plan, which leaves that to it.
+    [[nodiscard]] MadeChoice choice_of(const GridPlan& plan, std::size_t slot) const;
     void bind(VkCommandBuffer commands, const Pipelines& pipelines, VkPipelineBindPoint point) const;
 
     // The frame was drawn in rounds: the next such one knows which of its nodes or clusters were seen. Or
@@ -48,9 +50,16 @@ class GridFrame {
         clusters_before_ = 0;
     }
     [[nodiscard]] bool remembers(const GridPlan& plan) const {
-        return plan.clusters.on ? clusters_before_ > 0 : pages_before_ > 0;
+        return plan.clusters.on ? clusters_before_ > 0
+                                : pages_before_ > 0 && before_chosen_ == plan.device.chooses;
     }
 
+    // Where data() holds the gpu::ChoiceTerms of a plan whose pages the device chooses, and the workgroups of
+    // an indirect dispatch of one a page.
+    [[nodiscard]] VkDeviceAddress choice_terms() const { return choice_terms_; }
+    [[nodiscard]] VkDeviceSize page_groups() const { return page_groups_; }
+    // The address of FrameConstants.page_count, after which first_page comes.
+    [[nodiscard]] VkDeviceAddress frame_counts() const;
     // Where data() holds the gpu::PlanTerms of a plan that leaves some of it to the device, and its pages,
     // rows and columns.
     [[nodiscard]] VkDeviceAddress plan_terms() const { return plan_terms_; }
@@ -78,6 +87,9 @@ class GridFrame {
     Result<void> reserve_clusters(const Gpu& gpu, const GridPlan& plan);
     Result<void> reserve_feedback(const Gpu& gpu, const GridPlan& plan);
     void remember_pages(std::span<const PageIndex> pages);
+    Result<void> reserve_choice(const Gpu& gpu, const GridPlan& plan);
+    void address_choice(GridPlan& plan) const;
+    void fill_choice(const GridPlan& plan);
     [[nodiscard]] std::vector<gpu::uint> numbers_before(const GridPlan& plan) const;
 
     OwnedDescriptorPool pool_;
@@ -101,6 +113,14 @@ class GridFrame {
     std::array<Buffer, frames_in_flight> feedback_read_;
     std::array<VkDeviceSize, frames_in_flight> feedback_size_{};
     std::size_t page_capacity_{};
+    // Of pages that the device chooses: their numbers in this frame in rounds and in the last such one, by
+    // turns as seen_; whether the device has chosen the last one's; what it tells the host.
+    std::array<Buffer, 2> numbers_;
+    bool before_chosen_{};
+    std::array<Buffer, frames_in_flight> choice_read_;
+    VkDeviceAddress choice_terms_{};
+    VkDeviceSize page_groups_{}, counts_at_{}, wanted_at_{}, choice_read_bytes_{};
+    VkDeviceSize sent_from_{}, sent_to_{};  // then the constants are sent, and this
     bool clears_seen_{};
     VkDeviceSize size_{};  // that a frame sends
     VkDeviceSize cluster_groups_{};

@@ -89,6 +89,13 @@ class PageStore {
     // where there were any. No frame is being drawn.
     bool release_unused() { return cache_.release_unused(); }
 
+    // Of each page that is here its block's address. Asking does not count as use.
+    template <class Visit>
+    void for_each(const Visit& visit) const {
+        cache_.items().for_each(
+            [&](const auto& slot) { visit(slot.key, cache_.address(slot) + block_offset_); });
+    }
+
     [[nodiscard]] std::size_t size() const { return cache_.items().size(); }
     // The most pages (of page_bytes()) that it may hold, with the whole budget to itself.
     [[nodiscard]] std::size_t capacity() const { return cache_.capacity(); }

@@ -110,7 +110,10 @@ bool GridScene::is_hidden(const PageIndex& page) const {
 
 bool GridScene::apply_feedback(const FrameFeedback& feedback) {
     if (clusters_) clusters_->apply_feedback(feedback);
-    return seen_.add(feedback);
+    const bool is_new = seen_.add(feedback);
+    if (!choice_ || !feedback.choice) return is_new;
+    return choice_->apply(*feedback.choice, [&](const PageIndex& page) { return seen_.is_hidden(page); }) ||
+           is_new;
 }
 
 // Where the last frame's pages filled the GPU and more of them show, those that do not show are planned
@@ -195,10 +198,31 @@ Result<GridPlan> GridScene::plan(const FrameView& view, Clusters clusters) {
     return plan;
 }
 
+bool GridScene::can_leave_choice() const {
+    return choice_ && !clusters_ && !cast_.any() && !has_trees_ && !has_grass_ && !drape_ && !full_ &&
+           !full_for_hidden_ && store_.has_capacity() && choice_->has_room() &&
+           choice_->last_page_count() <= store_.capacity();
+}
+
+Result<std::optional<GridPlan>> GridScene::plan_by_device(const FrameView& view) {
+    const auto start = Clock::now();
+    std::optional<GridPlan> plan = plan_without_pages(memory_, view, store_.coding());
+    if (!plan) return std::optional<GridPlan>();
+    store_.begin_frame();
+    choice_->note_pages(store_);
+    choice_->plan(view, ModelView(view.camera, view.model, store_.coding()),
+                  store_.means_offset() > 0 ? means_spacing_px_ : gpu::shading_spacing_px,
+                  store_.means_offset(), *plan);
+    times_ = {};
+    times_.pages_s = seconds_since(start);
+    return plan;
+}
+
 Result<GridPlan> GridScene::begun_plan(const FrameView& view, Clusters clusters) {
     auto start = Clock::now();
     ORO_TRY(GridPlan plan, plan_of_pages(view));
     for (const PageIndex& page : plan.hidden) store_.mark_occluded(page);
+    if (choice_) choice_->note_plan(plan);
     times_.pages_s = seconds_since(start);
     start = Clock::now();
     ORO_CHECK(add_clusters(view, clusters, plan));
@@ -289,6 +313,7 @@ void GridScene::forget_frames(bool gives_back) {
         store_.release_unused();
     }
     if (clusters_) clusters_->forget_frames();
+    if (choice_) choice_->forget();
 }
 
 // Pages become ready in any order, so no more are asked for than there is room for. Where they differ in size
@@ -413,6 +438,20 @@ Result<bool> Scene::plan_on_device(const Gpu& gpu) {
     return true;
 }
 
+Result<bool> Scene::choose_on_device(const Gpu& gpu) {
+    ORO_TRY(const bool can, plan_on_device(gpu));
+    if (!can) return false;
+    for (GridScene& grid : grids_) {
+        if (grid.memory_.sources() == nullptr ||
+            !can_choose_on_device(*grid.pages_, DeviceChoice::most_bytes))
+            continue;
+        ORO_CHECK(grid.memory_.sources()->fill(grid.memory_.angles()));
+        ORO_TRY(DeviceChoice choice, DeviceChoice::create(gpu, *grid.pages_));
+        grid.choice_.emplace(std::move(choice));
+    }
+    return true;
+}
+
 std::vector<DrapeStore*> Scene::drapes() const {
     std::vector<DrapeStore*> all;
     for (const GridScene& grid : grids_) all.push_back(grid.drape());
@@ -456,7 +495,39 @@ Result<void> Scene::share_shadow_receivers(const FrameView& view, std::span<cons
     return {};
 }
 
+// Pages of all grids are chosen there, or none.
+Result<std::optional<FramePlan>> Scene::plan_by_device(const FrameView& view) {
+    if (!std::ranges::all_of(grids_, &GridScene::can_leave_choice)) return std::optional<FramePlan>();
+    FramePlan plan{view, {}};
+    for (GridScene& grid : grids_) {
+        ORO_TRY(std::optional<GridPlan> one, grid.plan_by_device(view));
+        if (!one) return std::optional<FramePlan>();
+        plan.grids.push_back(std::move(*one));
+    }
+    for (std::size_t i = 0; i < grids_.size(); ++i) ORO_CHECK(grids_[i].end_plan(view, plan.grids[i]));
+    return std::optional(std::move(plan));
+}
+
+// The same frame: what is missing the processor has found out.
+Result<FramePlan> Scene::settled_by_device(FramePlan plan) {
+    ORO_TRY(std::optional<FramePlan> chosen, plan_by_device(plan.view));
+    if (!chosen) return plan;
+    for (std::size_t i = 0; i < plan.grids.size(); ++i) {
+        GridPlan &to = chosen->grids[i], &from = plan.grids[i];
+        to.missing = std::move(from.missing);
+        to.missing_hidden = from.missing_hidden;
+        to.hidden = std::move(from.hidden);
+        to.pages_wanted = from.pages_wanted;
+        to.pages_beyond_frustum = from.pages_beyond_frustum;
+        to.pages_beyond_horizon = from.pages_beyond_horizon;
+        to.request_feedback = from.request_feedback;
+    }
+    return std::move(*chosen);
+}
+
 Result<FramePlan> Scene::plan(const FrameView& view) {
+    ORO_TRY(std::optional<FramePlan> by_device, plan_by_device(view));
+    if (by_device) return std::move(*by_device);
     FramePlan plan{view, {}};
     for (GridScene& grid : grids_) {
         ORO_TRY(GridPlan begun, grid.begun_plan(view, GridScene::Clusters::that_are_here));
@@ -518,7 +589,7 @@ Result<FramePlan> Scene::settled_plan(const FrameView& view) {
         ORO_CHECK(share_shadow_receivers(view, plans));
         ORO_TRY(plans, settled_plans(view));
     }
-    return FramePlan{view, std::move(plans)};
+    return settled_by_device(FramePlan{view, std::move(plans)});
 }
 
 Result<std::vector<GridPlan>> Scene::settled_plans(const FrameView& view) {

@@ -16,6 +16,7 @@
 #include "core/frame/visibility_feedback.h"
 #include "core/seam/cleared_map.h"
 #include "render/clusters/cluster_scene.h"
+#include "render/scene/device_choice.h"
 #include "render/scene/drape_store.h"
 #include "render/scene/page_store.h"
 
@@ -104,6 +105,10 @@ class GridScene {
     // A plan without what casts shadows, then with that; and both.
     Result<GridPlan> begun_plan(const FrameView& view, Clusters clusters);
     Result<void> end_plan(const FrameView& view, GridPlan& plan);
+    // Whether the device may choose the pages of the next frame; a plan that leaves that to it, or nothing
+    // where the view does not allow it.
+    [[nodiscard]] bool can_leave_choice() const;
+    Result<std::optional<GridPlan>> plan_by_device(const FrameView& view);
     Result<GridPlan> plan(const FrameView& view, Clusters clusters);
     Result<GridPlan> settled_plan(const FrameView& view);
     Result<bool> advance(NextPlan next);
@@ -122,6 +127,7 @@ class GridScene {
     Buffer plan_sources_;
     std::uint64_t number_{};  // GridPlan::heights
     PlanMemory memory_;
+    std::optional<DeviceChoice> choice_;
     VisibilityFeedback seen_;
     std::vector<PageIndex> missed_;  // by the last plan
     std::set<PageIndex> hidden_;     // of those
@@ -177,6 +183,10 @@ class Scene {
     // neither clusters nor a net, and whose sources take no more than 64 MB of it. The frames are the same.
     // False where the device has no doubles (PlanPass::can_run()). Errors: the device.
     Result<bool> plan_on_device(const Gpu& gpu);
+    // As plan_on_device(), and the device chooses the pages as well, of frames without shadows, trees, grass
+    // and images, while all that comes finds room. What a plan says of missing pages is then that of a frame
+    // before. The frames are the same. Errors: as plan_on_device(); a file that cannot be read.
+    Result<bool> choose_on_device(const Gpu& gpu);
     // What a frame draws with the pages and clusters that are on the GPU now.
     Result<FramePlan> plan(const FrameView& view);
     // Of the last plan, all grids together.
@@ -218,6 +228,8 @@ class Scene {
 
   private:
     Result<std::vector<GridPlan>> settled_plans(const FrameView& view);
+    Result<std::optional<FramePlan>> plan_by_device(const FrameView& view);
+    Result<FramePlan> settled_by_device(FramePlan plan);
     // To each grid what the plans of the others show.
     Result<void> share_shadow_receivers(const FrameView& view, std::span<const GridPlan> plans);
     // Lets go of what the grids' frames do not use: true where there is more room now.

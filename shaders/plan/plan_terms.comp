@@ -7,6 +7,7 @@
 #extension GL_EXT_buffer_reference_uvec2 : require
 #include "shaders/shared.h"
 #include "shaders/plan/shared_plan.h"
+#include "shaders/plan/exact.glsl"
 
 layout(local_size_x = 64) in;
 layout(buffer_reference, scalar, buffer_reference_align = 8) readonly buffer Terms { PlanTerms at; };
@@ -21,20 +22,6 @@ layout(push_constant, scalar) uniform Grid { uvec2 terms; };
 
 uint number_of(uint job) { return Numbers(Terms(terms).at.numbers).at[job]; }
 
-// What is exact to the bit stands in functions of values alone: glslang 12 does not survive a precise sum of what it reads
-// through an address.
-double difference(double a, double b) {
-    precise double all = a - b;
-    return all;
-}
-dvec3 difference(dvec3 a, dvec3 b) {
-    precise dvec3 all = a - b;
-    return all;
-}
-double sum(double a, double b) {
-    precise double all = a + b;
-    return all;
-}
 RowTerms row_terms(double sine, double cosine, double normal_m, double polar_m, double reference_m, double rho_m, double z_m) {
     precise double from_axis_m = (normal_m + reference_m) * cosine;
     precise double from_eye_m = from_axis_m - rho_m;
@@ -64,22 +51,6 @@ double sine_by_series(double x) {
     return all;
 }
 
-// Numbers as sums of two doubles: 106 bits. Source: T. J. Dekker, A floating-point technique for extending the available
-// precision, Numerische Mathematik 18, 1971.
-dvec2 sum_of(double a, double b) {
-    precise double sum = a + b;
-    precise double part = sum - a;
-    precise double rest = (a - (sum - part)) + (b - part);
-    return dvec2(sum, rest);
-}
-dvec2 product_of(double a, double b) {
-    precise double high = a * b;
-    precise double a_split = a * 134217729.0lf, b_split = b * 134217729.0lf;
-    precise double a_high = a_split - (a_split - a), b_high = b_split - (b_split - b);
-    precise double a_low = a - a_high, b_low = b - b_high;
-    precise double low = ((a_high * b_high - high) + a_high * b_low + a_low * b_high) + a_low * b_low;
-    return dvec2(high, low);
-}
 dvec2 product_of(dvec2 a, dvec2 b) {
     dvec2 high = product_of(a.x, b.x);
     precise double low = high.y + (a.x * b.y + a.y * b.x);
@@ -130,15 +101,6 @@ void make_column(uint job, uint post) {
     Columns(Terms(terms).at.columns).at[job * page_posts + post] = column_terms(difference(lon_deg, Terms(terms).at.eye_lon_deg));
 }
 
-dvec3 turned(dvec3 x, dvec3 y, dvec3 z, dvec3 place) {
-    precise dvec3 all = x * place.x + y * place.y + z * place.z;
-    return all;
-}
-double along(dvec3 normal, dvec3 place) {
-    precise dvec3 parts = normal * place;
-    precise double sum = parts.x + parts.y + parts.z;
-    return sum;
-}
 dvec3 from_eye(double x, double y, double z) {
     return difference(dvec3(x, y, z), dvec3(Terms(terms).at.eye_ecef[0], Terms(terms).at.eye_ecef[1], Terms(terms).at.eye_ecef[2]));
 }
@@ -174,6 +136,8 @@ void make_page(uint job) {
 void main() {
     uint group = gl_WorkGroupID.x, lane = gl_LocalInvocationIndex;
     uint row_count = Terms(terms).at.row_count, column_count = Terms(terms).at.column_count;
+    // Where the device has chosen the pages, some rows and columns are in none of them.
+    if (group < row_count + column_count && number_of(group) == no_page) return;
     if (group < row_count) {
         for (uint post = lane; post < page_posts; post += 64u) make_row(group, post);
     } else if (group < row_count + column_count) {

@@ -46,7 +46,7 @@ class Areas : public test::StyleTest {
         return rgb;
     }
 
-    static View view_of(const std::string& file) {
+    static View view_of(const std::string& file, const Region& region) {
         View view;
         view.style = "plain";
         view.camera.eye = {46.47, 8.0, 3200.0};
@@ -58,7 +58,7 @@ class Areas : public test::StyleTest {
         view.vectors.overlay = {file};
         view.vectors.overlay_width_px = 0.5;
         std::vector<Fingerprints::OfSource> fingerprints;
-        auto read = open_vectors(view.vectors, fingerprints);
+        auto read = open_vectors(view.vectors, region, fingerprints);
         EXPECT_TRUE(read.ok()) << read.error().line();
         view.vectors_read = *read;
         return view;
@@ -72,7 +72,7 @@ TEST_F(Areas, AreTintedWhereTheOracleSeesThem) {
     std::ofstream(file)
         << R"({"type": "Polygon", "coordinates": [[[7.97, 46.49], [8.03, 46.5], [8.0, 46.53], [7.97, 46.49]]]})";
     const std::array<std::array<double, 2>, 3> corners{{{46.49, 7.97}, {46.5, 8.03}, {46.53, 8.0}}};
-    View view = view_of(file);
+    View view = view_of(file, region);
     view.vectors.overlay_fill = 0.0;
     const std::vector<std::uint8_t> bare = drawn(region, view);
     view.vectors.overlay_fill = 0.5;
@@ -119,7 +119,7 @@ TEST_F(Areas, OfAFeatureThatSaysItsFill) {
     const std::string file = (std::filesystem::path(testing::TempDir()) / "areas_fill.geojson").string();
     std::ofstream(file) << R"({"type": "Feature", "properties": {"fill": "#0000ff", "fill-opacity": 1.0},
         "geometry": {"type": "Polygon", "coordinates": [[[7.9, 46.4], [8.1, 46.4], [8.1, 46.6], [7.9, 46.6]]]}})";
-    View view = view_of(file);
+    View view = view_of(file, region);
     view.vectors.overlay_fill = 0.0;
     view.camera.attitude.pitch_deg = -90.0;
     const std::vector<std::uint8_t> rgb = drawn(region, view);

@@ -26,8 +26,8 @@
 namespace oro {
 namespace {
 
-constexpr int side_px = 96;
-constexpr double pixel_m = 10.0, above_m = 40000.0;
+constexpr int rim_side_px = 96;
+constexpr double rim_pixel_m = 10.0, rim_above_m = 40000.0;
 
 class DetailRim : public test::GpuTest {
   protected:
@@ -41,7 +41,7 @@ class DetailRim : public test::GpuTest {
         EXPECT_TRUE(style.ok()) << style.error().line();
         scene->set_footprint_spacing(means_spacing_px(style->frame));
         FrameRendererOptions options;
-        options.extent = {side_px, side_px};
+        options.extent = {rim_side_px, rim_side_px};
         options.path = RasterPath::compute;
         options.smooth_edges = true;
         FrameRenderer renderer = test::made_renderer(*gpu_, options);
@@ -49,26 +49,26 @@ class DetailRim : public test::GpuTest {
         EXPECT_TRUE(plan.ok()) << plan.error().line();
         const auto drawn = renderer.draw(std::move(*plan), style->frame, 0, 1);
         EXPECT_TRUE(drawn.ok()) << drawn.error().line();
-        auto rgba = renderer.read_picture(side_px, side_px);
+        auto rgba = renderer.read_picture(rim_side_px, rim_side_px);
         EXPECT_TRUE(rgba.ok());
         return std::move(*rgba);
     }
 };
 
-struct Codes {
+struct RimCodes {
     double pixels;  // mean of all channels
     double blocks;  // of the means of 16 pixels along the rim: what is left where single slopes differ
 };
 // Differences of two pictures in rows so many pixels from the middle.
-Codes difference(const std::vector<std::uint8_t>& one, const std::vector<std::uint8_t>& other, int from_px,
-                 int to_px) {
+RimCodes difference(const std::vector<std::uint8_t>& one, const std::vector<std::uint8_t>& other, int from_px,
+                    int to_px) {
     constexpr std::size_t block_px = 16;
-    std::array<double, 3 * side_px / block_px> blocks{};
+    std::array<double, 3 * rim_side_px / block_px> blocks{};
     double sum = 0.0, count = 0.0;
-    for (int row = side_px / 2 + from_px; row < side_px / 2 + to_px; ++row) {
-        for (std::size_t i = 0; i < 3 * std::size_t{side_px}; ++i) {
+    for (int row = rim_side_px / 2 + from_px; row < rim_side_px / 2 + to_px; ++row) {
+        for (std::size_t i = 0; i < 3 * std::size_t{rim_side_px}; ++i) {
             const std::size_t column = i / 3, channel = i % 3;
-            const std::size_t at = 4 * (static_cast<std::size_t>(row) * side_px + column) + channel;
+            const std::size_t at = 4 * (static_cast<std::size_t>(row) * rim_side_px + column) + channel;
             const int off = int{one[at]} - int{other[at]};
             sum += std::abs(off);
             count += 1.0;
@@ -99,14 +99,16 @@ TEST_F(DetailRim, LeavesTheColoursOfTheDataAround) {
         const PostGrid& grid = refined.grids.back().field.grid;
         for (const bool is_north : {true, false}) {
             const double rim_deg = is_north ? grid.north_deg() : grid.south_deg();
-            Camera camera{{rim_deg, lon_deg, above_m + 1500.0}, {0.0, -90.0, 0.0}, 0.0, side_px, side_px};
+            Camera camera{
+                {rim_deg, lon_deg, rim_above_m + 1500.0}, {0.0, -90.0, 0.0}, 0.0, rim_side_px, rim_side_px};
             camera.vertical_fov_deg =
-                2.0 * std::atan(0.5 * side_px * pixel_m / above_m) * 180.0 / std::numbers::pi;
+                2.0 * std::atan(0.5 * rim_side_px * rim_pixel_m / rim_above_m) * 180.0 / std::numbers::pi;
             const auto with = picture(refined, camera), without = picture(data, camera);
             // Two pixels at the rim have ground of both.
-            const Codes north = difference(with, without, -22, -2), south = difference(with, without, 2, 22);
-            const Codes& inside = is_north ? south : north;
-            const Codes& outside = is_north ? north : south;
+            const RimCodes north = difference(with, without, -22, -2),
+                           south = difference(with, without, 2, 22);
+            const RimCodes& inside = is_north ? south : north;
+            const RimCodes& outside = is_north ? north : south;
             std::printf("%.2f %.2f, %s rim: outside %.2f codes, inside %.2f (blocks of 16 pixels %.2f)\n",
                         lat_deg, lon_deg, is_north ? "northern" : "southern", outside.pixels, inside.pixels,
                         inside.blocks);

@@ -19,7 +19,7 @@ double hills_m(int row, int column) {
 
 class WrittenFrame : public test::StyleTest {
   protected:
-    static View view_with_names() {
+    static View view_with_names(const Region& region) {
         const std::string file =
             (std::filesystem::path(testing::TempDir()) / "written_frame.geojson").string();
         std::ofstream(file) << R"({"type": "FeatureCollection", "features": [
@@ -37,7 +37,7 @@ class WrittenFrame : public test::StyleTest {
         view.vectors.names = {file};
         view.vectors.overlay = {file};
         std::vector<Fingerprints::OfSource> fingerprints;
-        auto read = open_vectors(view.vectors, fingerprints);
+        auto read = open_vectors(view.vectors, region, fingerprints);
         EXPECT_TRUE(read.ok()) << read.error().line();
         view.vectors_read = *read;
         return view;
@@ -72,7 +72,7 @@ class WrittenFrame : public test::StyleTest {
 TEST_F(WrittenFrame, IsThePictureOfTheView) {
     Region region{std::vector<RegionGrid>(1)};
     region.grids[0].field = test::square_field(46.5, 8.0, 30.0, 320, hills_m);
-    const View view = view_with_names();
+    const View view = view_with_names(region);
     const auto style = load_style(view, region.grids[0].field);
     ASSERT_TRUE(style.ok()) << style.error().line();
     auto scene = test::create_scene(*gpu_, region, {.means = asks_for_means(style->frame)});

@@ -266,11 +266,12 @@ void add_modes(CLI::App& app, BenchOptions& options, BenchWords& words) {
     app.add_option(
            "--plan", words.plan,
            "What makes the tables of plans and the places of their pages: cpu or gpu, which takes one "
-           "with doubles (default: cpu)")
-        ->check(CLI::IsMember({"cpu", "gpu"}));
-    app.add_flag("--compare-plans", options.compare_plans,
-                 "With --moving: tell in how many pixels of all eyes --plan gpu shows another triangle than "
-                 "--plan cpu, in place of times");
+           "with doubles; pages: the GPU chooses the pages of plain frames, too (default: cpu)")
+        ->check(CLI::IsMember({"cpu", "gpu", "pages"}));
+    app.add_flag(
+        "--compare-plans", options.compare_plans,
+        "With --moving: tell in how many pixels of all eyes --plan gpu, or pages where that is given, shows "
+        "another triangle than --plan cpu, in place of times");
     app.add_option("--frame-rate", options.frame_rate_hz,
                    "With --moving: frames begun a second, as a window begins them on a display of that rate, "
                    "where pages have time to come. Without it: as many as there can be")
@@ -390,7 +391,8 @@ int main(int argc, char** argv) {
     options.heights = words.heights == "16"       ? oro::HeightStorage::i16
                       : words.heights == "packed" ? oro::HeightStorage::packed
                                                   : oro::HeightStorage::f32;
-    options.plan_on_device = words.plan == "gpu";
+    options.choose_on_device = words.plan == "pages";
+    options.plan_on_device = words.plan == "gpu" || options.choose_on_device;
     options.leave_out_small = words.small == "skip";
     options.split = words.meshlets == "whole"    ? oro::MeshletSplit::whole
                     : words.meshlets == "halves" ? oro::MeshletSplit::halves

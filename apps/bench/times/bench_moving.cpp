@@ -380,7 +380,7 @@ Result<void> run_moving(const Gpu& gpu, BenchOptions options) {
     json["size_px"] = json_list(options.width_px, options.height_px);
     json["tau_px"] = options.tau_px;
     json["flights"] = options.moving;
-    json["plan"] = options.plan_on_device ? "gpu" : "cpu";
+    json["plan"] = options.choose_on_device ? "pages" : options.plan_on_device ? "gpu" : "cpu";
     json["frames_a_flight"] = options.frames;
     json["seed"] = options.seed;
     json["rows"] = ordered_json::array();

@@ -33,14 +33,15 @@ struct BenchOptions {
     bool as_window{false};     // plans of what is here, as a window's, in place of those that wait
     HeightStorage heights{HeightStorage::f32};
     MeshletSplit split{MeshletSplit::by_device};
-    bool leave_out_small{false};  // mesh path: triangles that cover no pixel's centre
-    int random_eyes{0};           // 0: those of `path`
-    int moving{0};                // flights; 0: eyes that rest
-    double frame_rate_hz{0.0};    // of flights: frames that are begun a second; 0: as many as there can be
-    bool plan_on_device{false};   // plans leave to the device what it can make of them
-    bool compare_plans{false};    // of flights: by the processor and by the device
-    bool fingerprint{false};      // of flights: of their plans, in place of times
-    std::uint64_t seed{1};        // of random eyes and flights
+    bool leave_out_small{false};   // mesh path: triangles that cover no pixel's centre
+    int random_eyes{0};            // 0: those of `path`
+    int moving{0};                 // flights; 0: eyes that rest
+    double frame_rate_hz{0.0};     // of flights: frames that are begun a second; 0: as many as there can be
+    bool plan_on_device{false};    // plans leave to the device what it can make of them
+    bool choose_on_device{false};  // ... and the choice of pages
+    bool compare_plans{false};     // of flights: by the processor and by the device
+    bool fingerprint{false};       // of flights: of their plans, in place of times
+    std::uint64_t seed{1};         // of random eyes and flights
     bool tables{false};
     bool floor{false};
     bool json{false};

@@ -20,6 +20,7 @@ struct PlannedSide {
 
 Result<PlannedSide> side_of(const Gpu& gpu, RasterPath path, BenchOptions options, bool on_device) {
     options.plan_on_device = on_device;
+    options.choose_on_device = options.choose_on_device && on_device;
     ORO_TRY(BenchRegion region, open_bench_region(options));
     ORO_TRY(Scene scene, scene_of(gpu, options, region));
     scene.require_fields(options.style);

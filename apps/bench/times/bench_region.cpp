@@ -53,7 +53,8 @@ Result<Scene> scene_of(const Gpu& gpu, const BenchOptions& options, BenchRegion&
     if (clusters) ORO_CHECK(draw_clusters_of(gpu, bytes, memory.main, region, scene));
     // After the clusters: ground that is drawn by them has the processor's plan.
     if (options.plan_on_device) {
-        ORO_TRY(const bool can, scene.plan_on_device(gpu));
+        ORO_TRY(const bool can,
+                options.choose_on_device ? scene.choose_on_device(gpu) : scene.plan_on_device(gpu));
         if (!can) return Error{ErrorKind::failed, "--plan gpu", "the device has no doubles (shaderFloat64)"};
     }
     return scene;

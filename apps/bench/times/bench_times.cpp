@@ -36,6 +36,8 @@ Result<FramePlan> whole_plan(Scene& scene, const Camera& camera, const Tile& til
 
 Result<FramePlan> settled_as_window(Scene& scene, const Camera& camera, const Tile& tile,
                                     const BenchOptions& options) {
+    // What a device's choice lacks is known once it is drawn.
+    if (options.choose_on_device) return scene.settled_plan({camera, tile, options.tau_px});
     for (const auto start = Clock::now(); seconds_since(start) < longest_wait_s;) {
         ORO_TRY(FramePlan plan, scene.plan({camera, tile, options.tau_px}));
         if (plan.is_settled()) return plan;

@@ -26,15 +26,15 @@
 namespace oro {
 namespace {
 
-constexpr int rows = 12, most_storeys = 5;
+constexpr int house_rows = 12, most_storeys = 5;
 
 // Houses of 10 x 8 m and 3 to 15 m, 60 m apart, half a metre in the ground: their walls and roofs.
 PlacedMesh houses_on(const TrueSurface& surface) {
     PlacedMesh mesh;
     mesh.path = "houses.gpkg";
     constexpr double per_lat = 1.0 / 111200.0, per_lon = 1.0 / 76000.0;
-    for (int row = 0; row < rows; ++row)
-        for (int column = 0; column < rows; ++column) {
+    for (int row = 0; row < house_rows; ++row)
+        for (int column = 0; column < house_rows; ++column) {
             const double south = 46.965 + 60.0 * row * per_lat, west = 8.03 + 60.0 * column * per_lon;
             const std::array<std::array<double, 2>, 4> ring{{{south, west},
                                                              {south, west + 10.0 * per_lon},
