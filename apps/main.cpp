@@ -33,8 +33,7 @@ constexpr const char* about =
 // What a library says when it has no memory may pass for a mistake of the user, or for a damaged file: PROJ
 // knows no way then, and makes nothing of its geoid.
 int reported(oro::Error error) {
-    if (const auto sound = oro::libraries_are_sound();
-        !sound.ok() && error.line().find("memory") == std::string::npos)
+    if (const auto sound = oro::libraries_are_sound(); !sound.ok() && error.where != sound.error().where)
         error = {oro::ErrorKind::failed, sound.error().where,
                  sound.error().what + ", so this may not be true: " + error.line()};
     std::fprintf(stderr, "orograph: %s\n", error.line().c_str());

@@ -146,7 +146,7 @@ void add_places(Rows eye) {
         {"--at PLACE", shown_first | of_eye, "all the data"}, &ViewOptions::at,
         "The place to look at, in the middle of the picture: latitude,longitude as in 46.57,7.99; or "
         "degrees, minutes and seconds, UTM, MGRS, a geohash, geo:46.57,7.99; all of a cell (N46E008); or a "
-        "name of --names, its beginning if there is only one. "
+        "name of --names. "
         "With --above, --altitude, --on-summit or --look-at: where the eye is.");
     eye.add({"--above METRES", shown_first | of_eye, "2 with --look-at or --on-summit"},
             &ViewOptions::above_m,

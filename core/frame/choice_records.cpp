@@ -9,17 +9,13 @@
 #include <optional>
 #include <utility>
 
+#include "core/frame/shared_axes.h"
 #include "core/lod/levels.h"
 
 namespace oro {
 namespace {
 
 constexpr double unit_slack = 1.0e-6;  // of beyond_horizon() (core/earth/culling.cpp)
-
-template <std::size_t Count>
-void put(const glm::dvec3& value, double (&to)[Count], std::size_t first = 0) {
-    for (int axis = 0; axis < 3; ++axis) to[first + static_cast<std::size_t>(axis)] = value[axis];
-}
 
 gpu::ChoicePage record_of(const PageRecord& page, const PageNumbers& numbers, bool is_skirt) {
     const PageSummary& summary = page.summary;
@@ -31,9 +27,9 @@ gpu::ChoicePage record_of(const PageRecord& page, const PageNumbers& numbers, bo
         return numbers.contains(other) ? numbers.of(other) : gpu::no_page;
     };
     gpu::ChoicePage record{};
-    put(ecef_m(summary.centre_m), record.centre_ecef);
+    put_axes(ecef_m(summary.centre_m), record.centre_ecef);
     record.reach_m = page.reach_m;
-    put(page.horizon.direction, record.horizon);
+    put_axes(page.horizon.direction, record.horizon);
     record.horizon_angle_rad = page.horizon.angle_rad;
     record.row = static_cast<gpu::uint>(index.row);
     record.column = static_cast<gpu::uint>(index.column);
@@ -47,7 +43,7 @@ gpu::ChoicePage record_of(const PageRecord& page, const PageNumbers& numbers, bo
     constexpr std::array<std::pair<int, int>, 4> steps{{{-1, 0}, {0, 1}, {1, 0}, {0, -1}}};
     for (std::size_t i = 0; i < 4; ++i) {
         const PageQuarter& quarter = page.quarters[i];
-        put(ecef_m(quarter.centre_m), record.quarters[i].centre_ecef);
+        put_axes(ecef_m(quarter.centre_m), record.quarters[i].centre_ecef);
         record.quarters[i].lod_radius_m = quarter.lod_radius_m;
         record.errors_m[i] = quarter.largest_error_m;
         const PageIndex beyond{index.row + steps[i].first, index.column + steps[i].second, index.level};
@@ -95,14 +91,14 @@ gpu::ChoiceTerms choice_terms(const RegionPages& pages, const PageNumbers& numbe
     const glm::dmat3 view_from_ecef = view.camera.view_from_ecef();
     gpu::ChoiceTerms terms{};
     for (int column = 0; column < 3; ++column)
-        put(view_from_ecef[column], terms.view_from_ecef, 3 * static_cast<std::size_t>(column));
-    put(view.camera.eye_ecef().m, terms.eye_ecef);
+        put_axes(view_from_ecef[column], terms.view_from_ecef, 3 * static_cast<std::size_t>(column));
+    put_axes(view.camera.eye_ecef().m, terms.eye_ecef);
     std::size_t at = 0;
     for (Plane plane : frustum_planes_view(projection_of_tile(view.camera, view.tile))) {
         plane.w += model.rounding_m();
         for (int axis = 0; axis < 4; ++axis) terms.planes[at++] = plane[axis];
     }
-    put(horizon.eye.direction, terms.horizon);
+    put_axes(horizon.eye.direction, terms.horizon);
     terms.horizon_angle_rad = horizon.eye.angle_rad;
     if (pages.is_seam())
         terms.gap_reach = 2.0 * std::max(levels.tau_px, gpu::least_gap_px) / levels.pixels_per_tangent;

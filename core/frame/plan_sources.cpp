@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/frame/shared_axes.h"
+
 namespace oro {
 namespace {
 
@@ -25,11 +27,6 @@ SourceCounts counts_of(const RegionPages& pages) {
         counts.pages += layout.count();
     }
     return counts;
-}
-
-template <std::size_t Count>
-void put(const glm::dvec3& value, double (&to)[Count], std::size_t first = 0) {
-    for (int axis = 0; axis < 3; ++axis) to[first + static_cast<std::size_t>(axis)] = value[axis];
 }
 
 }  // namespace
@@ -123,11 +120,11 @@ std::uint32_t PlanSources::page(const PageSummary& page, const glm::dvec3& centr
     has_page_[number] = true;
     gpu::PageSource source{};
     for (int column = 0; column < 3; ++column)
-        put(page.ecef_from_page[column], source.ecef_from_page, 3 * static_cast<std::size_t>(column));
-    put(page.origin_ecef.m, source.origin_ecef);
-    put(centre_ecef_m, source.centre_ecef);
+        put_axes(page.ecef_from_page[column], source.ecef_from_page, 3 * static_cast<std::size_t>(column));
+    put_axes(page.origin_ecef.m, source.origin_ecef);
+    put_axes(centre_ecef_m, source.centre_ecef);
     source.radius_m = page.radius_m;
-    put(page.horizon.direction, source.horizon);
+    put_axes(page.horizon.direction, source.horizon);
     write<gpu::PageSource>(pages_at_, number, std::span(&source, 1));
     return number;
 }

@@ -199,6 +199,7 @@ Result<void> commit_together(std::span<WholeFile* const> files) {
     }
     const NamesHeld held;
     std::vector<Taken> taken;
+    taken.reserve(files.size());  // nothing throws once a name is taken
     for (WholeFile* file : files) {
         if (file->is_on_network()) {
             file->abandon();

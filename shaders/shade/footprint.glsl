@@ -148,9 +148,8 @@ MeanPlane mean_plane(Footprint foot, vec3 normal, float h_m, vec3 to_eye, vec2 p
     plane.h_m = h_m;
     plane.rise_m = post_m * vec2(turn.y * rise.x - turn.x * rise.y, turn.x * rise.x + turn.y * rise.y);
     plane.on_per_m = ex * normal.z / facing * posts_along(to_eye.xy, post_m);
-    // Seen at a grazing angle ground hides what is behind it, and maps are moved less there. In air the differences to 64 samples are least
-    // where it is moved all the same.
-    plane.most_posts = (in_air ? 0.5 : 0.25 * smoothstep(0.12, 0.4, facing / length(normal))) * foot.across_posts;
+    // Seen at a grazing angle ground hides what is behind it, and tells less of where rays meet it.
+    plane.most_posts = 0.25 * foot.across_posts * smoothstep(0.12, 0.4, facing / length(normal));
     plane.shown = max(dot(normal, to_eye) / normal.z, 0.02);
     return plane;
 }

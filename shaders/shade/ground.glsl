@@ -214,7 +214,7 @@ float add_part(inout GroundLight sum, Images images, SurfacePoint point, GroundS
     }
     // Parts that face it as a whole have been found oftener already (shown_from), nearly by as much as they do: the power is that of the least
     // differences to 64 samples. Those that are turned away more than the mean ground have not.
-    float found = part.share * pow(max(shown, (in_air ? 0.25 : 0.5) * pixel_ground.plane.shown), -0.8);
+    float found = part.share * pow(max(shown, 0.5 * pixel_ground.plane.shown), -0.8);
     sum.colour += found * own.colour;
     sum.lit += found * own.lit;
     sum.open += found * own.open;

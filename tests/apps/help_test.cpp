@@ -105,12 +105,13 @@ TEST(Help, HasTheSameHeadingsInTheSameOrder) {
 
 // A value word for all but flags; a sentence, which begins in the same column and ends with a full stop.
 TEST(Help, ExplainsEachOption) {
-    const Words flags{"--verify",       "--layers",     "--ortho",        "--legend",    "--no-paths",
-                      "--data-changed", "--overwrite",  "--json",         "-q, --quiet", "--check",
-                      "--no-legend",    "--fill-voids", "--strict-datum", "-h, --help",  "--resample",
-                      "--on-summit",    "--kml",        "--geopose",      "--cors",      "--dry-run",
-                      "--join",         "--stac",       "--network",      "--cache",     "--no-normals",
-                      "--cut-under",    "--all"};
+    const Words flags{"--verify",       "--layers",       "--ortho",     "--legend",
+                      "--no-paths",     "--data-changed", "--overwrite", "--json",
+                      "-q, --quiet",    "--check",        "--no-legend", "--fill-voids",
+                      "--strict-datum", "-h, --help",     "--resample",  "--on-summit",
+                      "--kml",          "--geopose",      "--cors",      "--dry-run",
+                      "--join",         "--stac",         "--network",   "--cache",
+                      "--no-normals",   "--cut-under",    "--all",       "--target-on-summit"};
     for (const std::string& command : commands) {
         const auto options = options_in(help_of({command}));
         EXPECT_GE(options.size(), 2U) << command;

@@ -193,7 +193,7 @@ TEST(RefusedOptions, OnlyNamesThatAreLikeThemAreSuggested) {
         return option + ": " + command + " has no such option (orograph " + command +
                " --help all lists them)";
     };
-    expect_lines({{{"horizon", file, "--at", "36.5,-84.2"}, lists("horizon", "--at")},
+    expect_lines({{{"horizon", file, "--observers", "x.csv"}, lists("horizon", "--observers")},
                   {{"shot", file, "--scale", "3"}, lists("shot", "--scale")},
                   {{"shot", file, "--x", "3"}, lists("shot", "--x")},
                   {{"shot", file, "--tua", "3"}, "--tua: shot has no such option: did you mean --tau?"},

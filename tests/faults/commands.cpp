@@ -157,7 +157,7 @@ Command viewshed_of_table() {
     return {"viewshed --observers masts.csv",
             words,
             {{"tile.tif", tile()}, {"masts.csv", "lat,lon\n36.725,-84.405\n36.724,-84.404\n"}},
-            {{"s.tif", there_before}, {"t.csv", "another of before"}},
+            {{"s.tif", there_before}, {"t.csv", "another of before"}, {"s.qml", "a style of before"}},
             false};
 }
 

@@ -20,7 +20,7 @@
 namespace oro {
 namespace {
 
-constexpr double posts_per_deg = 100.0, north_deg = 47.0, west_deg = 8.0;
+constexpr double posts_per_deg = 100.0, first_north_deg = 47.0, first_west_deg = 8.0;
 
 // Flies on over so many degrees of the fields of the test, or begins anew.
 class WanderingEye {
@@ -48,8 +48,8 @@ class WanderingEye {
         camera.width_px = static_cast<int>(between(64.0, 2000.0));
         camera.height_px = static_cast<int>(between(64.0, 1200.0));
         camera.vertical_fov_deg = between(5.0, 90.0);
-        camera.eye = {north_deg - between(-0.1, 1.1) * down_deg_, west_deg + between(-0.1, 1.1) * right_deg_,
-                      600.0 * std::exp(between(0.0, 6.0))};
+        camera.eye = {first_north_deg - between(-0.1, 1.1) * down_deg_,
+                      first_west_deg + between(-0.1, 1.1) * right_deg_, 600.0 * std::exp(between(0.0, 6.0))};
         const bool looks_far = count_ % 20 == 1;
         camera.attitude = {between(0.0, 360.0), looks_far ? between(-15.0, 5.0) : between(-90.0, -15.0),
                            between(-20.0, 20.0)};
@@ -237,8 +237,8 @@ class ChoiceOfPages : public test::GpuTest {
         std::vector<std::unique_ptr<ChosenGrid>> chosen;
         for (int grid = 0; grid < grids; ++grid) {
             const HeightField field =
-                test::made_field(north_deg, west_deg + grid * (columns - 6) / posts_per_deg, posts_per_deg,
-                                 rows, columns, test::rough_H_m);
+                test::made_field(first_north_deg, first_west_deg + grid * (columns - 6) / posts_per_deg,
+                                 posts_per_deg, rows, columns, test::rough_H_m);
             chosen.push_back(std::make_unique<ChosenGrid>(*gpu_, pages_in_memory(field, 1.0, 2)));
         }
         WanderingEye eye(seed, rows / posts_per_deg, grids * columns / posts_per_deg);

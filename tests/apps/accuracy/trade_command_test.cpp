@@ -142,7 +142,7 @@ TEST_F(TradeCommand, CallsPartsOfTheModelAsPlanDoes) {
         words.insert(words.end(), view.begin(), view.end());
         return run_orograph(words);
     };
-    const std::string plan = with_view({"plan"}).out;
+    const std::string plan = with_view({"plan", "--all"}).out;
     const nlohmann::json planned = nlohmann::json::parse(with_view({"plan", "--json"}).out, nullptr, false);
     const Outcome outcome = with_view({"trade", "--repeats", "1", "--out", folder.string()});
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

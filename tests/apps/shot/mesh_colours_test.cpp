@@ -143,10 +143,10 @@ TEST_F(MeshColoursSeen, WhatIsExportedOpensAgain) {
         ASSERT_EQ(made.exit_code, 0) << made.err;
     }
     for (const std::string& file : {tiles + "/tileset.json", model}) {
-        const Outcome told = run_orograph({"info", bundled(), "--mesh-file", file});
-        ASSERT_EQ(told.exit_code, 0) << told.err;
-        EXPECT_TRUE(oro::test::says(told.out + told.err, "heights above the WGS84 ellipsoid"))
-            << told.out << told.err;
+        const Outcome listed = run_orograph({"info", bundled(), "--mesh-file", file});
+        ASSERT_EQ(listed.exit_code, 0) << listed.err;
+        EXPECT_TRUE(oro::test::says(listed.out + listed.err, "heights above the WGS84 ellipsoid"))
+            << listed.out << listed.err;
     }
 }
 

@@ -55,7 +55,7 @@ std::vector<VertexColour> colours_in(const std::string& name, const std::string&
 const std::vector<VertexColour> red_green_grey{{255, 0, 0, 1}, {0, 255, 0, 1}, {128, 128, 128, 1}};
 
 // The largest number of a whole type is full light, and so is 1 of a real one. 128/255 = 32896/65535.
-TEST(MeshColours, OfPlyAreReadInEachType) {
+TEST(FileColours, OfPlyAreReadInEachType) {
     EXPECT_EQ(colours_in("u8.ply", coloured_ply(three_of("uchar"), {"255 0 0", "0 255 0", "128 128 128"})),
               red_green_grey);
     EXPECT_EQ(colours_in("u16.ply",
@@ -76,7 +76,7 @@ TEST(MeshColours, OfPlyAreReadInEachType) {
     EXPECT_TRUE(colours_in("none.ply", coloured_ply("", {"", "", ""})).empty());
 }
 
-TEST(MeshColours, OfBinaryPlyAreReadInBothByteOrders) {
+TEST(FileColours, OfBinaryPlyAreReadInBothByteOrders) {
     for (const bool is_big : {false, true}) {
         std::string bytes = std::string("ply\nformat binary_") + (is_big ? "big" : "little") +
                             "_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
@@ -101,7 +101,7 @@ TEST(MeshColours, OfBinaryPlyAreReadInBothByteOrders) {
 }
 
 // From 0 to 1, or to 255 where a number of the file is larger than 1.
-TEST(MeshColours, OfObjAreReadInBothRanges) {
+TEST(FileColours, OfObjAreReadInBothRanges) {
     const std::string face = "f 1 2 3\n";
     EXPECT_EQ(
         colours_in("one.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0 # green\nv 0 1 0 0.502 0.502 0.502 0.5\n" + face),
@@ -132,7 +132,7 @@ const std::string two_triangles =
     "v 2600000 1200000 500 1 0 0\nv 2600100 1200000 500 0 1 0\n"
     "v 2600000 1200100 501 0 0 1\nv 2600100 1200100 500\nf 1 2 3\nf 2 4 3\n";
 
-TEST(MeshColours, AreThoseOfTrianglesWithAllThree) {
+TEST(FileColours, AreThoseOfTrianglesWithAllThree) {
     const PlacedMesh mesh = placed_in_colours(two_triangles);
     Seam seam;
     add_mesh(mesh, {}, 1.0, seam);
@@ -145,7 +145,7 @@ TEST(MeshColours, AreThoseOfTrianglesWithAllThree) {
 }
 
 // What a mesh is of may be said besides; plaster, or grey, may be asked for in the place of colours.
-TEST(MeshColours, StayWithTheLookOfGroundAlone) {
+TEST(FileColours, StayWithTheLookOfGroundAlone) {
     const PlacedMesh ground = placed_in_colours(two_triangles, "ground");
     EXPECT_EQ(ground.look, gpu::mesh_look_ground);
     EXPECT_TRUE(is_coloured(ground, 0));
@@ -159,7 +159,7 @@ TEST(MeshColours, StayWithTheLookOfGroundAlone) {
 
 // Sides of 300 m are cut in the middle, where the light is the mean: of black and white 0.5, whose code of
 // sRGB is 188 (IEC 61966-2-1: 1.055 * 0.5^(1/2.4) - 0.055 = 0.7354).
-TEST(MeshColours, AreMeansOfLightWhereSidesAreCut) {
+TEST(FileColours, AreMeansOfLightWhereSidesAreCut) {
     const PlacedMesh mesh = placed_in_colours(
         "v 2600000 1200000 500 0 0 0\nv 2600300 1200000 500 1 1 1\n"
         "v 2600000 1200100 500 0 0 0\nf 1 2 3\n");
@@ -171,7 +171,7 @@ TEST(MeshColours, AreMeansOfLightWhereSidesAreCut) {
 
 // The same triangles without colours are the same mesh as before, by the same fingerprint; other colours are
 // another mesh.
-TEST(MeshColours, CountInTheFingerprintWhereThereAreSome) {
+TEST(FileColours, CountInTheFingerprintWhereThereAreSome) {
     const std::string bare = "v 2600000 1200000 500\nv 2600100 1200000 500\nv 2600000 1200100 501\nf 1 2 3\n",
                       red =
                           "v 2600000 1200000 500 1 0 0\nv 2600100 1200000 500 1 0 0\n"
