@@ -218,9 +218,10 @@ set_tests_properties(
   MadeTerrain.OfAWholeWorldIsDrawnWithinItsCertificate
   Manual.HasEachOptionOfHelp
   MeshCheckByGrammar.ChangedMeshesAreRefusedOrTrue
+  MeshColoursSeen.AreMixedAsLight
   MeshColoursSeen.AreThoseOfTheFileInTheStyleNatural
   MeshColoursSeen.StayWithClustersAndBakedFiles
-  MeshColoursSeen.WhatIsExportedOpensAgain
+  MeshColoursSeen.TheCreaseIsRecorded
   MeshLook.IsByTheFileOrAsAsked
   MeshTiles.GroundStaysAndVerticesAreWithinAMillimetre
   MeshTiles.NothingLargerThanTheErrorIsMissing
