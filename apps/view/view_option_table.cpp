@@ -142,12 +142,11 @@ class Rows {
 };
 
 void add_places(Rows eye) {
-    eye.add(
-        {"--at PLACE", shown_first | of_eye, "all the data"}, &ViewOptions::at,
-        "The place to look at, in the middle of the picture: latitude,longitude as in 46.57,7.99; or "
-        "degrees, minutes and seconds, UTM, MGRS, a geohash, geo:46.57,7.99; all of a cell (N46E008); or a "
-        "name of --names. "
-        "With --above, --altitude, --on-summit or --look-at: where the eye is.");
+    eye.add({"--at PLACE", shown_first | of_eye, "all the data"}, &ViewOptions::at,
+            "The place to look at, in the middle of the picture: latitude,longitude as in 46.57,7.99; or "
+            "degrees, minutes and seconds, UTM, MGRS, a geohash, geo:46.57,7.99; a cell (N46E008); or a "
+            "name of --names. "
+            "With --above, --altitude, --on-summit or --look-at: where the eye is.");
     eye.add({"--above METRES", shown_first | of_eye, "2 with --look-at or --on-summit"},
             &ViewOptions::above_m,
             "Stand at --at: height of the eye over the ground there. Needs --at. Not with --altitude.");
@@ -233,8 +232,8 @@ void add_vectors(Rows looks) {
         {"--names FILE", shown_first | changes_looks}, &ViewOptions::names,
         [](auto& view) -> auto& { return view.vectors.names; },
         "Name the points of a vector file (GPX, KML, GeoJSON, GeoPackage, shapefile, CSV ...) that the "
-        "eye sees, with height and distance, and let a name stand for its place, as in --at Eiger. A window "
-        "shows them while the eye rests. May be given several times.");
+        "eye sees, with height and distance; a name may stand for its place: --at Eiger. A window shows them "
+        "while the eye rests. Several may be given.");
     looks.setting(
         {"--names-field FIELD", changes_looks, "name"}, &ViewOptions::names_field,
         [](auto& view) -> auto& { return view.vectors.names_field; },
@@ -243,7 +242,7 @@ void add_vectors(Rows looks) {
         {"--overlay FILE", shown_first | changes_looks}, &ViewOptions::overlay,
         [](auto& view) -> auto& { return view.vectors.overlay; },
         "Lay the lines and polygons of a vector file on the ground, and name its points. A window "
-        "shows them while the eye rests. May be given several times.");
+        "shows them while the eye rests. Several may be given.");
     looks.add({"--overlay-colour COLOUR", changes_looks, "#e2252b"}, &ViewOptions::overlay_colour,
               "Colour of these lines. A feature with a field stroke has that colour. Needs --overlay.");
     looks.setting(
