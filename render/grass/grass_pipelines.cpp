@@ -21,19 +21,6 @@ namespace {
 
 using ShaderWords = std::span<const std::uint32_t>;
 
-Result<OwnedPipeline> create_grass_compute(const Gpu& gpu, VkPipelineLayout layout, ShaderWords words,
-                                           const char* name) {
-    ORO_TRY(const OwnedShader shader, create_shader(gpu, words, name));
-    VkComputePipelineCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    info.stage = stage(VK_SHADER_STAGE_COMPUTE_BIT, shader, nullptr);
-    info.layout = layout;
-    VkPipeline handle{};
-    ORO_VK(vkCreateComputePipelines(gpu.device(), VK_NULL_HANDLE, 1, &info, nullptr, &handle));
-    gpu.name(VK_OBJECT_TYPE_PIPELINE, handle, name);
-    return OwnedPipeline(gpu.device(), handle);
-}
-
 struct GrassStage {
     VkShaderStageFlagBits bit;
     ShaderWords words;
@@ -75,16 +62,16 @@ Result<OwnedPipeline> create_grass_graphics(const Gpu& gpu, VkPipelineLayout lay
 }  // namespace
 
 Result<OwnedPipeline> create_clump_placer(const Gpu& gpu, VkPipelineLayout layout) {
-    return create_grass_compute(gpu, layout, place_clumps_comp_spirv, "place_clumps.comp");
+    return create_plain_compute(gpu, layout, place_clumps_comp_spirv, "place_clumps.comp");
 }
 
 Result<OwnedPipeline> create_clump_cull(const Gpu& gpu, VkPipelineLayout layout) {
-    return create_grass_compute(gpu, layout, cull_clumps_comp_spirv, "cull_clumps.comp");
+    return create_plain_compute(gpu, layout, cull_clumps_comp_spirv, "cull_clumps.comp");
 }
 
 Result<OwnedPipeline> create_grass_pipeline(const Gpu& gpu, VkPipelineLayout layout, GrassWay way) {
     if (way == GrassWay::compute)
-        return create_grass_compute(gpu, layout, grass_raster_comp_spirv, "grass_raster.comp");
+        return create_plain_compute(gpu, layout, grass_raster_comp_spirv, "grass_raster.comp");
     std::vector<GrassStage> stages;
     if (way == GrassWay::vertex) {
         stages = {{VK_SHADER_STAGE_VERTEX_BIT, grass_vert_spirv, "grass.vert"},

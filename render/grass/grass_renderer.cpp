@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "render/grass/grass_pipelines.h"
+#include "render/pipelines/pipeline_parts.h"
 #include "render/pipelines/pipelines.h"
 
 namespace oro {
@@ -126,15 +127,7 @@ Result<void> GrassRenderer::create_buffers() {
 Result<void> GrassRenderer::create_layout() {
     stages_ = VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_VERTEX_BIT;
     if (gpu_->report().mesh_shader) stages_ |= VK_SHADER_STAGE_TASK_BIT_EXT | VK_SHADER_STAGE_MESH_BIT_EXT;
-    const VkPushConstantRange range{stages_, 0, sizeof(gpu::GrassFrame)};
-    VkPipelineLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.pushConstantRangeCount = 1;
-    info.pPushConstantRanges = &range;
-    VkPipelineLayout handle{};
-    ORO_VK(vkCreatePipelineLayout(gpu_->device(), &info, nullptr, &handle));
-    layout_ = OwnedPipelineLayout(gpu_->device(), handle);
-    gpu_->name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, handle, "grass");
+    ORO_TRY(layout_, create_push_layout(*gpu_, stages_, sizeof(gpu::GrassFrame), "grass"));
     return {};
 }
 

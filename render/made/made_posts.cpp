@@ -41,23 +41,9 @@ Result<MadePosts> MadePosts::create(const Gpu& gpu, const MadeTerrain& terrain) 
 }
 
 Result<void> MadePosts::create_program() {
-    const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(PostWork)};
-    VkPipelineLayoutCreateInfo layout_info{};
-    layout_info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    layout_info.pushConstantRangeCount = 1;
-    layout_info.pPushConstantRanges = &range;
-    VkPipelineLayout layout{};
-    ORO_VK(vkCreatePipelineLayout(gpu_->device(), &layout_info, nullptr, &layout));
-    layout_ = OwnedPipelineLayout(gpu_->device(), layout);
-    ORO_TRY(const OwnedShader shader, create_shader(*gpu_, post_heights_comp_spirv, "post heights"));
-    VkComputePipelineCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    info.stage = stage(VK_SHADER_STAGE_COMPUTE_BIT, shader, nullptr);
-    info.layout = layout;
-    VkPipeline program{};
-    ORO_VK(vkCreateComputePipelines(gpu_->device(), VK_NULL_HANDLE, 1, &info, nullptr, &program));
-    gpu_->name(VK_OBJECT_TYPE_PIPELINE, program, "post heights");
-    program_ = OwnedPipeline(gpu_->device(), program);
+    ORO_TRY(layout_,
+            create_push_layout(*gpu_, VK_SHADER_STAGE_COMPUTE_BIT, sizeof(PostWork), "post heights"));
+    ORO_TRY(program_, create_plain_compute(*gpu_, layout_.get(), post_heights_comp_spirv, "post heights"));
     VkQueryPoolCreateInfo stamps{};
     stamps.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
     stamps.queryType = VK_QUERY_TYPE_TIMESTAMP;

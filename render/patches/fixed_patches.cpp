@@ -8,6 +8,7 @@
 
 #include "core/earth/ellipsoid.h"
 #include "render/patches/patch_pipelines.h"
+#include "render/pipelines/pipeline_parts.h"
 #include "render/pipelines/pipelines.h"
 
 namespace oro {
@@ -117,15 +118,7 @@ Result<void> FixedPatches::create_buffers() {
 Result<void> FixedPatches::create_layout() {
     stages_ = VK_SHADER_STAGE_COMPUTE_BIT;
     if (gpu_->report().mesh_shader) stages_ |= VK_SHADER_STAGE_MESH_BIT_EXT;
-    const VkPushConstantRange range{stages_, 0, sizeof(gpu::PatchFrame)};
-    VkPipelineLayoutCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    info.pushConstantRangeCount = 1;
-    info.pPushConstantRanges = &range;
-    VkPipelineLayout handle{};
-    ORO_VK(vkCreatePipelineLayout(gpu_->device(), &info, nullptr, &handle));
-    layout_ = OwnedPipelineLayout(gpu_->device(), handle);
-    gpu_->name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, handle, "patches");
+    ORO_TRY(layout_, create_push_layout(*gpu_, stages_, sizeof(gpu::PatchFrame), "patches"));
     return {};
 }
 

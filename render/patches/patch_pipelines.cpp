@@ -14,19 +14,6 @@
 namespace oro {
 namespace {
 
-Result<OwnedPipeline> create_patch_compute(const Gpu& gpu, VkPipelineLayout layout,
-                                           std::span<const std::uint32_t> words, const char* name) {
-    ORO_TRY(const OwnedShader shader, create_shader(gpu, words, name));
-    VkComputePipelineCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    info.stage = stage(VK_SHADER_STAGE_COMPUTE_BIT, shader, nullptr);
-    info.layout = layout;
-    VkPipeline handle{};
-    ORO_VK(vkCreateComputePipelines(gpu.device(), VK_NULL_HANDLE, 1, &info, nullptr, &handle));
-    gpu.name(VK_OBJECT_TYPE_PIPELINE, handle, name);
-    return OwnedPipeline(gpu.device(), handle);
-}
-
 Result<OwnedPipeline> create_patch_mesh(const Gpu& gpu, VkPipelineLayout layout,
                                         std::span<const std::uint32_t> words) {
     ORO_TRY(const OwnedShader mesh, create_shader(gpu, words, "patch.mesh"));
@@ -49,12 +36,12 @@ Result<OwnedPipeline> create_patch_mesh(const Gpu& gpu, VkPipelineLayout layout,
 }  // namespace
 
 Result<OwnedPipeline> create_patch_choice(const Gpu& gpu, VkPipelineLayout layout) {
-    return create_patch_compute(gpu, layout, choose_patches_comp_spirv, "choose_patches.comp");
+    return create_plain_compute(gpu, layout, choose_patches_comp_spirv, "choose_patches.comp");
 }
 
 Result<OwnedPipeline> create_patch_pipeline(const Gpu& gpu, VkPipelineLayout layout, PatchWay way) {
     if (way == PatchWay::compute)
-        return create_patch_compute(gpu, layout, patch_raster_comp_spirv, "patch_raster.comp");
+        return create_plain_compute(gpu, layout, patch_raster_comp_spirv, "patch_raster.comp");
     if (way == PatchWay::mesh) return create_patch_mesh(gpu, layout, patch_mesh_spirv);
     return create_patch_mesh(gpu, layout, patch_by_vertex_mesh_spirv);
 }

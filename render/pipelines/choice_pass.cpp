@@ -14,30 +14,15 @@ namespace oro {
 
 Result<ChoicePass> ChoicePass::create(const Gpu& gpu) {
     ChoicePass pass;
-    const VkPushConstantRange terms{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(gpu::uvec2)};
-    VkPipelineLayoutCreateInfo layout{};
-    layout.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    layout.pushConstantRangeCount = 1;
-    layout.pPushConstantRanges = &terms;
-    VkPipelineLayout layout_handle{};
-    ORO_VK(vkCreatePipelineLayout(gpu.device(), &layout, nullptr, &layout_handle));
-    pass.layout_ = OwnedPipelineLayout(gpu.device(), layout_handle);
-    gpu.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout_handle, "choice of pages");
+    ORO_TRY(pass.layout_,
+            create_push_layout(gpu, VK_SHADER_STAGE_COMPUTE_BIT, sizeof(gpu::uvec2), "choice of pages"));
     const std::array<std::span<const std::uint32_t>, step_count> words{
         rate_pages_comp_spirv, want_pages_comp_spirv, open_pages_comp_spirv, number_pages_comp_spirv,
         list_pages_comp_spirv};
     constexpr std::array names{"pages rated", "pages wanted", "pages opened", "pages numbered",
                                "pages listed"};
     for (std::size_t i = 0; i < step_count; ++i) {
-        ORO_TRY(const OwnedShader shader, create_shader(gpu, words[i], names[i]));
-        VkComputePipelineCreateInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-        info.stage = stage(VK_SHADER_STAGE_COMPUTE_BIT, shader, nullptr);
-        info.layout = layout_handle;
-        VkPipeline handle{};
-        ORO_VK(vkCreateComputePipelines(gpu.device(), VK_NULL_HANDLE, 1, &info, nullptr, &handle));
-        pass.steps_[i] = OwnedPipeline(gpu.device(), handle);
-        gpu.name(VK_OBJECT_TYPE_PIPELINE, handle, names[i]);
+        ORO_TRY(pass.steps_[i], create_plain_compute(gpu, pass.layout_.get(), words[i], names[i]));
     }
     return pass;
 }

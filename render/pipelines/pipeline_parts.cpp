@@ -43,6 +43,32 @@ VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, const OwnedShad
     return info;
 }
 
+Result<OwnedPipelineLayout> create_push_layout(const Gpu& gpu, VkShaderStageFlags stages, std::uint32_t bytes,
+                                               const char* name) {
+    const VkPushConstantRange range{stages, 0, bytes};
+    VkPipelineLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    info.pushConstantRangeCount = 1;
+    info.pPushConstantRanges = &range;
+    VkPipelineLayout handle{};
+    ORO_VK(vkCreatePipelineLayout(gpu.device(), &info, nullptr, &handle));
+    gpu.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, handle, name);
+    return OwnedPipelineLayout(gpu.device(), handle);
+}
+
+Result<OwnedPipeline> create_plain_compute(const Gpu& gpu, VkPipelineLayout layout,
+                                           std::span<const std::uint32_t> words, const char* name) {
+    ORO_TRY(const OwnedShader shader, create_shader(gpu, words, name));
+    VkComputePipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.stage = stage(VK_SHADER_STAGE_COMPUTE_BIT, shader, nullptr);
+    info.layout = layout;
+    VkPipeline handle{};
+    ORO_VK(vkCreateComputePipelines(gpu.device(), VK_NULL_HANDLE, 1, &info, nullptr, &handle));
+    gpu.name(VK_OBJECT_TYPE_PIPELINE, handle, name);
+    return OwnedPipeline(gpu.device(), handle);
+}
+
 AllConstants::AllConstants(const VkSpecializationInfo* own, const Pipelines& pipelines) {
     if (own != nullptr) {
         entries_.assign(own->pMapEntries, own->pMapEntries + own->mapEntryCount);

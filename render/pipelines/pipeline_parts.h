@@ -24,6 +24,14 @@ Result<OwnedShader> create_shader(const Gpu& gpu, std::span<const std::uint32_t>
 VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, const OwnedShader& shader,
                                       const VkSpecializationInfo* constants);
 
+// A layout of push constants alone: `bytes` of them, which these stages read. Errors: the device.
+Result<OwnedPipelineLayout> create_push_layout(const Gpu& gpu, VkShaderStageFlags stages, std::uint32_t bytes,
+                                               const char* name);
+
+// A compute program with this layout and no constants of its own, with the shader's name. Errors: the device.
+Result<OwnedPipeline> create_plain_compute(const Gpu& gpu, VkPipelineLayout layout,
+                                           std::span<const std::uint32_t> words, const char* name);
+
 // A program's own constants, and those that many programs have: all that read heights
 // (shaders/place/heights.glsl), and all that list triangles (shaders/choose/lists.glsl).
 class AllConstants {

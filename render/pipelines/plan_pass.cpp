@@ -13,24 +13,9 @@ bool PlanPass::can_run(const Gpu& gpu) {
 
 Result<PlanPass> PlanPass::create(const Gpu& gpu) {
     PlanPass pass;
-    const VkPushConstantRange terms{VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(gpu::uvec2)};
-    VkPipelineLayoutCreateInfo layout{};
-    layout.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
-    layout.pushConstantRangeCount = 1;
-    layout.pPushConstantRanges = &terms;
-    VkPipelineLayout layout_handle{};
-    ORO_VK(vkCreatePipelineLayout(gpu.device(), &layout, nullptr, &layout_handle));
-    pass.layout_ = OwnedPipelineLayout(gpu.device(), layout_handle);
-    gpu.name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout_handle, "plan");
-    ORO_TRY(const OwnedShader shader, create_shader(gpu, plan_terms_comp_spirv, "terms of a plan"));
-    VkComputePipelineCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    info.stage = stage(VK_SHADER_STAGE_COMPUTE_BIT, shader, nullptr);
-    info.layout = layout_handle;
-    VkPipeline handle{};
-    ORO_VK(vkCreateComputePipelines(gpu.device(), VK_NULL_HANDLE, 1, &info, nullptr, &handle));
-    pass.pipeline_ = OwnedPipeline(gpu.device(), handle);
-    gpu.name(VK_OBJECT_TYPE_PIPELINE, handle, "terms of a plan");
+    ORO_TRY(pass.layout_, create_push_layout(gpu, VK_SHADER_STAGE_COMPUTE_BIT, sizeof(gpu::uvec2), "plan"));
+    ORO_TRY(pass.pipeline_,
+            create_plain_compute(gpu, pass.layout_.get(), plan_terms_comp_spirv, "terms of a plan"));
     return pass;
 }
 
