@@ -57,15 +57,15 @@ double ply_value(const char* from) {
     return static_cast<double>(value);
 }
 
-// A part of a colour, 0 to 255, of a property's value: whole numbers reach the largest of their type, real
-// ones 1.
+// Parts of a colour reach from 0 to this: whole numbers to the largest of their type, real ones to 1.
+double ply_most_of_colour(PlyType type) {
+    if (type.kind == PlyType::Kind::real) return 1.0;
+    return type.bytes == 1 ? 255.0 : type.bytes == 2 ? 65535.0 : 4294967295.0;
+}
+// 0 to 255, of a property's value; what lies beyond is cut.
 std::uint8_t ply_colour_part(double value, PlyType type) {
-    const double most = type.kind == PlyType::Kind::real ? 1.0
-                        : type.bytes == 1                ? 255.0
-                        : type.bytes == 2                ? 65535.0
-                                                         : 4294967295.0;
-    return static_cast<std::uint8_t>(
-        std::lround(std::isnan(value) ? 0.0 : 255.0 * std::clamp(value / most, 0.0, 1.0)));
+    return static_cast<std::uint8_t>(std::lround(
+        std::isnan(value) ? 0.0 : 255.0 * std::clamp(value / ply_most_of_colour(type), 0.0, 1.0)));
 }
 
 // The value of 1 to 8 bytes in this machine's order (little endian).
@@ -244,9 +244,11 @@ class PlyReader {
         }
         const bool is_coloured = is_vertex && has_colours(element);
         std::vector<double> values;
+        std::uint64_t cut = 0;
         for (std::uint64_t i = 0; i < element.count; ++i) {
             glm::dvec3 place{};
             VertexColour colour{0, 0, 0, 1};
+            bool is_cut = false;
             for (const PlyProperty& property : element.properties) {
                 if (property.count) {
                     ORO_CHECK(list(property, values));
@@ -259,14 +261,22 @@ class PlyReader {
                 if (property.name == "y") place.y = value;
                 if (property.name == "z") place.z = value;
                 if (!is_coloured) continue;
-                const auto part = [&] { return ply_colour_part(value, property.type); };
+                const auto part = [&] {
+                    is_cut |= !(value >= 0.0 && value <= ply_most_of_colour(property.type));
+                    return ply_colour_part(value, property.type);
+                };
                 if (is_part(property.name, "red")) colour.red = part();
                 if (is_part(property.name, "green")) colour.green = part();
                 if (is_part(property.name, "blue")) colour.blue = part();
             }
             if (is_vertex) mesh_.vertices.push_back(place);
             if (is_coloured) mesh_.colours.push_back(colour);
+            cut += is_cut ? 1 : 0;
         }
+        if (cut > 0)
+            mesh_.notes.push_back("colours of " + std::to_string(cut) + " of its " +
+                                  std::to_string(element.count) +
+                                  " vertices are beyond what their type may hold, and are cut");
         return {};
     }
 

@@ -76,6 +76,21 @@ TEST(FileColours, OfPlyAreReadInEachType) {
     EXPECT_TRUE(colours_in("none.ply", coloured_ply("", {"", "", ""})).empty());
 }
 
+// They are cut to what their type may hold, and that is reported.
+TEST(FileColours, OfPlyBeyondTheirTypeAreCounted) {
+    const auto lying = read_mesh(
+        coloured_file("lying.ply", coloured_ply(three_of("uchar"), {"300 0 0", "0 255 0", "nan -5 128"})));
+    ASSERT_TRUE(lying.ok()) << lying.error().line();
+    EXPECT_EQ(lying->colours, (std::vector<VertexColour>{{255, 0, 0, 1}, {0, 255, 0, 1}, {0, 0, 128, 1}}));
+    EXPECT_EQ(lying->notes,
+              (std::vector<std::string>{"colours of 2 of its 3 vertices are beyond what their type "
+                                        "may hold, and are cut"}));
+    const auto sound = read_mesh(
+        coloured_file("sound.ply", coloured_ply(three_of("uchar"), {"255 0 0", "0 255 0", "1 2 3"})));
+    ASSERT_TRUE(sound.ok()) << sound.error().line();
+    EXPECT_TRUE(sound->notes.empty());
+}
+
 TEST(FileColours, OfBinaryPlyAreReadInBothByteOrders) {
     for (const bool is_big : {false, true}) {
         std::string bytes = std::string("ply\nformat binary_") + (is_big ? "big" : "little") +
