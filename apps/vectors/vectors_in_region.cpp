@@ -12,7 +12,7 @@ namespace oro {
 namespace {
 
 // What a shape or a grid covers; longitudes go on past 180.
-struct DegreeBox {
+struct DegreeExtent {
     double south_deg{std::numeric_limits<double>::infinity()};
     double north_deg{-std::numeric_limits<double>::infinity()};
     double west_deg{std::numeric_limits<double>::infinity()};
@@ -22,7 +22,7 @@ struct DegreeBox {
         south_deg = std::min(south_deg, lat_deg), north_deg = std::max(north_deg, lat_deg);
         west_deg = std::min(west_deg, lon_deg), east_deg = std::max(east_deg, lon_deg);
     }
-    [[nodiscard]] bool meets(const DegreeBox& other) const {
+    [[nodiscard]] bool meets(const DegreeExtent& other) const {
         if (south_deg > other.north_deg || north_deg < other.south_deg) return false;
         const double middle_deg = 0.5 * (west_deg + east_deg),
                      other_middle_deg = 0.5 * (other.west_deg + other.east_deg);
@@ -31,8 +31,8 @@ struct DegreeBox {
     }
 };
 
-DegreeBox box_of(const VectorShape& shape) {
-    DegreeBox box;
+DegreeExtent box_of(const VectorShape& shape) {
+    DegreeExtent box;
     for (const auto& path : shape.paths) {
         double lon_deg = path.front().lon_deg;
         for (const VectorPlace& place : path) {
@@ -48,17 +48,17 @@ struct FeaturesInRegion {
     std::size_t all{}, inside{}, swapped{};
 };
 
-FeaturesInRegion features_in(const VectorFile& file, const std::vector<DegreeBox>& region) {
+FeaturesInRegion features_in(const VectorFile& file, const std::vector<DegreeExtent>& region) {
     FeaturesInRegion count;
-    const auto lies_in = [&](const DegreeBox& box) {
-        return std::ranges::any_of(region, [&](const DegreeBox& grid) { return grid.meets(box); });
+    const auto lies_in = [&](const DegreeExtent& box) {
+        return std::ranges::any_of(region, [&](const DegreeExtent& grid) { return grid.meets(box); });
     };
     for (const VectorLayer& layer : file.layers) {
         for (std::size_t i = 0; i < layer.shapes.size();) {
             const std::size_t record = layer.shapes[i].record;
             bool is_inside = false, is_swapped = false;
             for (; i < layer.shapes.size() && layer.shapes[i].record == record; ++i) {
-                const DegreeBox box = box_of(layer.shapes[i]);
+                const DegreeExtent box = box_of(layer.shapes[i]);
                 is_inside |= lies_in(box);
                 is_swapped |= lies_in({box.west_deg, box.east_deg, box.south_deg, box.north_deg});
             }
@@ -73,8 +73,8 @@ FeaturesInRegion features_in(const VectorFile& file, const std::vector<DegreeBox
 }  // namespace
 
 std::string note_of_place(const VectorFile& file, const Region& region) {
-    std::vector<DegreeBox> grids;
-    DegreeBox all;
+    std::vector<DegreeExtent> grids;
+    DegreeExtent all;
     for (const RegionGrid& grid : region.grids) {
         const PostGrid& posts = grid.field.grid;
         grids.push_back({posts.south_deg(), posts.north_deg(), posts.west_deg(), posts.east_deg()});
