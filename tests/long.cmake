@@ -42,19 +42,24 @@ set_tests_properties(
   BashCompletion.OfChoicesAndStyles
   BashCompletion.OfCommandsAndOptions
   Batch.AListThatWasKilledGoesOn
+  Batch.FilesAreThoseOfTheCommandsAlone
+  Batch.LinesAreDoneForEachPlace
   Batch.PartsMakeTheWhole
   Batch.WhatIsDoneIsNotDoneAgain
+  BrokenOffBake.InterruptedAgainAndAgain
   BrokenOffBake.KilledAtAnyMoment
   CanopyCommand.AnEyeUnderTreesSeesNothing
   CanopyCommand.PanoramasNameWhatIsSeenOverIt
   CanopyCommand.PicturesHaveItAndTellOfIt
   CanopyCommand.PlanTellsTheVegetationInMetresAndPixels
+  ChoiceOfPagesLong.IsThatOfTheProcessorsPlanAt500Eyes
+  ChoiceOfPagesLong.IsThatOfTheProcessorsPlanOfTwoGridsAt500Eyes
   ClustersBake.DamageIsOneLine
   ClustersBake.EightAtOnceLeaveOneFile
   ClustersBake.GoesOnWhereItWasBrokenOff
-  ChoiceOfPagesLong.IsThatOfTheProcessorsPlanAt500Eyes
-  ChoiceOfPagesLong.IsThatOfTheProcessorsPlanOfTwoGridsAt500Eyes
   ClustersBake.IsToldAndDrawn
+  ClustersBake.WhatHasNoneIsRefused
+  ClustersDrawn.BothWaysDrawTheSameLevel
   ClustersDrawn.OneLevelOfTheGraph
   ClustersDrawn.PanoramasOfOneLevelToo
   ClustersDrawn.PanoramasToo
@@ -86,11 +91,19 @@ set_tests_properties(
   DeviceChoice.TimesCountValidBitsAlone
   Environment.ChangesNothingThatAFileMeans
   Environment.DoctorPrintsNoControlCharacters
+  ExportCommand.A3dTilesetHasTheProvenErrors
+  ExportCommand.A3dTilesetIsColouredByAnImage
+  ExportCommand.A3dTilesetIsMadeInParts
+  ExportCommand.AModelHasTheMeshesOnTheGround
+  ExportCommand.AModelIsColouredByAnImageAndByLandCover
   ExportParts.AKilledExportGoesOn
+  ExportParts.AKilledFileIsWholeOrAbsent
+  ExportParts.SeveralGridsMakeOneTileset
   ExportParts.TilesOfPartsAreThoseOfOneGo
   FetchCommand.StoppedInAnyWayItGoesOn
   FetchFile.GivesUpOnAServerThatDrips
   FetchMissing.FromNothingToAPanoramaWithNames
+  FetchSources.PutsPicturesOfHeightsTogether
   FilesFarApart.AreDrawnAgainAsTheyWere
   FilesFarApart.AreEachDrawnAsAlone
   FilesFarApart.AreListedAsRegionsOfTheirOwn
@@ -144,18 +157,13 @@ set_tests_properties(
   GridsTileset.AFinerOneOnTheLinesOfTheOtherIsOneGround
   GridsTileset.ThreeThatLieOverEachOtherAreOneGround
   GridsTileset.TwoThatMeetInALineAreOneGround
+  GridsUnderImages.CoverTheStepsBetweenThem
   GridsUnderImages.LieOnTheSamePlaces
   GroundModel.IsWithinItsErrorAndWithoutGaps
-  ExportCommand.A3dTilesetHasTheProvenErrors
-  ExportParts.AKilledFileIsWholeOrAbsent
-  ExportCommand.A3dTilesetIsColouredByAnImage
-  ExportCommand.A3dTilesetIsMadeInParts
-  ExportCommand.AModelHasTheMeshesOnTheGround
-  ExportCommand.AModelIsColouredByAnImageAndByLandCover
-  GroundTileset.OfPartsHasTheBytesOfOneGo
   GroundTileset.ErrorHoldsAtEveryPlace
   GroundTileset.ErrorHoldsOnANetAndBesideVoids
   GroundTileset.IsTheSameForAnyNumberOfThreads
+  GroundTileset.OfPartsHasTheBytesOfOneGo
   GroundTileset.WallsCloseGapsBetweenLevels
   Help.ExplainsEachOption
   Help.HasNoWordsOfTheParser
@@ -165,14 +173,6 @@ set_tests_properties(
   Help.ListsFirstWhatMostPeopleNeed
   HorizonCommand.LooksBeyondItsBox
   HorizonCommand.StoppedItLeavesBothFilesOrNone
-  JobFile.LinesByGrammar
-  MeshBake.HasPanoramasByClusters
-  MeshBake.IsDrawnAsTheFilesAre
-  MeshBake.IsFilmedByClusters
-  MeshSilhouettes.AreWithinTauOfTheWholeMeshFromTwelveEyes
-  MeshSilhouettes.NothingShowsThroughTheBallFromManyEyes
-  MeshSilhouettes.NothingShowsThroughTheBallInFiveHundredFrames
-  TableObservers.WhatIsWrongIsSaidInOneLine
   HorizonCommand.WhatIsWrongIsSaidInOneLine
   HostileInput.AReaderThatHasReadEnough
   HostileInput.AnInterruptedPictureLeavesNothing
@@ -207,8 +207,10 @@ set_tests_properties(
   Jacksboro/GoldenPicture.IsDrawnAsItWasByCompute/overview
   Jacksboro/GoldenPicture.IsDrawnAsItWasByCompute/overview_samples
   Jacksboro/GoldenPicture.IsDrawnAsItWasByCompute/valley
+  JobFile.LinesByGrammar
   KinkedGrid.IsTheSamePictureBaked
   LabelsOfShots.AreLeftOutWhereTheViewSaysSo
+  LabelsOfShots.AreOnMapsToo
   LabelsOfShots.AreTheSameFromABakedRegion
   LabelsOfShots.AreToldAndDrawnAgain
   LibraryCalls.AThousandBadOnesEndWithErrors
@@ -217,12 +219,20 @@ set_tests_properties(
   MadeHeights.NoiseHasNoGrainAndTheSpectrumOfItsGain
   MadeTerrain.OfAWholeWorldIsDrawnWithinItsCertificate
   Manual.HasEachOptionOfHelp
+  MeshBake.HasPanoramasByClusters
+  MeshBake.IsDrawnAsTheFilesAre
+  MeshBake.IsFilmedByClusters
   MeshCheckByGrammar.ChangedMeshesAreRefusedOrTrue
+  MeshClusters.AreDrawnAgainFromAPicture
   MeshColoursSeen.AreMixedAsLight
+  MeshColoursSeen.AreThoseOfTheFileInThePlainStyle
   MeshColoursSeen.AreThoseOfTheFileInTheStyleNatural
   MeshColoursSeen.StayWithClustersAndBakedFiles
   MeshColoursSeen.TheCreaseIsRecorded
   MeshLook.IsByTheFileOrAsAsked
+  MeshSilhouettes.AreWithinTauOfTheWholeMeshFromTwelveEyes
+  MeshSilhouettes.NothingShowsThroughTheBallFromManyEyes
+  MeshSilhouettes.NothingShowsThroughTheBallInFiveHundredFrames
   MeshTiles.GroundStaysAndVerticesAreWithinAMillimetre
   MeshTiles.NothingLargerThanTheErrorIsMissing
   ModelOptions.AreSaidAndKeptAndDrawnAgain
@@ -235,13 +245,14 @@ set_tests_properties(
   NetBake.PicturesAreThoseOfItsSources
   NetBake.SightLinesAndViewshedsAreThoseOfItsSources
   NetworkOutputs.AreTakenBackWhereOthersFail
-  NetworkOutputs.BothFilesOfAHorizonOrNone
   NetworkOutputs.BatchesGoOnWhereTheyWereStopped
+  NetworkOutputs.BothFilesOfAHorizonOrNone
   NetworkOutputs.PicturesTakeTheirCompanionsAlong
   NetworkOutputs.RegionsAreBakedThere
   NetworkOutputs.ServersMayBeBusyOrRefuse
   OnSummit.AWallBeforeWhoStandsOnAFlankIsSaid
   OnSummit.IsSaidInWords
+  OnSummit.IsTheSameWithGroundBetweenPosts
   OnSummit.MovesTheEyeOfEachCommandThatStands
   OwnPostsOfShots.AreDrawnAgainByEitherWayFromTheirView
   OwnPostsOfShots.ArePlannedAndTraded
@@ -322,6 +333,7 @@ set_tests_properties(
   ServeHostile.AGrammarOfRequestsGetsNothingFromOutside
   ServeHostile.TwoHundredSlowClientsHoldUpNobody
   SeveralViews.AreDrawnOneAfterTheOther
+  SeveralViews.DoNotReplaceWhatALaterOneIsMadeFrom
   SeveralViews.MayBeAListInAFile
   SeveralViews.NeedNumberedNames
   SharedBakeCommand.HasTheBytesOfOneMachine
@@ -339,6 +351,10 @@ set_tests_properties(
   Shot.ViewDrawsTheSameBytes
   Shot.VoidsAreHolesOrFilledAndCounted
   Shot.WholeRegionAndSamples
+  ShotDetail.HasARowInThePlan
+  ShotDetail.IsDrawnAsItIsAndToldInMetres
+  ShotDetail.OfAPictureIsDrawnAgain
+  ShotDetail.OfNoHalvingsIsNone
   ShotDrape.IsInTheViewWhichDrawsItAgain
   ShotDrape.IsTheSameOverABakedRegion
   ShotDrape.LeavesPicturesWithoutItAsTheyWere
@@ -346,10 +362,6 @@ set_tests_properties(
   ShotDrape.OfSixteenBitsIsWhatItsProfileOrTheOptionSays
   ShotDrape.ThatChangedIsTold
   ShotGraticule.LiesOverTheGroundAndComesBackWithTheView
-  ShotDetail.HasARowInThePlan
-  ShotDetail.IsDrawnAsItIsAndToldInMetres
-  ShotDetail.OfAPictureIsDrawnAgain
-  ShotDetail.OfNoHalvingsIsNone
   ShotLandcover.ColoursThePictureWhichItsViewDrawsAgain
   ShotLandcover.OfARealOneLayersHoldTheClassThatGdalReadsThere
   ShotLayers.AreFilesThatGdalReads
@@ -362,6 +374,7 @@ set_tests_properties(
   ShotOrtho.HasAWorldFileInEveryFormat
   ShotOrtho.ItsViewDrawsItAgain
   ShotOrtho.RefusesWhatAMapCannotHave
+  Sideways.ASphereStraightDownIsSeenByAllThatMeasure
   SightCommand.LightBendsAsItIsAsked
   SightCommand.WhatIsWrongIsSaidInOneLine
   SkyBands.AreBrokenUpByDither
@@ -372,6 +385,7 @@ set_tests_properties(
   SunOfAShot.IsTheUsualOneInTheStyleOfDaylight
   SunOfAShot.OlderPicturesKeepTheirs
   SunOfAShot.OtherStylesKeepTheirOwn
+  TableObservers.WhatIsWrongIsSaidInOneLine
   TextInput.NestedCacheIsWrittenAnew
   TextInput.PipesDevicesAndEndlessFilesAreRefused
   TradeCommand.AViewOfTheSkyHasNoErrorsToTell
@@ -389,6 +403,7 @@ set_tests_properties(
   Unseen.TheBundledRegionEndsToo
   Unseen.TheTileThatIsMissingIsNamedWithItsBound
   Untold.WantOfMemoryIsNotSaidToBeDamage
+  VectorFormats.GiveTheSameLine
   Vectors.AFieldThatNoPointHasIsTold
   Vectors.AreInTheViewWhichDrawsThemAgain
   Vectors.LeavePicturesWithoutThemAsTheyWere
@@ -432,92 +447,92 @@ set_tests_properties(
   PROPERTIES LABELS "cli;long")
 set_tests_properties(
   Commands/FailedAllocations.AllFromOneOn/Bake
+  Commands/FailedAllocations.AllFromOneOn/BakeWithMesh
   Commands/FailedAllocations.AllFromOneOn/Info
+  Commands/FailedAllocations.AllFromOneOn/InfoOfBakedMesh
+  Commands/FailedAllocations.AllFromOneOn/InfoOfMesh
   Commands/FailedAllocations.AllFromOneOn/Shot
   Commands/FailedAllocations.AllFromOneOn/ShotOfBaked
-  Commands/FailedAllocations.AllFromOneOn/InfoOfMesh
-  Commands/FailedAllocations.AllFromOneOn/BakeWithMesh
-  Commands/FailedAllocations.AllFromOneOn/InfoOfBakedMesh
   Commands/FailedAllocations.AllFromOneOn/Viewshed
   Commands/FailedAllocations.AllFromOneOn/ViewshedOfTable
   Commands/FailedAllocations.OfAll/Bake
+  Commands/FailedAllocations.OfAll/BakeWithMesh
   Commands/FailedAllocations.OfAll/Info
+  Commands/FailedAllocations.OfAll/InfoOfBakedMesh
+  Commands/FailedAllocations.OfAll/InfoOfMesh
   Commands/FailedAllocations.OfAll/Shot
   Commands/FailedAllocations.OfAll/ShotOfBaked
-  Commands/FailedAllocations.OfAll/InfoOfMesh
-  Commands/FailedAllocations.OfAll/BakeWithMesh
-  Commands/FailedAllocations.OfAll/InfoOfBakedMesh
   Commands/FailedAllocations.OfAll/Viewshed
   Commands/FailedAllocations.OfAll/ViewshedOfTable
   Commands/FailedAllocations.OfTheProgram/Bake
+  Commands/FailedAllocations.OfTheProgram/BakeWithMesh
   Commands/FailedAllocations.OfTheProgram/Info
+  Commands/FailedAllocations.OfTheProgram/InfoOfBakedMesh
+  Commands/FailedAllocations.OfTheProgram/InfoOfMesh
   Commands/FailedAllocations.OfTheProgram/Shot
   Commands/FailedAllocations.OfTheProgram/ShotOfBaked
-  Commands/FailedAllocations.OfTheProgram/InfoOfMesh
-  Commands/FailedAllocations.OfTheProgram/BakeWithMesh
-  Commands/FailedAllocations.OfTheProgram/InfoOfBakedMesh
   Commands/FailedAllocations.OfTheProgram/Viewshed
   Commands/FailedAllocations.OfTheProgram/ViewshedOfTable
   Commands/FailedAllocations.OneInSix/Bake
-  Commands/FailedAllocations.OneInSix/Shot
-  Commands/FailedAllocations.OneInSix/ShotOfBaked
-  Commands/FailedAllocations.OneInSix/InfoOfMesh
   Commands/FailedAllocations.OneInSix/BakeWithMesh
   Commands/FailedAllocations.OneInSix/InfoOfBakedMesh
+  Commands/FailedAllocations.OneInSix/InfoOfMesh
+  Commands/FailedAllocations.OneInSix/Shot
+  Commands/FailedAllocations.OneInSix/ShotOfBaked
   Commands/FailedAllocations.OneInSix/Viewshed
   Commands/FailedAllocations.OneInSix/ViewshedOfTable
   Commands/FailedAllocationsOfC.ForTheProgram/Bake
   Commands/FailedAllocationsOfC.ForTheProgram/Shot
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Bake
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/BakeAgain
-  Commands/FailedSystemCalls.AllOfAKindFromOneOn/Info
+  Commands/FailedSystemCalls.AllOfAKindFromOneOn/BakeWithMesh
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Export
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Horizon
+  Commands/FailedSystemCalls.AllOfAKindFromOneOn/Info
+  Commands/FailedSystemCalls.AllOfAKindFromOneOn/InfoOfBakedMesh
+  Commands/FailedSystemCalls.AllOfAKindFromOneOn/InfoOfMesh
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Profile
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Shot
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/ShotOfBaked
-  Commands/FailedSystemCalls.AllOfAKindFromOneOn/InfoOfMesh
-  Commands/FailedSystemCalls.AllOfAKindFromOneOn/BakeWithMesh
-  Commands/FailedSystemCalls.AllOfAKindFromOneOn/InfoOfBakedMesh
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/Viewshed
   Commands/FailedSystemCalls.AllOfAKindFromOneOn/ViewshedOfTable
   Commands/FailedSystemCalls.OfAll/Bake
   Commands/FailedSystemCalls.OfAll/BakeAgain
-  Commands/FailedSystemCalls.OfAll/Info
+  Commands/FailedSystemCalls.OfAll/BakeWithMesh
   Commands/FailedSystemCalls.OfAll/Export
   Commands/FailedSystemCalls.OfAll/Horizon
+  Commands/FailedSystemCalls.OfAll/Info
+  Commands/FailedSystemCalls.OfAll/InfoOfBakedMesh
+  Commands/FailedSystemCalls.OfAll/InfoOfMesh
   Commands/FailedSystemCalls.OfAll/Profile
   Commands/FailedSystemCalls.OfAll/Shot
   Commands/FailedSystemCalls.OfAll/ShotOfBaked
-  Commands/FailedSystemCalls.OfAll/InfoOfMesh
-  Commands/FailedSystemCalls.OfAll/BakeWithMesh
-  Commands/FailedSystemCalls.OfAll/InfoOfBakedMesh
   Commands/FailedSystemCalls.OfAll/Viewshed
   Commands/FailedSystemCalls.OfAll/ViewshedOfTable
   Commands/FailedSystemCalls.OfTheProgram/Bake
   Commands/FailedSystemCalls.OfTheProgram/BakeAgain
-  Commands/FailedSystemCalls.OfTheProgram/Info
+  Commands/FailedSystemCalls.OfTheProgram/BakeWithMesh
   Commands/FailedSystemCalls.OfTheProgram/Export
   Commands/FailedSystemCalls.OfTheProgram/Horizon
+  Commands/FailedSystemCalls.OfTheProgram/Info
+  Commands/FailedSystemCalls.OfTheProgram/InfoOfBakedMesh
+  Commands/FailedSystemCalls.OfTheProgram/InfoOfMesh
   Commands/FailedSystemCalls.OfTheProgram/Profile
   Commands/FailedSystemCalls.OfTheProgram/Shot
   Commands/FailedSystemCalls.OfTheProgram/ShotOfBaked
-  Commands/FailedSystemCalls.OfTheProgram/InfoOfMesh
-  Commands/FailedSystemCalls.OfTheProgram/BakeWithMesh
-  Commands/FailedSystemCalls.OfTheProgram/InfoOfBakedMesh
   Commands/FailedSystemCalls.OfTheProgram/Viewshed
   Commands/FailedSystemCalls.OfTheProgram/ViewshedOfTable
   Commands/FailedSystemCalls.OfWriting/Bake
   Commands/FailedSystemCalls.OfWriting/BakeAgain
-  Commands/FailedSystemCalls.OfWriting/Info
+  Commands/FailedSystemCalls.OfWriting/BakeWithMesh
   Commands/FailedSystemCalls.OfWriting/Export
   Commands/FailedSystemCalls.OfWriting/Horizon
+  Commands/FailedSystemCalls.OfWriting/Info
+  Commands/FailedSystemCalls.OfWriting/InfoOfBakedMesh
+  Commands/FailedSystemCalls.OfWriting/InfoOfMesh
   Commands/FailedSystemCalls.OfWriting/Profile
   Commands/FailedSystemCalls.OfWriting/Shot
   Commands/FailedSystemCalls.OfWriting/ShotOfBaked
-  Commands/FailedSystemCalls.OfWriting/InfoOfMesh
-  Commands/FailedSystemCalls.OfWriting/BakeWithMesh
-  Commands/FailedSystemCalls.OfWriting/InfoOfBakedMesh
   Commands/FailedSystemCalls.OfWriting/Viewshed
   Commands/FailedSystemCalls.OfWriting/ViewshedOfTable
   Commands/FailedThreads.EachAndAllFromOneOn/Bake
@@ -554,8 +569,11 @@ set_tests_properties(
   Contours.StandFiveToFortyPixelsApart
   Cover.GoesByHeightAboveTheSnowLine
   Cover.IceLiesOnWideLevelGround
+  Cover.LevelGroundHighUpIsIce
   Cover.SlopesTowardsThePoleLieLower
   Cover.SteepGroundIsRock
+  CylinderPictureTest.HasNoSeams
+  DetailRim.LeavesTheColoursOfTheDataAround
   Drape.IsInTheViewWhichDrawsItAgain
   Drape.IsTheSameByBothWaysOfDrawingAndTwice
   Drape.IsTheSameOverABakedRegion
@@ -567,6 +585,7 @@ set_tests_properties(
   Drape.OpacityMixesAndLaterImagesLieOnTop
   Drape.ThatCannotLieOverGroundIsOneLine
   Drape.ThatChangedIsTold
+  ErrorsOfPictures.OfMadeTerrainIsWithinTau
   ErrorsOfPictures.OfRealTerrainIsWithinTau
   ErrorsOfPictures.OnNetsIsWithinTau
   ExtremeBetweenPosts.OneSecond
@@ -588,7 +607,6 @@ set_tests_properties(
   ExtremeSize.HundredMillionPosts
   ExtremeSurfaces.TwoSurfacesAMetreApart
   ExtremeSurfaces.WallEdgeOn
-  DetailRim.LeavesTheColoursOfTheDataAround
   Footprint.HoldsForMaps
   Footprint.HoldsForRandomViews
   Footprint.HoldsOnTurnedRows
@@ -601,14 +619,17 @@ set_tests_properties(
   ForestReference.HoldsLightBySunEyeAndSlope
   GrassPictures.ShowTheSameBladesAtFullDetail
   GrassRule.CoverageStaysWhereBladesThin
+  Halves.ExplainAFrameAsWholeMeshletsDo
   Halves.LeaveTheLowerIdWhereTrianglesAreAsNear
   Halves.ShowTheTrianglesOfWholeMeshletsAtRims
   Halves.ShowTheTrianglesOfWholeMeshletsInRounds
+  HatchToTheHorizon.IsSeenFromAMountain
   HatchToTheHorizon.IsSeenFromAPersonsHeight
   HeightsOnGpu.AreWithinHalfAStep
   HeightsOnGpu.BothPathsDrawTheSame
   HeightsOnGpu.PackedDrawTheSamePictures
   Jitter.OfAThousandSteps
+  Jitter.OfNaiveFloats
   Labels.TellTheHeightOfRealGround
   Labels.TellTheHeightOfTheGroundBelowThem
   LayersOfPictures.OfMadeTerrainAreTheOracles
@@ -616,14 +637,18 @@ set_tests_properties(
   Markers.AreWhereTheMeasureSaysTheyAre
   MaterialPictures.HaveRockReliefThatMakesNoLight
   MaterialPictures.HaveTheTablesMeanColour
+  MaterialPictures.StayWhereTheyAre
   MeadowPictures.AreAsLightAsTheirMeadow
   MeadowPictures.AreNoGround
   MeadowPictures.AreTheSameByBothWaysOfDrawing
   MeadowPictures.LoseNoBladeThatCoversAPixel
   MeadowPictures.MoveByTheClock
+  MeadowPictures.ShowBladesOnAMeadow
   MeadowPictures.ShowNoneWhereNoneGrows
   Memory.OfSixtyFourMegabytesIsEnoughForSixtyEightTiles
+  MeshShadows.AreTheOracles
   ModelPlacement.PostsAreWhereTheModelPutsThem
+  OrthoMaps.LieOverTheirSourceAcrossTheAntimeridian
   OrthoMaps.LieOverTheirSourceInEveryCrs
   PanoramaFromPlace.IsTheCommands
   Paths/Choice.AndThePictureAreTheSameWithLittleMemory/compute
@@ -694,6 +719,7 @@ set_tests_properties(
   Paths/Occluded.PicturesAreThoseWithout/mesh
   Paths/Occluded.PicturesAreThoseWithoutInOtherModels/compute
   Paths/Occluded.PicturesAreThoseWithoutInOtherModels/mesh
+  Paths/OccludedClusters.AWrongPyramidIsNoticed/compute
   Paths/OccludedClusters.AWrongPyramidIsNoticed/mesh
   Paths/OccludedClusters.PicturesAreThoseWithout/compute
   Paths/OccludedClusters.PicturesAreThoseWithout/mesh
@@ -703,6 +729,7 @@ set_tests_properties(
   Paths/OccludedClusters.TakeTurnsWithBlocks/mesh
   Paths/OccludedClusters.WindowsAreThoseWithout/compute
   Paths/OccludedClusters.WindowsAreThoseWithout/mesh
+  Paths/OccludedScene.GridsWithSeamsAreThoseWithout/compute
   Paths/OccludedScene.GridsWithSeamsAreThoseWithout/mesh
   Paths/OccludedScene.TheAlpsAreThoseWithout/compute
   Paths/OccludedScene.TheAlpsAreThoseWithout/mesh
@@ -732,11 +759,6 @@ set_tests_properties(
   RandomViews.BoundsAndTolerancesHold
   ReadData.SixteenBits
   ReliefLightTest.BelowTheHorizonTheSunLightsNoSlope
-  MeshShadows.AreTheOracles
-  Town.LayersKnowFeatures
-  Town.PickingNamesTheBuilding
-  Town.SightPassesARoofsEdgeToACentimetre
-  Town.ViewsKeepHowTheTownIsRead
   ShadowsOfPictures.BetweenGridsAreTheOracles
   ShadowsOfPictures.BetweenGridsAreTheSameEitherWay
   ShadowsOfPictures.HaveNoEdgesOfTrianglesNearTheEye
@@ -760,18 +782,25 @@ set_tests_properties(
   SurroundingsTest.SkirtIsNoGround
   SurroundingsTest.SmallVoidsShowALine
   SurroundingsTest.VoidsAreHatchedUpToTheRimOfTheRegion
+  Town.LayersKnowFeatures
+  Town.PickingNamesTheBuilding
+  Town.SightPassesARoofsEdgeToACentimetre
+  Town.ViewsKeepHowTheTownIsRead
   TradeOfViews.PredictionsHoldOnMadeTerrain
   TradeOfViews.PredictionsHoldOnRealTerrain
   TradeOfViews.PredictionsHoldOnSeveralGrids
   TradeOrder.CountsAreThoseOfAnyOrderAndAnyRepeats
   TradeOrder.NorDoTheyDependOnWhatFillsTheMemory
+  TreePictures.AreAsLightAsTheirForestFromFar
   TreePictures.AreNoGround
   TreePictures.AreTheSameByBothWaysOfDrawing
   TreePictures.AreTheSameInTiles
   TreePictures.AreTheSameWhereHiddenOnesAreDrawn
+  TreePictures.StandInNoWater
   Triangles/FullLists.PicturesAreThoseOfListsWithRoom/blocks
   Triangles/FullLists.PicturesAreThoseOfListsWithRoom/clusters
   Triangles/FullLists.WhatCannotBeClippedIsAnError/clusters
+  Visibility.LeavesOfContrastsWhatKoschmiederSays
   PROPERTIES LABELS "render;long")
 set_tests_properties(
   All/TrustedFormats.TellWhenTheyAreCut/0
@@ -802,6 +831,7 @@ set_tests_properties(
   BakedRegionErrors.BoxesWithoutPosts
   BakedRegionErrors.DescriptionsThatDoNotFit
   BakedRegionErrors.OptionsThatWereDecidedWhenItWasBaked
+  BenchBlocks.AreWholeAndWithinTheirError
   BenchTin.IsWithinItsErrorAtEveryPlaceOfRandomFields
   Certificate.NothingInViewIsFartherThanTauFromItsPlace
   ClusterCertificate.HoldsAroundHoles
@@ -822,9 +852,12 @@ set_tests_properties(
   ClusterFile.RoughGround
   ClusterFile.TakesFewBytes
   ClusterFile.WindowOfARegion
+  ClusterFileOfRealGround.Jacksboro
   ClusterFileOfRealGround.N46E008
   ClusterGraph.ASeaIsNotOneGroup
   ClusterGraph.DoesNotDependOnThreads
+  ClusterOffers.AreACutByAnyRuleThatAsksForLess
+  CopiedCommand.DrawsThePictureToTheByte
   Core/NodeDeviationsOnRoughGround.AreTheWorstOfEveryPlaceAndStitching/WithoutVoids
   CracksOfMade.NoneAtManyCameras
   Crs/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/UTMattheedgeofazone
@@ -857,10 +890,12 @@ set_tests_properties(
   FramePlan.HasAsManyPagesAsTriangleIdsCanNumber
   Geotags.AreWhatExiftoolReads
   Geotags.SurviveAnotherProgramsEdit
+  GraphInBands.EachLevelByItself
   GraphInBands.GroundWithHoles
   GraphInBands.RoughGround
   GraphInBands.WindowOfARegion
   GraphWindow.AtTheRegionsOwnRimNothingIsOpen
+  GraphWindow.OverlappingWindowsHaveAllOfTheFirstLevels
   GraphWindow.WholeGroupsAreThoseOfTheRegion
   GridClip.RandomGridsCoverEveryPlaceOnce
   GridOfShifts/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/BETA2007every25m
@@ -868,6 +903,7 @@ set_tests_properties(
   GridOfShifts/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/BETA2007everykm
   GridOfShifts/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/NTF
   GridOfShifts/OwnPostsOf.LieWhereProjAndGeographicLibPutThem/NZGD49
+  GridsTileset.OfPartsHasTheBytesOfOneGo
   Ground.FromTheMoonOntoTheWholeEarth
   Ground.TheFirstOfManyCrossingsIsFound
   GroundProfile.TenThousandLinesLeaveNothingOut
@@ -916,10 +952,17 @@ set_tests_properties(
   OwnPosts.OfTilesAreThoseOfOneFile
   PackedRegion.OfEveryKindComesBack
   PackedRegion.OfTheAlpsTakesLessThanAThird
+  PackedRegion.OfTheHimalayaTakesLessThanAThird
   PanoramaNames.AreThoseThatAreSeenAtTheAzimuthsOfGeographicLib
   Placement.FromAfarTheErrorIsAShareOfTheDistance
   Placement.HoldsForAllThatIsNear
+  PostHorizons.AreThoseOfSightLinesOverHillsThePoleAndNets
   Raster.RealCollection
+  RealHorizons.AreThoseOfSightLines
+  RealHorizons.TakesSecondsForThousandsOfPosts
+  RealMeshGraph.OfASurveyIsWithinItsErrors
+  RealMeshGraph.OfDelftIsWithinItsErrors
+  RealMeshGraph.OfZurichIsWithinItsErrors
   Region.AVoidPostTakesItsNeighboursHeight
   Region.FinerSpacingWinsAndCoarserFillsWithItsTriangles
   Region.MissingCellsAreNamed
@@ -947,14 +990,18 @@ set_tests_properties(
   SeenLines.LieWhereTheirPlacesAreSeenAndNowhereElse
   SeenPoints.AreThoseThatAWalkAlongTheSightLineSees
   Shape.FunctionsAreShort
+  SharedBake.HasTheBytesOfOneMachine
   StoredValues.OfAllRealFilesAreThoseOfGdal
   StreamedChoices.ComeToTheWholeCut
   StreamedChoices.CoverEachPlaceOnceWhateverIsHere
   StreamedChoices.WhatIsHiddenComesLast
+  StreamedChoicesWithMemory.AreThoseFromNothing
   SunOverAlps.WithinTenSecondsOfBruteForce
   SunOverTerrain.WithinTenSecondsOfBruteForce
   SunProperties.CirclesThePoles
   SunProperties.RisesAndSetsWhereBruteForceSeesIt
+  SwappedBox.OverTheAntimeridianIsNone
+  TilesetSchema.FindsEachDamageToATileset
   TradeScript.ThePageEscapesEverything
   TradeScript.ThePageHoldsEveryPoint
   TrustedFormat.MasksAndSourcesTellWhenTheyAreCut
@@ -968,12 +1015,6 @@ set_tests_properties(
   VerticalDatum.AGridThatProjLacksIsNamedAndStrictRefuses
   VerticalDatum.DepthsAndForeignUnits
   VerticalDatum.HeightsInFeetOfThreeAxesAreConvertedOnce
-  PostHorizons.AreThoseOfSightLinesOverHillsThePoleAndNets
-  RealHorizons.AreThoseOfSightLines
-  RealHorizons.TakesSecondsForThousandsOfPosts
-  RealMeshGraph.OfASurveyIsWithinItsErrors
-  RealMeshGraph.OfDelftIsWithinItsErrors
-  RealMeshGraph.OfZurichIsWithinItsErrors
   Viewshed.IsTheLookoutsOverHills
   Viewshed.IsTheLookoutsOverTheAntimeridianAndNearThePole
   Viewshed.OfMadeTerrainIsGdals
@@ -985,6 +1026,7 @@ set_tests_properties(
   WindowedGraph.HasTheBytesOfOneGoFromParts
   WindowedGraph.HasTheBytesOfOneGoInStages
   WindowedGraph.HasTheBytesOfOneGoOverASea
+  WorldBox.BesideAnotherSourceNothingIsLost
   WorldBox.EveryPartOfEveryWorldIsTheRastersOwn
   PROPERTIES LABELS "unit;long")
 # A flight of ten minutes, or as many as OROGRAPH_FLIGHT_MINUTES says.

@@ -9,7 +9,7 @@
 namespace oro::test {
 namespace {
 
-constexpr const char* group = "Heights and distances";
+constexpr const char* heights_group = "Heights and distances";
 
 class ExtremeHeights : public Extremes {};
 
@@ -29,16 +29,16 @@ TEST_F(ExtremeHeights, TrenchAndSummit) {
     const Geodetic summit{11.4, 142.0, stage.ground_h_m(11.4, 142.0) + 2.0};
     for (const Attitude& attitude :
          {Attitude{90.0, 20.0, 0.0}, Attitude{180.0, 0.0, 0.0}, Attitude{0.0, -80.0, 0.0}}) {
-        const auto error = check_view(stage, strip_camera(bottom, attitude, 80.0), RasterPath::compute, group,
+        const auto error = check_view(stage, strip_camera(bottom, attitude, 80.0), RasterPath::compute, heights_group,
                                       "at -11,000 m", "at -11,000 m, what is seen", 29);
-        measured(group, "at -11,000 m, in metres", error.summary_displacement_m.largest,
+        measured(heights_group, "at -11,000 m, in metres", error.summary_displacement_m.largest,
                  error.summary_displacement_m.count);
     }
     for (const Attitude& attitude :
          {Attitude{90.0, -50.0, 0.0}, Attitude{180.0, -5.0, 0.0}, Attitude{0.0, -80.0, 0.0}}) {
-        const auto error = check_view(stage, strip_camera(summit, attitude, 80.0), RasterPath::compute, group,
+        const auto error = check_view(stage, strip_camera(summit, attitude, 80.0), RasterPath::compute, heights_group,
                                       "at 8,849 m", "at 8,849 m, what is seen", 29);
-        measured(group, "at 8,849 m, in metres", error.summary_displacement_m.largest,
+        measured(heights_group, "at 8,849 m, in metres", error.summary_displacement_m.largest,
                  error.summary_displacement_m.count);
     }
 }
@@ -49,9 +49,9 @@ TEST_F(ExtremeHeights, CloseAboveAPost) {
     for (const int post : {40, 64, 77}) {
         const Geodetic eye{grid.lat.at_deg(post), grid.lon.at_deg(post),
                            stage.field().h_at_post_m(post, post) + 0.05};
-        const auto error = check_view(stage, strip_camera(eye, {0.0, -90.0, 0.0}), RasterPath::compute, group,
+        const auto error = check_view(stage, strip_camera(eye, {0.0, -90.0, 0.0}), RasterPath::compute, heights_group,
                                       "0.05 m above a post, straight down", "");
-        measured(group, "0.05 m above a post, in metres", 1000.0 * error.summary_displacement_m.largest,
+        measured(heights_group, "0.05 m above a post, in metres", 1000.0 * error.summary_displacement_m.largest,
                  error.summary_displacement_m.count);
         for (const double heading_deg : {0.0, 120.0, 240.0}) {
             const Stage::Drawn drawn =
@@ -59,7 +59,7 @@ TEST_F(ExtremeHeights, CloseAboveAPost) {
             // What half a step of height may change at 0.05 m is no fault of what is seen.
             const auto agreement =
                 stage.agreement(strip_camera(eye, {heading_deg, -15.0, 0.0}), drawn.depths, 29, 8.0);
-            measured(group, "0.05 m above a post, what is seen", static_cast<double>(agreement.wrong),
+            measured(heights_group, "0.05 m above a post, what is seen", static_cast<double>(agreement.wrong),
                      agreement.pixels);
         }
     }
@@ -76,7 +76,7 @@ TEST_F(ExtremeHeights, PitBelowSeaLevel) {
     EXPECT_LT(eye.h_m, -420.0);
     for (const double heading_deg : {0.0, 77.0, 200.0}) {
         for (const double pitch_deg : {-20.0, 10.0})
-            check_view(stage, strip_camera(eye, {heading_deg, pitch_deg, 0.0}), RasterPath::compute, group,
+            check_view(stage, strip_camera(eye, {heading_deg, pitch_deg, 0.0}), RasterPath::compute, heights_group,
                        "in a pit 430 m below the ellipsoid",
                        "in a pit 430 m below the ellipsoid, what is seen");
     }
@@ -98,13 +98,13 @@ TEST_F(ExtremeHeights, FromSpace) {
             camera.attitude = attitude_towards(eye, {47.0, 9.5, 0.0});
             const std::string seen = std::string(look.row) + ", what is seen";
             const std::string metres = std::string(look.row) + ", along the ray";
-            const auto error = check_view(stage, camera, RasterPath::compute, group, look.row, "");
+            const auto error = check_view(stage, camera, RasterPath::compute, heights_group, look.row, "");
             const Stage::Drawn drawn = stage.draw(camera, RasterPath::compute);
             // The ray's own length is known to a float only.
             const auto agreement = stage.agreement(camera, drawn.depths, 7, 0.1, 1e-7 * look.h_m);
-            measured(group, seen, static_cast<double>(agreement.wrong), agreement.pixels);
+            measured(heights_group, seen, static_cast<double>(agreement.wrong), agreement.pixels);
             if (off_deg == 0.0)
-                measured(group, metres, error.summary_displacement_m.largest,
+                measured(heights_group, metres, error.summary_displacement_m.largest,
                          error.summary_displacement_m.count);
         }
     }

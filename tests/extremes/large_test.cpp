@@ -10,7 +10,7 @@
 namespace oro::test {
 namespace {
 
-constexpr const char* group = "Large data";
+constexpr const char* large_group = "Large data";
 
 // Hills of 100 km down to 200 m on side x side posts of 3 seconds, up to 3,000 m.
 HeightField large_field(int side) {
@@ -66,11 +66,11 @@ TEST_F(ExtremeSize, HundredMillionPosts) {
         const Stage::Drawn drawn = stage.draw(camera, RasterPath::compute, 1.0);
         const auto error = stage.ground(camera, drawn.points);
         EXPECT_GT(error.drawn, 10000U);
-        measured(group, "100 million posts, --tau 1", error.summary_displacement_px.largest,
+        measured(large_group, "100 million posts, --tau 1", error.summary_displacement_px.largest,
                  error.summary_displacement_px.count);
         const Stage::Drawn whole_detail = stage.draw(camera, RasterPath::compute, 0.02);
         const auto agreement = stage.agreement(camera, whole_detail.depths, 29);
-        measured(group, "100 million posts, what is seen", static_cast<double>(agreement.wrong),
+        measured(large_group, "100 million posts, what is seen", static_cast<double>(agreement.wrong),
                  agreement.pixels);
     }
 }

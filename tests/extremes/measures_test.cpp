@@ -20,7 +20,7 @@
 namespace oro::test {
 namespace {
 
-constexpr const char* group = "Slopes, walls and spikes";
+constexpr const char* measures_group = "Slopes, walls and spikes";
 constexpr double metres_per_deg = 111200.0;
 
 bool is_full() {
@@ -45,7 +45,7 @@ class ExtremeMeasures : public Extremes {
 
     static void record(const std::string& row, const PictureErrors& errors) {
         const auto add = [&](const char* measure, const ErrorSummary& of) {
-            measured(group, row + ", " + measure, of.largest, of.count);
+            measured(measures_group, row + ", " + measure, of.largest, of.count);
         };
         add("displacement", errors.ground.summary_displacement_px);
         add("surface", errors.ground.summary_surface_px);
@@ -193,7 +193,7 @@ TEST_F(ExtremeMeasures, Spikes) {
             camera.attitude.roll_deg = 60.0 * unit(random) - 30.0;
             const PictureErrors errors = stage.measure(camera, RasterPath::compute).errors;
             expect_within_slack(camera, errors);
-            measured(group, "spikes of 100 and 500 m on a plain, skyline", errors.skyline.summary_px.largest,
+            measured(measures_group, "spikes of 100 and 500 m on a plain, skyline", errors.skyline.summary_px.largest,
                      errors.skyline.summary_px.count);
         }
     }
@@ -220,7 +220,7 @@ TEST_F(ExtremeMeasures, SkylineOfTheSameMask) {
             differ += hits[i].has_value() != !all.picture.points[i].background() ? 1 : 0;
         expect_within_slack(camera, all.errors);
         if (differ == 0)
-            measured(group, "the skyline where no pixel of the mask differs",
+            measured(measures_group, "the skyline where no pixel of the mask differs",
                      all.errors.skyline.summary_px.largest, all.errors.skyline.summary_px.count);
     }
 }
@@ -262,10 +262,10 @@ TEST_F(ExtremeMeasures, SidewaysOnASphere) {
     }
     ASSERT_GT(moved_px.size(), 10000U);
     std::sort(moved_px.begin(), moved_px.end());
-    measured(group, "--earth sphere straight down from 60 km", moved_px.back(), moved_px.size());
-    measured(group, "--earth sphere straight down from 60 km, median", moved_px[moved_px.size() / 2],
+    measured(measures_group, "--earth sphere straight down from 60 km", moved_px.back(), moved_px.size());
+    measured(measures_group, "--earth sphere straight down from 60 km, median", moved_px[moved_px.size() / 2],
              moved_px.size());
-    measured(group, "--earth sphere straight down from 60 km, as measured", apart_px, moved_px.size());
+    measured(measures_group, "--earth sphere straight down from 60 km, as measured", apart_px, moved_px.size());
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 namespace oro::test {
 namespace {
 
-constexpr const char* group = "Pictures and steps";
+constexpr const char* pictures_group = "Pictures and steps";
 
 class ExtremePictures : public Extremes {};
 
@@ -32,7 +32,7 @@ TEST_F(ExtremePictures, FieldsOfView) {
         const std::string seen = std::string(look.row) + ", what is seen";
         for (const double roll_deg : {0.0, 90.0, 200.0}) {
             camera.attitude.roll_deg = roll_deg;
-            check_view(stage, camera, RasterPath::compute, group, look.row, seen.c_str(), 29);
+            check_view(stage, camera, RasterPath::compute, pictures_group, look.row, seen.c_str(), 29);
         }
     }
 }
@@ -63,10 +63,10 @@ TEST_F(ExtremePictures, Sizes) {
         EXPECT_EQ(picture->tiles, size.tiles);
         const GroundErrors error = stage.ground(camera, picture->points);
         EXPECT_GT(error.drawn, 0U);
-        measured(group, size.row, error.summary_displacement_px.largest, error.summary_displacement_px.count);
+        measured(pictures_group, size.row, error.summary_displacement_px.largest, error.summary_displacement_px.count);
         const auto agreement =
             stage.agreement(camera, picture->depths, size.width_px * size.height_px > 1000 ? 13 : 1);
-        measured(group, std::string(size.row) + ", what is seen", static_cast<double>(agreement.wrong),
+        measured(pictures_group, std::string(size.row) + ", what is seen", static_cast<double>(agreement.wrong),
                  agreement.pixels);
     }
 }
@@ -157,13 +157,13 @@ class Jitter : public Extremes {
 
 TEST_F(Jitter, OfAThousandSteps) {
     const Noise relative = walk(Precision::relative);
-    measured(group, "1,000 steps of 1 mm", relative.worst_px, relative.places);
-    measured(group, "1,000 steps of 1 mm, from step to step", relative.worst_step_px, relative.places);
+    measured(pictures_group, "1,000 steps of 1 mm", relative.worst_px, relative.places);
+    measured(pictures_group, "1,000 steps of 1 mm, from step to step", relative.worst_step_px, relative.places);
 }
 
 TEST_F(Jitter, OfNaiveFloats) {
     const Noise naive = walk(Precision::naive);
-    measured(group, "1,000 steps of 1 mm, naive float32", naive.worst_px, naive.places);
+    measured(pictures_group, "1,000 steps of 1 mm, naive float32", naive.worst_px, naive.places);
 }
 
 }  // namespace

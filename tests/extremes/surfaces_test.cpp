@@ -11,7 +11,7 @@
 namespace oro::test {
 namespace {
 
-constexpr const char* group = "Surfaces and spacing";
+constexpr const char* surfaces_group = "Surfaces and spacing";
 
 class ExtremeSurfaces : public Extremes {};
 
@@ -36,7 +36,7 @@ TEST_F(ExtremeSurfaces, WallEdgeOn) {
                 const Stage::Drawn drawn = stage.draw(camera, path);
                 const auto agreement = stage.agreement(camera, drawn.depths, 23);
                 EXPECT_GT(agreement.ground, agreement.pixels / 4);
-                measured(group, "a wall of 30 m seen edge-on", static_cast<double>(agreement.wrong),
+                measured(surfaces_group, "a wall of 30 m seen edge-on", static_cast<double>(agreement.wrong),
                          agreement.pixels);
             }
         }
@@ -77,8 +77,8 @@ TEST_F(ExtremeSurfaces, TwoSurfacesAMetreApart) {
             worst_m = std::max(worst_m, std::abs(drawn_m - hit->distance_m));
         }
         EXPECT_GT(before_rear, 5000U);
-        measured(group, "a wall 1 m before another, at 200 km", static_cast<double>(wrong), before_rear);
-        measured(group, "distance to a wall at 200 km", worst_m, before_rear);
+        measured(surfaces_group, "a wall 1 m before another, at 200 km", static_cast<double>(wrong), before_rear);
+        measured(surfaces_group, "distance to a wall at 200 km", worst_m, before_rear);
     }
 }
 
@@ -106,14 +106,14 @@ TEST_F(ExtremeSurfaces, Spacing) {
         const Geodetic eye{0.1 / grid.per_deg, middle_deg, 0.4 * width_m + 0.1 * spacing_m};
         Camera camera = strip_camera(eye, {30.0, -90.0, 0.0}, 80.0);
         const auto error =
-            check_view(stage, camera, RasterPath::compute, group, "", "", 7, GroundMeasures::both);
+            check_view(stage, camera, RasterPath::compute, surfaces_group, "", "", 7, GroundMeasures::both);
         const std::string row = grid.row;
         const auto& metres = error.summary_displacement_m;
-        measured(group, row, metres.largest, metres.count);
+        measured(surfaces_group, row, metres.largest, metres.count);
         if (grid.on_picture)
-            measured(group, row + ", on the picture", error.summary_displacement_px.largest, metres.count);
+            measured(surfaces_group, row + ", on the picture", error.summary_displacement_px.largest, metres.count);
         if (grid.per_deg < 1e6)
-            measured(group, row + ", from the surface", error.summary_surface_m.largest, metres.count);
+            measured(surfaces_group, row + ", from the surface", error.summary_surface_m.largest, metres.count);
     }
 }
 
