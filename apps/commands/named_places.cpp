@@ -66,15 +66,6 @@ class PlacesOfFiles {
 constexpr const char* way_to_names =
     "names need --names FILE, which holds them: a GPX, a GeoJSON, or what orograph fetch --source peaks gets";
 
-// What is said of a text that is no place, where no file has names.
-Error no_names_given(const PlaceText& place, const Error& of_place) {
-    const std::string aside = "names are not looked up";
-    std::string what = of_place.what;
-    if (const std::size_t at = what.find(aside); at != std::string::npos)
-        what.replace(at, aside.size(), way_to_names);
-    return refused(place.option, *place.text, what);
-}
-
 void tell_found(const PlaceText& place, const SearchPlace& found, bool quiet) {
     char at[80];
     std::snprintf(at, sizeof at, "%.5f,%.5f", found.lat_deg, found.lon_deg);
@@ -84,11 +75,12 @@ void tell_found(const PlaceText& place, const SearchPlace& found, bool quiet) {
 
 // A text that is no place, or one that a name may be meant by, too.
 Result<void> take_name(PlacesOfFiles& names, const PlaceText& place, bool quiet) {
-    const Result<Place> read = parse_place(*place.text);
+    const Result<Place> read = parse_place(*place.text, way_to_names);
     const bool is_short_geohash =
         read.ok() && read->form == "geohash" && place.text->find(':') == std::string::npos;
     if ((read.ok() && !is_short_geohash) || !may_be_name(*place.text)) return {};
-    if (names.files().empty()) return read.ok() ? Result<void>() : no_names_given(place, read.error());
+    if (names.files().empty() && read.ok()) return {};
+    if (names.files().empty()) return refused(place.option, *place.text, read.error().what);
     ORO_TRY(const std::vector<SearchPlace>* const places, names.places());
     const Result<NamedPlaceFound> found = place_by_name(*place.text, *places, names.files().words());
     if (read.ok() && !(found.ok() && found->is_whole)) return {};

@@ -90,9 +90,6 @@ bool goes_beyond_degrees(const std::string& text) {
 // Of a text that is no place and no name.
 Error no_such_place(const std::string& text, const Error& of_place, bool has_crs) {
     std::string what = of_place.what;
-    for (const std::string aside : {" (names are not looked up)", "names are not looked up, and "}) {
-        if (const std::size_t at = what.find(aside); at != std::string::npos) what.erase(at, aside.size());
-    }
     if (!has_crs && goes_beyond_degrees(text))
         what += "; of coordinates of a map write the CRS before them: EPSG:2056 2642950,1166825";
     return unresolved(has_figure(text) ? what
@@ -175,7 +172,7 @@ Result<SearchTarget> SearchIndex::resolve(const std::string& text) const {
     const std::vector<SearchMatch> best = matches(plain, 1);
     if (!best.empty() && best.front().match == NameMatch::whole) return target_of(best.front());
     if (const auto read = read_coordinates(plain)) return *read;
-    const Result<Place> place = parse_place(plain);
+    const Result<Place> place = parse_place(plain, "");
     if (place.ok()) return target_of_place(*place);
     if (!best.empty()) return target_of(best.front());
     return no_such_place(plain, place.error(), crs_.has_value());

@@ -13,14 +13,14 @@ namespace oro {
 namespace {
 
 // The text as it can stand in one line.
-std::string quoted(std::string_view text) {
+std::string in_one_line(std::string_view text) {
     std::string result = "'";
     for (const char c : text) result += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
     return result + "'";
 }
 
 Error usage(const std::string& text, const std::string& what) {
-    return Error{ErrorKind::usage, "bounding box " + quoted(text), what};
+    return Error{ErrorKind::usage, "bounding box " + in_one_line(text), what};
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -45,8 +45,8 @@ Result<std::array<double, 4>> four_numbers(const std::string& text) {
             return usage(text, "needs four numbers in degrees: west,south,east,north");
         const std::string_view part = rest.substr(0, comma);
         if (!parse_number(part, numbers[i]))
-            return usage(text, quoted(trimmed(part)) + " is no number; needs west,south,east,north");
-        if (!std::isfinite(numbers[i])) return usage(text, quoted(trimmed(part)) + " is not a finite number");
+            return usage(text, in_one_line(trimmed(part)) + " is no number; needs west,south,east,north");
+        if (!std::isfinite(numbers[i])) return usage(text, in_one_line(trimmed(part)) + " is not a finite number");
         rest = i == 3 ? std::string_view{} : rest.substr(comma + 1);
     }
     return numbers;
@@ -134,7 +134,7 @@ Result<BoundingBox> parse_bounding_box(const std::string& text) {
 
 Result<BoundingBox> parse_tile_range(const std::string& text) {
     const auto fault = [&](const std::string& what) {
-        return Error{ErrorKind::usage, "tile " + quoted(text), what};
+        return Error{ErrorKind::usage, "tile " + in_one_line(text), what};
     };
     const std::size_t colon = text.find(':');
     const auto first = parse_tile_name(std::string_view(text).substr(0, colon));

@@ -94,7 +94,12 @@ using place_text::refused;
 constexpr std::size_t longest_text = 200;
 constexpr const char* known_forms =
     "is no known form of a place; these are: 46.5763,7.9904, 46d34'35\"N 7d59'25\"E, 32T 422000 5158000, "
-    "32TMS2200058000, a geohash, geo:46.57,7.99 and the tile N46E008 (names are not looked up)";
+    "32TMS2200058000, a geohash, geo:46.57,7.99 and the tile N46E008";
+
+// Of a text that may be a name.
+Error no_form(const std::string& text, const std::string& of_names) {
+    return refused(text, known_forms + (of_names.empty() ? "" : " (" + of_names + ")"));
+}
 
 std::string trimmed(const std::string& text) {
     const std::size_t first = text.find_first_not_of(" \t\r\n");
@@ -200,7 +205,8 @@ std::string with_points(const std::string& plain) {
     return found[1].str() + "." + found[2].str() + "," + found[3].str() + "." + found[4].str();
 }
 
-Result<std::pair<std::string, std::string>> two_parts(const std::string& text, const std::string& plain) {
+Result<std::pair<std::string, std::string>> two_parts(const std::string& text, const std::string& plain,
+                                                      const std::string& of_names) {
     const auto commas = std::count(plain.begin(), plain.end(), ',');
     const std::string decimal_hint = "; if the commas are decimal marks, write points: 46.5763,7.9904";
     static const std::regex decimal_commas("[+-]?[0-9]+,[0-9]+[ ;/]+[+-]?[0-9]+,[0-9]+");
@@ -222,14 +228,14 @@ Result<std::pair<std::string, std::string>> two_parts(const std::string& text, c
         }
     } else {
         parts = place_text::words(without_inner_spaces(plain));
-        if (parts.size() != 2) return refused(text, known_forms);
+        if (parts.size() != 2) return no_form(text, of_names);
     }
     return std::pair{parts[0], parts[1]};
 }
 
-Result<Place> read_lat_lon(const std::string& text, const std::string& plain) {
+Result<Place> read_lat_lon(const std::string& text, const std::string& plain, const std::string& of_names) {
     using GeographicLib::DMS;
-    ORO_TRY(const auto parts, two_parts(text, plain));
+    ORO_TRY(const auto parts, two_parts(text, plain, of_names));
     DMS::flag first_kind{};
     DMS::flag second_kind{};
     ORO_TRY(double lat_deg, read_angle(text, parts.first, first_kind));
@@ -249,7 +255,8 @@ Result<Place> read_lat_lon(const std::string& text, const std::string& plain) {
 }
 
 // A text without space or comma that is neither a tile, an MGRS square nor a geo URI.
-Result<Place> read_single_word(const std::string& text, const std::string& plain) {
+Result<Place> read_single_word(const std::string& text, const std::string& plain,
+                               const std::string& of_names) {
     // These two are geohashes as well, but far from what was meant.
     static const std::regex short_tile("[NSns][0-9]{1,2}[EWew][0-9]{1,3}");
     static const std::regex run_together("[0-9.]+[NSns][0-9.]+[EWew]");
@@ -264,11 +271,9 @@ Result<Place> read_single_word(const std::string& text, const std::string& plain
     if (decimal_number(plain)) return refused(text, "is one number; a place needs two: 46.5763,7.9904");
     if (place_text::reads_as_geohash(lower(plain)))
         return refused(
-            text,
-            "reads as a name or a geohash; names are not looked up, and a geohash is written in small "
-            "letters with a digit, or as geohash:" +
-                lower(plain));
-    return refused(text, known_forms);
+            text, "reads as a name or a geohash; " + (of_names.empty() ? "" : of_names + ", and ") +
+                      "a geohash is written in small letters with a digit, or as geohash:" + lower(plain));
+    return no_form(text, of_names);
 }
 
 // Whether a text is a name, of several words or of letters that no form of a place has: it has no digit.
@@ -283,11 +288,11 @@ bool is_name(const std::string& plain) {
     return has_letter && !may_be_form;
 }
 
-Result<Place> read_place(const std::string& text) {
+Result<Place> read_place(const std::string& text, const std::string& of_names) {
     if (text.size() > longest_text) return refused(text, "is too long for a place");
     const std::string plain = trimmed(with_ascii_marks(trimmed(text)));
     if (plain.empty()) return refused(text, "is empty");
-    if (is_name(plain)) return refused(text, known_forms);
+    if (is_name(plain)) return no_form(text, of_names);
     for (const char c : plain)
         if (c < 0x20 || c > 0x7E) return refused(text, "holds a character that no form of a place has");
     const std::string small = lower(plain);
@@ -296,15 +301,15 @@ Result<Place> read_place(const std::string& text) {
     if (auto place = read_tile_cell(text, plain)) return *place;
     if (auto place = place_text::read_utm_ups(text, plain)) return *place;
     if (auto place = place_text::read_mgrs(text, plain)) return *place;
-    if (plain.find_first_of(" ,") == std::string::npos) return read_single_word(text, plain);
-    return read_lat_lon(text, plain);
+    if (plain.find_first_of(" ,") == std::string::npos) return read_single_word(text, plain, of_names);
+    return read_lat_lon(text, plain, of_names);
 }
 
 }  // namespace
 
-Result<Place> parse_place(const std::string& text) {
+Result<Place> parse_place(const std::string& text, const std::string& of_names) {
     try {
-        return read_place(text);
+        return read_place(text, of_names);
     } catch (const std::bad_alloc&) {
         throw;  // says nothing about the place
     } catch (const std::exception& fault) {

@@ -40,11 +40,12 @@ struct Place {
 //
 // Longitudes are in [-180, 180]; -180 comes back as 180. What reads as MGRS and as a geohash (32tms22) is
 // refused. Usage errors name the text and what is wrong; a latitude beyond 90 with a longitude within gets
-// the hint that the two may be swapped. Names ("Eiger") are not looked up.
+// the hint that the two may be swapped. Names ("Eiger") are not looked up: the refusal of a text that may be
+// one says `of_names` in brackets; a caller that looks names up passes words of its own, or none.
 //
 // Accuracy: the text's own, to 1e-9 degree (UTM and UPS: GeographicLib, 5 nm within its limits).
 // Source: C. F. F. Karney, "Transverse Mercator with an accuracy of a few nanometers", J. Geodesy 85, 475-485
 // (2011); A. Mayrhofer, C. Spanring, RFC 5870 (2010), section 3.3.
-Result<Place> parse_place(const std::string& text);
+Result<Place> parse_place(const std::string& text, const std::string& of_names = "names are not looked up");
 
 }  // namespace oro

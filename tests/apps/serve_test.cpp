@@ -34,6 +34,7 @@ TEST(Serve, GivesFilesAndRanges) {
     EXPECT_NE(part.find("Content-Range: bytes 2-4/10\r\n"), std::string::npos) << part;
     EXPECT_EQ(body_of(served.get("/5/16/11.png", "Range: bytes=-3\r\n")), "789");
     EXPECT_EQ(status_of(served.get("/5/16/11.png", "Range: bytes=90-99\r\n")), 416);
+    EXPECT_EQ(status_of(served.get("/5/16/11.png", "Range: bytes=-0\r\n")), 416) << "RFC 9110, 14.1.2";
     const std::string head = served.get("/5/16/11.png", "", "HEAD");
     EXPECT_EQ(status_of(head), 200) << head;
     EXPECT_NE(head.find("Content-Length: 10\r\n"), std::string::npos) << head;

@@ -63,10 +63,11 @@ void give_file(const std::filesystem::path& file, const httplib::Request& reques
     const auto stream = std::make_shared<std::ifstream>(file, std::ios::binary);
     if (problem || !*stream) return refuse(response, 404, "there is no such file");
     if (request.ranges.size() > most_ranges) return refuse_ranges(response, bytes);
-    const auto begins_beyond = [&](const auto& range) {
-        return range.first >= static_cast<std::int64_t>(bytes);
+    // From a byte on that is not there, or the last 0 bytes: "-0" (RFC 9110, section 14.1.2).
+    const auto holds_nothing = [&](const auto& range) {
+        return range.first >= static_cast<std::int64_t>(bytes) || (range.first == -1 && range.second == 0);
     };
-    if (std::ranges::any_of(request.ranges, begins_beyond)) return refuse_ranges(response, bytes);
+    if (std::ranges::any_of(request.ranges, holds_nothing)) return refuse_ranges(response, bytes);
     if (bytes == 0) return response.set_content("", media_type_of(file));
     response.set_content_provider(static_cast<std::size_t>(bytes), media_type_of(file),
                                   [stream](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
