@@ -24,9 +24,10 @@ namespace {
 // from, need levels of their own, and to measure these, all posts in memory.
 Result<std::unique_ptr<RegionPages>> pages_of(const RegionGrid& grid, double exaggeration,
                                               const std::shared_ptr<const DataMeans>& means,
-                                              const RenderProgress& progress, const std::stop_token& stop) {
+                                              const RenderProgress& progress, const std::stop_token& stop,
+                                              const std::optional<FrameView>& picture) {
     if (const MadePostSource* const made = made_posts_of(grid.field)) {
-        if (exaggeration == 1.0) return made->pages(grid.field);
+        if (exaggeration == 1.0) return made->pages(grid.field, picture);
         return Error{
             ErrorKind::usage, "--exaggeration",
             "is not for made terrain whose posts are made where they are looked at; narrow the region "
@@ -72,11 +73,12 @@ Result<std::unique_ptr<RegionPages>> pages_of_grid(const RegionGrid& grid, const
                                                    double exaggeration,
                                                    const std::shared_ptr<const DataMeans>& means,
                                                    const RenderProgress& progress,
-                                                   const std::stop_token& stop) {
+                                                   const std::stop_token& stop,
+                                                   const std::optional<FrameView>& picture = {}) {
     const bool is_cut = std::ranges::find(cut.masked_posts, 1) != cut.masked_posts.end();
     ORO_TRY(std::unique_ptr<RegionPages> pages,
             is_cut ? pages_of_rest(grid, cut, exaggeration, means, progress, stop)
-                   : pages_of(grid, exaggeration, means, progress, stop));
+                   : pages_of(grid, exaggeration, means, progress, stop, picture));
     if (!pages) return Error{ErrorKind::failed, "levels", "nobody waits for them any more"};
     if (!is_cut && pages->facts().triangles == 0)
         return Error{ErrorKind::no_data, "region", "no triangle has a height at each corner"};
@@ -104,7 +106,8 @@ Result<std::unique_ptr<RegionPages>> grid_pages(const RegionGrid& grid, const Gr
 }
 
 Result<GridPages> make_grid_pages(const Region& region, const RegionCuts& cuts, double exaggeration,
-                                  const RenderProgress& progress, const std::stop_token& stop) {
+                                  const RenderProgress& progress, const std::stop_token& stop,
+                                  const std::optional<FrameView>& picture) {
     const RegionGrid* const data = data_under_detail(region);
     ORO_TRY(const std::shared_ptr<const DataMeans> data_means, means_under_detail(data, exaggeration));
     GridPages pages;
@@ -112,7 +115,7 @@ Result<GridPages> make_grid_pages(const Region& region, const RegionCuts& cuts, 
         const std::size_t number = pages.size();
         ORO_TRY(std::unique_ptr<RegionPages> more,
                 pages_of_grid(grid, cuts.grids[number], exaggeration, &grid == data ? data_means : nullptr,
-                              number == 0 ? progress : RenderProgress{}, stop));
+                              number == 0 ? progress : RenderProgress{}, stop, picture));
         pages.push_back(std::move(more));
     }
     return pages;

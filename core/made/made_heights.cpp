@@ -5,6 +5,7 @@
 
 #include "core/base/wide.h"
 #include "core/earth/ellipsoid.h"
+#include "core/made/fbm_octaves.h"
 
 namespace oro::gpu {
 namespace {
@@ -49,7 +50,11 @@ void place_run(const MadeRow& row, std::span<const MadeColumn> columns, MadeRun&
 }
 
 // count: a multiple of 16.
-ORO_WIDE_16 void add_fbm(const gpu::MadeOctave& octave, MadeRun& run, std::size_t count) {
+void add_fbm(const gpu::MadeOctave& octave, MadeRun& run, std::size_t count) {
+    static const AddOctave lanes =
+        octaves_by_sixteen() != nullptr ? octaves_by_sixteen() : octaves_by_eight();
+    if (lanes != nullptr)
+        return lanes(octave, run.x.data(), run.y.data(), run.z.data(), run.sum.data(), count);
     for (std::size_t i = 0; i < count; ++i)
         run.sum[i] += gpu::made_fbm_octave(octave, run.x[i], run.y[i], run.z[i]);
 }

@@ -12,6 +12,7 @@
 
 #include "core/base/parallel.h"
 #include "core/earth/culling.h"
+#include "core/frame/picture_culling.h"
 #include "core/lod/page_sums.h"
 #include "core/made/made_heights.h"
 #include "core/made_pages/measured_block.h"
@@ -47,10 +48,11 @@ RegionShape shape_of(const MadeRegion& region) {
 
 class MadePages : public RegionPages {
   public:
-    MadePages(RegionFacts facts, MadeRegion region)
+    MadePages(RegionFacts facts, MadeRegion region, const std::optional<FrameView>& picture)
         : RegionPages(std::move(facts)),
           region_(std::move(region)),
           measured_to_(highest_measured_level(region_)) {
+        if (picture) culling_.emplace(*picture, this->facts().shape.occluder);
         double lowest_N_m = 0.0, highest_N_m = 0.0;
         for (const float N_m : region_.undulation.N_m) {
             lowest_N_m = std::min(lowest_N_m, static_cast<double>(N_m));
@@ -69,7 +71,7 @@ class MadePages : public RegionPages {
             const auto found = records_.find(number);
             if (found != records_.end()) return found->second;
         }
-        const auto block = std::make_unique<gpu::PageBlock>();
+        auto block = std::make_unique<gpu::PageBlock>();
         const auto whole = std::make_unique<PyramidPage>();
         whole->summary = make_block(page, thread_count(), *block);
         std::copy(std::begin(block->meshlets), std::end(block->meshlets), whole->nodes.begin());
@@ -78,37 +80,65 @@ class MadePages : public RegionPages {
         const std::scoped_lock lock(mutex_);
         if (records_.size() >= records_kept) records_.clear();
         records_.emplace(number, static_cast<const PageRecord&>(*whole));
+        if (unloaded_.size() >= unloaded_kept) unloaded_.clear();
+        unloaded_.emplace(number, std::move(block));
         return PageRecord(*whole);
     }
 
     Result<void> load(const PageIndex& page, gpu::PageBlock& block) const override {
-        make_block(page, 1, block);
+        if (const auto made = take_unloaded(page))
+            block = *made;
+        else
+            make_block(page, 1, block);
         return {};
     }
 
   private:
     static constexpr std::size_t records_kept = 65536;  // 40 MB
     static constexpr std::size_t blocks_kept = 1024;    // 64 MB
+    static constexpr std::size_t unloaded_kept = 512;   // 42 MB
 
     [[nodiscard]] static std::uint64_t number_of(const PageIndex& page) {
         return static_cast<std::uint64_t>(page.level) << 48U | static_cast<std::uint64_t>(page.row) << 24U |
                static_cast<std::uint64_t>(page.column);
     }
     PageSummary make_block(const PageIndex& page, int threads, gpu::PageBlock& block) const;
+    [[nodiscard]] std::unique_ptr<gpu::PageBlock> take_unloaded(const PageIndex& page) const;
     [[nodiscard]] PageElevations elevations(const PageIndex& page, int threads) const;
     [[nodiscard]] std::shared_ptr<const MeasuredBlock> measured_block(const PageIndex& page,
                                                                       int threads) const;
     void hold_pages_below(PyramidPage& page) const;
     [[nodiscard]] HorizonCone horizon_over(const Ecef& centre, double radius_m) const;
+    // Ground between posts of a level, the last ones included, and half its angles.
+    struct Ground {
+        double north_deg, west_deg, half_lat_rad, half_lon_rad;
+        [[nodiscard]] bool is_wide() const {
+            return std::max(half_lat_rad, half_lon_rad) > 0.25 * std::numbers::pi;
+        }
+    };
+    [[nodiscard]] Ground ground_of(int level, int row, int column, int quads) const;
+    [[nodiscard]] double reach_of(const Ground& ground) const;
+    [[nodiscard]] PageBound bound_between(const Ground& ground, double low_h_m, double high_h_m) const;
+    [[nodiscard]] bool may_show_node(int level, int row, int column) const;
+    [[nodiscard]] bool is_good_node(int level, int row, int column, const MadeNode& node) const;
 
     MadeRegion region_;
+    std::optional<PictureCulling> culling_;
     int measured_to_;
     double lowest_h_m_{}, highest_h_m_{};  // of any post
     mutable std::mutex mutex_;
     mutable std::mutex measuring_;  // one block at a time: it takes all threads
     mutable std::unordered_map<std::uint64_t, PageRecord> records_;
     mutable std::unordered_map<std::uint64_t, std::shared_ptr<const MeasuredBlock>> blocks_;
+    // Of pages whose record was asked for and that nobody has loaded yet: made once for both.
+    mutable std::unordered_map<std::uint64_t, std::unique_ptr<gpu::PageBlock>> unloaded_;
 };
+
+std::unique_ptr<gpu::PageBlock> MadePages::take_unloaded(const PageIndex& page) const {
+    const std::scoped_lock lock(mutex_);
+    auto found = unloaded_.extract(number_of(page));
+    return found ? std::move(found.mapped()) : nullptr;
+}
 
 PageElevations MadePages::elevations(const PageIndex& page, int threads) const {
     const PagePosts posts(facts().grid, page);
@@ -149,7 +179,11 @@ std::shared_ptr<const MeasuredBlock> MadePages::measured_block(const PageIndex& 
     if (auto there = known()) return there;
     const std::scoped_lock measuring(measuring_);
     if (auto there = known()) return there;
-    auto made = std::make_shared<const MeasuredBlock>(region_, of_top, std::max(threads, thread_count()));
+    const BlockPicture picture{
+        [&](int row, int column) { return may_show_node(top, row, column); },
+        [&](int row, int column, const MadeNode& node) { return is_good_node(top, row, column, node); }};
+    auto made = std::make_shared<const MeasuredBlock>(region_, of_top, std::max(threads, thread_count()),
+                                                      culling_ ? &picture : nullptr);
     const std::scoped_lock lock(mutex_);
     if (blocks_.size() >= blocks_kept) blocks_.clear();
     blocks_.emplace(number, made);
@@ -213,31 +247,66 @@ HorizonCone MadePages::horizon_over(const Ecef& middle, double radius_m) const {
                                         : 4.0};
 }
 
-// A sphere around all places between a page's outermost posts and between the lowest and the highest h there
-// may be. Two places of one height are at most as far apart as the largest radius of curvature times their
-// difference in latitude, and in longitude times the distance from the axis; the chords are shorter.
-std::optional<PageBound> MadePages::bound(const PageIndex& page) const {
-    const LevelGrid level = level_grid(facts().grid, page.level);
+MadePages::Ground MadePages::ground_of(int level, int row, int column, int quads) const {
+    const LevelGrid posts = level_grid(facts().grid, level);
     const PostGrid& grid = facts().grid;
-    const int last_row = level.row.region_post((page.row + 1) * page_quads);
-    const int last_column = level.column.region_post((page.column + 1) * page_quads);
-    const double north_deg = grid.lat.at_deg(level.row.region_post(page.row * page_quads));
-    const double south_deg = grid.lat.at_deg(last_row);
-    const double west_deg = grid.lon.at_deg(level.column.region_post(page.column * page_quads));
-    const double half_lat_rad = radians_from_deg(0.5 * (north_deg - south_deg)).rad;
-    const double half_lon_rad = radians_from_deg(0.5 * (grid.lon.at_deg(last_column) - west_deg)).rad;
-    if (std::max(half_lat_rad, half_lon_rad) > 0.25 * std::numbers::pi) return std::nullopt;
-    const double nearest_equator_deg = south_deg > 0.0 ? south_deg : std::max(0.0, -north_deg);
+    const double north_deg = grid.lat.at_deg(posts.row.region_post(row * quads));
+    const double south_deg = grid.lat.at_deg(posts.row.region_post((row + 1) * quads));
+    const double west_deg = grid.lon.at_deg(posts.column.region_post(column * quads));
+    const double east_deg = grid.lon.at_deg(posts.column.region_post((column + 1) * quads));
+    return {north_deg, west_deg, radians_from_deg(0.5 * (north_deg - south_deg)).rad,
+            radians_from_deg(0.5 * (east_deg - west_deg)).rad};
+}
+
+// How far places of one height are from the middle. Two are at most as far apart as the largest radius of
+// curvature times their difference in latitude, and in longitude times the distance from the axis; the chords
+// are shorter.
+double MadePages::reach_of(const Ground& ground) const {
+    const double south_deg = ground.north_deg - 2.0 * deg_from_radians(Radians(ground.half_lat_rad));
+    const double nearest_equator_deg = south_deg > 0.0 ? south_deg : std::max(0.0, -ground.north_deg);
     const double radius_m = largest_curvature_radius_m + highest_h_m_;
     const double from_axis_m = radius_m * std::cos(radians_from_deg(nearest_equator_deg).rad);
+    return std::hypot(radius_m * ground.half_lat_rad, from_axis_m * ground.half_lon_rad);
+}
+
+// A sphere around all places over some ground between two heights.
+PageBound MadePages::bound_between(const Ground& ground, double low_h_m, double high_h_m) const {
     PageBound bound;
-    bound.centre =
-        ecef_from_geodetic({0.5 * (north_deg + south_deg), west_deg + deg_from_radians(Radians(half_lon_rad)),
-                            0.5 * (lowest_h_m_ + highest_h_m_)});
-    bound.radius_m = std::hypot(radius_m * half_lat_rad, from_axis_m * half_lon_rad) +
-                     0.5 * (highest_h_m_ - lowest_h_m_) + 1.0;
+    bound.centre = ecef_from_geodetic({ground.north_deg - deg_from_radians(Radians(ground.half_lat_rad)),
+                                       ground.west_deg + deg_from_radians(Radians(ground.half_lon_rad)),
+                                       0.5 * (low_h_m + high_h_m)});
+    bound.radius_m = reach_of(ground) + 0.5 * (high_h_m - low_h_m) + 1.0;
     bound.horizon = horizon_over(bound.centre, bound.radius_m);
     return bound;
+}
+
+// Between the lowest and the highest h there may be.
+std::optional<PageBound> MadePages::bound(const PageIndex& page) const {
+    const Ground ground = ground_of(page.level, page.row, page.column, page_quads);
+    if (ground.is_wide()) return std::nullopt;
+    return bound_between(ground, lowest_h_m_, highest_h_m_);
+}
+
+// In slices that are no higher than wide, so that little is asked for that is not over the node.
+bool MadePages::may_show_node(int level, int row, int column) const {
+    const Ground ground = ground_of(level, row, column, static_cast<int>(gpu::meshlet_quads));
+    if (ground.is_wide()) return true;
+    const double height_m = highest_h_m_ - lowest_h_m_;
+    const int slices = std::clamp(static_cast<int>(std::ceil(height_m / reach_of(ground))), 1, 16);
+    for (int i = 0; i < slices; ++i)
+        if (culling_->may_show(bound_between(ground, lowest_h_m_ + height_m * i / slices,
+                                             lowest_h_m_ + height_m * (i + 1) / slices)))
+            return true;
+    return false;
+}
+
+bool MadePages::is_good_node(int level, int row, int column, const MadeNode& node) const {
+    const Ground ground = ground_of(level, row, column, static_cast<int>(gpu::meshlet_quads));
+    if (ground.is_wide()) return false;
+    PageBound around = bound_between(ground, lowest_h_m_, highest_h_m_);
+    // The node's sphere has its middle somewhere in this one.
+    around.radius_m += static_cast<double>(node.lod_radius_m);
+    return culling_->keeps_tau(around, static_cast<double>(node.error_m));
 }
 
 }  // namespace
@@ -296,12 +365,13 @@ float MadePostSource::H_m(int row, int column) const {
         .H_m[static_cast<std::size_t>(row % Tiles::side * Tiles::side + column % Tiles::side)];
 }
 
-std::unique_ptr<RegionPages> MadePostSource::pages(const HeightField& field) const {
+std::unique_ptr<RegionPages> MadePostSource::pages(const HeightField& field,
+                                                   const std::optional<FrameView>& picture) const {
     MadeRegion region = made_region(terrain_, field.grid, field.undulation);
     const auto quads = [](int posts) { return static_cast<std::uint64_t>(posts - 1); };
     RegionFacts facts{field.grid, field.undulation, shape_of(region),
                       2 * quads(field.grid.rows()) * quads(field.grid.columns())};
-    return std::make_unique<MadePages>(std::move(facts), std::move(region));
+    return std::make_unique<MadePages>(std::move(facts), std::move(region), picture);
 }
 
 HeightField made_field(const MadeTerrain& terrain, const PostGrid& grid, const UndulationField& undulation) {

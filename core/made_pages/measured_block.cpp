@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/base/parallel.h"
 #include "core/earth/ellipsoid.h"
@@ -19,7 +20,6 @@ namespace oro {
 namespace {
 
 constexpr int node_quads = static_cast<int>(gpu::meshlet_quads);
-constexpr int page_quads_a_side = static_cast<int>(gpu::page_quads);
 // As levels grow (core/lod/pyramid.cpp), and what heights of two grids' angles may differ by.
 constexpr double block_growth = 1.0 + 2.0e-5, height_slack_m = 0.002;
 // Larger than the radii of curvature of WGS84 with heights on it.
@@ -43,20 +43,91 @@ double lod_radius_of_rise_m(const MadeRegion& region, int level, double rise_m) 
     return radius_m;
 }
 
-// The part of a region's posts that a block is measured on: every 2^base-th, with a node of the top level
-// more on each side where the region goes on.
+// Nodes of a block's top level, by their numbers in the region.
+struct TopNodes {
+    int first_row{}, first_column{}, rows{}, columns{};
+    std::vector<char> is_in;  // row by row
+
+    [[nodiscard]] bool has(int row, int column) const {
+        const int r = row - first_row, c = column - first_column;
+        return r >= 0 && c >= 0 && r < rows && c < columns &&
+               is_in[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns) +
+                     static_cast<std::size_t>(c)] != 0;
+    }
+    [[nodiscard]] bool has_beside(int row, int column) const {
+        for (int r = row - 1; r <= row + 1; ++r)
+            for (int c = column - 1; c <= column + 1; ++c)
+                if (has(r, c)) return true;
+        return false;
+    }
+    template <class IsIn>
+    void fill(const IsIn& asked) {
+        is_in.clear();
+        for (int r = 0; r < rows; ++r)
+            for (int c = 0; c < columns; ++c) is_in.push_back(asked(first_row + r, first_column + c) ? 1 : 0);
+    }
+};
+
+// What of a block is measured. A node's error and sphere depend on what is no farther from it than one node
+// of the top level: those of levels below and beside it, and what is beside these.
+class BlockNodes {
+  public:
+    // exact: nodes of the region.
+    BlockNodes(const MadeRegion& region, int top_level, TopNodes exact) : exact_(std::move(exact)) {
+        const LevelGrid level = level_grid(region.grid, top_level);
+        const int first_row = std::max(0, exact_.first_row - 1);
+        const int first_column = std::max(0, exact_.first_column - 1);
+        made_ = {first_row,
+                 first_column,
+                 std::min(level.row.nodes(), exact_.first_row + exact_.rows + 1) - first_row,
+                 std::min(level.column.nodes(), exact_.first_column + exact_.columns + 1) - first_column,
+                 {}};
+        made_.fill([&](int row, int column) { return exact_.has_beside(row, column); });
+        find_span();
+    }
+
+    [[nodiscard]] bool empty() const { return last_row_ < first_row_; }
+    // Those that are what they would be if all were wanted.
+    [[nodiscard]] const TopNodes& exact() const { return exact_; }
+    // Those whose posts are made.
+    [[nodiscard]] const TopNodes& made() const { return made_; }
+    // The smallest rectangle that holds these.
+    [[nodiscard]] int first_row() const { return first_row_; }
+    [[nodiscard]] int last_row() const { return last_row_; }
+    [[nodiscard]] int first_column() const { return first_column_; }
+    [[nodiscard]] int last_column() const { return last_column_; }
+
+  private:
+    void find_span() {
+        first_row_ = first_column_ = std::numeric_limits<int>::max();
+        last_row_ = last_column_ = -1;
+        for (int row = made_.first_row; row < made_.first_row + made_.rows; ++row)
+            for (int column = made_.first_column; column < made_.first_column + made_.columns; ++column) {
+                if (!made_.has(row, column)) continue;
+                first_row_ = std::min(first_row_, row);
+                last_row_ = std::max(last_row_, row);
+                first_column_ = std::min(first_column_, column);
+                last_column_ = std::max(last_column_, column);
+            }
+    }
+
+    TopNodes exact_, made_;
+    int first_row_{}, last_row_{}, first_column_{}, last_column_{};
+};
+
+// The part of a region's posts that a block is measured on: every 2^base-th, over so many nodes of the top
+// level.
 struct PartAxis {
     int base{};
     int start{}, last{};  // posts of the region; last: of the region itself
     int count{};          // posts of the part
     bool goes_on_before{}, goes_on_after{};
 
-    PartAxis(int top_level, int page, int posts, bool wraps)
-        : base(measured_against(top_level)), last(posts - 1) {
-        const std::int64_t page_posts = std::int64_t{page_quads_a_side} << top_level;
-        const std::int64_t margin = std::int64_t{node_quads} << top_level;
-        start = static_cast<int>(std::max<std::int64_t>(0, page * page_posts - margin));
-        const auto end = static_cast<int>(std::min<std::int64_t>(last, (page + 1) * page_posts + margin));
+    PartAxis(int top_level, int base_level, int first_top_node, int last_top_node, int posts, bool wraps)
+        : base(base_level), last(posts - 1) {
+        const std::int64_t node_posts = std::int64_t{node_quads} << top_level;
+        start = static_cast<int>(first_top_node * node_posts);
+        const auto end = static_cast<int>(std::min<std::int64_t>(last, (last_top_node + 1) * node_posts));
         count = ((end - start + (1 << base) - 1) >> base) + 1;
         goes_on_before = start > 0 || wraps;
         goes_on_after = end < last || wraps;
@@ -102,6 +173,7 @@ struct PartLevel {
     std::vector<char> may_cut;                      // heights may be cut off there, or beside it
     std::vector<double> rise_m;
     std::vector<double> lod_radius_m;
+    std::vector<char> is_measured;  // others are not asked for
     std::vector<std::size_t>
         from_deg;  // of each row: nothing of it or its neighbours is nearer to the equator
 
@@ -116,26 +188,44 @@ struct PartLevel {
 
 class PartMeasurement {
   public:
-    PartMeasurement(const MadeRegion& region, const PageIndex& top, int threads)
+    // nodes: some. base: the level that is measured against.
+    PartMeasurement(const MadeRegion& region, int top_level, int base, const BlockNodes& nodes, int threads)
         : region_(region),
-          base_(measured_against(top.level)),
+          nodes_(nodes),
+          top_level_(top_level),
+          base_(base),
           threads_(threads),
-          down_(top.level, top.row, region.grid.rows(), false),
-          across_(top.level, top.column, region.grid.columns(), region.grid.wraps_longitude()) {
+          down_(top_level, base, nodes.first_row(), nodes.last_row(), region.grid.rows(), false),
+          across_(top_level, base, nodes.first_column(), nodes.last_column(), region.grid.columns(),
+                  region.grid.wraps_longitude()) {
         make_posts();
         heights_ = drawn_heights(part_, 1.0, threads);
+        // What is curved by it is the same whatever else the part holds.
+        heights_.highest_steps = std::max(heights_.highest_steps, region.highest_steps);
         for (std::size_t i = 0; i < coarse_steps_.size(); ++i) coarse_steps_[i] += heights_.steps[i];
-        levels_.resize(static_cast<std::size_t>(top.level - base_ + 1));
-        for (int i = 0; i <= top.level - base_; ++i) measure_level(i);
+        levels_.resize(static_cast<std::size_t>(top_level - base_ + 1));
+        choose_nodes();
+        for (int i = 0; i <= top_level - base_; ++i) measure_level(i);
     }
     // Number i counts from the level that is measured against.
     [[nodiscard]] const PartLevel& level(int i) const { return levels_[static_cast<std::size_t>(i)]; }
-    [[nodiscard]] int base() const { return base_; }
-    [[nodiscard]] const PartAxis& down() const { return down_; }
-    [[nodiscard]] const PartAxis& across() const { return across_; }
+    // A node of a level by its place in the region.
+    [[nodiscard]] MadeNode node(int of_level, int row, int column) const {
+        const PartLevel& part = level(of_level - base_);
+        const std::size_t at =
+            part.at(row - down_.first_node(of_level), column - across_.first_node(of_level));
+        return {rounded_up(part.error_m[at]), rounded_up(part.lod_radius_m[at])};
+    }
 
   private:
+    // First and last post of a row of the part that is made.
+    struct MadeSpan {
+        std::size_t first{}, count{};
+    };
+    [[nodiscard]] MadeSpan made_span(int row) const;
+    [[nodiscard]] bool is_made(int i, int row, int column) const;
     void make_posts();
+    void choose_nodes();
     void measure_level(int i);
     void take_ranges(int i, PartLevel& level) const;
     void take_posts(int row, int column, NodeRange& range) const;
@@ -165,6 +255,8 @@ class PartMeasurement {
     }
 
     const MadeRegion& region_;
+    const BlockNodes& nodes_;
+    int top_level_;
     int base_;
     int threads_;
     PartAxis down_, across_;
@@ -173,6 +265,50 @@ class PartMeasurement {
     std::vector<std::int32_t> coarse_steps_;  // drawn heights of the coarse octaves alone, above level 3
     std::vector<PartLevel> levels_;
 };
+
+// From the first to the last node that is made, of those that the row touches.
+PartMeasurement::MadeSpan PartMeasurement::made_span(int row) const {
+    const int side = node_quads << (top_level_ - base_);
+    int first = across_.count, last = -1;
+    for (const int node_row : {(row - 1) / side, row / side})
+        for (int column = nodes_.first_column(); column <= nodes_.last_column(); ++column) {
+            if (!nodes_.made().has(nodes_.first_row() + node_row, column)) continue;
+            const int part_column = column - nodes_.first_column();
+            first = std::min(first, part_column * side);
+            last = std::max(last, std::min((part_column + 1) * side, across_.count - 1));
+        }
+    if (last < first) return {};
+    return {static_cast<std::size_t>(first), static_cast<std::size_t>(last - first + 1)};
+}
+
+// Of a node of level i of the part.
+bool PartMeasurement::is_made(int i, int row, int column) const {
+    const int up = top_level_ - base_ - i;
+    return nodes_.made().has(nodes_.first_row() + (row >> up), nodes_.first_column() + (column >> up));
+}
+
+// Of each level the nodes that those above ask for: below them, and beside these.
+void PartMeasurement::choose_nodes() {
+    for (int i = top_level_ - base_; i >= 0; --i) {
+        PartLevel& level = levels_[static_cast<std::size_t>(i)];
+        const LevelGrid nodes = level_grid(part_.grid, i);
+        level.rows = nodes.row.nodes();
+        level.columns = nodes.column.nodes();
+        for (int row = 0; row < level.rows; ++row)
+            for (int column = 0; column < level.columns; ++column) {
+                bool asked = false;
+                if (i == top_level_ - base_) {
+                    asked = nodes_.exact().has(nodes_.first_row() + row, nodes_.first_column() + column);
+                } else {
+                    const PartLevel& above = levels_[static_cast<std::size_t>(i + 1)];
+                    for (int r = (row - 1) >> 1; r <= (row + 1) >> 1; ++r)
+                        for (int c = (column - 1) >> 1; c <= (column + 1) >> 1; ++c)
+                            asked = asked || (above.has(r, c) && above.is_measured[above.at(r, c)] != 0);
+                }
+                level.is_measured.push_back(asked ? 1 : 0);
+            }
+    }
+}
 
 void PartMeasurement::make_posts() {
     const PostGrid& grid = region_.grid;
@@ -188,13 +324,15 @@ void PartMeasurement::make_posts() {
     if (base_ > 0) coarse_steps_.resize(part_.H_m.size());
     const std::size_t base = std::min(static_cast<std::size_t>(base_), region_.bounds().size() - 1);
     in_parallel(down_.count, threads_, [&](int row) {
-        const std::size_t first = static_cast<std::size_t>(row) * columns.size();
-        const std::span<float> H_m = std::span(part_.H_m).subspan(first, columns.size());
-        if (base_ == 0) return made_posts_of_row(region_, down_.region_post(row), columns, H_m);
+        const MadeSpan made = made_span(row);
+        const std::size_t first = static_cast<std::size_t>(row) * columns.size() + made.first;
+        const std::span<float> H_m = std::span(part_.H_m).subspan(first, made.count);
+        const auto places = std::span<const MadeColumn>(columns).subspan(made.first, made.count);
+        if (base_ == 0) return made_posts_of_row(region_, down_.region_post(row), places, H_m);
         // Until heights are drawn: how much higher the coarse octaves are than all.
-        const std::span<std::int32_t> coarse = std::span(coarse_steps_).subspan(first, columns.size());
-        std::vector<std::int32_t> steps(columns.size());
-        made_row_coarse_heights(region_.terrain, region_.rule, down_.region_post(row), columns,
+        const std::span<std::int32_t> coarse = std::span(coarse_steps_).subspan(first, made.count);
+        std::vector<std::int32_t> steps(made.count);
+        made_row_coarse_heights(region_.terrain, region_.rule, down_.region_post(row), places,
                                 region_.bounds()[base].coarse_octaves, steps, coarse);
         for (std::size_t i = 0; i < steps.size(); ++i) {
             H_m[i] = static_cast<float>(static_cast<double>(steps[i]) * made_step_m);
@@ -207,6 +345,7 @@ void PartMeasurement::take_ranges(int i, PartLevel& level) const {
     level.ranges.resize(static_cast<std::size_t>(level.rows) * static_cast<std::size_t>(level.columns));
     in_parallel(level.rows, threads_, [&](int row) {
         for (int column = 0; column < level.columns; ++column) {
+            if (!is_made(i, row, column)) continue;
             NodeRange& range = level.ranges[level.at(row, column)];
             if (i == 0) {
                 take_posts(row, column, range);
@@ -394,9 +533,6 @@ double PartMeasurement::node_error_m(int i, const PartLevel& level, int row, int
 
 void PartMeasurement::measure_level(int i) {
     PartLevel& level = levels_[static_cast<std::size_t>(i)];
-    const LevelGrid nodes = level_grid(part_.grid, i);
-    level.rows = nodes.row.nodes();
-    level.columns = nodes.column.nodes();
     take_ranges(i, level);
     look_around(level);
     hold_spheres(i, level);
@@ -408,6 +544,7 @@ void PartMeasurement::measure_level(int i) {
     level.stitched_m.resize(level.ranges.size());
     in_parallel(level.rows, threads_, [&](int row) {
         for (int column = 0; column < level.columns; ++column) {
+            if (level.is_measured[level.at(row, column)] == 0) continue;
             const Found found = found_at(i, level, row, column, deviations, coarse ? &*coarse : nullptr);
             level.stitched_m[level.at(row, column)] = found.stitched_m;
             level.error_m[level.at(row, column)] = node_error_m(i, level, row, column, found.own_m);
@@ -419,11 +556,14 @@ void PartMeasurement::measure_level(int i) {
 
 MadeRegion made_region(const MadeTerrain& terrain, const PostGrid& grid, const UndulationField& undulation) {
     MadeRegion region{
-        terrain, made_rule(terrain), grid, undulation, made_level_bounds(terrain, grid, undulation), 0.0};
+        terrain, made_rule(terrain), grid, undulation, made_level_bounds(terrain, grid, undulation), 0.0, 0};
+    double highest_m = made_step_m * terrain.high;
     if (!undulation.N_m.empty()) {
         const auto [lowest, highest] = std::ranges::minmax(undulation.N_m);
         region.undulation_range_m = static_cast<double>(highest) - static_cast<double>(lowest);
+        highest_m += static_cast<double>(highest);
     }
+    region.highest_steps = height_steps(highest_m) + 1;
     return region;
 }
 
@@ -460,24 +600,113 @@ int highest_measured_level(const MadeRegion& region) {
     return level;
 }
 
-MeasuredBlock::MeasuredBlock(const MadeRegion& region, const PageIndex& top, int threads) : top_(top) {
-    const PartMeasurement measured(region, top, threads);
-    constexpr int nodes_a_page = static_cast<int>(gpu::meshlets_per_side);
-    for (int level = top.level; level > top.level - levels_of_block; --level) {
-        const PartLevel& part = measured.level(level - measured.base());
+namespace {
+
+// Nodes of a page's top level, as far as the region goes.
+TopNodes nodes_of_page(const MadeRegion& region, const PageIndex& top) {
+    constexpr int side = static_cast<int>(gpu::meshlets_per_side);
+    const LevelGrid level = level_grid(region.grid, top.level);
+    TopNodes nodes;
+    nodes.first_row = top.row * side;
+    nodes.first_column = top.column * side;
+    nodes.rows = std::min(side, level.row.nodes() - nodes.first_row);
+    nodes.columns = std::min(side, level.column.nodes() - nodes.first_column);
+    return nodes;
+}
+
+// Nodes that may show, and those beside them, whose level decides how these are stitched.
+TopNodes shown_nodes(const MadeRegion& region, const PageIndex& top, const BlockPicture& picture) {
+    const LevelGrid level = level_grid(region.grid, top.level);
+    TopNodes nodes = nodes_of_page(region, top);
+    TopNodes shown{nodes.first_row - 1, nodes.first_column - 1, nodes.rows + 2, nodes.columns + 2, {}};
+    shown.fill([&](int row, int column) {
+        if (row < 0 || row >= level.row.nodes()) return false;
+        // Round the Earth the other side is beside.
+        if (column < 0 || column >= level.column.nodes()) return region.grid.wraps_longitude();
+        return picture.may_show(row, column);
+    });
+    nodes.fill([&](int row, int column) { return shown.has_beside(row, column); });
+    return nodes;
+}
+
+// Roughly the least error that a node of a page has by posts of a base level: what is not measured there.
+MadeNode least_node(const MadeRegion& region, const PageIndex& top, int base) {
+    const LevelAxis rows = level_grid(region.grid, top.level).row;
+    const auto lat_deg = [&](int page_row) {
+        return std::abs(
+            region.grid.lat.at_deg(rows.region_post(page_row * static_cast<int>(gpu::page_quads))));
+    };
+    const auto from_deg = static_cast<std::size_t>(std::max(lat_deg(top.row), lat_deg(top.row + 1)));
+    const auto& levels = region.bounds_from_deg[std::min(from_deg, region.bounds_from_deg.size() - 1)];
+    return {static_cast<float>(levels[std::min(static_cast<std::size_t>(base), levels.size() - 1)].coarse),
+            0.0F};
+}
+
+// Nodes of a page that a picture needs exactly: those that fewer posts do not prove to be good. decided: gets
+// those that they do prove to be.
+template <class Decided>
+TopNodes undecided_nodes(const MadeRegion& region, const PageIndex& top, int threads,
+                         const BlockPicture& picture, const Decided& decided) {
+    TopNodes wanted = shown_nodes(region, top, picture);
+    const int against = measured_against(top.level);
+    for (int base = std::min(against + 2, top.level - 1); base > against; --base) {
+        // Posts that cannot prove anything are not made.
+        const MadeNode least = least_node(region, top, base);
+        TopNodes asked = wanted;
+        asked.fill([&](int row, int column) {
+            return wanted.has(row, column) && picture.is_good(row, column, least);
+        });
+        const BlockNodes nodes(region, top.level, asked);
+        if (nodes.empty()) continue;
+        const PartMeasurement measured(region, top.level, base, nodes, threads);
+        wanted.fill([&, before = wanted](int row, int column) {
+            if (!before.has(row, column)) return false;
+            if (!asked.has(row, column)) return true;
+            const MadeNode node = measured.node(top.level, row, column);
+            if (!picture.is_good(row, column, node)) return true;
+            decided(row, column, node);
+            return false;
+        });
+    }
+    return wanted;
+}
+
+}  // namespace
+
+void MeasuredBlock::make_levels(const MadeRegion& region) {
+    for (int level = top_.level; level > top_.level - levels_of_block; --level) {
         Level& kept = levels_.emplace_back();
-        const int side = nodes_a_page << (top.level - level);
-        kept.first_row = top.row * side;
-        kept.first_column = top.column * side;
-        const int row_before = kept.first_row - measured.down().first_node(level);
-        const int column_before = kept.first_column - measured.across().first_node(level);
-        kept.rows = std::min(side, part.rows - row_before);
-        kept.columns = std::min(side, part.columns - column_before);
-        for (int row = 0; row < kept.rows; ++row)
-            for (int column = 0; column < kept.columns; ++column) {
-                const std::size_t at = part.at(row_before + row, column_before + column);
-                kept.nodes.push_back({rounded_up(part.error_m[at]), rounded_up(part.lod_radius_m[at])});
-            }
+        const int side = static_cast<int>(gpu::meshlets_per_side) << (top_.level - level);
+        const LevelGrid all = level_grid(region.grid, level);
+        kept.first_row = top_.row * side;
+        kept.first_column = top_.column * side;
+        kept.rows = std::min(side, all.row.nodes() - kept.first_row);
+        kept.columns = std::min(side, all.column.nodes() - kept.first_column);
+        kept.nodes.resize(static_cast<std::size_t>(kept.rows) * static_cast<std::size_t>(kept.columns));
+    }
+}
+
+MeasuredBlock::MeasuredBlock(const MadeRegion& region, const PageIndex& top, int threads,
+                             const BlockPicture* picture)
+    : top_(top) {
+    make_levels(region);
+    TopNodes exact = nodes_of_page(region, top);
+    if (picture == nullptr)
+        exact.fill([](int, int) { return true; });
+    else
+        exact = undecided_nodes(
+            region, top, threads, *picture,
+            [&](int row, int column, const MadeNode& node) { levels_.front().at(row, column) = node; });
+    const BlockNodes nodes(region, top.level, std::move(exact));
+    if (nodes.empty()) return;
+    const PartMeasurement measured(region, top.level, measured_against(top.level), nodes, threads);
+    for (int level = top.level; level > top.level - levels_of_block; --level) {
+        Level& kept = levels_[static_cast<std::size_t>(top.level - level)];
+        const int up = top.level - level;
+        for (int row = kept.first_row; row < kept.first_row + kept.rows; ++row)
+            for (int column = kept.first_column; column < kept.first_column + kept.columns; ++column)
+                if (nodes.exact().has(row >> up, column >> up))
+                    kept.at(row, column) = measured.node(level, row, column);
     }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct MadeRegion {
     UndulationField undulation;
     std::vector<std::vector<MadeLevelBound>> bounds_from_deg;  // made_level_bounds()
     double undulation_range_m{};
+    std::int32_t highest_steps{};  // no drawn height is above it
     // Of levels, wherever they are.
     [[nodiscard]] const std::vector<MadeLevelBound>& bounds() const { return bounds_from_deg.front(); }
 };
@@ -53,13 +55,27 @@ inline int block_top(int level) {
 // The highest level that is measured; 0: none is.
 int highest_measured_level(const MadeRegion& region);
 
+// What a picture needs of a block, by nodes of the block's top level: rows and columns are of the region.
+struct BlockPicture {
+    // Whether anything over the node may be in the picture.
+    std::function<bool(int row, int column)> may_show;
+    // Whether the node, with such an error and sphere, is near enough to the truth there: then nothing finer
+    // is drawn in its stead.
+    std::function<bool(int row, int column, const MadeNode& node)> is_good;
+};
+
 // The nodes of the levels of a block over the ground of one page of its top level.
 class MeasuredBlock {
   public:
     // top: a page whose level is a multiple of levels_of_block and at most highest_measured_level(); it may
     // be beyond the levels that the region has. Takes some 1.3 million posts, above level 3 5.3
     // million, and 24 bytes for each while it works.
-    MeasuredBlock(const MadeRegion& region, const PageIndex& top, int threads);
+    // picture: the only one that the block is for; it is then measured as coarsely as decides what is drawn.
+    // Nodes of the top level that may show, and those beside them, are either what they are without a
+    // picture, to the bit, and so are all below them; or they are good, with an error that is no less than
+    // that one, and those below them have an error and a sphere of 0. So have all others.
+    MeasuredBlock(const MadeRegion& region, const PageIndex& top, int threads,
+                  const BlockPicture* picture = nullptr);
 
     // A node by its place among those of its level, which is one of the block's; over the block's page.
     [[nodiscard]] const MadeNode& node(int level, int row, int column) const {
@@ -74,7 +90,12 @@ class MeasuredBlock {
     struct Level {
         int first_row{}, first_column{}, rows{}, columns{};
         std::vector<MadeNode> nodes;  // row by row
+        MadeNode& at(int row, int column) {
+            return nodes[static_cast<std::size_t>(row - first_row) * static_cast<std::size_t>(columns) +
+                         static_cast<std::size_t>(column - first_column)];
+        }
     };
+    void make_levels(const MadeRegion& region);
     PageIndex top_;
     std::vector<Level> levels_;  // the top first
 };

@@ -60,6 +60,18 @@ void choose_legend(const ShotOptions& options, View& view) {
                                " px wide has no room for the legend of --show");
 }
 
+// What a scene's pages are for, where they are for a single picture whose light does not come from ground
+// beyond it.
+static std::optional<FrameView> only_picture(const ShotOptions& options, const Style& style,
+                                             const View& view) {
+    const bool has_light_from_beyond = style.frame.shadows != 0 || style.frame.sky_openness != 0;
+    if (has_light_from_beyond || view.map || view.heights == HeightStorage::i16 || options.view.tolerance ||
+        keeps_drawing())
+        return std::nullopt;
+    const Camera& camera = view.camera;
+    return FrameView{camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}}, view.tau_px, view.model};
+}
+
 Result<ShotScene> scene_of_shot(const ShotOptions& options, double ceiling_m, const Gpu& gpu,
                                 const Style& style, const ShotGround& ground, const Progress& progress,
                                 ShotResult& shot) {
@@ -67,9 +79,12 @@ Result<ShotScene> scene_of_shot(const ShotOptions& options, double ceiling_m, co
     GridPages pages;
     const bool asks = options.view.tolerance.has_value();
     const auto make_pages = [&]() -> Result<void> {
-        ORO_TRY(pages, make_grid_pages(shot.region, ground.cuts, shot.view.exaggeration, [&](double share) {
-                    if (progress) progress(share, "measuring levels");
-                }));
+        ORO_TRY(pages, make_grid_pages(
+                           shot.region, ground.cuts, shot.view.exaggeration,
+                           [&](double share) {
+                               if (progress) progress(share, "measuring levels");
+                           },
+                           {}, only_picture(options, style, shot.view)));
         return {};
     };
     if (asks) {
