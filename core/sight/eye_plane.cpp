@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <mutex>
+#include <span>
 
 #include "core/base/parallel.h"
 #include "core/terrain/drawn_heights.h"
@@ -26,9 +27,9 @@ int grid_column(const PostGrid& grid, int column) {
 EyePlane::EyePlane(const TrueSurface& surface, const Observer& observer, const GridPart& window, int threads)
     : window_(window),
       stride_(window.columns + 2),
-      posts_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(window.rows + 2),
-             PlanePost{no_number, no_number, no_number, no_number, no_number}),
-      sw_ne_(posts_.size(), 0),
+      count_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(window.rows + 2)),
+      posts_(std::make_unique_for_overwrite<PlanePost[]>(count_)),
+      sw_ne_(count_, 0),
       enu_from_ecef_(glm::transpose(ecef_from_enu(observer.eye().lat_deg, observer.eye().lon_deg))),
       bend_per_m_(0.5 * observer.sight().refraction.curvature_per_m()),
       bulge_per_m_(0.5 / gaussian_radius_m(observer.eye().lat_deg) - bend_per_m_) {
@@ -45,7 +46,14 @@ EyePlane::EyePlane(const TrueSurface& surface, const Observer& observer, const G
             sine_cosine_deg(grid.lon.at_deg(grid_column(grid, window.first_column + column)));
         columns_.push_back(enu_from_ecef_ * glm::dvec3(lon.cosine, lon.sine, 0.0));
     }
-    in_parallel(window.rows, threads, [&](int row) { place_row(surface, row); });
+    constexpr PlanePost no_place{no_number, no_number, no_number, no_number, no_number};
+    std::fill_n(posts_.get(), stride_, no_place);
+    std::fill_n(posts_.get() + count_ - stride_, stride_, no_place);
+    in_parallel(window.rows, threads, [&](int row) {
+        posts_[static_cast<std::size_t>(number(row, -1))] = no_place;
+        posts_[static_cast<std::size_t>(number(row, window.columns))] = no_place;
+        place_row(surface, row);
+    });
     measure(grid, threads);
 }
 
@@ -65,21 +73,30 @@ void EyePlane::place_row(const TrueSurface& surface, int row) {
         const double along_m = (terms.normal_m * (1.0 - wgs84_e2) + h_m) * terms.sine;
         return across_m * columns_[static_cast<std::size_t>(column)] + along_m * up - eye_enu_;
     };
+    const bool wraps = grid.wraps_longitude();
+    const auto column_of = [&](int column) {
+        const int number = window_.first_column + column;
+        return wraps ? grid_column(grid, number) : number;
+    };
+    std::vector<double> heights_m(static_cast<std::size_t>(window_.columns));
+    if (!wraps) surface.row_h_m(window_.first_row + row, window_.first_column, heights_m);
+    for (int column = 0; wraps && column < window_.columns; ++column)
+        surface.row_h_m(window_.first_row + row, column_of(column),
+                        std::span(heights_m).subspan(static_cast<std::size_t>(column), 1));
     double last_h_m = 0.0;
     for (int column = 0; column < window_.columns; ++column) {
-        const std::optional<double> found_m =
-            surface.post_h_m(window_.first_row + row, grid_column(grid, window_.first_column + column));
-        const double h_m = last_h_m = found_m.value_or(last_h_m);
+        const double found_m = heights_m[static_cast<std::size_t>(column)];
+        const bool is_found = !std::isnan(found_m);
+        const double h_m = last_h_m = is_found ? found_m : last_h_m;
         const glm::dvec3 enu = enu_of(column, h_m);
         const double across2 = enu.x * enu.x + enu.y * enu.y, distance_m = std::sqrt(across2);
-        const double seen_m = found_m ? enu.z + bend_per_m_ * across2 : no_number;
+        const double seen_m = is_found ? enu.z + bend_per_m_ * across2 : no_number;
         posts_[static_cast<std::size_t>(number(row, column))] = {enu.x, enu.y, seen_m, distance_m,
                                                                  seen_m / distance_m};
     }
     if (row + 1 >= window_.rows) return;
     for (int column = 0; column + 1 < window_.columns; ++column) {
-        const Diagonal diagonal = surface.diagonal_of_many(window_.first_row + row,
-                                                           grid_column(grid, window_.first_column + column));
+        const Diagonal diagonal = surface.diagonal_of_many(window_.first_row + row, column_of(column));
         sw_ne_[static_cast<std::size_t>(number(row, column))] = diagonal == Diagonal::sw_ne ? 1 : 0;
     }
 }
@@ -167,9 +184,9 @@ void EyePlane::bound_tangents(double around_m, int threads) {
     around_m_ = around_m;
     const int columns = static_cast<int>(stride_), rows = window_.rows + 2;
     const int far_right = static_cast<int>(right), far_down = static_cast<int>(down);
-    std::vector<float> along_rows(posts_.size());
+    std::vector<float> along_rows(count_);
     in_parallel(rows, threads, [&](int row) {
-        const PlanePost* const posts = posts_.data() + row * stride_;
+        const PlanePost* const posts = posts_.get() + row * stride_;
         float* const most = along_rows.data() + row * stride_;
         std::vector<float> own(static_cast<std::size_t>(columns + 2 * far_right), float_infinite);
         for (int column = 0; column < columns; ++column) {
@@ -185,7 +202,7 @@ void EyePlane::bound_tangents(double around_m, int threads) {
                 most[column] = std::max(most[column], own[static_cast<std::size_t>(column + i)]);
         }
     });
-    most_tangents_.assign(posts_.size(), float_infinite);
+    most_tangents_.assign(count_, float_infinite);
     in_parallel(rows - 2 * far_down, threads, [&](int row) {
         float* const most = most_tangents_.data() + (row + far_down) * stride_;
         std::copy_n(along_rows.data() + row * stride_, columns, most);

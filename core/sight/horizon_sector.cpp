@@ -50,7 +50,8 @@ void HorizonSector::add_edge(std::int64_t one, std::int64_t other, bool is_rim) 
     // An edge along a line of sight is as high as its ends, which other edges have, too. (No number: no
     // edge.)
     if (!(turned != 0.0)) return;
-    const Edge edge{turned > 0.0 ? one : other, turned > 0.0 ? other : one, 0.0};
+    const Edge edge{static_cast<std::uint32_t>(turned > 0.0 ? one : other),
+                    static_cast<std::uint32_t>(turned > 0.0 ? other : one), 0.0};
     const PlanePost &right = plane_.post(edge.right), &left = plane_.post(edge.left);
     if (std::isnan(right.z + left.z)) return;
     const double most = most_tangent(right, left, turned);
@@ -64,17 +65,20 @@ void HorizonSector::add_edge(std::int64_t one, std::int64_t other, bool is_rim) 
     const int into = wrapped(from - first_);
     // Its first range in this sector, counted from `from`.
     int step = into < count ? 0 : ranges_ - into;
+    Crossing border{0.0, 0.0, false};
     for (; step <= length; ++step) {
         const int number = wrapped(from + step - first_);
         if (number >= count) break;
         if (is_rim) own_[static_cast<std::size_t>(number)].has_rim = true;
-        if (most < lowest_[static_cast<std::size_t>(number)]) continue;
-        add_to(number, edge, step == 0, step == length);
+        if (most < lowest_[static_cast<std::size_t>(number)])
+            border.is_known = false;
+        else
+            add_to(number, edge, step == 0, step == length, border);
     }
 }
 
-// begins, ends: the edge does so within the range.
-void HorizonSector::add_to(int number, const Edge& edge, bool begins, bool ends) {
+// begins, ends: the edge does so within the range. border: that with the range before, then with the next.
+void HorizonSector::add_to(int number, const Edge& edge, bool begins, bool ends, Crossing& border) {
     Range& range = own_[static_cast<std::size_t>(number)];
     double& lowest_of_range = lowest_[static_cast<std::size_t>(number)];
     const PlanePost &right = plane_.post(edge.right), &left = plane_.post(edge.left);
@@ -82,8 +86,14 @@ void HorizonSector::add_to(int number, const Edge& edge, bool begins, bool ends)
                     &high = borders_[static_cast<std::size_t>(number) + 1];
     double near_m = right.distance_m, far_m = left.distance_m;
     double at_right = right.tangent, at_left = left.tangent;
-    if (!begins) at_right = tangent_at(right, left, low, near_m);
+    if (border.is_known) {
+        at_right = border.tangent;
+        near_m = border.distance_m;
+    } else if (!begins) {
+        at_right = tangent_at(right, left, low, near_m);
+    }
     if (!ends) at_left = tangent_at(right, left, high, far_m);
+    border = {at_left, far_m, true};
     const double nearest_m = std::min(near_m, far_m);
     // Close by an edge may turn far in a range: over level it is never left out, and it stands in for
     // nothing.
@@ -140,8 +150,7 @@ bool HorizonSector::is_above(const PlanePost& post, double reach, double tangent
     return above;
 }
 
-bool HorizonSector::horizon(const PlanePost& target, Horizon& horizon) const {
-    const int number = static_cast<int>(azimuth_number(target) * 0.25 * ranges_) - first_;
+bool HorizonSector::horizon(const PlanePost& target, int number, Horizon& horizon) const {
     const int count = static_cast<int>(own_.size());
     const auto own = static_cast<std::size_t>(std::clamp(number, 0, count - 1));
     const Range& range = own_[own];

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/sight/eye_plane.h"
+#include "core/sight/swept_posts.h"
 
 namespace oro {
 
@@ -48,12 +49,22 @@ class HorizonSector {
     // within `reach` of the post's azimuth, as azimuth_number() counts, are seen no higher than at `tangent`,
     // and have ground on both sides. add_edge() would change nothing.
     [[nodiscard]] bool is_above(const PlanePost& post, double reach, double tangent) const;
+    // The same of ranges of the sector, which SweptPosts finds; true of none.
+    [[nodiscard]] bool is_above(int first_range, int last_range, double tangent) const {
+        return last_range < first_range ||
+               are_all_above(lowest_.data() + first_range, last_range - first_range + 1, tangent);
+    }
     // The horizon in a target's own direction; false where too many edges came together.
-    [[nodiscard]] bool horizon(const PlanePost& target, Horizon& horizon) const;
+    [[nodiscard]] bool horizon(const PlanePost& target, Horizon& horizon) const {
+        return this->horizon(target, static_cast<int>(azimuth_number(target) * 0.25 * ranges_) - first_,
+                             horizon);
+    }
+    // ... with the number of the target's range, which SweptPosts finds.
+    [[nodiscard]] bool horizon(const PlanePost& target, int number, Horizon& horizon) const;
 
   private:
     struct Edge {
-        std::int64_t right, left;  // as seen from the eye
+        std::uint32_t right, left;  // as seen from the eye: 2^32 posts would take 170 GB
         double highest;
     };
     // Edges that may be the highest anywhere in a range of azimuths.
@@ -65,7 +76,12 @@ class HorizonSector {
         std::array<Edge, most> edges;
     };
     [[nodiscard]] double most_tangent(const PlanePost& right, const PlanePost& left, double turned) const;
-    void add_to(int number, const Edge& edge, bool begins, bool ends);
+    // Where an edge crosses the border of two ranges, once that is known.
+    struct Crossing {
+        double tangent, distance_m;
+        bool is_known;
+    };
+    void add_to(int number, const Edge& edge, bool begins, bool ends, Crossing& border);
     [[nodiscard]] double tangent_at(const PlanePost& right, const PlanePost& left, const PlanePost& towards,
                                     double& distance_m) const;
 

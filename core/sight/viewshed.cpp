@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <numbers>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "core/base/parallel.h"
 #include "core/sight/horizon_sector.h"
 #include "core/sight/mesh_silhouette.h"
+#include "core/sight/swept_posts.h"
 #include "core/terrain/drawn_heights.h"
 
 namespace oro {
@@ -26,8 +28,9 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 // Posts of a sector by their distance, and those of its neighbours whose edges reach into it.
 struct Entry {
     int row;
-    int column;
-    bool visits;  // is another sector's
+    int column_and_visit;
+    [[nodiscard]] int column() const { return column_and_visit / 2; }
+    [[nodiscard]] bool visits() const { return column_and_visit % 2 != 0; }  // is another sector's
 };
 
 // So many that threads end at about the same time. Each takes posts of its neighbours, so not more than that.
@@ -59,7 +62,7 @@ class Sweep {
 
   private:
     struct Shells {
-        std::vector<Entry> entries;
+        std::unique_ptr<Entry[]> entries;
         std::vector<std::size_t> begins;  // of each sector's each shell, and the end
         int count{};
         double width_m{};
@@ -72,11 +75,19 @@ class Sweep {
     void for_entries(std::uint32_t slot_and_visits, const Take& take) const;
     void sweep_sector(int sector, Viewshed& viewshed, std::size_t& asked) const;
     [[nodiscard]] double target_over_surface_m(const Entry& entry) const;
-    [[nodiscard]] float clearance_deficit_m(const Entry& entry, const HorizonSector& sector, double shell_m,
-                                            std::size_t& asked) const;
-    [[nodiscard]] float deficit_over_surface_m(const Entry& entry, double target_m,
-                                               const HorizonSector& sector, double shell_m,
-                                               std::size_t& asked) const;
+    // What a sector's sweep fills, and its targets that are hidden without a doubt, a shell at a time.
+    struct SectorResult {
+        Viewshed& viewshed;
+        HiddenTargets hidden;
+        std::size_t asked;
+    };
+    void look_at(const Entry& entry, const SweptPosts::Post& swept, const HorizonSector& sector,
+                 double shell_m, SectorResult& result) const;
+    [[nodiscard]] std::optional<float> deficit_over_surface_m(const Entry& entry,
+                                                              const SweptPosts::Post& swept,
+                                                              const HorizonSector& sector, double shell_m,
+                                                              HiddenTargets::Target& hidden,
+                                                              std::size_t& asked) const;
     [[nodiscard]] bool walk(std::int64_t from, const PlanePost& target, double until_m,
                             Horizon& horizon) const;
     [[nodiscard]] bool in_reach(const PlanePost& post) const;
@@ -178,13 +189,13 @@ void Sweep::sort_posts() {
         for (std::vector<std::size_t>& of_part : next) sum += std::exchange(of_part[i], sum);
     }
     shells_.begins[slots] = sum;
-    shells_.entries.resize(sum);
+    shells_.entries = std::make_unique_for_overwrite<Entry[]>(sum);
     in_parallel(parts, request_.threads, [&](int part) {
         std::vector<std::size_t>& ends = next[static_cast<std::size_t>(part)];
         posts_of_part(part, [&](int row, int column, std::uint32_t slot) {
             if (slot == no_slot) return;
             for_entries(slot, [&](int in, bool visits) {
-                shells_.entries[ends[static_cast<std::size_t>(in)]++] = {row, column, visits};
+                shells_.entries[ends[static_cast<std::size_t>(in)]++] = {row, 2 * column + (visits ? 1 : 0)};
             });
         });
     });
@@ -193,10 +204,6 @@ void Sweep::sort_posts() {
 // Those to nearer posts, each once: it is the farther post's.
 void Sweep::add_edges(std::int64_t number, HorizonSector& sector) const {
     const PlanePost& post = plane_.post(number);
-    // Most ground lies below what is nearer: then no edge of the post is looked at. (Near posts that have no
-    // height, where ground ends, there is no such bound.)
-    const double most = plane_.most_tangent_around(number);
-    if (most < infinite && sector.is_above(post, azimuth_reach(post), most)) return;
     const double own2 = along(post, post);
     const EyePlane::Neighbours next = plane_.neighbours(number);
     for (int i = 0; i < next.count; ++i) {
@@ -281,24 +288,32 @@ int own_column(const PostGrid& grid, int column) {
 double Sweep::target_over_surface_m(const Entry& entry) const {
     if (!footing_) return target_m_;
     const int row = window_.first_row + entry.row;
-    const int column = own_column(surface_.field().grid, window_.first_column + entry.column);
+    const int column = own_column(surface_.field().grid, window_.first_column + entry.column());
     const std::optional<double> top_m = surface_.post_h_m(row, column),
                                 foot_m = footing_->post_h_m(row, column);
     return top_m && foot_m ? target_m_ - (*top_m - *foot_m) : target_m_;
 }
 
 // A target within the surface would have to be out of it at least, and then as high as is seen.
-float Sweep::clearance_deficit_m(const Entry& entry, const HorizonSector& sector, double shell_m,
-                                 std::size_t& asked) const {
+void Sweep::look_at(const Entry& entry, const SweptPosts::Post& swept, const HorizonSector& sector,
+                    double shell_m, SectorResult& result) const {
     const double over_m = target_over_surface_m(entry), target_m = std::max(over_m, least_above_m);
-    const float missed_m = deficit_over_surface_m(entry, target_m, sector, shell_m, asked);
-    return over_m < target_m ? missed_m + static_cast<float>(target_m - over_m) : missed_m;
+    const std::size_t cell = static_cast<std::size_t>(entry.row) * static_cast<std::size_t>(window_.columns) +
+                             static_cast<std::size_t>(entry.column());
+    HiddenTargets::Target hidden{cell, 0.0, 0.0, 0.0, 0.0, 0.0, target_m, target_m - over_m};
+    const std::optional<float> missed_m =
+        deficit_over_surface_m(entry, swept, sector, shell_m, hidden, result.asked);
+    if (!missed_m)
+        result.hidden.add(hidden);
+    else
+        result.viewshed.clearance_deficit_m[cell] =
+            over_m < target_m ? *missed_m + static_cast<float>(target_m - over_m) : *missed_m;
 }
 
 float Sweep::ask_oracle(const Entry& entry, double target_m, double rise_m, std::size_t& asked) const {
     ++asked;
     const int row = window_.first_row + entry.row;
-    const int column = window_.first_column + entry.column;
+    const int column = window_.first_column + entry.column();
     const Geodetic target = target_over_post(surface_, row, column, target_m);
     if (observer_.sees(target)) return 0.0F;
     constexpr double certain_rise_m = 1.0e-4;
@@ -308,18 +323,20 @@ float Sweep::ask_oracle(const Entry& entry, double target_m, double rise_m, std:
                 : std::numeric_limits<float>::infinity();
 }
 
-float Sweep::deficit_over_surface_m(const Entry& entry, double target_m, const HorizonSector& sector,
-                                    double shell_m, std::size_t& asked) const {
-    const int row = entry.row, column = entry.column;
+// Nothing where `hidden`, which is then filled, has all that the deficit follows from.
+std::optional<float> Sweep::deficit_over_surface_m(const Entry& entry, const SweptPosts::Post& swept,
+                                                   const HorizonSector& sector, double shell_m,
+                                                   HiddenTargets::Target& hidden, std::size_t& asked) const {
+    const int row = entry.row, column = entry.column();
     const std::int64_t number = plane_.number(row, column);
     const PlanePost& post = plane_.post(number);
-    const double s_m = post.distance_m;
+    const double s_m = post.distance_m, target_m = hidden.target_m;
     Horizon horizon;
-    bool known = s_m > 1.0e-3 && sector.horizon(post, horizon);
+    bool known = s_m > 1.0e-3 && sector.horizon(post, swept.range, horizon);
     if (!known) {
         horizon = {};
         known = s_m > 1.0e-3 && walk(number, post, 0.0, horizon);
-    } else if (horizon.has_rim || !(horizon.lowest > plane_.most_tangent_around(number))) {
+    } else if (horizon.has_rim || !(horizon.lowest > swept.most_tangent)) {
         // Of what the sector's horizon does not hold yet something may be higher.
         known = walk(number, post, shell_m, horizon);
     }
@@ -334,35 +351,27 @@ float Sweep::deficit_over_surface_m(const Entry& entry, double target_m, const H
             return ask_oracle(entry, target_m, -1.0, asked);
     }
     // The target, and how it moves as it is raised along the ellipsoid's normal there.
-    const glm::dvec3 up = plane_.normal(row, column);
-    const double up_s = (up.x * post.x + up.y * post.y) / s_m, bend = plane_.bend_per_m();
+    const double up_s = swept.up_s, up_z = swept.up_z, bend = plane_.bend_per_m();
     const double ground_z_m = post.z - bend * s_m * s_m;
-    // How high it must be over the post's ground for a tangent: z + t up_z + bend (s + t up_s)^2 = tangent (s
-    // + t up_s).
     const auto needed_m = [&](double tangent) {
-        double t_m = 0.0;
-        for (int i = 0; i < 4; ++i) {
-            const double there_m = s_m + t_m * up_s;
-            const double slope = up.z + (2.0 * bend * there_m - tangent) * up_s;
-            if (!(slope > 1.0e-3)) return infinite;
-            t_m -= (ground_z_m + t_m * up.z + bend * there_m * there_m - tangent * there_m) / slope;
-        }
-        return t_m;
+        return needed_height_m(ground_z_m, s_m, up_s, up_z, bend, tangent);
     };
     if (horizon.tangent == Horizon::none) return in_doubt ? ask_oracle(entry, target_m, -1.0, asked) : 0.0F;
     const auto rise_m = [&] { return needed_m(horizon.tangent) - target_m; };
     if (in_doubt) return ask_oracle(entry, target_m, rise_m(), asked);
     // What a target's own way up turns from the line of sight, and what is rounded.
-    const double aside = std::abs(up.x * post.y - up.y * post.x) / s_m;
-    const double slack_m = 1.0e-5 + 1.0e-9 * s_m + 10.0 * aside * target_m;
+    const double slack_m = 1.0e-5 + 1.0e-9 * s_m + 10.0 * swept.aside * target_m;
     // Without a division: whether a line at a tangent runs higher over the post than so, and well so.
     const auto is_over = [&](double tangent, double t_m) {
         const double there_m = s_m + t_m * up_s;
-        const double over_line_m = ground_z_m + t_m * up.z + bend * there_m * there_m - tangent * there_m;
-        return over_line_m < -0.1 * slack_m && up.z + (2.0 * bend * there_m - tangent) * up_s > 0.5;
+        const double over_line_m = ground_z_m + t_m * up_z + bend * there_m * there_m - tangent * there_m;
+        return over_line_m < -0.1 * slack_m && up_z + (2.0 * bend * there_m - tangent) * up_s > 0.5;
     };
     // Below ground that ends a line may run free.
-    if (!horizon.has_rim && is_over(horizon.lowest, target_m + slack_m)) return static_cast<float>(rise_m());
+    if (!horizon.has_rim && is_over(horizon.lowest, target_m + slack_m)) {
+        hidden = {hidden.cell, ground_z_m, s_m, up_s, up_z, horizon.tangent, target_m, hidden.further_m};
+        return std::nullopt;
+    }
     if (needed_m(horizon.highest) - target_m < -slack_m) return 0.0F;
     if (!horizon.has_rim && needed_m(horizon.lowest) - target_m > slack_m)
         return static_cast<float>(rise_m());
@@ -372,22 +381,40 @@ float Sweep::deficit_over_surface_m(const Entry& entry, double target_m, const H
 void Sweep::sweep_sector(int sector, Viewshed& viewshed, std::size_t& asked) const {
     const int each = ranges_ / sectors_;
     HorizonSector horizon(plane_, ranges_, sector * each, each);
+    SweptPosts posts(plane_, ranges_, sector * each, each);
+    SectorResult result{viewshed, {}, 0};
     const std::size_t* const begins =
         shells_.begins.data() + static_cast<std::size_t>(sector) * static_cast<std::size_t>(shells_.count);
     for (int shell = 0; shell < shells_.count && !request_.stop.stop_requested(); ++shell) {
-        const Entry* const from = shells_.entries.data() + begins[shell];
-        const Entry* const to = shells_.entries.data() + begins[shell + 1];
+        const Entry* const from = shells_.entries.get() + begins[shell];
+        const Entry* const to = shells_.entries.get() + begins[shell + 1];
+        posts.clear();
         for (const Entry* entry = from; entry != to; ++entry) {
-            if (entry->visits) continue;
-            const std::size_t cell =
-                static_cast<std::size_t>(entry->row) * static_cast<std::size_t>(window_.columns) +
-                static_cast<std::size_t>(entry->column);
-            viewshed.clearance_deficit_m[cell] =
-                clearance_deficit_m(*entry, horizon, shell * shells_.width_m, asked);
+            // Posts of a shell lie in many rows: those that follow are fetched meanwhile.
+            constexpr std::ptrdiff_t ahead = 12;
+            if (to - entry > ahead) plane_.fetch(plane_.number(entry[ahead].row, entry[ahead].column()));
+            posts.add(
+                plane_.number(entry->row, entry->column()),
+                entry->visits() ? glm::dvec3(0.0, 0.0, 1.0) : plane_.normal(entry->row, entry->column()));
         }
+        posts.measure();
+        result.hidden.clear();
         for (const Entry* entry = from; entry != to; ++entry)
-            add_edges(plane_.number(entry->row, entry->column), horizon);
+            if (!entry->visits())
+                look_at(*entry, posts.at(static_cast<std::size_t>(entry - from)), horizon,
+                        shell * shells_.width_m, result);
+        result.hidden.write(plane_.bend_per_m(), viewshed.clearance_deficit_m);
+        for (const Entry* entry = from; entry != to; ++entry) {
+            const SweptPosts::Post post = posts.at(static_cast<std::size_t>(entry - from));
+            // Most ground lies below what is nearer: then no edge of the post is looked at. (Near posts that
+            // have no height, where ground ends, there is no such bound.)
+            if (post.most_tangent < infinite &&
+                horizon.is_above(post.first_range, post.last_range, post.most_tangent))
+                continue;
+            add_edges(plane_.number(entry->row, entry->column()), horizon);
+        }
     }
+    asked = result.asked;
 }
 
 Viewshed Sweep::result(const ViewshedProgress& progress) {

@@ -60,6 +60,24 @@ std::int32_t decisive_steps_at(const HeightField& field, int row, int column,
     return steps_of(field, row, column);
 }
 
+void decisive_steps_of_row(const HeightField& field, int row, int first_column,
+                           const std::vector<char>* masked, std::span<std::int32_t> steps) {
+    const PostGrid& grid = field.grid;
+    const int count = static_cast<int>(steps.size());
+    const auto at = [&](int i) -> std::int32_t& { return steps[static_cast<std::size_t>(i)]; };
+    // Posts that are points of their own, and within the region.
+    int from = count, to = count;
+    if (row > 0 && row < grid.rows() - 1 && !field.posts && masked == nullptr) {
+        from = std::clamp(-first_column, 0, count);
+        to = std::clamp(grid.columns() - 1 - first_column, from, count);
+        const float* const H_m =
+            &field.H_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns())];
+        for (int i = from; i < to; ++i) at(i) = decisive_steps(H_m[first_column + i]);
+    }
+    for (int i = 0; i < from; ++i) at(i) = decisive_steps_at(field, row, first_column + i, masked);
+    for (int i = to; i < count; ++i) at(i) = decisive_steps_at(field, row, first_column + i, masked);
+}
+
 Diagonal cell_diagonal(const HeightField& field, int row, int column, const std::vector<char>* masked) {
     return diagonal_of([&](int r, int c) { return decisive_steps_at(field, r, c, masked); }, row, column);
 }

@@ -50,6 +50,10 @@ class CellDiagonals {
     std::vector<Level> levels_;
 };
 
+// decisive_steps_at() of the posts of a row, from first_column on.
+void decisive_steps_of_row(const HeightField& field, int row, int first_column,
+                           const std::vector<char>* masked, std::span<std::int32_t> steps);
+
 // Decides row after row: gets the posts' decisive_steps() row by row, from one post west of the first cell to
 // one east of the last.
 class DiagonalRows {

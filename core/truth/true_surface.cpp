@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "core/base/parallel.h"
+#include "core/base/wide.h"
 #include "core/terrain/cell_diagonals.h"
 #include "core/terrain/drawn_heights.h"
 #include "core/terrain/post_spacing.h"
@@ -25,6 +27,33 @@ Layer joined(const Layer& a, const Layer& b) {
     return {std::min(a.lowest_h_m, b.lowest_h_m), std::max(a.highest_h_m, b.highest_h_m)};
 }
 
+// Takes posts into the lowest and highest heights so far; as many at a time as a vector holds.
+ORO_WIDE void take_into_range(const float* heights_m, int count, float& lowest, float& highest) {
+    constexpr int lanes = 16;
+    std::array<float, lanes> low, high;
+    low.fill(lowest);
+    high.fill(highest);
+    int i = 0;
+    for (; i + lanes <= count; i += lanes) {
+        for (int lane = 0; lane < lanes; ++lane) {
+            const float post = heights_m[i + lane];
+            const float up = post == void_height_m ? std::numeric_limits<float>::infinity() : post;
+            const float down = post == void_height_m ? -std::numeric_limits<float>::infinity() : post;
+            float &own_low = low[static_cast<std::size_t>(lane)],
+                  &own_high = high[static_cast<std::size_t>(lane)];
+            own_low = up < own_low ? up : own_low;
+            own_high = down > own_high ? down : own_high;
+        }
+    }
+    for (; i < count; ++i) {
+        if (is_void(heights_m[i])) continue;
+        low[0] = std::min(low[0], heights_m[i]);
+        high[0] = std::max(high[0], heights_m[i]);
+    }
+    lowest = *std::ranges::min_element(low);
+    highest = *std::ranges::max_element(high);
+}
+
 int divided_up(int count, int by) {
     return (count + by - 1) / by;
 }
@@ -38,13 +67,7 @@ struct TrueSurface::Chunk {
         float highest{-std::numeric_limits<float>::infinity()};
     };
     std::array<std::vector<FloatLayer>, chunk_level + 1> levels;
-    std::vector<std::uint8_t> sw_ne;  // of its cells, row by row, eight a byte
 
-    // By the grid's row and column.
-    [[nodiscard]] Diagonal diagonal_at(int row, int column) const {
-        const auto cell = static_cast<std::size_t>(row % chunk_cells * chunk_cells + column % chunk_cells);
-        return (sw_ne[cell / 8] >> (cell % 8) & 1) != 0 ? Diagonal::sw_ne : Diagonal::nw_se;
-    }
     static FloatLayer around(const Layer& layer) {
         if (layer.empty()) return {};
         constexpr float far = std::numeric_limits<float>::infinity();
@@ -61,6 +84,32 @@ struct TrueSurface::Chunk {
         levels[static_cast<std::size_t>(level)].push_back(around(layer));
     }
 };
+
+struct TrueSurface::ChunkDiagonals {
+    static constexpr std::size_t row_bytes = chunk_cells / 8;
+    std::array<std::uint8_t, chunk_cells * row_bytes> sw_ne{};  // of its cells, row by row, eight a byte
+
+    // By the grid's row and column.
+    [[nodiscard]] Diagonal at(int row, int column) const {
+        const auto cell = static_cast<std::size_t>(row % chunk_cells * chunk_cells + column % chunk_cells);
+        return (sw_ne[cell / 8] >> (cell % 8) & 1) != 0 ? Diagonal::sw_ne : Diagonal::nw_se;
+    }
+};
+
+namespace {
+
+// What a slot holds, made by `make` where it is empty; of several threads that make it one keeps its own.
+template <class Kept, class Make>
+const Kept& kept_in(std::atomic<Kept*>& slot, const Make& make) {
+    if (const Kept* const there = slot.load(std::memory_order_acquire)) return *there;
+    Kept* const made = make();
+    Kept* none = nullptr;
+    if (slot.compare_exchange_strong(none, made, std::memory_order_acq_rel)) return *made;
+    delete made;  // another thread was faster
+    return *none;
+}
+
+}  // namespace
 
 TrueSurface::TrueSurface(const HeightField& field, double exaggeration, int threads,
                          const std::vector<char>* masked)
@@ -86,8 +135,7 @@ TrueSurface::TrueSurface(const HeightField& field, double exaggeration, int thre
               across = divided_up(grid.columns() - 1, chunk_cells);
     levels_ = chunk_level + 1;
     while ((std::max(down, across) - 1) >> (levels_ - 1 - chunk_level) > 0) ++levels_;
-    chunks_ =
-        std::vector<std::atomic<Chunk*>>(static_cast<std::size_t>(down) * static_cast<std::size_t>(across));
+    chunks_ = std::vector<ChunkSlot>(static_cast<std::size_t>(down) * static_cast<std::size_t>(across));
     measure_above(threads);
     if (grid.net) place_corners(threads);
 }
@@ -107,7 +155,10 @@ void TrueSurface::place_corners(int threads) {
 }
 
 TrueSurface::~TrueSurface() {
-    for (const std::atomic<Chunk*>& chunk : chunks_) delete chunk.load();
+    for (const ChunkSlot& slot : chunks_) {
+        delete slot.layers.load();
+        delete slot.diagonals.load();
+    }
 }
 
 std::pair<int, int> TrueSurface::blocks(int level) const {
@@ -128,6 +179,25 @@ std::optional<double> TrueSurface::post_h_m(int row, int column) const {
     if (N_rows_.empty()) return H;
     return H + field_.undulation.at_m(N_rows_[static_cast<std::size_t>(row)],
                                       N_columns_[static_cast<std::size_t>(column)]);
+}
+
+void TrueSurface::row_h_m(int row, int first_column, std::span<double> h_m) const {
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    const PostGrid& grid = field_.grid;
+    std::size_t i = 0;
+    // But for those of the first row, the last, and the last column, posts are points of their own.
+    if (row > 0 && row < grid.rows() - 1 && !grid.net && !field_.posts && !N_rows_.empty()) {
+        const float* const H_m =
+            &field_.H_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns())];
+        const UndulationField::Between& N_row = N_rows_[static_cast<std::size_t>(row)];
+        for (; i < h_m.size() && first_column + static_cast<int>(i) < grid.columns() - 1; ++i) {
+            const auto column = static_cast<std::size_t>(first_column) + i;
+            h_m[i] = is_void(H_m[column]) ? none
+                                          : static_cast<double>(H_m[column]) * exaggeration_ +
+                                                field_.undulation.at_m(N_row, N_columns_[column]);
+        }
+    }
+    for (; i < h_m.size(); ++i) h_m[i] = post_h_m(row, first_column + static_cast<int>(i)).value_or(none);
 }
 
 std::optional<double> TrueSurface::h_m(double lat_deg, double lon_deg) const {
@@ -177,11 +247,8 @@ Layer TrueSurface::scanned_layer(int chunk_row, int chunk_column) const {
     for (int row = chunk_row * chunk_cells; row <= last_row; ++row) {
         const float* const posts =
             field_.H_m.data() + static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns());
-        for (int column = chunk_column * chunk_cells; column <= last_column; ++column) {
-            if (is_void(posts[column])) continue;
-            lowest = std::min(lowest, posts[column]);
-            highest = std::max(highest, posts[column]);
-        }
+        const int first_column = chunk_column * chunk_cells;
+        take_into_range(posts + first_column, last_column - first_column + 1, lowest, highest);
     }
     // Posts that are one point are as high as one of them, which may be another chunk's.
     const auto take = [&](int row, int column) {
@@ -240,21 +307,28 @@ void TrueSurface::measure_above(int threads) {
 
 TrueSurface::Chunk* TrueSurface::new_chunk(int chunk_row, int chunk_column) const {
     const PostGrid& grid = field_.grid;
-    auto* chunk = new Chunk;
-    decide_diagonals(chunk_row, chunk_column, *chunk);
+    auto chunk = std::make_unique<Chunk>();
+    // Who asks for layers asks for diagonals, too.
+    static_cast<void>(chunk_diagonals(chunk_row, chunk_column));
     constexpr int side = 1 << chunk_level;
+    const int first_row = chunk_row * chunk_cells, first_column = chunk_column * chunk_cells;
+    const int rows = std::min(chunk_cells, grid.rows() - 1 - first_row) + 1;
+    const int columns = std::min(chunk_cells, grid.columns() - 1 - first_column) + 1;
+    std::vector<double> h_m(static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
+    const auto row_of = [&](int row) {
+        return std::span(h_m).subspan(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns),
+                                      static_cast<std::size_t>(columns));
+    };
+    for (int row = 0; row < rows; ++row) row_h_m(first_row + row, first_column, row_of(row));
     for (int i = 0; i < side * side; ++i) {
-        const int first_row = chunk_row * chunk_cells + i / side * block_cells;
-        const int first_column = chunk_column * chunk_cells + i % side * block_cells;
+        const int north = i / side * block_cells, west = i % side * block_cells;
         Layer layer = no_layer;
-        for (int row = first_row; row <= std::min(first_row + block_cells, grid.rows() - 1); ++row) {
-            for (int column = first_column;
-                 column <= std::min(first_column + block_cells, grid.columns() - 1); ++column) {
-                if (const std::optional<double> h = post_h_m(row, column)) layer = joined(layer, {*h, *h});
-            }
-        }
+        for (int row = north; row <= std::min(north + block_cells, rows - 1); ++row)
+            for (int column = west; column <= std::min(west + block_cells, columns - 1); ++column)
+                if (const double h = row_of(row)[static_cast<std::size_t>(column)]; !std::isnan(h))
+                    layer = joined(layer, {h, h});
         // No cell of the grid begins there.
-        const bool beyond = first_row >= grid.rows() - 1 || first_column >= grid.columns() - 1;
+        const bool beyond = north >= rows - 1 || west >= columns - 1;
         chunk->put(0, beyond ? no_layer : layer);
     }
     for (int level = 1; level <= chunk_level; ++level) {
@@ -267,52 +341,49 @@ TrueSurface::Chunk* TrueSurface::new_chunk(int chunk_row, int chunk_column) cons
                                             chunk->at(level - 1, row + 1, column + 1))));
         }
     }
-    return chunk;
+    return chunk.release();
 }
 
 // Of the chunk's cells, by the posts around them.
-void TrueSurface::decide_diagonals(int chunk_row, int chunk_column, Chunk& chunk) const {
+TrueSurface::ChunkDiagonals* TrueSurface::new_chunk_diagonals(int chunk_row, int chunk_column) const {
     const PostGrid& grid = field_.grid;
     const int first_row = chunk_row * chunk_cells, first_column = chunk_column * chunk_cells;
-    constexpr std::size_t row_bytes = chunk_cells / 8;
-    chunk.sw_ne.assign(chunk_cells * row_bytes, 0);
+    constexpr std::size_t row_bytes = ChunkDiagonals::row_bytes;
+    auto diagonals = std::make_unique<ChunkDiagonals>();
     DiagonalRows rows(chunk_cells);
     for (int row = first_row - 1; row <= std::min(first_row + chunk_cells, grid.rows() - 1) + 1; ++row) {
-        const std::span<std::int32_t> steps = rows.next();
-        for (std::size_t i = 0; i < steps.size(); ++i)
-            steps[i] = decisive_steps_at(field_, row, first_column - 1 + static_cast<int>(i), masked_);
+        decisive_steps_of_row(field_, row, first_column - 1, masked_, rows.next());
         rows.take();
         const int cell_row = row - 2 - first_row;
         if (cell_row < 0 || cell_row >= chunk_cells) continue;
         rows.decide(
-            std::span(chunk.sw_ne).subspan(static_cast<std::size_t>(cell_row) * row_bytes, row_bytes));
+            std::span(diagonals->sw_ne).subspan(static_cast<std::size_t>(cell_row) * row_bytes, row_bytes));
     }
+    return diagonals.release();
 }
 
-std::atomic<TrueSurface::Chunk*>& TrueSurface::slot_of(int row, int column) const {
+TrueSurface::ChunkSlot& TrueSurface::slot_of(int row, int column) const {
     const auto across = static_cast<std::size_t>(blocks(chunk_level).second);
     return chunks_[static_cast<std::size_t>(row) * across + static_cast<std::size_t>(column)];
 }
 
 Diagonal TrueSurface::diagonal_at(int row, int column) const {
     // As the chunk knows it, where one looked at it before.
-    const Chunk* const known =
-        slot_of(row / chunk_cells, column / chunk_cells).load(std::memory_order_acquire);
-    return known == nullptr ? cell_diagonal(field_, row, column, masked_) : known->diagonal_at(row, column);
+    const ChunkDiagonals* const known =
+        slot_of(row / chunk_cells, column / chunk_cells).diagonals.load(std::memory_order_acquire);
+    return known == nullptr ? cell_diagonal(field_, row, column, masked_) : known->at(row, column);
 }
 
 Diagonal TrueSurface::diagonal_of_many(int row, int column) const {
-    return chunk(row / chunk_cells, column / chunk_cells).diagonal_at(row, column);
+    return chunk_diagonals(row / chunk_cells, column / chunk_cells).at(row, column);
+}
+
+const TrueSurface::ChunkDiagonals& TrueSurface::chunk_diagonals(int row, int column) const {
+    return kept_in(slot_of(row, column).diagonals, [&] { return new_chunk_diagonals(row, column); });
 }
 
 const TrueSurface::Chunk& TrueSurface::chunk(int row, int column) const {
-    std::atomic<Chunk*>& slot = slot_of(row, column);
-    if (const Chunk* const there = slot.load(std::memory_order_acquire)) return *there;
-    Chunk* const made = new_chunk(row, column);
-    Chunk* none = nullptr;
-    if (slot.compare_exchange_strong(none, made, std::memory_order_acq_rel)) return *made;
-    delete made;  // another thread was faster
-    return *none;
+    return kept_in(slot_of(row, column).layers, [&] { return new_chunk(row, column); });
 }
 
 Layer TrueSurface::layer(const Block& block) const {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -55,6 +56,9 @@ class TrueSurface {
     // Height above the ellipsoid of a post; nothing where it is void. Posts that are one point (a meridian's
     // two columns, a pole) have one height.
     [[nodiscard]] std::optional<double> post_h_m(int row, int column) const;
+    // The same bits of the posts of a row, from first_column on; no number where one is void. For who asks
+    // for most posts of a part.
+    void row_h_m(int row, int first_column, std::span<double> h_m) const;
 
     // Heights between which a part of the surface lies; lowest > highest where there is none.
     struct Layer {
@@ -87,11 +91,16 @@ class TrueSurface {
     [[nodiscard]] double exaggeration() const { return exaggeration_; }
 
   private:
-    struct Chunk;  // what is known of 128 x 128 cells, once they were looked at
+    // What is known of 128 x 128 cells, once they were looked at: heights of their blocks, and, as a sweep
+    // needs them alone, their diagonals.
+    struct Chunk;
+    struct ChunkDiagonals;
     [[nodiscard]] const Chunk& chunk(int row, int column) const;
     [[nodiscard]] Chunk* new_chunk(int row, int column) const;
-    void decide_diagonals(int row, int column, Chunk& chunk) const;
-    [[nodiscard]] std::atomic<Chunk*>& slot_of(int row, int column) const;
+    [[nodiscard]] const ChunkDiagonals& chunk_diagonals(int row, int column) const;
+    [[nodiscard]] ChunkDiagonals* new_chunk_diagonals(int row, int column) const;
+    struct ChunkSlot;
+    [[nodiscard]] ChunkSlot& slot_of(int row, int column) const;
     [[nodiscard]] Layer scanned_layer(int chunk_row, int chunk_column) const;
     void measure_above(int threads);
     void place_corners(int threads);
@@ -105,7 +114,11 @@ class TrueSurface {
     std::vector<UndulationField::Between> N_rows_;
     std::vector<UndulationField::Between> N_columns_;
     std::vector<std::vector<Layer>> above_;  // of the chunks' level and those above it
-    mutable std::vector<std::atomic<Chunk*>> chunks_;
+    struct ChunkSlot {
+        std::atomic<Chunk*> layers{nullptr};
+        std::atomic<ChunkDiagonals*> diagonals{nullptr};
+    };
+    mutable std::vector<ChunkSlot> chunks_;
 };
 
 }  // namespace oro

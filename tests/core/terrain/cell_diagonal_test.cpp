@@ -159,6 +159,32 @@ HeightField random_field(std::mt19937_64& random, int rows, int columns, bool ro
     return field;
 }
 
+// Rows that begin and end within the region, at its rim and beyond it; old rule: post by post.
+TEST(CellDiagonals, RowsOfStepsAreThoseOfTheirPosts) {
+    const unsigned seed = 1129;
+    std::mt19937_64 random(seed);
+    for (const bool round : {false, true}) {
+        const int rows = 40, columns = round ? 361 : 70;
+        const HeightField field = random_field(random, rows, columns, round);
+        std::vector<char> masked(field.H_m.size(), 0);
+        masked[masked.size() / 2] = 1;
+        for (const std::vector<char>* const mask : {static_cast<const std::vector<char>*>(nullptr),
+                                                    static_cast<const std::vector<char>*>(&masked)}) {
+            for (int row = -1; row <= rows; ++row) {
+                for (const auto& [first, count] : {std::pair{-1, columns + 2}, std::pair{5, 30},
+                                                   std::pair{columns - 3, 4}, std::pair{-1, 1}}) {
+                    std::vector<std::int32_t> steps(static_cast<std::size_t>(count), 77);
+                    decisive_steps_of_row(field, row, first, mask, steps);
+                    for (int i = 0; i < count; ++i)
+                        ASSERT_EQ(steps[static_cast<std::size_t>(i)],
+                                  decisive_steps_at(field, row, first + i, mask))
+                            << "seed " << seed << " " << row << ", " << first + i;
+                }
+            }
+        }
+    }
+}
+
 // From the region as a whole, and from what a page has in a file: to the bit the same, and the rule's.
 TEST(CellDiagonals, OfRegionsAndPagesAreTheRules) {
     const unsigned seed = 4711;

@@ -65,6 +65,41 @@ UndulationField tilted_N(const PostGrid& grid) {
     return undulation;
 }
 
+// Of each row, from its first column and from a later one; old rule: post by post.
+void expect_rows_of_posts(const TrueSurface& surface) {
+    const PostGrid& grid = surface.field().grid;
+    for (int row = 0; row < grid.rows(); ++row) {
+        for (const int first : {0, grid.columns() / 3, grid.columns() - 1}) {
+            std::vector<double> h_m(static_cast<std::size_t>(grid.columns() - first), 1.0e9);
+            surface.row_h_m(row, first, h_m);
+            for (int column = first; column < grid.columns(); ++column) {
+                const std::optional<double> post_m = surface.post_h_m(row, column);
+                const double found_m = h_m[static_cast<std::size_t>(column - first)];
+                ASSERT_EQ(post_m.has_value(), !std::isnan(found_m)) << row << ", " << column;
+                ASSERT_TRUE(!post_m || found_m == *post_m) << row << ", " << column;
+            }
+        }
+    }
+}
+
+TEST(TrueSurface, RowsHaveTheBitsOfTheirPosts) {
+    HeightField field = test::world_field(4.0, 46, 7, 21, 33, [](double lat_deg, double lon_deg) {
+        return 900.0 + 311.0 * std::sin(9.0 * lat_deg) + 170.0 * std::cos(7.0 * lon_deg);
+    });
+    field.H_m[5 * 33 + 4] = field.H_m[20 * 33 + 32] = field.H_m[7 * 33 + 32] = void_height_m;
+    expect_rows_of_posts(TrueSurface(field, 1.5, 1));  // without N
+    field.undulation = tilted_N(field.grid);
+    expect_rows_of_posts(TrueSurface(field, 1.0, 1));
+    expect_rows_of_posts(TrueSurface(field, 2.5, 1));
+    const HeightField on_file = read_when_asked(field);
+    expect_rows_of_posts(TrueSurface(on_file, 1.0, 1));
+    // A meridian's two columns, and poles, are one point each.
+    HeightField world = test::world_field(
+        0.1, 9, -18, 19, 37, [](double lat_deg, double lon_deg) { return 10.0 * lat_deg + lon_deg; });
+    world.undulation = tilted_N(world.grid);
+    expect_rows_of_posts(TrueSurface(world, 1.0, 1));
+}
+
 // One cell, split from north-west (0) to south-east (40): over the south-west triangle h = 0 + 100 down + ...
 // by hand: south-west post 100, north-east post 20.
 //   (0.75 down, 0.25 right): 0 + 0.75 (100 - 0) + 0.25 (40 - 100) = 60
