@@ -572,6 +572,12 @@ set_tests_properties(
   Cover.LevelGroundHighUpIsIce
   Cover.SlopesTowardsThePoleLieLower
   Cover.SteepGroundIsRock
+  CulledGrowth.IsNoBladeThatShowsFromAHundredEyes
+  CulledGrowth.IsNoExaggeratedBladeThatShows
+  CulledGrowth.IsNoExaggeratedTreeThatShows
+  CulledGrowth.IsNoTreeThatShowsFromAHundredEyes
+  CulledGrowth.OfBladesIsNoticed
+  CulledGrowth.OfTreesIsNoticed
   CylinderPictureTest.HasNoSeams
   DetailRim.LeavesTheColoursOfTheDataAround
   Drape.IsInTheViewWhichDrawsItAgain

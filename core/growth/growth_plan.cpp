@@ -74,8 +74,10 @@ std::optional<gpu::GrowthTile> tile_on_grid(const PostGrid& grid, const Covering
 // are within the slack.
 class TilesInView {
   public:
-    TilesInView(const Camera& camera, const Tile& tile)
-        : eye_(camera.eye_ecef().m),
+    TilesInView(const Camera& camera, const Tile& tile, double exaggeration)
+        : tallest_m_(40.0 * std::max(exaggeration, 1.0)),
+          beside_m_(26.0 + 4.0 * std::max(exaggeration, 1.0)),
+          eye_(camera.eye_ecef().m),
           eye_h_m_(camera.eye.h_m),
           tangent_(std::abs(std::tan(camera.eye.lat_deg * std::numbers::pi / 180.0))),
           view_from_ecef_(camera.view_from_ecef()),
@@ -85,9 +87,9 @@ class TilesInView {
             up_[i] = glm::dot(glm::dvec3(planes_[i]), view_from_enu_[2]);
     }
     [[nodiscard]] bool may_show(const TileRow& row, std::uint32_t column, const GroundRange& ground) const {
-        constexpr double tallest_m = 40.0, slack_m = tile_circle_m + 30.0;
+        const double slack_m = tile_circle_m + beside_m_;
         const double lon_deg = row.west_deg(column) + 180.0 / row.columns;
-        const auto [low, high] = view_of(row, lon_deg, ground.low_m, ground.high_m + tallest_m);
+        const auto [low, high] = view_of(row, lon_deg, ground.low_m, ground.high_m + tallest_m_);
         for (const Plane& plane : planes_) {
             const glm::dvec3 normal(plane);
             if (!(std::max(glm::dot(normal, low), glm::dot(normal, high)) + plane.w >= -slack_m))
@@ -101,11 +103,11 @@ class TilesInView {
     // none.
     [[nodiscard]] std::pair<double, double> columns_that_may_show(double north_m, double within_m,
                                                                   const GroundRange& ground) const {
-        constexpr double tallest_m = 40.0, earth_m = 6371.0e3, rounding_m = 1.0;
+        constexpr double earth_m = 6371.0e3, rounding_m = 1.0;
         const double square = within_m * within_m * (1.0 + 1.0e-6), drop_m = square / (2.0 * earth_m);
-        const double slack_m =
-            tile_circle_m + 60.0 + 0.012 * std::sqrt(square) + tangent_ * square / earth_m + rounding_m;
-        const double low_m = ground.low_m - eye_h_m_ - drop_m, high_m = ground.high_m + tallest_m - eye_h_m_;
+        const double slack_m = tile_circle_m + 30.0 + beside_m_ + 0.012 * std::sqrt(square) +
+                               tangent_ * square / earth_m + rounding_m;
+        const double low_m = ground.low_m - eye_h_m_ - drop_m, high_m = ground.high_m + tallest_m_ - eye_h_m_;
         const double half_m = std::sqrt(std::max(0.0, square - north_m * north_m)) + rounding_m;
         double from_m = -half_m, to_m = half_m;
         for (std::size_t i = 0; i < planes_.size(); ++i) {
@@ -124,13 +126,14 @@ class TilesInView {
     // (tiles_around), and whose ground is between two heights. Quicker than the above, and never false where
     // that is true.
     [[nodiscard]] bool may_show(double east_m, double north_m, const GroundRange& ground) const {
-        constexpr double tallest_m = 40.0, earth_m = 6371.0e3;
+        constexpr double earth_m = 6371.0e3;
         const double square = east_m * east_m + north_m * north_m, drop_m = square / (2.0 * earth_m);
         // Degrees differ by 0.7 % in length from the equator to the poles, and meridians draw near each
         // other.
-        const double slack_m = tile_circle_m + 60.0 + 0.012 * std::sqrt(square) + tangent_ * square / earth_m;
+        const double slack_m =
+            tile_circle_m + 30.0 + beside_m_ + 0.012 * std::sqrt(square) + tangent_ * square / earth_m;
         const double low_m = ground.low_m - eye_h_m_ - drop_m;
-        const double high_m = ground.high_m + tallest_m - eye_h_m_ - drop_m;
+        const double high_m = ground.high_m + tallest_m_ - eye_h_m_ - drop_m;
         const glm::dvec3 level = view_from_enu_ * glm::dvec3(east_m, north_m, 0.0);
         for (std::size_t i = 0; i < planes_.size(); ++i) {
             const double above_m = std::max(up_[i] * low_m, up_[i] * high_m);
@@ -151,6 +154,8 @@ class TilesInView {
         };
         return {at(low_m), at(high_m)};
     }
+    double tallest_m_;  // of trees, as drawn
+    double beside_m_;   // their crowns and their lean, beside a tile
     glm::dvec3 eye_;
     double eye_h_m_, tangent_;
     glm::dmat3 view_from_ecef_, view_from_enu_;
@@ -220,7 +225,7 @@ GrowthPlan plan_growth(const PostGrid& grid, std::span<const PageIndex> page_ind
     const double pixels_per_tangent = 0.5 * view.camera.height_px / view.camera.half_fov_tangent().y;
     plan.reach_m = gpu::tree_reach_m(static_cast<float>(pixels_per_tangent), static_cast<float>(view.tau_px));
     if (page_indices.empty()) return plan;
-    const TilesInView in_view(view.camera, view.tile);
+    const TilesInView in_view(view.camera, view.tile, view.exaggeration);
     GroundRange all = ground(0);
     for (std::size_t i = 1; i < page_indices.size(); ++i) {
         const GroundRange one = ground(i);

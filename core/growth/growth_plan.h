@@ -24,6 +24,7 @@ struct GrowthView {
     Camera camera;
     Tile tile;  // of the camera's picture
     double tau_px{1.0};
+    double exaggeration{1.0};  // of the ground, and of what grows on it
 };
 
 // Lowest and highest ground of one of the frame's pages, metres above the ellipsoid, as drawn.

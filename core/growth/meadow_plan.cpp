@@ -16,7 +16,6 @@ namespace oro {
 namespace {
 
 constexpr double meadow_circle_m = 7.0;  // around a tile's middle: holds it, and all that stands on it
-constexpr double tallest_grass_m = 1.0;
 
 // A tile of trees' sites whose grass may be near enough.
 struct MeadowParent {
@@ -76,8 +75,9 @@ bool is_near(const Geodetic& eye, const Geodetic& middle) {
 // Which tiles of grass are near enough and may be in the picture.
 class MeadowInView {
   public:
-    MeadowInView(const Camera& camera, const Tile& tile)
-        : eye_(camera.eye_ecef().m),
+    MeadowInView(const Camera& camera, const Tile& tile, double exaggeration)
+        : tallest_m_(std::max(exaggeration, 1.0)),
+          eye_(camera.eye_ecef().m),
           view_from_ecef_(camera.view_from_ecef()),
           planes_(frustum_planes_view(projection_of_tile(camera, tile))) {}
     // Metres from the eye to the nearest of a tile's ground; negative where it does not show. Light that
@@ -86,7 +86,7 @@ class MeadowInView {
         const auto at = [&](double h_m) {
             return view_from_ecef_ * (ecef_from_geodetic({middle.lat_deg, middle.lon_deg, h_m}).m - eye_);
         };
-        const glm::dvec3 low = at(ground.low_m), high = at(ground.high_m + tallest_grass_m);
+        const glm::dvec3 low = at(ground.low_m), high = at(ground.high_m + tallest_m_);
         const glm::dvec3 along = high - low;
         const double share = std::clamp(-glm::dot(low, along) / glm::dot(along, along), 0.0, 1.0);
         const double nearest_m = glm::length(low + share * along);
@@ -100,6 +100,7 @@ class MeadowInView {
     }
 
   private:
+    double tallest_m_;  // of grass, as drawn
     glm::dvec3 eye_;
     glm::dmat3 view_from_ecef_;
     std::array<Plane, 5> planes_;
@@ -114,7 +115,7 @@ MeadowPlan plan_meadow(const PostGrid& grid, std::span<const PageIndex> page_ind
     const auto parents = parents_around(grid, view.camera.eye);
     if (parents.empty()) return plan;
     const CoveringPages pages(page_indices);
-    const MeadowInView in_view(view.camera, view.tile);
+    const MeadowInView in_view(view.camera, view.tile, view.exaggeration);
     constexpr std::uint32_t side = gpu::meadow_tiles_per_side;
     std::vector<std::pair<double, gpu::GrowthTile>> near;
     for (const MeadowParent& parent : parents) {

@@ -176,7 +176,7 @@ Result<void> GridScene::add_growth(const FrameView& view, GridPlan& plan) {
         ranges.push_back({page->record.summary.lowest_h_m, page->record.summary.highest_h_m});
     }
     const auto ground = [&](std::size_t page) { return ranges[page]; };
-    const GrowthView from{view.camera, view.tile, view.tau_px};
+    const GrowthView from{view.camera, view.tile, view.tau_px, pages_->facts().shape.exaggeration};
     if (has_trees_) plan.growth = plan_growth(pages_->facts().grid, plan.page_indices, ground, from);
     if (has_grass_) plan.meadow = plan_meadow(pages_->facts().grid, plan.page_indices, ground, from);
     return {};

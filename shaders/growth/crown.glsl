@@ -140,7 +140,8 @@ bool meets_crown(Crown crown, vec3 from, vec3 ray, float pixel_m, float least, o
     hit.depth_m = begin + best;
     return true;
 }
-// Through a pixel.
+// Through a pixel. Leaves at the eye are met where rays begin, or less by what is rounded.
 bool hits_crown(Crown crown, vec3 ray, float pixel_m, out CrownHit hit) {
-    return meets_crown(crown, vec3(0.0), ray, pixel_m, 0.3, hit) && hit.depth_m >= 0.3;
+    const float begin_m = 0.3, rounded_m = 0.001;
+    return meets_crown(crown, vec3(0.0), ray, pixel_m, begin_m, hit) && hit.depth_m >= begin_m - rounded_m;
 }

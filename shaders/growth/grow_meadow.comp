@@ -105,7 +105,7 @@ MeadowClump clump_that_stands(GrowthTile tile, uint number) {
     mat3 axes = axes_of_foot(place.view);
     float tallest_m = FRAME.exaggeration * clump_height_m(clump_size_most), reach_m = clump_reach_m(clump_size_most);
     vec2 slope = slope_of(place, axes);
-    float radius_m = reach_m + 0.02 + clump_spread_m * (abs(slope.x) + abs(slope.y)) + 2.0 * distance_m / FRAME.pixels_per_tangent;
+    float radius_m = reach_m + 0.02 + clump_spread_m * max(FRAME.exaggeration, 1.0) * (abs(slope.x) + abs(slope.y)) + 2.0 * distance_m / FRAME.pixels_per_tangent;
     vec3 top = place.view + tallest_m * axes[2];
     if (!may_show(0.5 * (place.view + top), 0.5 * tallest_m + radius_m) || is_hidden(place.view, top, radius_m)) return clump;
     SurfacePoint point = ground_of(place);

@@ -13,9 +13,10 @@ layout(local_size_x = 128) in;  // site_group
 bool may_show(SitePlace place) {
     float distance_m = length(place.view);
     if (distance_m > GROWTH.reach_m || distance_m < 3.0) return false;
-    vec3 middle = place.view + 15.0 * normalize(place.view + (FRAME.earth_radius_m + FRAME.eye_h_m) * FRAME.up_view);
+    float tall = max(FRAME.exaggeration, 1.0);
+    vec3 middle = place.view + 15.0 * tall * normalize(place.view + (FRAME.earth_radius_m + FRAME.eye_h_m) * FRAME.up_view);
     // Near the eye those beside the picture, too: their shadows may be in it.
-    float w = -middle.z, reach_m = distance_m < shade_map_reach_m ? 80.0 : 24.0;
+    float w = -middle.z, reach_m = tall * (distance_m < shade_map_reach_m ? 80.0 : 24.0);
     if (w < -reach_m) return false;
     vec2 side = FRAME.projection_scale * middle.xy + FRAME.projection_shift * w, slack = reach_m * (abs(FRAME.projection_scale) + 1.0 + abs(FRAME.projection_shift));
     return all(lessThanEqual(abs(side), vec2(w) + slack));
