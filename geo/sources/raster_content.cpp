@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/terrain/post_grid.h"
 #include "geo/files/letter_case.h"
 #include "geo/files/name_pattern.h"
 #include "geo/files/raster_library.h"

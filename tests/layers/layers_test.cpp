@@ -29,7 +29,7 @@ const std::map<std::string, Layer>& layers() {
     static const std::map<std::string, Layer> table = {
         {"shaders", {{standard_library, "glm/.*", "shaders/.*\\.(glsl|h)"}, {}}},
         {"core",
-         {{standard_library, "(fcntl|unistd|sys/[a-z]+|zstd|zstd_errors|xxhash|erfa)\\.h", "glm/.*",
+         {{standard_library, "(fcntl|unistd|sys/[a-z]+|zstd|zstd_errors|xxhash|erfa|immintrin)\\.h", "glm/.*",
            "meshoptimizer\\.h", "core/.*", "shaders/.*\\.(glsl|h)"},
           {"orograph_options", "glm::glm", "meshoptimizer(::meshoptimizer)?", "(zstd|erfa)::static"}}},
         {"geo",
