@@ -214,14 +214,4 @@ void EyePlane::bound_tangents(double around_m, int threads) {
     });
 }
 
-double EyePlane::most_tangent_around(std::int64_t number) const {
-    const double nearest_m = post(number).distance_m - around_m_;
-    // An edge turns little as seen from there.
-    if (most_tangents_.empty() || !(nearest_m > 4.0 * longest_edge_m_)) return infinite;
-    const auto most = static_cast<double>(most_tangents_[static_cast<std::size_t>(number)]);
-    const double across = longest_edge_m_ / nearest_m;
-    // Between two posts an edge is seen higher by the square of the angle, and by what it bulges.
-    return most + std::abs(most) * across * across + 3.0 * error_m_ / nearest_m;
-}
-
 }  // namespace oro

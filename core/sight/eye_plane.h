@@ -28,6 +28,13 @@ inline double along(const PlanePost& a, const PlanePost& b) {
     return a.x * b.x + a.y * b.y;
 }
 
+// Has the processor fetch what lies there before it is asked for.
+inline void fetch_ahead([[maybe_unused]] const void* place) {
+#if defined(__GNUC__)
+    __builtin_prefetch(place);
+#endif
+}
+
 // The posts of a window and a rim of one post around it, which has no place (NaN). A void post has a place,
 // and NaN for a height. Numbers count through rows of the rimmed window.
 class EyePlane {
@@ -39,19 +46,11 @@ class EyePlane {
     }
     // Has the processor fetch what it will be asked of a post.
     void fetch(std::int64_t number) const {
-#if defined(__GNUC__)
-        __builtin_prefetch(&posts_[static_cast<std::size_t>(number)]);
-        if (!most_tangents_.empty()) __builtin_prefetch(&most_tangents_[static_cast<std::size_t>(number)]);
-#else
-        static_cast<void>(number);
-#endif
+        fetch_ahead(&posts_[static_cast<std::size_t>(number)]);
+        if (!most_tangents_.empty()) fetch_ahead(&most_tangents_[static_cast<std::size_t>(number)]);
     }
-    [[nodiscard]] std::int64_t number(int row, int column) const {
-        return (row + 1) * stride_ + column + 1;
-    }
-    [[nodiscard]] std::int64_t stride() const {
-        return stride_;
-    }
+    [[nodiscard]] std::int64_t number(int row, int column) const { return (row + 1) * stride_ + column + 1; }
+    [[nodiscard]] std::int64_t stride() const { return stride_; }
     // The neighbours of a post, turning one way; each two that follow each other, and it, are a triangle.
     struct Neighbours {
         std::array<std::int64_t, 8> numbers;
@@ -91,9 +90,7 @@ class EyePlane {
     }
 
     // No edge is longer, in the plane.
-    [[nodiscard]] double longest_edge_m() const {
-        return longest_edge_m_;
-    }
+    [[nodiscard]] double longest_edge_m() const { return longest_edge_m_; }
     // How much higher the ground of an edge is than the straight line between its posts, at a share of its
     // way: it is as curved as the ellipsoid, and what is seen of it as light.
     [[nodiscard]] double bulge_m(const PlanePost& one, const PlanePost& other, double share) const {
@@ -101,23 +98,16 @@ class EyePlane {
         return share * (1.0 - share) * (x * x + y * y) * bulge_per_m_;
     }
     // With that, the net of edges is nowhere farther from the ground, in height as it is seen.
-    [[nodiscard]] double error_m() const {
-        return error_m_;
-    }
+    [[nodiscard]] double error_m() const { return error_m_; }
 
-    // Makes most_tangent_around() ready, for so far across the plane.
+    // Makes ready what bounds how high the edges around a post are seen, so far across the plane: the tangent
+    // of the highest post around one, infinite where posts around have no place or no height or stand too
+    // close together, and what makes a bound of that (SweptPosts).
     void bound_tangents(double around_m, int threads);
-    // No edge between two posts within that distance of a post is seen higher than at this tangent; infinite
-    // where posts around have no place or no height, stand too close together, or are too near.
-    [[nodiscard]] double most_tangent_around(std::int64_t number) const;
-    // Its parts, for who asks of many posts: the tangent of the highest post around one, infinite where there
-    // is no bound, and what makes a bound of that (SweptPosts).
     struct TangentBound {
         double around_m, longest_edge_m, error_m;
     };
-    [[nodiscard]] TangentBound tangent_bound() const {
-        return {around_m_, longest_edge_m_, error_m_};
-    }
+    [[nodiscard]] TangentBound tangent_bound() const { return {around_m_, longest_edge_m_, error_m_}; }
     [[nodiscard]] double most_tangent_of_box(std::int64_t number) const {
         return most_tangents_.empty() ? std::numeric_limits<double>::infinity()
                                       : static_cast<double>(most_tangents_[static_cast<std::size_t>(number)]);
@@ -125,10 +115,8 @@ class EyePlane {
 
     // The normal of the ellipsoid at a post of the window, in the plane's axes.
     [[nodiscard]] glm::dvec3 normal(int row, int column) const;
-    // Height of a post above the ellipsoid, as the surface has it.
-    [[nodiscard]] double bend_per_m() const {
-        return bend_per_m_;
-    }
+    // What the bend of light adds to a height as it is seen: so much times the square of the distance, 1/m.
+    [[nodiscard]] double bend_per_m() const { return bend_per_m_; }
 
   private:
     void place_row(const TrueSurface& surface, int row);

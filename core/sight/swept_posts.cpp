@@ -49,6 +49,8 @@ ORO_WIDE void find_ranges(const Directions& posts, std::size_t size, const Secto
     }
 }
 
+// Between two posts an edge is seen higher by the square of the angle, and by what it bulges. It turns little
+// as seen from four times its length.
 ORO_WIDE void bound_tangents_of(const EyePlane::TangentBound& bound, const double* distance_m,
                                 std::size_t size, double* most_tangent) {
     for (std::size_t i = 0; i < size; ++i) {

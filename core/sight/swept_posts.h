@@ -19,7 +19,9 @@ class SweptPosts {
 
     // What is known of one post.
     struct Post {
-        double most_tangent;          // EyePlane::most_tangent_around()
+        // No edge between two posts within the plane's bound_tangents() of the post is seen higher; infinite
+        // where that is not known, or the post is too near.
+        double most_tangent;
         double up_s, up_z;            // the ellipsoid's normal there, along the post's direction and upwards
         double aside;                 // ... and across its direction, without a sign
         int range;                    // of the post's own direction, counted from the sector's first

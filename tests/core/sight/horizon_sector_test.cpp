@@ -11,6 +11,7 @@
 
 #include "core/sight/observer.h"
 #include "tests/core/sight/against_observers.h"
+#include "tests/core/sight/tangent_around.h"
 #include "tests/support/made_terrain.h"
 #include "tests/support/rough_terrain.h"
 
@@ -53,7 +54,7 @@ double left_out_of_sector(const EyePlane& plane, const std::vector<std::int64_t>
                          by_all.has_rim != by_few.has_rim;
         }
         add_all_edges(plane, number, all);
-        const double most = plane.most_tangent_around(number);
+        const double most = test::most_tangent_around(plane, number);
         const double reach = 1.05 * plane.longest_edge_m() / post.distance_m;
         const bool is_left_out = std::isfinite(most) && few.is_above(post, reach, most);
         left_out += is_left_out;

@@ -12,6 +12,7 @@
 #include "core/sight/horizon_sector.h"
 #include "core/sight/observer.h"
 #include "tests/core/sight/against_observers.h"
+#include "tests/core/sight/tangent_around.h"
 #include "tests/support/made_terrain.h"
 #include "tests/support/rough_terrain.h"
 
@@ -55,7 +56,7 @@ int compare_posts(const EyePlane& plane, const GridPart& window, int ranges, int
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const PlanePost& post = plane.post(numbers[i]);
         const SweptPosts::Post measured = swept.at(i);
-        const double most = plane.most_tangent_around(numbers[i]);
+        const double most = test::most_tangent_around(plane, numbers[i]);
         bounded += most < infinite;
         differing += measured.most_tangent != most;
         differing += measured.range != static_cast<int>(azimuth_number(post) * 0.25 * ranges) - first;
