@@ -372,6 +372,8 @@ class Viewsheds(unittest.TestCase):
             self.region.viewshed(A, progress=lambda share, step: True)
 
     def test_are_stopped_by_signals(self):
+        # A program begun in the background of a shell ignores this signal, and Python leaves it so.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
         # Python handles it in the progress function, which waits until it was sent: a busy machine sends it late.
         began, sent = threading.Event(), threading.Event()
 
