@@ -263,6 +263,7 @@ set_tests_properties(
   OwnPostsOfShots.ViewsThatSayNothingOfThemAreDrawnResampled
   Panorama.GoesRoundPolesAndTheAntimeridian
   Panorama.HasLinesOverTheGround
+  Panorama.HasTreesWhereTheyAreAskedFor
   Panorama.IsNoPictureOfAnotherCommand
   Panorama.IsTheSameTwiceAndByItsView
   Panorama.RefusesWhatCannotBe

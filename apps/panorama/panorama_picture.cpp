@@ -44,8 +44,8 @@ std::string detail_words_of(const Region& region) {
     return text;
 }
 
-// "Finsteraarhorn, 46.53722° N, 8.12611° E, 4276 m above sea level"; a canopy, and ground that is invented
-// between posts, are told, too.
+// "Finsteraarhorn, 46.53722° N, 8.12611° E, 4276 m above sea level"; a canopy, invented trees, and ground
+// that is invented between posts, are told, too.
 std::string eye_words(const View& view, const Region& region, const std::string& standpoint) {
     const Geodetic& eye = view.camera.eye;
     const double H_m = eye.h_m - region.grids.front().field.undulation.at_m(eye.lat_deg, eye.lon_deg);
@@ -56,7 +56,7 @@ std::string eye_words(const View& view, const Region& region, const std::string&
            (!view.canopy                 ? ""
             : view.canopy->is_invented() ? "; canopy invented by class"
                                          : "; with canopy") +
-           detail_words_of(region);
+           (view.trees.value_or(false) ? "; trees invented" : "") + detail_words_of(region);
 }
 
 std::string source_words(const Region& region) {

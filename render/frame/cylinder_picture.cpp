@@ -42,7 +42,7 @@ Result<CylinderPicture> render_cylinder(const Gpu& gpu, Scene& scene, const Geod
     const Camera& first = tiles.front().camera;
     PictureOptions tile_options = options;
     tile_options.tau_px *= cut.oversampling;
-    tile_options.keep_depths = extras.ridges;
+    tile_options.keep_depths = tile_options.depths_of_growth = extras.ridges;
     gpu::FrameStyle tile_style = style;
     tile_style.contours.width_px *= static_cast<float>(cut.oversampling);
     ORO_TRY(PictureRenderer renderer, PictureRenderer::create(gpu, first, tile_style, tile_options));

@@ -7,10 +7,10 @@
 
 namespace oro {
 
-// Who reads triangles, depths or positions asks for the ground.
+// Who reads triangles, depths or positions asks for the ground, unless they say otherwise.
 bool FrameRenderer::draws_growth() const {
     return options_.shades && options_.show == gpu::show_colours && !options_.keep_triangles &&
-           !options_.keep_depths && !options_.record_positions;
+           (!options_.keep_depths || options_.depths_of_growth) && !options_.record_positions;
 }
 
 bool FrameRenderer::has_growth(const FramePlan& plan) const {

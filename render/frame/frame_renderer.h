@@ -42,7 +42,8 @@ struct FrameRendererOptions {
     bool record_positions{false};  // mesh path only
     bool record_view{false};       // with record_positions: positions in view coordinates, as they are drawn
     bool smooth_edges{false};      // of pictures of one sample, see shaders/shade/edges.comp
-    bool keep_depths{false};       // for read_depths()
+    bool keep_depths{false};       // for read_depths(); without trees and grass,
+    bool depths_of_growth{false};  // ... unless this, too: then their depths are below 0
     bool keep_triangles{false};    // for read_triangles()
     bool shades{true};             // false: there is nothing to be read but triangles; for times, too
     gpu::uint show{};              // gpu::show_...: what explains a frame of one sample, not its colours

@@ -190,6 +190,7 @@ Result<PictureRenderer> PictureRenderer::create(const Gpu& gpu, const Camera& ca
     renderer_options.show = options.show;
     renderer_options.occlusion = options.occlusion;
     renderer_options.keep_depths = options.keep_depths;
+    renderer_options.depths_of_growth = options.depths_of_growth;
     ORO_TRY(FrameRenderer renderer, FrameRenderer::create(gpu, renderer_options));
     return PictureRenderer(options, std::move(renderer));
 }

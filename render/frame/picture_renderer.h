@@ -20,6 +20,7 @@ struct PictureOptions {
     double tau_px{1.0};  // 0: full resolution
     WorldModel model{};
     bool keep_depths{false};                           // for PictureRenderer::depths()
+    bool depths_of_growth{false};                      // as FrameRendererOptions::depths_of_growth
     gpu::uint show{};                                  // gpu::show_..., of pictures of one sample
     OcclusionUse occlusion{OcclusionUse::if_it_pays};  // the picture is the same
 };

@@ -31,9 +31,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer D
 layout(binding = 1, rgba32f) uniform image2D sum;
 layout(binding = 2, rgba8) uniform writeonly image2D picture;
 
-// As shade.comp.
+// As shade.comp, but below 0: who reads depths tells the ground from what grows on it.
 void keep_depth(ivec2 pixel, float depth) {
-    if (FRAME.depths != uvec2(0u)) Depths(FRAME.depths).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)] = depth;
+    if (FRAME.depths != uvec2(0u)) Depths(FRAME.depths).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)] = -depth;
 }
 void keep_colour(ivec2 pixel, vec3 colour) {
     float ground = 1.0;

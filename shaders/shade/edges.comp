@@ -23,7 +23,7 @@ layout(binding = 0, r32ui) uniform readonly uimage2D ids;
 layout(binding = 1, rgba32f) uniform readonly image2D shaded;  // linear light; alpha: 1 where there is ground
 layout(binding = 2, rgba8) uniform writeonly image2D picture;
 
-float depth_at(ivec2 pixel) { return Floats(FRAME.depths).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)]; }
+float depth_at(ivec2 pixel) { return abs(Floats(FRAME.depths).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)]); }
 bool within(ivec2 pixel) { return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(FRAME.width_px, FRAME.height_px))); }
 uint id_at(ivec2 pixel) {
     return from_compute ? id_of(VisibilityWords(FRAME.visibility).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)]) : imageLoad(ids, pixel).x;

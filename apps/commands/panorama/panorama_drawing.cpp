@@ -68,6 +68,8 @@ Result<Style> style_of_panorama(const View& view, const Region& region) {
     const std::vector<CylinderTile> tiles = cylinder_tiles(cylinder_of(view), view.camera.eye, {1.0});
     View part = view;
     part.camera = tiles[tiles.size() / 2].camera;
+    // Invented trees would hide mountains that are there, and are named.
+    if (!part.trees) part.trees = false;
     return load_style(part, region.grids.front().field);
 }
 

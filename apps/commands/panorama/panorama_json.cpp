@@ -6,6 +6,7 @@
 #include "apps/report/json_text.h"
 #include "apps/report/region_json.h"
 #include "apps/report/summit_words.h"
+#include "apps/styles/growth_json.h"
 #include "apps/view/model_names.h"
 #include "geo/refined/refined_region.h"
 
@@ -80,6 +81,10 @@ ordered_json panorama_json(const PanoramaReport& report, const std::string& file
     if (view.canopy) json["canopy"] = canopy_json(*view.canopy, report.region);
     if (const RegionGrid* const refined = detail_of(report.region))
         json["detail"] = detail_json(*refined->detail);
+    if (const ordered_json growth =
+            growth_json(style, view.trees ? "left out (--trees off)" : "left out (--trees on draws them)");
+        !growth.empty())
+        json["growth"] = growth;
     json["models"] = models_json(view);
     json["light"] = light_json(view.model.air, view.camera.eye.h_m);
     json["tau_px"] = view.tau_px;

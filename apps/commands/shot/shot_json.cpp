@@ -11,11 +11,11 @@
 #include "apps/report/json_text.h"
 #include "apps/report/region_json.h"
 #include "apps/report/summit_words.h"
+#include "apps/styles/growth_json.h"
 #include "apps/view/model_names.h"
 #include "apps/view/truth.h"
 #include "geo/refined/refined_region.h"
 #include "render/device/device_report.h"
-#include "shaders/shared_growth.h"
 
 namespace oro {
 namespace {
@@ -156,12 +156,9 @@ void put_style(const ShotResult& shot, const Style& style, ordered_json& json) {
         json["materials"] = shot.view.cover
                                 ? "invented, by a rule: colours within a class, clefts and ledges of rock"
                                 : "invented, by a rule: fields with hedges, clefts and ledges of rock";
-    if ((style.frame.materials.on & gpu::materials_with_trees) != 0)
-        json["growth"]["trees"] = "invented, by a rule, where the ground cover is forest";
-    else if (shot.view.trees && style.frame.materials.on != 0)
-        json["growth"]["trees"] = "left out (--trees off)";
-    if ((style.frame.materials.on & gpu::materials_with_grass) != 0)
-        json["growth"]["grass"] = "invented, by a rule, within 60 m where the ground cover is meadow";
+    if (const ordered_json growth = growth_json(style, shot.view.trees ? "left out (--trees off)" : nullptr);
+        !growth.empty())
+        json["growth"] = growth;
     json["contour_interval_m"] = nullptr;
     if (style.frame.contours.interval_m > 0.0F) json["contour_interval_m"] = style.frame.contours.interval_m;
 }

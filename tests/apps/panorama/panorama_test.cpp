@@ -277,6 +277,65 @@ TEST_F(Panorama, HasLinesOverTheGround) {
     EXPECT_GT(of_colour, 200);
 }
 
+// Pixels of the scene whose colours are farther apart than a line over them would show.
+std::size_t pixels_apart(const Pixels& one, const Pixels& other) {
+    std::size_t apart = 0;
+    for (std::size_t i = 0; i < one.rgb.size(); i += 3)
+        apart += std::abs(one.rgb[i] - other.rgb[i]) + std::abs(one.rgb[i + 1] - other.rgb[i + 1]) +
+                             std::abs(one.rgb[i + 2] - other.rgb[i + 2]) >
+                         12
+                     ? 1
+                     : 0;
+    return apart;
+}
+
+// Over a wooded slope. Lines of ridges change nothing else: neither grass nor trees, which they once left
+// out.
+TEST_F(Panorama, HasTreesWhereTheyAreAskedFor) {
+    const auto seen = [&](const std::string& out, Words more) {
+        more.insert(more.end(),
+                    {"--style", "natural", "--width", "200", "--sector", "180,90", "--elevation", "-25,5",
+                     "--time", "2026-01-01T00:00:00Z", "-q", "--json", "--out", path(out)});
+        Words all{"panorama", land, "--at", "36.52,-84.24", "--above", "12"};
+        all.insert(all.end(), more.begin(), more.end());
+        return object_said_by(all);
+    };
+    const json usual = seen("usual.png", {"--ridges", "off"}),
+               off = seen("off.png", {"--ridges", "off", "--trees", "off"}),
+               on = seen("on.png", {"--ridges", "off", "--trees", "on"}),
+               lined = seen("lined.png", {"--trees", "on"});
+    EXPECT_EQ(usual["growth"]["trees"], "left out (--trees on draws them)");
+    EXPECT_EQ(off["growth"]["trees"], "left out (--trees off)");
+    EXPECT_EQ(on["growth"]["trees"], "invented, by a rule, where the ground cover is forest");
+    EXPECT_EQ(on["growth"]["grass"], "invented, by a rule, within 60 m where the ground cover is meadow");
+    const Pixels without = pixels_of(path("usual.png")), with = pixels_of(path("on.png")),
+                 with_lines = pixels_of(path("lined.png"));
+    EXPECT_EQ(without.rgb, pixels_of(path("off.png")).rgb);
+    const std::size_t by_trees = pixels_apart(without, with), by_lines = pixels_apart(with, with_lines);
+    std::printf("trees change %zu pixels of %zu, lines %zu\n", by_trees, with.rgb.size() / 3, by_lines);
+    EXPECT_GT(by_trees, 2000U);
+    EXPECT_LT(by_lines, by_trees / 10);
+}
+
+// 2 m over a meadow lines of ridges leave the grass as it is.
+TEST_F(Panorama, HasGrassNearTheEye) {
+    const auto seen = [&](const std::string& out, const std::string& ridges, const std::string& style) {
+        object_said_by({"panorama", land,      "--at", "36.65,-84.15", "--above", "2",           "--style",
+                        style,      "--width", "120",  "--sector",     "0,60",    "--elevation", "-40,0",
+                        "--ridges", ridges,    "-q",   "--json",       "--out",   path(out)});
+        return pixels_of(path(out));
+    };
+    json bare = json::parse(bytes_of(oro::test::bundled_data() / "styles" / "natural.json"));
+    bare["growth"]["grass"] = false;
+    write_bytes(path("bare.json"), bare.dump());
+    const Pixels grown = seen("grown.png", "off", "natural"), lined = seen("lined.png", "on", "natural"),
+                 without = seen("bare.png", "off", path("bare.json"));
+    const std::size_t by_grass = pixels_apart(without, grown), by_lines = pixels_apart(grown, lined);
+    std::printf("grass changes %zu pixels of %zu, lines %zu\n", by_grass, grown.rgb.size() / 3, by_lines);
+    EXPECT_GT(by_grass, 5000U);
+    EXPECT_LT(by_lines, by_grass / 10);
+}
+
 // From a pole and over the antimeridian: all around there is ground, and azimuths count from the eye's
 // meridian.
 TEST_F(Panorama, GoesRoundPolesAndTheAntimeridian) {

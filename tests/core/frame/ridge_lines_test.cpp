@@ -30,6 +30,23 @@ TEST(RidgeLines, StandOnTheNearerGroundAlone) {
     EXPECT_EQ(code(0, 2), 200) << "the border has no neighbour";
 }
 
+// The same edge, of trees: none within 1 km, half of it at 3 km, whole from 5 km on.
+TEST(RidgeLines, LeaveOutTreesNearTheEye) {
+    constexpr int width = 3, height = 4;
+    const auto code = [&](double distance_m, bool of_trees) {
+        std::vector<float> depths(width * height, depth(distance_m) * (of_trees ? -1.0F : 1.0F));
+        std::fill_n(depths.begin(), width, 0.0F);
+        std::vector<std::uint8_t> rgb(3 * depths.size(), 200);
+        draw_ridges({depths, width, height}, rgb, 1);
+        return static_cast<int>(rgb[3 * (width + 1)]);
+    };
+    EXPECT_EQ(code(900.0, true), 200);
+    EXPECT_LT(code(900.0, false), 100);
+    const int whole = 200 - code(3000.0, false), half = 200 - code(3000.0, true);
+    EXPECT_NEAR(half, 0.5 * whole, 1.0);
+    EXPECT_EQ(code(6000.0, true), code(6000.0, false));
+}
+
 // A plain below an eye: its rows come ever closer to the horizon, and reversed depths change evenly. So does
 // a slope.
 TEST(RidgeLines, AreNotOnPlains) {
