@@ -31,6 +31,14 @@ nlohmann::ordered_json mesh_json(const SourceMesh& mesh, const MeshCensus& censu
     nlohmann::ordered_json parts = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < mesh.parts.size(); ++i)
         parts.push_back(json_object("name", mesh.parts[i].name, "triangles", part_triangles(mesh, i)));
+    nlohmann::ordered_json textures = nlohmann::ordered_json::array();
+    for (const MeshTexture& texture : mesh.textures)
+        textures.push_back(
+            json_object("name", texture.name, "width_px", texture.width_px, "height_px", texture.height_px));
+    const nlohmann::ordered_json texels =
+        mesh.textured_vertices == 0
+            ? nlohmann::ordered_json()
+            : nlohmann::ordered_json(mesh.texels / static_cast<double>(mesh.textured_vertices));
     const auto stated = [](const std::string& word) {
         return word.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(word);
     };
@@ -42,7 +50,8 @@ nlohmann::ordered_json mesh_json(const SourceMesh& mesh, const MeshCensus& censu
                        census.crowded_edges, "turned_edges", census.turned_edges, "degenerate",
                        census.degenerate, "duplicates", census.duplicates, "not_finite", mesh.not_finite,
                        "invisible", mesh.invisible, "polygons_cut", mesh.polygons_cut, "polygons_crossing",
-                       mesh.polygons_crossing, "features", mesh.features.size(), "notes", mesh.notes);
+                       mesh.polygons_crossing, "features", mesh.features.size(), "textures",
+                       std::move(textures), "texels_per_vertex", texels, "notes", mesh.notes);
 }
 
 void print_range(const char* what, double least, double most) {
@@ -52,6 +61,15 @@ void print_range(const char* what, double least, double most) {
 void print_left_out(std::size_t count, const char* why) {
     if (count > 0)
         std::printf("  left out:      %s %s\n", counted(count, "triangle", "triangles").c_str(), why);
+}
+
+void print_textures(const SourceMesh& mesh) {
+    constexpr std::size_t most_textures = 20;
+    for (std::size_t i = 0; i < std::min(most_textures, mesh.textures.size()); ++i)
+        std::printf("  texture:       %s, %d x %d pixels\n", one_line(mesh.textures[i].name).c_str(),
+                    mesh.textures[i].width_px, mesh.textures[i].height_px);
+    if (mesh.textures.size() > most_textures)
+        std::printf("  and %zu more textures\n", mesh.textures.size() - most_textures);
 }
 
 void print_mesh(const SourceMesh& mesh, const MeshCensus& census) {
@@ -92,6 +110,7 @@ void print_mesh(const SourceMesh& mesh, const MeshCensus& census) {
     if (mesh.polygons_crossing > 0)
         std::printf("  not simple:    %s without an area, or crossing themselves\n",
                     counted(mesh.polygons_crossing, "polygon", "polygons").c_str());
+    print_textures(mesh);
     for (const std::string& note : mesh.notes) std::printf("  note:          %s\n", one_line(note).c_str());
 }
 

@@ -6,46 +6,28 @@
 #include <cstring>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "core/earth/ellipsoid.h"
+#include "geo/meshes/gltf_json.h"
+#include "geo/meshes/gltf_materials.h"
+#include "geo/meshes/mesh_file.h"
 #include "geo/meshes/mesh_readers.h"
 #include "geo/meshes/mesh_words.h"
 #include "geo/meshes/meshopt_view.h"
 #include "geo/meshes/path_beside.h"
+#include "geo/meshes/texture_colours.h"
+#include "geo/pixels/picture_rows.h"
 #include "geo/vectors/json_text.h"
 
 namespace oro {
 namespace {
 
 constexpr std::size_t most_gltf_triangles = 50'000'000;
-
-Error gltf_fault(const std::string& why) {
-    return {ErrorKind::failed, "", why};
-}
-
-std::optional<JsonValue> gltf_member(const JsonValue& object, std::string_view name) {
-    for (const auto& [its_name, value] : object.members())
-        if (its_name == name) return value;
-    return std::nullopt;
-}
-std::vector<JsonValue> gltf_list(const JsonValue& object, std::string_view name) {
-    std::vector<JsonValue> list;
-    if (const auto array = gltf_member(object, name))
-        array->each([&](const JsonValue& one) { return list.push_back(one), true; });
-    return list;
-}
-// A whole number, not negative; `otherwise` where there is none, and nothing where it is something else.
-std::optional<std::size_t> gltf_count(const JsonValue& object, std::string_view name,
-                                      std::optional<std::size_t> otherwise) {
-    const auto value = gltf_member(object, name);
-    if (!value) return otherwise;
-    long long number = -1;
-    if (!whole_number_in(value->source(), number) || number < 0) return std::nullopt;
-    return static_cast<std::size_t>(number);
-}
 
 // The bytes of a text of base64 (RFC 4648); nothing of any other.
 std::optional<std::string> base64_bytes(std::string_view text) {
@@ -124,7 +106,7 @@ double gltf_number(const GltfElements& from, std::size_t element, std::size_t nu
 
 constexpr std::string_view meshopt = "EXT_meshopt_compression";
 
-// Those that change nothing of what is read: textures are not.
+// Those that are read, and those that change nothing of what is.
 bool is_known_extension(const std::string& name) {
     constexpr std::array<std::string_view, 9> known{"KHR_mesh_quantization",
                                                     "KHR_materials_unlit",
@@ -138,16 +120,11 @@ bool is_known_extension(const std::string& name) {
     return std::ranges::find(known, name) != known.end();
 }
 
-std::optional<JsonValue> extension_of(const JsonValue& object, std::string_view name) {
-    const auto all = gltf_member(object, "extensions");
-    return all ? gltf_member(*all, name) : std::nullopt;
-}
-
-// What colours a primitive: linear light.
-struct GltfColour {
-    glm::dvec3 factor{1.0};
-    bool is_stated{};
-    bool has_texture{};
+// An image of the file, as far as it is known.
+struct GltfImage {
+    bool is_asked{};       // for its bytes
+    bool is_there{};       // a PNG or a JPEG
+    std::size_t number{};  // among the textures that are read
 };
 
 class GltfReader {
@@ -160,8 +137,10 @@ class GltfReader {
           meshes_(gltf_list(root, "meshes")),
           accessors_(gltf_list(root, "accessors")),
           views_(gltf_list(root, "bufferViews")),
-          materials_(gltf_list(root, "materials")),
-          opened_(views_.size()) {}
+          images_(gltf_list(root, "images")),
+          materials_(root),
+          opened_(views_.size()),
+          image_states_(images_.size()) {}
 
     Result<SourceMesh> all() {
         mesh_.format = "glTF";
@@ -173,8 +152,9 @@ class GltfReader {
         ORO_TRY(const std::vector<std::size_t> roots, roots_of_scene());
         for (const std::size_t node : roots) ORO_CHECK(read_node(node, glm::dmat4(1.0)));
         if (!mesh_.colours.empty()) mesh_.colours.resize(mesh_.vertices.size());
+        ORO_CHECK(colour_by_textures(textures_, textured_, mesh_));
         ORO_CHECK(move_to_origin());
-        if (has_textures_) mesh_.notes.emplace_back("its textures are not read");
+        unread_.note_in(mesh_);
         if (without_triangles_ > 0)
             mesh_.notes.push_back(std::to_string(without_triangles_) +
                                   " primitives of points or lines, without triangles, left out");
@@ -271,34 +251,16 @@ class GltfReader {
         return list;
     }
 
-    [[nodiscard]] static Result<std::vector<double>> reals(const JsonValue& object, std::string_view name,
-                                                           std::vector<double> otherwise) {
-        const auto array = gltf_member(object, name);
-        if (!array) return otherwise;
-        std::vector<double> list;
-        bool all = true;
-        array->each([&](const JsonValue& one) {
-            double number = 0.0;
-            all = all && mesh_number(one.source(), number);
-            list.push_back(number);
-            return list.size() <= otherwise.size();
-        });
-        if (!all || list.size() != otherwise.size())
-            return gltf_fault("its " + std::string(name) + " is no list of " +
-                              std::to_string(otherwise.size()) + " numbers");
-        return list;
-    }
-
     [[nodiscard]] static Result<glm::dmat4> transform_of(const JsonValue& node) {
         if (gltf_member(node, "matrix")) {
-            ORO_TRY(const std::vector<double> m, reals(node, "matrix", std::vector<double>(16)));
+            ORO_TRY(const std::vector<double> m, gltf_reals(node, "matrix", std::vector<double>(16)));
             glm::dmat4 matrix(1.0);
             for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = m[static_cast<std::size_t>(i)];
             return matrix;
         }
-        ORO_TRY(const std::vector<double> t, reals(node, "translation", {0.0, 0.0, 0.0}));
-        ORO_TRY(const std::vector<double> r, reals(node, "rotation", {0.0, 0.0, 0.0, 1.0}));
-        ORO_TRY(const std::vector<double> s, reals(node, "scale", {1.0, 1.0, 1.0}));
+        ORO_TRY(const std::vector<double> t, gltf_reals(node, "translation", {0.0, 0.0, 0.0}));
+        ORO_TRY(const std::vector<double> r, gltf_reals(node, "rotation", {0.0, 0.0, 0.0, 1.0}));
+        ORO_TRY(const std::vector<double> s, gltf_reals(node, "scale", {1.0, 1.0, 1.0}));
         const glm::dmat3 turned = glm::mat3_cast(glm::normalize(glm::dquat(r[3], r[0], r[1], r[2])));
         glm::dmat4 matrix(1.0);
         for (int i = 0; i < 3; ++i) matrix[i] = glm::dvec4(turned[i] * s[static_cast<std::size_t>(i)], 0.0);
@@ -373,7 +335,7 @@ class GltfReader {
     Result<void> read_centre() {
         const auto rtc = extension_of(root_, "CESIUM_RTC");
         if (!rtc) return {};
-        ORO_TRY(const std::vector<double> centre, reals(*rtc, "center", std::vector<double>(3)));
+        ORO_TRY(const std::vector<double> centre, gltf_reals(*rtc, "center", std::vector<double>(3)));
         centre_ = {centre[0], centre[1], centre[2]};
         return {};
     }
@@ -401,27 +363,122 @@ class GltfReader {
         return {};
     }
 
-    [[nodiscard]] Result<GltfColour> colour_of(const JsonValue& primitive) const {
-        GltfColour colour;
-        if (!gltf_member(primitive, "material")) return colour;
-        const auto number = gltf_count(primitive, "material", std::nullopt);
-        if (!number || *number >= materials_.size())
-            return gltf_fault("a primitive has a material that is not there");
-        const auto pbr = gltf_member(materials_[*number], "pbrMetallicRoughness");
-        if (!pbr) return colour;
-        colour.has_texture = gltf_member(*pbr, "baseColorTexture").has_value();
-        colour.is_stated = gltf_member(*pbr, "baseColorFactor").has_value() && !colour.has_texture;
-        ORO_TRY(const std::vector<double> factor, reals(*pbr, "baseColorFactor", {1.0, 1.0, 1.0, 1.0}));
-        colour.factor = {factor[0], factor[1], factor[2]};
+    // The bytes of an image; nothing, with a note, where it is not there, or neither PNG nor JPEG.
+    Result<std::optional<std::string_view>> image_bytes(const JsonValue& image, const std::string& name) {
+        const auto uri = gltf_member(image, "uri");
+        if (!uri) {
+            const auto view = gltf_count(image, "bufferView", std::nullopt);
+            if (!view || *view >= views_.size())
+                return gltf_fault(name + " has a buffer view that is not there");
+            ORO_TRY(const std::string_view bytes, bytes_of_view(*view, name));
+            return std::optional(bytes);
+        }
+        const std::string at = uri->text();
+        const bool is_data = at.starts_with("data:");
+        if (!is_data && !path_beside("", at)) {
+            unread_.add(at, "is not read, as only files beside the mesh are");
+            return std::optional<std::string_view>();
+        }
+        Result<std::string> bytes = bytes_of(at, name);
+        if (!bytes.ok()) {
+            if (is_data) return bytes.error();
+            unread_.add(at, bytes.error().what);
+            return std::optional<std::string_view>();
+        }
+        if ((image_bytes_ += bytes->size()) > most_mesh_bytes)
+            return gltf_fault("has textures of more than 1 GiB");
+        own_bytes_.push_back(std::make_unique<std::string>(std::move(*bytes)));
+        return std::optional(std::string_view(*own_bytes_.back()));
+    }
+
+    // Whether a material's texture is read. Each is asked for once.
+    Result<bool> find_image(const GltfTexture& texture) {
+        if (!texture.image) {
+            unread_.add("of an extension", "is neither PNG nor JPEG");
+            return false;
+        }
+        GltfImage& state = image_states_[*texture.image];
+        if (state.is_asked) return state.is_there;
+        state.is_asked = true;
+        const std::string name = "image " + std::to_string(*texture.image);
+        const JsonValue& image = images_[*texture.image];
+        ORO_TRY(const std::optional<std::string_view> bytes, image_bytes(image, name));
+        if (!bytes) return false;
+        const auto uri = gltf_member(image, "uri"), its_name = gltf_member(image, "name");
+        std::string shown = uri && !uri->text().starts_with("data:") ? uri->text()
+                            : its_name                               ? its_name->words()
+                                                                     : "";
+        if (shown.empty()) shown = name;
+        if (!is_picture(*bytes)) {
+            unread_.add(shown, "is neither PNG nor JPEG");
+            return false;
+        }
+        state.is_there = true, state.number = textures_.size();
+        textures_.push_back({shown, *bytes});
+        return true;
+    }
+
+    // The colour of a primitive's material; its texture is one that is read.
+    Result<GltfColour> colour_of(const JsonValue& primitive, const JsonValue& attributes) {
+        if (!gltf_member(primitive, "material")) return GltfColour{};
+        ORO_TRY(GltfColour colour, materials_.material(gltf_count(primitive, "material", std::nullopt)));
+        if (!colour.texture) return colour;
+        ORO_TRY(const bool is_there, find_image(*colour.texture));
+        const std::string coordinates = "TEXCOORD_" + std::to_string(colour.texture->coordinates);
+        const bool has_coordinates = gltf_member(attributes, coordinates).has_value();
+        if (is_there && !has_coordinates)
+            unread_.add(textures_[image_states_[*colour.texture->image].number].name,
+                        "has no " + coordinates + " to lie by");
+        if (!is_there || !has_coordinates) colour.texture.reset();
         return colour;
+    }
+
+    // Where the vertices of a primitive lie in its texture.
+    Result<std::vector<glm::vec2>> texture_places(const GltfTexture& texture, const JsonValue& attributes,
+                                                  std::size_t count) {
+        const std::string name = "TEXCOORD_" + std::to_string(texture.coordinates);
+        ORO_TRY(const GltfElements from, elements(gltf_count(attributes, name, std::nullopt), "VEC2", 2));
+        if (from.count != count)
+            return gltf_fault("a primitive has " + std::to_string(count) + " vertices and " +
+                              std::to_string(from.count) + " of " + name);
+        std::vector<glm::vec2> places;
+        places.reserve(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const glm::vec2 at(texture.place({gltf_number(from, i, 0), gltf_number(from, i, 1)}));
+            if (!std::isfinite(at.x) || !std::isfinite(at.y))
+                return gltf_fault("vertex " + std::to_string(i) + " of a primitive has a " + name +
+                                  " that is no finite number");
+            places.push_back(at);
+        }
+        return places;
+    }
+
+    // The triangles of a primitive from `begin` on, with their texture. Primitives of one material are one
+    // part.
+    Result<void> add_textured(const JsonValue& primitive, const JsonValue& attributes, std::size_t first,
+                              std::size_t begin) {
+        if (!colour_.texture) return {};
+        const GltfTexture& texture = *colour_.texture;
+        ORO_TRY(const std::vector<glm::vec2> places,
+                texture_places(texture, attributes, mesh_.vertices.size() - first));
+        const std::size_t material = gltf_count(primitive, "material", 0).value_or(0);
+        const auto [found, is_new] = part_of_material_.try_emplace(material, textured_.size());
+        if (is_new) textured_.push_back({image_states_[*texture.image].number, texture.wrap, {}});
+        TexturedPart& part = textured_[found->second];
+        for (std::size_t i = begin; i < mesh_.triangles.size(); ++i) {
+            TexturedTriangle textured{static_cast<std::uint32_t>(i), {}};
+            for (std::size_t k = 0; k < 3; ++k) textured.at[k] = places[mesh_.triangles[i][k] - first];
+            part.triangles.push_back(textured);
+        }
+        return {};
     }
 
     // Of so many vertices, the last of the mesh.
     Result<void> read_colours(const JsonValue& primitive, const JsonValue& attributes, std::size_t count) {
-        ORO_TRY(GltfColour colour, colour_of(primitive));
-        has_textures_ = has_textures_ || colour.has_texture;
+        ORO_TRY(colour_, colour_of(primitive, attributes));
+        const GltfColour& colour = colour_;
         const bool has_own = gltf_member(attributes, "COLOR_0").has_value();
-        if (!has_own && !colour.is_stated) return {};
+        if (!has_own && !colour.is_stated && !colour.texture) return {};
         mesh_.colours.resize(mesh_.vertices.size());
         std::optional<GltfElements> own;
         if (has_own) {
@@ -498,15 +555,22 @@ class GltfReader {
             mesh_.vertices.push_back(centre_ + glm::dvec3(at.x, -at.z, at.y));
         }
         ORO_CHECK(read_colours(primitive, *attributes, places.count));
+        const std::size_t begin = mesh_.triangles.size();
+        ORO_CHECK(read_indices(primitive, *mode, first, places.count));
+        return add_textured(primitive, *attributes, first, begin);
+    }
+
+    Result<void> read_indices(const JsonValue& primitive, std::size_t mode, std::size_t first,
+                              std::size_t vertices) {
         if (!gltf_member(primitive, "indices"))
             return triangles(
-                *mode, places.count, [&](std::size_t i) { return i; }, first, places.count);
+                mode, vertices, [&](std::size_t i) { return i; }, first, vertices);
         ORO_TRY(const GltfElements indices,
                 elements(gltf_count(primitive, "indices", std::nullopt), "SCALAR", 1));
         return triangles(
-            *mode, indices.count,
+            mode, indices.count,
             [&](std::size_t i) { return static_cast<std::size_t>(gltf_number(indices, i, 0)); }, first,
-            places.count);
+            vertices);
     }
 
     // mode: 4 triangles, 5 a strip, 6 a fan. Indices are those of whole numbers up to 2^32.
@@ -535,11 +599,18 @@ class GltfReader {
     const JsonValue root_;
     const std::optional<std::string_view> binary_;
     const FileBeside& beside_;
-    const std::vector<JsonValue> nodes_, meshes_, accessors_, views_, materials_;
+    const std::vector<JsonValue> nodes_, meshes_, accessors_, views_, images_;
+    GltfMaterials materials_;
     std::vector<std::unique_ptr<std::string>> opened_;  // bytes of views that were compressed
     std::size_t opened_bytes_{};
     glm::dvec3 centre_{0.0};
-    bool has_textures_{};
+    std::vector<GltfImage> image_states_;  // of each image
+    std::size_t image_bytes_{};            // of other files
+    std::vector<TextureBytes> textures_;
+    std::vector<TexturedPart> textured_;
+    std::map<std::size_t, std::size_t> part_of_material_;
+    UnreadTextures unread_;
+    GltfColour colour_;                                   // of the primitive that is read
     std::size_t most_of_primitive_{most_gltf_triangles};  // triangles that are read of it
     std::vector<std::unique_ptr<std::string>> own_bytes_;
     std::vector<std::string_view> buffers_;

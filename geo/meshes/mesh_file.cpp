@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <span>
 
 #include "core/base/open_file.h"
@@ -23,7 +24,6 @@ std::string mesh_ending(const std::string& path) {
 using MeshReader = Result<SourceMesh> (*)(std::string_view);
 MeshReader mesh_reader_for(const std::string& path) {
     const std::string ending = mesh_ending(path);
-    if (ending == "obj") return read_obj;
     if (ending == "ply") return read_ply;
     if (ending == "stl") return read_stl;
     return ending == "xml" || ending == "landxml" ? read_landxml : nullptr;
@@ -49,6 +49,10 @@ std::string folder_of(const std::string& path) {
     return path.substr(0, path.rfind('/') + 1);
 }
 
+bool is_obj_name(const std::string& path) {
+    return mesh_ending(path) == "obj";
+}
+
 bool is_gltf_name(const std::string& path) {
     return mesh_ending(path) == "gltf" || mesh_ending(path) == "glb";
 }
@@ -69,6 +73,17 @@ std::string_view first_element(std::string_view text) {
         return name.substr(name.find(':') == std::string_view::npos ? 0 : name.find(':') + 1);
     }
     return "";
+}
+
+// How finely colours of textures are kept.
+void note_textures(SourceMesh& mesh) {
+    if (mesh.textures.empty() || mesh.textured_vertices == 0) return;
+    const double texels = mesh.texels / static_cast<double>(mesh.textured_vertices);
+    char text[160];
+    std::snprintf(text, sizeof text, "colours of its %s averaged at vertices, over %.*f texels each",
+                  mesh.textures.size() == 1 ? "texture are" : "textures are", texels < 10.0 ? 1 : 0,
+                  std::min(texels, 1.0e12));
+    mesh.notes.emplace_back(text);
 }
 
 // Drops triangles with a vertex that is not finite, and keeps parts and features where they are.
@@ -119,14 +134,14 @@ bool is_mesh_file(const std::string& path) {
 }
 
 bool is_mesh_name(const std::string& path) {
-    return mesh_reader_for(path) != nullptr || is_city_name(path) || is_gltf_name(path);
+    return mesh_reader_for(path) != nullptr || is_city_name(path) || is_gltf_name(path) || is_obj_name(path);
 }
 
 Result<SourceMesh> read_mesh(const std::string& path, const std::string& lod) {
     const MeshReader reader = mesh_reader_for(path);
     const bool is_geopackage = mesh_ending(path) == "gpkg",
                is_city = is_city_name(path) || mesh_ending(path) == "json";
-    if (reader == nullptr && !is_geopackage && !is_city && !is_gltf_name(path))
+    if (reader == nullptr && !is_geopackage && !is_city && !is_gltf_name(path) && !is_obj_name(path))
         return Error{
             ErrorKind::failed, path,
             "is no mesh by its name: .obj, .ply, .stl, .gltf, .glb, .xml, .landxml, .city.json, tileset.json "
@@ -134,6 +149,7 @@ Result<SourceMesh> read_mesh(const std::string& path, const std::string& lod) {
     const auto read_bytes = [&]() -> Result<SourceMesh> {
         ORO_TRY(const std::string bytes, mesh_bytes(path));
         const FileBeside beside = [&](const std::string& name) { return mesh_bytes(folder_of(path) + name); };
+        if (is_obj_name(path)) return read_obj(bytes, beside);
         if (is_gltf_name(path)) return read_gltf(bytes, beside);
         if (!is_city_name(path) && is_city && is_tileset(bytes)) return read_tileset(bytes, beside);
         return is_city ? read_cityjson(bytes, lod) : reader(bytes);
@@ -146,6 +162,7 @@ Result<SourceMesh> read_mesh(const std::string& path, const std::string& lod) {
         return Error{ErrorKind::failed, path,
                      mesh.invisible > 0 ? "no triangles: all are marked invisible" : "no triangles"};
     drop_not_finite(mesh);
+    note_textures(mesh);
     if (mesh.triangles.empty())
         return Error{ErrorKind::failed, path, "no triangles: each has a vertex that is no finite place"};
     return mesh;

@@ -18,7 +18,6 @@ namespace oro {
 // has too many corners.
 const char* add_polygon(const std::vector<std::uint32_t>& corners, SourceMesh& mesh);
 
-Result<SourceMesh> read_obj(std::string_view bytes);
 Result<SourceMesh> read_ply(std::string_view bytes);
 Result<SourceMesh> read_stl(std::string_view bytes);
 Result<SourceMesh> read_landxml(std::string_view bytes);
@@ -27,11 +26,15 @@ Result<SourceMesh> read_landxml(std::string_view bytes);
 Result<SourceMesh> read_cityjson(std::string_view bytes, const std::string& lod);
 // Reads a file beside the mesh's by its name.
 using FileBeside = std::function<Result<std::string>(const std::string& name)>;
+// OBJ, with the colours of its materials (Kd, map_Kd); a vertex that several of them use is one for each.
+// beside: asked for files of materials and textures, by their path from the mesh's folder.
+Result<SourceMesh> read_obj(std::string_view bytes, const FileBeside& beside);
 // glTF 2.0 as text or GLB, without extensions that say how triangles are to be found but
 // KHR_mesh_quantization, EXT_meshopt_compression and CESIUM_RTC: the scene that is shown, its nodes'
 // transforms in double. y is up: east is x, north is -z. Colours are those of COLOR_0, times the colour of
 // the material where that has no texture. A model that says where it is (asset.extras.origin, as exports of
-// this program do) is in ECEF. beside: asked for buffers of other files.
+// this program do) is in ECEF. beside: asked for buffers
+// and textures of other files.
 Result<SourceMesh> read_gltf(std::string_view bytes, const FileBeside& beside);
 // Whether a JSON text is that of 3D Tiles, by its first 64 KiB.
 bool is_tileset(std::string_view bytes);

@@ -40,6 +40,13 @@ enum class MeshKind {
     city_model,  // features with types: buildings, roads, water
 };
 
+// A texture whose colours vertices have.
+struct MeshTexture {
+    std::string name;
+    int width_px{};
+    int height_px{};
+};
+
 // Earth-centred coordinates of WGS84, metres: the CRS of 3D Tiles.
 inline constexpr const char* ecef_crs = "EPSG:4978";
 
@@ -51,6 +58,9 @@ struct SourceMesh {
     MeshKind kind{MeshKind::unknown};
     std::vector<glm::dvec3> vertices;   // east (x), north (y), height, in the file's units
     std::vector<VertexColour> colours;  // of each vertex; empty: the file states none
+    std::vector<MeshTexture> textures;  // that some of these colours are means of
+    double texels{};                    // that triangles cover of them
+    std::size_t textured_vertices{};    // that have such a colour
     std::vector<SourceTriangle> triangles;
     std::vector<MeshPart> parts;
     std::vector<MeshFeature> features;  // none, or every triangle belongs to one

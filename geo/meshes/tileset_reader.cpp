@@ -283,6 +283,8 @@ class TilesetReader {
             mesh_.colours.insert(mesh_.colours.end(), part.colours.begin(), part.colours.end());
             mesh_.colours.resize(mesh_.vertices.size());
         }
+        mesh_.textures.insert(mesh_.textures.end(), part.textures.begin(), part.textures.end());
+        mesh_.texels += part.texels, mesh_.textured_vertices += part.textured_vertices;
         constexpr std::size_t most_notes = 3;
         for (const std::string& note : part.notes)
             if (notes_.size() < most_notes && std::ranges::find(notes_, note) == notes_.end())

@@ -21,6 +21,11 @@ Result<std::unique_ptr<PictureRows>> PictureRows::lost() {
 }
 
 Result<void> RowsWanted::check_size(std::uint64_t width, std::uint64_t height) const {
+    if (takes_any_size()) {
+        if (width > 0 && height > 0 && width <= most_pixels / height) return {};
+        return fault("has " + std::to_string(width) + "x" + std::to_string(height) +
+                     " pixels: a picture may have " + std::to_string(most_pixels));
+    }
     if (width == static_cast<std::uint64_t>(width_px) && height == static_cast<std::uint64_t>(height_px))
         return {};
     return fault("has " + std::to_string(width) + "x" + std::to_string(height) + " pixels, and its view " +
@@ -46,6 +51,21 @@ Result<std::unique_ptr<PictureRows>> open_picture_rows(const std::string& path, 
     if (magic.starts_with("\xFF\xD8\xFF")) return open_jpeg_rows(std::move(stream), wanted);
     if (magic.starts_with("II") || magic.starts_with("MM")) return open_tiff_rows(std::move(stream), wanted);
     return wanted.fault("is no PNG, JPEG or TIFF picture");
+}
+
+bool is_picture(std::string_view bytes) {
+    return bytes.starts_with("\x89PNG") || bytes.starts_with("\xFF\xD8\xFF");
+}
+
+Result<std::unique_ptr<PictureRows>> open_picture_bytes(std::string_view bytes, const std::string& name,
+                                                        std::uint64_t most_pixels) {
+    const RowsWanted wanted{name, 0, 0, most_pixels};
+    if (!is_picture(bytes)) return wanted.fault("is no PNG and no JPEG");
+    // It is opened for reading alone, whatever the type says.
+    InputStream stream(fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb"));
+    if (!stream) return wanted.fault("cannot be opened in memory");
+    if (bytes.starts_with("\x89PNG")) return open_png_rows(std::move(stream), wanted);
+    return open_jpeg_rows(std::move(stream), wanted);
 }
 
 }  // namespace oro

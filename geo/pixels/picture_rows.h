@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "core/base/result.h"
 
@@ -29,7 +30,7 @@ class PictureRows {
   protected:
     PictureRows(int width_px, int height_px) : width_px_(width_px), height_px_(height_px) {}
 
-    int width_px_;
+    int width_px_;  // of one that takes any size: once it is open
     int height_px_;
 };
 
@@ -37,16 +38,26 @@ class PictureRows {
 // Errors: no such file, no such picture, another size.
 Result<std::unique_ptr<PictureRows>> open_picture_rows(const std::string& path, int width_px, int height_px);
 
+// Whether bytes begin as those of a PNG or a JPEG do.
+bool is_picture(std::string_view bytes);
+// Opens a PNG or JPEG that lies in memory, of any size up to so many pixels. Its opacity is passed over: a
+// pixel has the colour that stands in the file. The bytes outlive it. name: what errors call it. Errors: no
+// such picture, or a larger one.
+Result<std::unique_ptr<PictureRows>> open_picture_bytes(std::string_view bytes, const std::string& name,
+                                                        std::uint64_t most_pixels);
+
 // Not for use outside picture_rows*.cpp: of each format, for a file of that content.
 struct RowsWanted {
     std::string path;
     int width_px{};
     int height_px{};
+    std::uint64_t most_pixels{};  // not 0: any size up to so many, and opacity is passed over
 
     // An error of the file.
     [[nodiscard]] Error fault(const std::string& what) const { return {ErrorKind::failed, path, what}; }
-    // That a picture has this size.
+    // That a picture has this size, or one that may be.
     [[nodiscard]] Result<void> check_size(std::uint64_t width, std::uint64_t height) const;
+    [[nodiscard]] bool takes_any_size() const { return most_pixels > 0; }
 };
 struct CloseStream {
     void operator()(std::FILE* stream) const { std::fclose(stream); }

@@ -102,6 +102,7 @@ Result<void> JpegRows::begin() {
         }))
         return fault();
     ORO_CHECK(wanted_.check_size(decoder_.image_width, decoder_.image_height));
+    width_px_ = static_cast<int>(decoder_.image_width), height_px_ = static_cast<int>(decoder_.image_height);
     if (decoder_.num_components != 1 && decoder_.num_components != 3)
         return wanted_.fault("JPEG: " + std::to_string(decoder_.num_components) + " colours");
     if (!faults_.guarded([&] {

@@ -66,6 +66,8 @@ Result<void> PngRows::begin() {
         }))
         return fault();
     ORO_CHECK(wanted_.check_size(png_get_image_width(png_, info_), png_get_image_height(png_, info_)));
+    width_px_ = static_cast<int>(png_get_image_width(png_, info_));
+    height_px_ = static_cast<int>(png_get_image_height(png_, info_));
     const bool interlaced = png_get_interlace_type(png_, info_) != PNG_INTERLACE_NONE;
     if (!guarded([&] {
             to_rgba();
@@ -73,9 +75,9 @@ Result<void> PngRows::begin() {
             png_read_update_info(png_, info_);
         }))
         return fault();
-    const auto row_bytes = static_cast<std::size_t>(wanted_.width_px) * 4;
+    const auto row_bytes = static_cast<std::size_t>(width_px_) * 4;
     if (png_get_rowbytes(png_, info_) != row_bytes) return wanted_.fault("PNG: pixels of an unknown kind");
-    rgba_.resize(interlaced ? row_bytes * static_cast<std::size_t>(wanted_.height_px) : row_bytes);
+    rgba_.resize(interlaced ? row_bytes * static_cast<std::size_t>(height_px_) : row_bytes);
     if (!interlaced) return {};
     for (std::size_t at = 0; at < rgba_.size(); at += row_bytes) all_rows_.push_back(rgba_.data() + at);
     if (!guarded([&] { png_read_image(png_, all_rows_.data()); })) return fault();
@@ -90,7 +92,7 @@ Result<void> PngRows::read_row(std::span<std::uint8_t> rgb) {
         return fault();
     if (++next_ == height_px_ && !guarded([&] { png_read_end(png_, nullptr); })) return fault();
     for (std::size_t pixel = 0; pixel < static_cast<std::size_t>(width_px_); ++pixel) {
-        const unsigned alpha = row[4 * pixel + 3];
+        const unsigned alpha = wanted_.takes_any_size() ? 255U : row[4 * pixel + 3];
         for (std::size_t c = 0; c < 3; ++c)
             rgb[3 * pixel + c] = static_cast<std::uint8_t>((row[4 * pixel + c] * alpha + 127) / 255);
     }

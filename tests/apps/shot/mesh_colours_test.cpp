@@ -2,11 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "geo/pictures/png_bytes.h"
 #include "tests/apps/picture_pixels.h"
 #include "tests/apps/program.h"
 #include "tests/support/test_data.h"
@@ -75,6 +78,36 @@ TEST_F(MeshColoursSeen, AreThoseOfTheFileInThePlainStyle) {
         middle_of(roof_ply("234 0 0", "234 0 0"), "plain", {"--mesh-look", "plain"});
     EXPECT_EQ(as_asked, bare);
     EXPECT_EQ(json::parse(view_in(picture_))["meshes"]["look"], "plain");
+}
+
+// A roof by OBJ whose texture, of one texel, is red looks as one of red vertices does; without the texture it
+// has the colour of its material, and a note names what is missing.
+TEST_F(MeshColoursSeen, AreThoseOfATexture) {
+    const std::array<int, 3> red = middle_of(roof_ply("234 0 0", "234 0 0"), "plain");
+    const std::string obj = (folder_ / "roof.obj").string(), png = (folder_ / "red.png").string();
+    oro::test::write_bytes(
+        obj,
+        "mtllib roof.mtl\nv -84.1765 36.604 420\nv -84.1755 36.604 420\nv -84.1755 36.606 420\n"
+        "v -84.1765 36.606 420\nvt 0 0\nvt 1 1\nusemtl roof\nf 1/1 2/1 3/2 4/2\n");
+    oro::test::write_bytes((folder_ / "roof.mtl").string(), "newmtl roof\nKd 1 1 1\nmap_Kd red.png\n");
+    const std::vector<std::uint8_t> texel{234, 0, 0};
+    ASSERT_TRUE(oro::write_png(png, texel, 1, 1, true).ok());
+    const Words shot{"shot",        bundled(), "--at",       "36.605,-84.176", "--altitude", "650",
+                     "--pitch",     "-90",     "--size",     "64x48",          "--style",    "plain",
+                     "--mesh-file", obj,       "--mesh-crs", "EPSG:4326",      "--out",      picture_,
+                     "--overwrite"};
+    Outcome drawn = run_orograph(shot);
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    EXPECT_TRUE(oro::test::says(drawn.err, "colours of its texture are averaged at vertices")) << drawn.err;
+    const std::size_t at = 3 * (24 * 64 + 32);
+    Pixels pixels = pixels_of(picture_);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(pixels.rgb[at + i], red[i], 1);
+    fs::remove(png);
+    drawn = run_orograph(shot);
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    EXPECT_TRUE(oro::test::says(drawn.err, "its texture red.png cannot be opened")) << drawn.err;
+    pixels = pixels_of(picture_);
+    EXPECT_GT(pixels.rgb[at + 1], 200) << "white, as Kd says";
 }
 
 // In the style natural a mesh without colours is grey, of light 0.40, 0.395 and 0.385, with a grain of a few

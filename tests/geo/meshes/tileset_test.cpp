@@ -9,6 +9,7 @@
 #include <string>
 
 #include "geo/meshes/mesh_file.h"
+#include "geo/pictures/png_bytes.h"
 
 namespace oro {
 namespace {
@@ -149,10 +150,11 @@ TEST_F(Tilesets, FurtherTilesetsAreReadWhereTheyLie) {
 // Half of the light of red is the code 188.
 TEST_F(Tilesets, ColoursOfMaterialsAreKept) {
     const std::string half_red = R"({"pbrMetallicRoughness":{"baseColorFactor":[0.5,0,0,1]}})",
-                      textured = R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})";
+                      textured = R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})",
+                      texture = R"("textures":[{"source":0}],"images":[{"uri":"a.png"}],)";
     write("a.glb", glb_at(0.0F, half_red));
     write("b.glb", glb_at(5.0F));
-    write("c.glb", glb_at(9.0F, textured));
+    write("c.glb", glb_at(9.0F, textured, texture));
     const auto mesh =
         read(R"({"refine":"ADD","contents":[{"uri":"b.glb"},{"uri":"a.glb"},{"uri":"c.glb"}]})");
     ASSERT_TRUE(mesh.ok()) << mesh.error().line();
@@ -160,7 +162,42 @@ TEST_F(Tilesets, ColoursOfMaterialsAreKept) {
     EXPECT_EQ(mesh->colours[0], VertexColour{});
     EXPECT_EQ(mesh->colours[3], (VertexColour{188, 0, 0, 1}));
     EXPECT_EQ(mesh->colours[8], VertexColour{});
-    EXPECT_EQ(mesh->notes, std::vector<std::string>{"its textures are not read"});
+    EXPECT_EQ(mesh->notes,
+              std::vector<std::string>{"its texture a.png cannot be opened: No such file or directory: "
+                                       "drawn without it"});
+}
+
+// A texture beside its tile, in a folder below the set's: a texel of red.
+TEST_F(Tilesets, TexturesOfTilesAreRead) {
+    const std::vector<std::uint8_t> red{255, 0, 0};
+    const auto png = png_bytes(red, 1, 1);
+    ASSERT_TRUE(png.ok());
+    write("t/a.png", {png->begin(), png->end()});
+    std::string glb = glb_at(0.0F, R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})",
+                             R"("textures":[{"source":0}],"images":[{"uri":"a.png"}],)");
+    // The same numbers are places and coordinates: three of VEC3 hold three of VEC2.
+    const std::string places = R"({"POSITION":0})", both = R"({"POSITION":0,"TEXCOORD_0":1})",
+                      accessor = R"("type":"VEC3"}],)",
+                      two =
+                          R"("type":"VEC3"},{"bufferView":0,"componentType":5126,"count":3,"type":"VEC2"}],)";
+    for (const auto& [was, now] : {std::pair(places, both), {accessor, two}}) {
+        glb.replace(glb.find(was), was.size(), now);
+        const auto more = static_cast<std::uint32_t>(now.size() - was.size());
+        for (const std::size_t at : {std::size_t{8}, std::size_t{12}}) {
+            std::uint32_t size = 0;
+            std::memcpy(&size, glb.data() + at, sizeof size);
+            size += more;
+            std::memcpy(glb.data() + at, &size, sizeof size);
+        }
+    }
+    for (const bool is_b3dm : {false, true}) {
+        write(is_b3dm ? "t/a.b3dm" : "t/a.glb", is_b3dm ? b3dm_of(glb, R"({"BATCH_LENGTH":0})") : glb);
+        const auto mesh = read("{" + content_of(is_b3dm ? "t/a.b3dm" : "t/a.glb") + "}");
+        ASSERT_TRUE(mesh.ok()) << mesh.error().line();
+        ASSERT_EQ(mesh->colours.size(), 3U);
+        EXPECT_EQ(mesh->colours[0], (VertexColour{255, 0, 0, 1}));
+        EXPECT_EQ(mesh->textures.at(0).name, "a.png");
+    }
 }
 
 TEST_F(Tilesets, RefusesInOneLine) {
