@@ -48,12 +48,16 @@ Result<NamesInView> names_in_view(const std::vector<NamedPoint>& points, const P
     return names;
 }
 
-std::vector<std::string> notes_of(const NamesInView& names) {
+std::vector<std::string> notes_of(const NamesInView& names, bool are_asked) {
     std::vector<std::string> notes;
     if (names.without_letters > 0)
         notes.push_back(std::to_string(names.without_letters) +
                         " names are left out: the font has not all of their letters (it has Latin, Greek, "
                         "Cyrillic, Arabic, Hebrew, Armenian and Georgian ones)");
+    if (!are_asked || !names.labels.empty()) return notes;
+    const std::string why = note_of_no_name(names.counts, static_cast<std::size_t>(names.without_letters),
+                                            static_cast<std::size_t>(names.without_room));
+    if (!why.empty()) notes.push_back(why);
     return notes;
 }
 

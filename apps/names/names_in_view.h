@@ -35,7 +35,8 @@ std::vector<NamedPoint> points_of(const View& view);
 Result<NamesInView> names_in_view(const std::vector<NamedPoint>& points, const PointsInView& in_view,
                                   const Camera& camera, const TextFace& face);
 
-// What was not named and why, one line each.
-std::vector<std::string> notes_of(const NamesInView& names);
+// What was not named and why, one line each. are_asked: a file of names was given (--names), so that none in
+// the picture is worth a line.
+std::vector<std::string> notes_of(const NamesInView& names, bool are_asked);
 
 }  // namespace oro

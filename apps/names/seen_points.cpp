@@ -1,10 +1,12 @@
 #include "apps/names/seen_points.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <tuple>
+#include <utility>
 
 #include "core/base/parallel.h"
 #include "core/terrain/summit.h"
@@ -162,6 +164,21 @@ std::vector<SeenPoint> PointsInView::seen(const std::vector<NamedPoint>& points,
                std::tie(a.rank, b.distance_m, b.name, b.lat_deg, b.lon_deg);
     });
     return seen;
+}
+
+std::string note_of_no_name(const PointCounts& counts, std::size_t without_letters,
+                            std::size_t without_room) {
+    const std::array<std::pair<std::size_t, const char*>, 5> reasons{
+        {{static_cast<std::size_t>(counts.hidden), "hidden behind the ground"},
+         {static_cast<std::size_t>(counts.outside), "outside of the view"},
+         {static_cast<std::size_t>(counts.beyond_data), "beyond the data"},
+         {without_letters, "with letters that the font has not"},
+         {without_room, "without room"}}};
+    std::string note;
+    for (const auto& [count, why] : reasons)
+        if (count > 0)
+            note += (note.empty() ? "of the names none shows: " : ", ") + std::to_string(count) + " " + why;
+    return note;
 }
 
 }  // namespace oro

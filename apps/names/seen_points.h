@@ -1,6 +1,7 @@
 // Which named points a view sees, and where on its picture.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <glm/vec2.hpp>
 #include <optional>
@@ -47,6 +48,10 @@ struct PointCounts {
     int outside{};      // of the picture
     int hidden{};       // by the terrain
 };
+
+// Why none of the names of a view's files shows; "" where there are no names. Beside the counts: names that
+// the font has no letters for, and those that others left no room for.
+std::string note_of_no_name(const PointCounts& counts, std::size_t without_letters, std::size_t without_room);
 
 // Tells which points an eye sees; safe to ask from one thread at a time, and shares its work between several.
 class PointsInView {

@@ -74,6 +74,10 @@ void tell(const PanoramaOptions& options, const Style& style, const PanoramaRepo
     if (!names.without_room.empty())
         say(options.quiet, "note: " + counted(names.without_room.size(), "name is", "names are") +
                                " left out: more important names take the room (a larger --width has more)");
+    const std::string none = note_of_no_name(names.counts, static_cast<std::size_t>(names.without_letters),
+                                             names.without_room.size());
+    if (!report.view.vectors.names.empty() && names.named.empty() && !none.empty())
+        say(options.quiet, "note: " + none);
     if (!options.json) return;
     nlohmann::ordered_json json = panorama_json(report, options.out, style);
     json["notes"] = all_notes(report.region);

@@ -181,7 +181,8 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
     shot.labels = picture.labels;
     shot.names = picture.names;
     shot.overlay = picture.overlay;
-    for (const std::string& note : notes_of(shot.names)) say(options.quiet, "note: " + note);
+    for (const std::string& note : notes_of(shot.names, !shot.view.vectors.names.empty()))
+        say(options.quiet, "note: " + note);
     shot.view.fingerprints = picture.fingerprints;
     shot.times.draw_s = seconds_since(drawing);
     if (shot.picture.ground_px == 0)

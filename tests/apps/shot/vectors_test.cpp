@@ -76,6 +76,31 @@ TEST_F(Vectors, AreInTheViewWhichDrawsThemAgain) {
     EXPECT_EQ(run_orograph({"compare", path("a.png"), "-q"}).exit_code, 0);
 }
 
+// None of the names of a file may show: one line says why. Two stand 17 and 19 km north, behind ridges, one
+// south of the eye within the data, one on another continent. Where one shows, or nobody asked for names,
+// there is no line.
+TEST_F(Vectors, OfWhichNoneShowsAreExplained) {
+    write_bytes(points, collection(point("A", -84.20, 36.70) + "," + point("B", -84.21, 36.72) + "," +
+                                   point("C", -84.20, 36.53) + "," + point("D", 8.0, 46.0)));
+    const std::string why =
+        "of the names none shows: 2 hidden behind the ground, 1 outside of the view, 1 beyond the data";
+    const Words eye{land, "--at", "36.55,-84.2", "--above", "2"};
+    const auto says_why = [&](const Words& command, const Words& more) {
+        const Outcome drawn = run_orograph(oro::test::joined(oro::test::joined(command, eye), more));
+        EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+        return oro::test::says(drawn.err, why);
+    };
+    const Words shot{"shot", "--size", "320x200", "--out", path("n.png"), "--overwrite"};
+    EXPECT_TRUE(says_why(shot, {"--heading", "0", "--names", points}));
+    EXPECT_TRUE(says_why({"panorama", "--width", "400", "--sector", "330,30", "--out", path("p.png")},
+                         {"--names", points}));
+    EXPECT_FALSE(says_why(shot, {"--heading", "0", "--overlay", points})) << "names were not asked for";
+    write_bytes(points, collection(point("Near", -84.2, 36.5505) + "," + point("D", 8.0, 46.0)));
+    const Outcome shown =
+        run_orograph(oro::test::joined(oro::test::joined(shot, eye), {"--heading", "0", "--names", points}));
+    EXPECT_FALSE(oro::test::says(shown.err, "none shows")) << shown.err;
+}
+
 TEST_F(Vectors, LeavePicturesWithoutThemAsTheyWere) {
     ASSERT_EQ(shoot({land, "-q", "--out", path("bare.png")}).exit_code, 0);
     const json view = json::parse(view_in(path("bare.png")));
