@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <optional>
 
 #include "apps/command_line/refusals.h"
@@ -11,11 +12,13 @@
 #include "apps/report/figures.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
+#include "apps/view/mesh_request.h"
 #include "core/base/one_line.h"
 #include "core/base/parallel.h"
 #include "geo/files/letter_case.h"
 #include "geo/meshes/mesh_census.h"
 #include "geo/meshes/mesh_file.h"
+#include "geo/meshes/placed_mesh.h"
 #include "geo/meshes/source_mesh_graph.h"
 
 namespace oro {
@@ -119,6 +122,69 @@ bool is_surfaces_file(const std::string& path) {
     return lower_case(path).ends_with(".gpkg") && read_mesh(path).ok();
 }
 
+// Refuses what says nothing of meshes that lie on no ground.
+Result<void> check_of_meshes(const RegionOptions& region) {
+    RegionOptions others = region;
+    others.mesh_crs.clear(), others.mesh_unit.clear(), others.mesh_lod.clear(), others.strict_datum = false;
+    if (const char* option = first_given_of_region(others); option != nullptr)
+        return refused(option, "", "says nothing of a mesh alone: it is for elevation data");
+    if (is_no_lod(region.mesh_lod))
+        return refused("--lod", region.mesh_lod, "is no level of detail: 1, 2, 2.2, say");
+    return {};
+}
+
+// Where a mesh lies on the Earth, as --mesh-crs and the options beside it say; nothing without them.
+Result<std::optional<PlacedMesh>> placed_alone(const SourceMesh& mesh, const RegionOptions& region) {
+    if (region.mesh_crs.empty() && region.mesh_unit.empty() && !region.strict_datum)
+        return std::optional<PlacedMesh>();
+    MeshRequest request;
+    request.files = {mesh.path}, request.crs = region.mesh_crs, request.unit = region.mesh_unit;
+    request.lod = region.mesh_lod;
+    ORO_TRY(const auto meshes, open_meshes(request, region.strict_datum, {}));
+    return std::optional(meshes->front());
+}
+
+// The least and the most of each: latitude, longitude, H.
+struct PlacedExtent {
+    PlacedVertex least{90.0, 360.0, std::numeric_limits<double>::infinity()};
+    PlacedVertex most{-90.0, -360.0, -std::numeric_limits<double>::infinity()};
+};
+PlacedExtent extent_of(const PlacedMesh& mesh) {
+    PlacedExtent extent;
+    for (const SourceTriangle& triangle : mesh.triangles)
+        for (const std::uint32_t corner : triangle) {
+            const PlacedVertex& at = mesh.vertices[corner];
+            extent.least = {std::min(extent.least.lat_deg, at.lat_deg),
+                            std::min(extent.least.lon_deg, at.lon_deg), std::min(extent.least.H_m, at.H_m)};
+            extent.most = {std::max(extent.most.lat_deg, at.lat_deg),
+                           std::max(extent.most.lon_deg, at.lon_deg), std::max(extent.most.H_m, at.H_m)};
+        }
+    return extent;
+}
+
+nlohmann::ordered_json placed_json(const PlacedMesh& mesh) {
+    const PlacedExtent extent = extent_of(mesh);
+    return json_object("crs", mesh.crs, "heights", mesh.heights, "west_deg", extent.least.lon_deg,
+                       "south_deg", extent.least.lat_deg, "east_deg", extent.most.lon_deg, "north_deg",
+                       extent.most.lat_deg, "lowest_m", extent.least.H_m, "highest_m", extent.most.H_m,
+                       "not_placed", mesh.not_placed, "note", mesh.note);
+}
+
+void print_placed(const PlacedMesh& mesh) {
+    constexpr const char* sea_level = "sea level (EGM96)";
+    const PlacedExtent extent = extent_of(mesh);
+    // Of ECEF they are above the ellipsoid: without a region there is no geoid.
+    const bool is_over_sea = mesh.heights != "the WGS84 ellipsoid";
+    std::printf("  lies in:       %s\n", one_line(mesh.crs).c_str());
+    std::printf("    latitude     %.6f to %.6f\n", extent.least.lat_deg, extent.most.lat_deg);
+    std::printf("    longitude    %.6f to %.6f\n", extent.least.lon_deg, extent.most.lon_deg);
+    std::printf("    %-12s %.3f to %.3f m above %s\n", is_over_sea ? "H" : "height", extent.least.H_m,
+                extent.most.H_m, is_over_sea ? sea_level : one_line(mesh.heights).c_str());
+    if (is_over_sea && mesh.heights != sea_level)
+        std::printf("    from         heights above %s\n", one_line(mesh.heights).c_str());
+    print_left_out(mesh.not_placed, "there, with a vertex that has no place in it");
+}
+
 }  // namespace
 
 bool names_meshes(const std::vector<std::string>& paths) {
@@ -128,11 +194,11 @@ bool names_meshes(const std::vector<std::string>& paths) {
 }
 
 Result<void> run_mesh_info(const InfoOptions& options) {
-    if (const char* option = first_given_of_region(options.region); option != nullptr)
-        return refused(option, "", "says nothing of a mesh: it is for elevation data");
+    ORO_CHECK(check_of_meshes(options.region));
     nlohmann::ordered_json meshes = nlohmann::ordered_json::array();
     for (const std::string& path : options.region.paths) {
-        ORO_TRY(const SourceMesh mesh, read_mesh(path));
+        ORO_TRY(const SourceMesh mesh, read_mesh(path, options.region.mesh_lod));
+        ORO_TRY(const std::optional<PlacedMesh> placed, placed_alone(mesh, options.region));
         const MeshCensus census = census_of(mesh);
         std::optional<MeshGraph> graph;
         if (options.check) {
@@ -140,10 +206,12 @@ Result<void> run_mesh_info(const InfoOptions& options) {
         }
         if (options.json) {
             meshes.push_back(mesh_json(mesh, census));
+            if (placed) meshes.back()["placed"] = placed_json(*placed);
             if (graph) meshes.back()["levels"] = mesh_levels_json(*graph);
             continue;
         }
         print_mesh(mesh, census);
+        if (placed) print_placed(*placed);
         if (graph) std::printf("  clusters:\n%s", mesh_levels_text(*graph, 15).c_str());
     }
     if (options.json) std::printf("%s\n", json_text(json_object("meshes", std::move(meshes)), true).c_str());
