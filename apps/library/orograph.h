@@ -104,7 +104,7 @@ typedef struct oro_open_options {
     size_t size;                 /* The size of this structure. */
     const char* bbox;            /* "west,south,east,north" in degrees: the part that is wanted. */
     const char* tile;            /* One tile or a range of tiles instead, as in "N46E008". */
-    const char* height_unit;     /* "m", "ft", "us-ft" or "cm": it overrides what the files say. */
+    const char* height_unit;     /* "m", "ft", "us-ft", "cm", "dm" or "mm": it overrides the files. */
     const char* source_crs;      /* Where files lie that do not say so, as in "EPSG:2056". */
     const char* source_vertical; /* What the heights of such files refer to, as in "EPSG:5728". */
     const char* order;           /* "finest" or "listed": which grid is the ground where several have some. */

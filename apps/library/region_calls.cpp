@@ -1,9 +1,11 @@
 // The calls of the library about errors, regions and heights.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <mutex>
 #include <string>
+#include <string_view>
 
 #include "apps/commands/info_json.h"
 #include "apps/drawing/pipeline_choice.h"
@@ -44,9 +46,10 @@ Result<AskedRegion> asked_region(const oro_open_options& given) {
     if (!region.bbox.empty() && !region.tile.empty())
         return oro::bad_argument("tile", "is not for a region with a bbox");
     region.height_unit = text_or_none(given.height_unit);
-    if (!region.height_unit.empty() && region.height_unit != "m" && region.height_unit != "ft" &&
-        region.height_unit != "us-ft" && region.height_unit != "cm")
-        return oro::bad_argument("height_unit", region.height_unit + " is none of m, ft, us-ft, cm");
+    constexpr std::array<std::string_view, 6> height_units{"m", "ft", "us-ft", "cm", "dm", "mm"};
+    if (!region.height_unit.empty() &&
+        std::ranges::find(height_units, region.height_unit) == height_units.end())
+        return oro::bad_argument("height_unit", region.height_unit + " is none of m, ft, us-ft, cm, dm, mm");
     region.source_crs = text_or_none(given.source_crs);
     region.source_vertical = text_or_none(given.source_vertical);
     region.order = text_or_none(given.order);
