@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "apps/command_line/refusals.h"
 #include "apps/commands/commands.h"
 #include "apps/commands/sight/horizon_around.h"
 #include "apps/commands/sight/horizon_part.h"
 #include "apps/commands/sight/horizon_question.h"
+#include "apps/commands/sight/raster_styles.h"
 #include "apps/commands/sight/sight_ground.h"
 #include "apps/options/horizon_options.h"
 #include "apps/output/overwrite_guard.h"
@@ -116,7 +119,7 @@ PostRaster raster_for(const RegionGrid& grid, const PostHorizonsRequest& request
     return raster;
 }
 
-// Both, or none.
+// Both, and the style by which QGIS shows the first band of horizons, or none.
 Result<void> write_rasters(const HorizonOptions& options, const HorizonFiles& files, const RegionGrid& grid,
                            const PostHorizonsRequest& request, PostHorizons& found) {
     PostRaster horizon = raster_for(grid, request);
@@ -129,7 +132,11 @@ Result<void> write_rasters(const HorizonOptions& options, const HorizonFiles& fi
     PostRaster sky = raster_for(grid, request);
     sky.bands.push_back({"sky-view factor of a level plane, weighted by cosine", std::move(found.sky_view)});
     ORO_TRY(WholeFile sky_file, written_post_raster(files.sky_view, options.overwrite, sky));
-    return commit_together({&sky_file, &horizon_file});
+    ORO_TRY(std::optional<WholeFile> style_of_qgis,
+            style_beside(files.horizon, static_cast<std::size_t>(request.directions), horizon_qml));
+    std::vector<WholeFile*> all{&sky_file, &horizon_file};
+    if (style_of_qgis) all.insert(all.begin(), &*style_of_qgis);
+    return commit_together(all);
 }
 
 void tell_horizons(const HorizonOptions& options, const HorizonFiles& files, const RegionGrid& grid,

@@ -13,6 +13,8 @@ namespace oro {
 
 // The style for the first band of a viewshed: hidden and seen, with names. The plugin of QGIS has the same.
 extern const char* const viewshed_qml;
+// The same for the first band of horizons: elevations from -5 to 60 degrees.
+extern const char* const horizon_qml;
 
 // Where QGIS looks for the style of a raster: NAME.qml of NAME.tif.
 std::string style_path(const std::string& raster);

@@ -50,7 +50,7 @@ TEST(HorizonCommand, WritesGeoTiffsOnTheRegionsPosts) {
         oro::test::joined({"horizon", bundled(), "-q", "--json", "--radius", "8", "--directions", "8",
                            "--above", "1", "--out", (folder / "h.tif").string()},
                           small_box));
-    EXPECT_EQ(oro::test::names_in(folder), (Words{"h.horizon.tif", "h.sky-view.tif"}));
+    EXPECT_EQ(oro::test::names_in(folder), (Words{"h.horizon.qml", "h.horizon.tif", "h.sky-view.tif"}));
     EXPECT_EQ(said["posts"].get<int>(), said["columns"].get<int>() * said["rows"].get<int>());
     const auto source = run_program({"gdalinfo", "-json", bundled()});
     if (source.exit_code == 127) GTEST_SKIP() << "needs gdalinfo";
@@ -117,6 +117,23 @@ TEST(HorizonCommand, TheSameCommandWritesTheSameBytes) {
             small_box));
     EXPECT_EQ(bytes_of(folder / "a.horizon.tif"), bytes_of(folder / "b.horizon.tif"));
     EXPECT_EQ(bytes_of(folder / "a.sky-view.tif"), bytes_of(folder / "b.sky-view.tif"));
+}
+
+// QGIS takes three bands for red, green and blue, unless a style beside the raster says otherwise.
+TEST(HorizonCommand, HasAStyleForQgisBesideIt) {
+    const fs::path folder = oro::test::scratch_folder();
+    const Words command = oro::test::joined({"horizon", bundled(), "-q", "--overwrite", "--directions", "4",
+                                             "--radius", "1", "--out", (folder / "a.tif").string()},
+                                            small_box);
+    ASSERT_EQ(run_orograph(command).exit_code, 0);
+    EXPECT_EQ(oro::test::names_in(folder), (Words{"a.horizon.qml", "a.horizon.tif", "a.sky-view.tif"}));
+    // The style of the plugin.
+    EXPECT_EQ(bytes_of(folder / "a.horizon.qml"), bytes_of(oro::test::bundled_data().parent_path() / "apps" /
+                                                           "qgis" / "orograph" / "styles" / "horizon.qml"));
+    // A user's own stays.
+    oro::test::write_bytes(folder / "a.horizon.qml", "mine");
+    ASSERT_EQ(run_orograph(command).exit_code, 0);
+    EXPECT_EQ(bytes_of(folder / "a.horizon.qml"), "mine");
 }
 
 TEST(HorizonCommand, TellsThatTheRadiusLeavesTheData) {
@@ -186,7 +203,7 @@ TEST(HorizonCommand, StoppedItLeavesBothFilesOrNone) {
                              circumstances);
             const Words names = oro::test::names_in(folder);
             if (outcome.exit_code == 0) {
-                EXPECT_EQ(names, (Words{"h.horizon.tif", "h.sky-view.tif"}));
+                EXPECT_EQ(names, (Words{"h.horizon.qml", "h.horizon.tif", "h.sky-view.tif"}));
                 continue;
             }
             ++stopped;
