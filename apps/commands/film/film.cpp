@@ -68,6 +68,7 @@ struct FilmReport {
     std::int64_t drawn{};
     std::int64_t kept{};
     std::size_t scenes{};
+    std::size_t labels{};  // names on all that were drawn
     double read_s{};
     double draw_s{};
 };
@@ -257,7 +258,10 @@ Result<void> draw_frames(const FilmOptions& options, const FilmFiles& files, con
                                        [&](double share) { bar.show((done + share) / count, what); }));
         }
         ORO_TRY(together, missing_poses(options, file, view, region));
-        if (picture) together.push_back(std::move(picture->file));
+        if (picture) {
+            report.labels += picture->names.labels.size();
+            together.push_back(std::move(picture->file));
+        }
         std::vector<WholeFile*> names;
         for (WholeFile& one : together) names.push_back(&one);
         ORO_CHECK(commit_together(names));
@@ -290,6 +294,10 @@ void remove_frames(const FilmFiles& files) {
 void tell(const FilmOptions& options, const FilmFiles& files, const CameraPath& path,
           const FilmReport& report) {
     const auto of = [](std::int64_t number) { return static_cast<std::uint64_t>(number); };
+    if (!options.view.names.empty() && report.drawn > 0 && report.labels == 0)
+        say(options.quiet,
+            "note: of the names none shows in the frames that were drawn: they are hidden behind the "
+            "ground, outside of the view, or beyond the data");
     if (report.kept > 0)
         say(options.quiet, counted(of(report.kept), "frame was", "frames were") + " there already");
     if (!files.movie.empty())

@@ -83,6 +83,38 @@ TEST_F(Film, FramesAreThePicturesOfShot) {
     EXPECT_TRUE(bytes_of(shot) == bytes_of(out / "frame-000003.png"));
 }
 
+// Each frame is named as shot names it. A word where no frame has a name.
+TEST_F(Film, FramesHaveNamesAsShotPutsThem) {
+    const fs::path names = folder / "names.geojson", elsewhere = folder / "elsewhere.geojson",
+                   bare = folder / "bare", named = folder / "named", again = named / "again.png";
+    const auto points_at = [](const std::string& lon_lat) {
+        return R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"name":"Hill"},)"
+               R"("geometry":{"type":"Point","coordinates":[)" +
+               lon_lat + "]}}]}";
+    };
+    write_bytes(names, points_at("-84.205,36.62"));
+    write_bytes(elsewhere, points_at("8,46"));
+    const Words larger = joined(at_nine, {"--size", "320x240", "--fps", "1"});
+    const auto filmed = [&](const Words& more, const fs::path& to) {
+        const Outcome outcome =
+            run_orograph(joined(joined({"film", path, bundled(), "--out", to}, larger), more));
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return outcome;
+    };
+    filmed({"-q"}, bare);
+    const Outcome with = filmed({"--names", names}, named);
+    EXPECT_FALSE(oro::test::says(with.err, "none shows")) << with.err;
+    EXPECT_TRUE(bytes_of(named / "frame-000001.png") != bytes_of(bare / "frame-000001.png"));
+    const Outcome shot =
+        run_orograph({"shot", "--view", named / "frame-000001.png", "--out", again, "--json"});
+    ASSERT_EQ(shot.exit_code, 0) << shot.err;
+    EXPECT_EQ(json::parse(shot.out)["names"]["named"][0]["name"], "Hill");
+    EXPECT_TRUE(bytes_of(again) == bytes_of(named / "frame-000001.png"));
+    const Outcome none = filmed({"--names", elsewhere}, folder / "none");
+    EXPECT_TRUE(oro::test::says(none.err, "of the names none shows in the frames that were drawn"))
+        << none.err;
+}
+
 // Light by the clock of each frame.
 TEST_F(Film, FramesHaveTheirOwnSun) {
     const Outcome filmed = film(joined(at_nine, {"--sun-time", "view"}), out);
