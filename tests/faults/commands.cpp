@@ -167,7 +167,9 @@ Command horizon_of_tiles() {
     return {"horizon tile.tif",
             words,
             {{"tile.tif", tile()}},
-            {{"h.horizon.tif", there_before}, {"h.sky-view.tif", "another of before"}},
+            {{"h.horizon.tif", there_before},
+             {"h.sky-view.tif", "another of before"},
+             {"h.horizon.qml", "a style of before"}},
             false};
 }
 
