@@ -251,6 +251,11 @@ void add_view(CLI::App& app, WindowOptions& options) {
             "name, lat and lon, or points of GeoJSON, GPX, KML, GeoPackage, a shapefile ... May be given "
             "several times.")
         .allow_extra_args(false);  // what follows the file is elevation data
+    window.choice(
+        "--gpu-pages", options.gpu_pages, {"on", "off"},
+        "Let the GPU choose the pages of terrain while the eye moves, where nothing is drawn but "
+        "ground without shadows and images. The picture is the same (default: on where a GPU draws by "
+        "compute shaders).");
     add_no_paths(command, "The window", options.no_paths);
     add_kml(window, options.kml);
     add_geopose(window, options.geopose);
@@ -270,7 +275,7 @@ void add_view(CLI::App& app, WindowOptions& options) {
          "output. G goes to a place that you type. P writes a picture into the working folder. ? shows "
          "all keys, Ctrl-Q leaves.",
          "docs/commands/view.md"});
-    list_later(command, {"--gazetteer", "--no-paths", "--kml", "--geopose", "--stac"});
+    list_later(command, {"--gazetteer", "--gpu-pages", "--no-paths", "--kml", "--geopose", "--stac"});
 }
 
 void add_plan(CLI::App& app, PlanOptions& options) {

@@ -64,14 +64,14 @@ Result<void> write_over(Viewer& viewer, const FrameReport& drawn) {
 }
 
 bool has_ground(const FramePlan& plan) {
-    return std::ranges::any_of(plan.grids, [](const GridPlan& grid) { return !grid.pages.empty(); });
+    return std::ranges::any_of(plan.grids, [](const GridPlan& grid) { return grid.page_room() > 0; });
 }
 
 // Whether ground is in view of which nothing is there yet. A grid beside others that have some is waited for
-// a little while: nothing says then that its ground is not void.
+// a little while: nothing says then that its ground is not void. Where the GPU chooses pages there is some.
 bool lacks_ground(Viewer& viewer, const FramePlan& plan) {
     constexpr double longest_s = 2.0;
-    const auto lacks = [](const GridPlan& grid) { return grid.pages_wanted > 0 && grid.pages.empty(); };
+    const auto lacks = [](const GridPlan& grid) { return grid.pages_wanted > 0 && grid.page_room() == 0; };
     if (std::ranges::none_of(plan.grids, lacks)) return false;
     if (!viewer.waits_for_ground) viewer.waiting_since = Clock::now();
     return !has_ground(plan) || seconds_since(viewer.waiting_since) < longest_s;
@@ -107,12 +107,35 @@ DetailStep step_now(const Viewer& viewer) {
     return is_moving(viewer) ? viewer.detail.now() : DetailStep();
 }
 
-// What a frame would be drawn from now, and what of it is missing.
-Result<FramePlan> plan_now(Viewer& viewer, const Camera& camera, const DetailStep& step) {
-    require_fields(*viewer.scene, viewer.style.frame, step);
-    viewer.scene->set_fallback_to_blocks(!is_of_clusters(viewer.view.show));
-    const double tau_px = viewer.view.tau_px * step.tau_factor;
-    ORO_TRY(FramePlan plan, viewer.scene->plan({camera, whole_tile(camera), tau_px, viewer.view.model}));
+// Whether the GPU shall choose pages. By mesh shaders frames are longer by what that takes.
+bool wants_gpu_pages(const Viewer& viewer) {
+    const bool usual =
+        viewer.gpu.report().kind != VK_PHYSICAL_DEVICE_TYPE_CPU && viewer.path == RasterPath::compute;
+    return viewer.options.gpu_pages.value_or(usual);
+}
+
+// What the first frame whose pages the GPU chooses would wait for: made while there is nothing to do.
+Result<void> prepare_gpu_pages(Viewer& viewer) {
+    if (!wants_gpu_pages(viewer) || !viewer.is_settled || is_moving(viewer) || !viewer.under_way.empty() ||
+        !viewer.scene->may_leave_choice())
+        return {};
+    ORO_TRY(const bool can, viewer.scene->choose_on_device(viewer.gpu));
+    viewer.scene->leave_choice(false);
+    return can ? viewer.renderer.prepare_choice() : Result<void>();
+}
+
+// What a frame would be drawn from now, and what of it is missing. The GPU may choose pages for an eye that
+// moves over ground that is there: what is missing is then what a frame before has told of. All other plans
+// are the processor's.
+Result<FramePlan> plan_now(Viewer& viewer, const Camera& camera, const SubmittedFrame& frame) {
+    Scene& scene = *viewer.scene;
+    require_fields(scene, viewer.style.frame, frame.step);
+    scene.set_fallback_to_blocks(!is_of_clusters(viewer.view.show));
+    const double tau_px = viewer.view.tau_px * frame.step.tau_factor;
+    scene.leave_choice(frame.is_of_moving_eye && viewer.is_shown && wants_gpu_pages(viewer) &&
+                       scene.has_coarsest_pages());
+    ORO_TRY(FramePlan plan, scene.plan({camera, whole_tile(camera), tau_px, viewer.view.model}));
+    scene.leave_choice(false);
     viewer.is_missing = !plan.is_settled();
     viewer.waits_for_ground = lacks_ground(viewer, plan);
     if (viewer.is_shown || plan.wants_pages()) return plan;
@@ -141,6 +164,13 @@ void take_report(Viewer& viewer, SubmittedFrame frame, FrameReport report) {
     viewer.detail.took(frame.step, viewer.frame_s);
     viewer.report = std::move(report);
     viewer.scene->apply_feedback(viewer.report.feedback);
+    if (frame.is_chosen_by_gpu) {
+        const auto lacks = [](const FrameFeedback& grid) {
+            return grid.choice && grid.choice->counts.missing > 0;
+        };
+        frame.is_settled = std::ranges::none_of(viewer.report.feedback, lacks);
+        viewer.is_missing = viewer.scene->lacks_pages();
+    }
     viewer.is_settled =
         frame.is_settled && viewer.report.images_settled && !is_coarse(viewer) && frame.step.is_whole();
     viewer.lines = std::exchange(frame.lines, {});
@@ -227,7 +257,10 @@ Result<bool> draw_frame(Viewer& viewer, bool& changed) {
     ORO_TRY(const bool better_second, advance_second(viewer));
     changed = changed || better_second;
     changed = comes_to_rest(viewer) || changed;
-    if (!changed) return false;
+    if (!changed) {
+        ORO_CHECK(prepare_gpu_pages(viewer));
+        return false;
+    }
     ORO_CHECK(follow_with_meshes(viewer));
     ORO_CHECK(follow_with_second_meshes(viewer));
     SubmittedFrame frame;
@@ -238,13 +271,14 @@ Result<bool> draw_frame(Viewer& viewer, bool& changed) {
     frame.lines = lines_over_next(viewer);
     frame.step = step_now(viewer);
     const Camera camera = scaled_camera(viewer.view.camera, frame.step.scale);
-    ORO_TRY(FramePlan plan, plan_now(viewer, camera, frame.step));
+    ORO_TRY(FramePlan plan, plan_now(viewer, camera, frame));
     if (viewer.waits_for_ground) {
         // Asked again with the next page, or soon where some ground is there.
         changed = has_ground(plan);
         return false;
     }
     frame.is_settled = plan.is_settled();
+    frame.is_chosen_by_gpu = plan.grids.front().device.chooses;
     frame.times.planned = Clock::now();
     viewer.is_settled = false;
     ORO_CHECK(draw_planned(viewer, std::move(plan), frame));

@@ -112,6 +112,7 @@ struct SubmittedFrame {
     DetailStep step{};
     bool is_settled{};  // what it was planned from is as fine as the view asks
     bool is_of_moving_eye{};
+    bool is_chosen_by_gpu{};           // its pages are: what of them it lacks it tells
     std::vector<StrokedLine> lines{};  // over the ground, until they are in the picture itself
 };
 

@@ -65,6 +65,8 @@ class BufferCache {
         return std::max<std::size_t>(items_.fitting(bytes) + growth(bytes), buffers_.empty() ? 1 : 0);
     }
 
+    // As `spared`: nothing is evicted.
+    static constexpr std::uint64_t evicts_nothing = ~std::uint64_t{0};
     // An item that is not in the cache, and where its bytes are to be written before anything else is added;
     // upload() sends them. Items::none: too few bytes may be evicted (GpuCache::evict). Waits for the upload
     // before the last one. Errors: the device; it has no memory for any item at all. What was added before is
@@ -83,7 +85,8 @@ class BufferCache {
             ORO_TRY(const bool has_grown, grown);
             if (has_grown) added.handle = items_.insert(key, bytes);
         }
-        if (added.handle == Items::none) added.handle = items_.evict(key, bytes, spared);
+        if (added.handle == Items::none && spared != evicts_nothing)
+            added.handle = items_.evict(key, bytes, spared);
         if (added.handle == Items::none) return added;
         added.bytes = staging_[turn_].buffer.mapped + std::exchange(staged_bytes_, staged_bytes_ + bytes);
         staged_.push_back(added.handle);

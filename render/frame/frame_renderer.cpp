@@ -254,11 +254,20 @@ Result<void> FrameRenderer::prepare_device_plans(const FramePlan& plan) {
     const auto any = [&](bool DevicePlan::*is_on) {
         return std::ranges::any_of(plan.grids, [&](const GridPlan& grid) { return grid.device.*is_on; });
     };
+    if (any(&DevicePlan::chooses)) return prepare_choice();
     if (!plan_pass_ && any(&DevicePlan::on)) {
         ORO_TRY(PlanPass pass, PlanPass::create(*gpu_));
         plan_pass_.emplace(std::move(pass));
     }
-    if (!choice_pass_ && any(&DevicePlan::chooses)) {
+    return {};
+}
+
+Result<void> FrameRenderer::prepare_choice() {
+    if (!plan_pass_) {
+        ORO_TRY(PlanPass pass, PlanPass::create(*gpu_));
+        plan_pass_.emplace(std::move(pass));
+    }
+    if (!choice_pass_) {
         ORO_TRY(ChoicePass pass, ChoicePass::create(*gpu_));
         choice_pass_.emplace(std::move(pass));
     }

@@ -96,6 +96,9 @@ class FrameRenderer {
     Result<void> submit(FramePlan plan, const gpu::FrameStyle& style, std::vector<DrapeStore*> drapes = {});
     Result<FrameReport> finish();
     [[nodiscard]] std::size_t under_way() const { return under_way_.size(); }
+    // Makes the programs by which the device chooses pages (Scene::choose_on_device()): the first frame that
+    // has them would wait for them. Errors: the device.
+    Result<void> prepare_choice();
 
     // The picture's top left width x height pixels as RGBA rows, sRGB.
     Result<std::vector<std::uint8_t>> read_picture(std::uint32_t width, std::uint32_t height);

@@ -88,20 +88,25 @@ void DeviceChoice::plan(const FrameView& view, const ModelView& model, double sh
     device.terms.page_count = capacity_;
     // Until the device knows it; 0 would say that nothing is drawn.
     plan.constants.page_count = std::max(1U, static_cast<gpu::uint>(last_.pages_wanted));
-    plan.missing = last_.missing;
-    plan.missing_hidden = last_.missing_hidden;
-    // Those that have come since.
-    std::size_t at = 0;
-    const std::size_t first_hidden = plan.missing.size() - plan.missing_hidden;
-    std::erase_if(plan.missing, [&](const PageIndex& page) {
-        const bool is_here = known_[numbers_->of(page)].address != 0;
-        plan.missing_hidden -= at++ >= first_hidden && is_here ? 1 : 0;
-        return is_here;
-    });
+    Missing lacks = missing();
+    plan.missing = std::move(lacks.pages);
+    plan.missing_hidden = lacks.hidden;
     plan.hidden = last_.hidden;
     plan.pages_wanted = last_.pages_wanted;
     plan.pages_beyond_frustum = last_.pages_beyond_frustum;
     plan.pages_beyond_horizon = last_.pages_beyond_horizon;
+}
+
+DeviceChoice::Missing DeviceChoice::missing() const {
+    Missing lacks{last_.missing, last_.missing_hidden};
+    std::size_t at = 0;
+    const std::size_t first_hidden = lacks.pages.size() - lacks.hidden;
+    std::erase_if(lacks.pages, [&](const PageIndex& page) {
+        const bool is_here = known_[numbers_->of(page)].address != 0;
+        lacks.hidden -= at++ >= first_hidden && is_here ? 1 : 0;
+        return is_here;
+    });
+    return lacks;
 }
 
 void DeviceChoice::note_plan(const GridPlan& plan) {
@@ -112,10 +117,14 @@ void DeviceChoice::note_plan(const GridPlan& plan) {
     last_.pages_wanted = plan.pages_wanted;
 }
 
-bool DeviceChoice::apply(const MadeChoice& made, const IsHidden& is_hidden) {
+void DeviceChoice::apply_changes(const MadeChoice& made) {
     const std::uint64_t unknown = change_number_ - made.change_number;
     if (unknown < changes_.size())
         changes_.erase(changes_.begin(), changes_.end() - static_cast<std::ptrdiff_t>(unknown));
+}
+
+bool DeviceChoice::apply(const MadeChoice& made, const IsHidden& is_hidden) {
+    apply_changes(made);
     ChosenPages chosen;
     if (made.counts.missing > 0) {
         chosen = chosen_pages(*numbers_, made.counts, made.wanted, is_hidden);

@@ -29,8 +29,19 @@ class DeviceChoice {
               std::uint64_t means_before, GridPlan& plan) const;
     // What a frame has told. True where it lacks other pages than the last one.
     bool apply(const MadeChoice& made, const IsHidden& is_hidden);
+    // What a frame has told after which the processor has planned another: which pages the device knows of.
+    void apply_changes(const MadeChoice& made);
+    // What the last frame that told of it, or the last plan, lacks of what is not here; the last `hidden` of
+    // them would not show.
+    struct Missing {
+        std::vector<PageIndex> pages;
+        std::size_t hidden{};
+    };
+    [[nodiscard]] Missing missing() const;
     // What the processor has planned in its place.
     void note_plan(const GridPlan& plan);
+    // Whether the last frame has told of all its pages.
+    [[nodiscard]] bool is_whole() const { return last_.is_whole; }
     // Whether the last frame had room for all its pages, and the next one is likely to.
     [[nodiscard]] bool has_room() const {
         return last_.is_whole && (capacity_ == known_.size() || 2 * last_.pages_wanted < capacity_);

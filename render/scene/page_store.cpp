@@ -132,7 +132,11 @@ void PageStore::stage(const LoadedPage& page, std::byte* to) const {
     }
 }
 
-Result<std::size_t> PageStore::send(std::span<const LoadedPage> pages) {
+Result<std::size_t> PageStore::send(std::span<const LoadedPage> pages, Evictions evictions) {
+    const auto spared = [&](const LoadedPage& page) -> std::uint64_t {
+        if (evictions == Evictions::none) return decltype(cache_)::evicts_nothing;
+        return page.is_hidden ? shown_lately : 0;
+    };
     auto& items = cache_.items();
     std::size_t sent = 0;
     for (const LoadedPage& page : pages) {
@@ -140,7 +144,7 @@ Result<std::size_t> PageStore::send(std::span<const LoadedPage> pages) {
             items.use(here);
         } else {
             const std::size_t bytes = bytes_of(page);
-            ORO_TRY(const auto added, cache_.add(page.index, bytes, page.is_hidden ? shown_lately : 0));
+            ORO_TRY(const auto added, cache_.add(page.index, bytes, spared(page)));
             if (added.bytes == nullptr) break;
             if (!page.is_hidden) items.set_rank(added.handle, items.frame());
             stage(page, added.bytes);

@@ -58,6 +58,10 @@ class PageStore {
     // Device address of a page's block, 0 where it is not here. Asking counts as use in the current frame,
     // and as being shown by it.
     std::uint64_t address(const PageIndex& page);
+    // Whether a page is here. Asking does not count as use.
+    [[nodiscard]] bool has(const PageIndex& page) const {
+        return cache_.items().find(page) != decltype(cache_)::Items::none;
+    }
     // What a page that is here takes without means and places, bytes; 0 for one that is not. Asking does not
     // count as use.
     [[nodiscard]] std::uint64_t block_bytes(const PageIndex& page) const;
@@ -72,8 +76,10 @@ class PageStore {
 
     // Uploads pages, in their order, until one finds no capacity that the current frame does not use; number
     // of those uploaded. A hidden one evicts no page that was shown in the last `shown_lately` frames.
-    // Errors: the device; it has no memory for any page at all.
-    Result<std::size_t> send(std::span<const LoadedPage> pages);
+    // evictions: none: it ends where a page finds no memory that is free. Errors: the device; it has no
+    // memory for any page at all.
+    enum class Evictions { of_unused, none };
+    Result<std::size_t> send(std::span<const LoadedPage> pages, Evictions evictions = Evictions::of_unused);
     static constexpr std::uint64_t shown_lately = 64;
     // Whether some more find capacity without an eviction;
     [[nodiscard]] bool has_capacity() const { return cache_.has_free(most_bytes_); }

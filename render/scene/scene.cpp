@@ -112,8 +112,26 @@ bool GridScene::apply_feedback(const FrameFeedback& feedback) {
     if (clusters_) clusters_->apply_feedback(feedback);
     const bool is_new = seen_.add(feedback);
     if (!choice_ || !feedback.choice) return is_new;
-    return choice_->apply(*feedback.choice, [&](const PageIndex& page) { return seen_.is_hidden(page); }) ||
-           is_new;
+    if (!left_choice_) {
+        choice_->apply_changes(*feedback.choice);
+        return is_new;
+    }
+    const bool is_news =
+        choice_->apply(*feedback.choice, [&](const PageIndex& page) { return seen_.is_hidden(page); });
+    needs_plan_ = needs_plan_ || !choice_->is_whole();
+    DeviceChoice::Missing lacks = choice_->missing();
+    set_missed(std::move(lacks.pages), lacks.hidden);
+    return is_new || is_news;
+}
+
+void GridScene::set_missed(std::vector<PageIndex> missing, std::size_t hidden) {
+    missed_ = std::move(missing);
+    const auto missing_hidden = std::span(missed_).last(hidden);
+    hidden_ = {missing_hidden.begin(), missing_hidden.end()};
+}
+
+bool GridScene::lacks_pages() const {
+    return !missed_.empty() || needs_plan_;
 }
 
 // Where the last frame's pages filled the GPU and more of them show, those that do not show are planned
@@ -198,17 +216,20 @@ Result<GridPlan> GridScene::plan(const FrameView& view, Clusters clusters) {
     return plan;
 }
 
+bool GridScene::may_leave_choice() const {
+    return !clusters_ && !cast_.any() && !has_trees_ && !has_grass_ && !drape_;
+}
+
 bool GridScene::can_leave_choice() const {
-    return choice_ && !clusters_ && !cast_.any() && !has_trees_ && !has_grass_ && !drape_ && !full_ &&
-           !full_for_hidden_ && store_.has_capacity() && choice_->has_room() &&
-           choice_->last_page_count() <= store_.capacity();
+    return choice_ && leaves_choice_ && !needs_plan_ && may_leave_choice() && !full_ && !full_for_hidden_ &&
+           store_.has_capacity() && choice_->has_room() && choice_->last_page_count() <= store_.capacity();
 }
 
 Result<std::optional<GridPlan>> GridScene::plan_by_device(const FrameView& view) {
     const auto start = Clock::now();
     std::optional<GridPlan> plan = plan_without_pages(memory_, view, store_.coding());
     if (!plan) return std::optional<GridPlan>();
-    store_.begin_frame();
+    left_choice_ = true;
     choice_->note_pages(store_);
     choice_->plan(view, ModelView(view.camera, view.model, store_.coding()),
                   store_.means_offset() > 0 ? means_spacing_px_ : gpu::shading_spacing_px,
@@ -220,6 +241,7 @@ Result<std::optional<GridPlan>> GridScene::plan_by_device(const FrameView& view)
 
 Result<GridPlan> GridScene::begun_plan(const FrameView& view, Clusters clusters) {
     auto start = Clock::now();
+    left_choice_ = needs_plan_ = false;
     ORO_TRY(GridPlan plan, plan_of_pages(view));
     for (const PageIndex& page : plan.hidden) store_.mark_occluded(page);
     if (choice_) choice_->note_plan(plan);
@@ -238,9 +260,7 @@ Result<void> GridScene::end_plan(const FrameView& view, GridPlan& plan) {
     ORO_CHECK(add_growth(view, plan));
     times_.growth_s = seconds_since(start);
     full_for_hidden_ = false;
-    missed_ = plan.missing;
-    const auto missing_hidden = std::span(plan.missing).last(plan.missing_hidden);
-    hidden_ = {missing_hidden.begin(), missing_hidden.end()};
+    set_missed(plan.missing, plan.missing_hidden);
     plan.request_feedback = !plan.missing.empty() || !store_.has_capacity() || plan.clusters.missing > 0 ||
                             (plan.clusters.on && !clusters_->has_capacity());
     if (store_.means_offset() > 0) {
@@ -270,6 +290,12 @@ Result<GridScene::Sent> GridScene::send_ready(bool wait) {
     for (LoadedPage& page : ready) page.is_hidden = is_hidden(page.index);
     std::ranges::stable_partition(ready, [](const LoadedPage& page) { return !page.is_hidden; });
     Sent sent;
+    if (left_choice_) {
+        // What gives way is none of the frame's: that is known once the processor has planned one.
+        ORO_TRY(sent.count, store_.send(ready, PageStore::Evictions::none));
+        needs_plan_ = needs_plan_ || sent.count < ready.size();
+        return sent;
+    }
     ORO_TRY(sent.count, store_.send(ready));
     if (sent.count < ready.size()) (ready[sent.count].is_hidden ? sent.hidden_left : sent.shown_left) = true;
     return sent;
@@ -296,7 +322,7 @@ Result<bool> GridScene::advance(NextPlan next) {
     full_for_hidden_ = full_for_hidden_ || sent.hidden_left;
     full_ = sent.shown_left;
     if (full_) loader_->cancel();
-    return better || sent.count > 0 || (full_ && can_evict_hidden_);
+    return better || sent.count > 0 || needs_plan_ || (full_ && can_evict_hidden_);
 }
 
 void GridScene::forget_frames(bool gives_back) {
@@ -304,7 +330,7 @@ void GridScene::forget_frames(bool gives_back) {
     hidden_.clear();
     missed_.clear();
     receivers_.clear();
-    full_ = full_for_hidden_ = can_evict_hidden_ = false;
+    full_ = full_for_hidden_ = can_evict_hidden_ = left_choice_ = needs_plan_ = false;
     means_spacing_px_ = asked_means_px_;
     loader_->cancel();
     if (gives_back) {
@@ -442,7 +468,7 @@ Result<bool> Scene::choose_on_device(const Gpu& gpu) {
     ORO_TRY(const bool can, plan_on_device(gpu));
     if (!can) return false;
     for (GridScene& grid : grids_) {
-        if (grid.memory_.sources() == nullptr ||
+        if (grid.choice_ || grid.memory_.sources() == nullptr ||
             !can_choose_on_device(*grid.pages_, DeviceChoice::most_bytes))
             continue;
         ORO_CHECK(grid.memory_.sources()->fill(grid.memory_.angles()));
@@ -450,6 +476,25 @@ Result<bool> Scene::choose_on_device(const Gpu& gpu) {
         grid.choice_.emplace(std::move(choice));
     }
     return true;
+}
+
+void Scene::leave_choice(bool on) {
+    for (GridScene& grid : grids_) grid.leaves_choice_ = on;
+}
+
+bool Scene::has_coarsest_pages() const {
+    return std::ranges::all_of(grids_, [](const GridScene& grid) {
+        const int top = grid.pages_->levels() - 1;
+        return grid.pages_->layout(top).count() == 0 || grid.store_.has({0, 0, top});
+    });
+}
+
+bool Scene::lacks_pages() const {
+    return std::ranges::any_of(grids_, &GridScene::lacks_pages);
+}
+
+bool Scene::may_leave_choice() const {
+    return std::ranges::all_of(grids_, &GridScene::may_leave_choice);
 }
 
 std::vector<DrapeStore*> Scene::drapes() const {

@@ -108,7 +108,10 @@ class GridScene {
     // Whether the device may choose the pages of the next frame; a plan that leaves that to it, or nothing
     // where the view does not allow it.
     [[nodiscard]] bool can_leave_choice() const;
+    [[nodiscard]] bool may_leave_choice() const;
     Result<std::optional<GridPlan>> plan_by_device(const FrameView& view);
+    void set_missed(std::vector<PageIndex> missing, std::size_t hidden);
+    [[nodiscard]] bool lacks_pages() const;
     Result<GridPlan> plan(const FrameView& view, Clusters clusters);
     Result<GridPlan> settled_plan(const FrameView& view);
     Result<bool> advance(NextPlan next);
@@ -136,6 +139,9 @@ class GridScene {
     bool has_trees_{false};          // whether plans have sites of trees,
     bool has_grass_{false};          // ... and of grass
     bool can_evict_hidden_{false};   // hidden pages of the last plan could, for missing ones
+    bool leaves_choice_{true};       // Scene::leave_choice()
+    bool left_choice_{false};        // the last plan did: nobody knows which pages its frame uses
+    bool needs_plan_{false};         // of the processor, which says what pages its frame uses and lacks
     ShadowRequest cast_;
     double asked_means_px_{gpu::means_spacing_px}, means_spacing_px_{gpu::means_spacing_px};
     std::vector<ShadowReceiver> receivers_;  // shown by other grids of the frame
@@ -185,8 +191,20 @@ class Scene {
     Result<bool> plan_on_device(const Gpu& gpu);
     // As plan_on_device(), and the device chooses the pages as well, of frames without shadows, trees, grass
     // and images, while all that comes finds room. What a plan says of missing pages is then that of a frame
-    // before. The frames are the same. Errors: as plan_on_device(); a file that cannot be read.
+    // before. The frames are the same. No frame is under way. Errors: as plan_on_device(); a file that cannot
+    // be read.
     Result<bool> choose_on_device(const Gpu& gpu);
+    // Whether that may leave anything to the device of a scene that asks for what this one does: of frames by
+    // other views it may be all the same that none is left.
+    [[nodiscard]] bool may_leave_choice() const;
+    // Whether plans leave the choice to the device from now on where they may; after choose_on_device() they
+    // do. A plan that nobody draws must not: it would never be known what it lacks.
+    void leave_choice(bool on);
+    // Whether each grid has some ground wherever one looks: its coarsest page is here.
+    [[nodiscard]] bool has_coarsest_pages() const;
+    // Whether the last plan lacks pages, as far as is known: where the device chose them the frame tells
+    // (apply_feedback()).
+    [[nodiscard]] bool lacks_pages() const;
     // What a frame draws with the pages and clusters that are on the GPU now.
     Result<FramePlan> plan(const FrameView& view);
     // Of the last plan, all grids together.
