@@ -119,7 +119,8 @@ Result<void> prepare_gpu_pages(Viewer& viewer) {
     if (!wants_gpu_pages(viewer) || !viewer.is_settled || is_moving(viewer) || !viewer.under_way.empty() ||
         !viewer.scene->may_leave_choice())
         return {};
-    ORO_TRY(const bool can, viewer.scene->choose_on_device(viewer.gpu));
+    constexpr std::uint64_t most_bytes = 8'000'000;  // they are soon made
+    ORO_TRY(const bool can, viewer.scene->choose_on_device(viewer.gpu, most_bytes));
     viewer.scene->leave_choice(false);
     return can ? viewer.renderer.prepare_choice() : Result<void>();
 }

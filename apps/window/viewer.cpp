@@ -183,10 +183,13 @@ void trace_frame(const SubmittedFrame& frame) {
         return std::chrono::duration<double>(at.time_since_epoch()).count();
     };
     const FrameTimes& times = frame.times;
-    std::fprintf(
-        stderr, "frame: input %.4f begun %.4f planned %.4f drawn %.4f shown %.4f scale %.2f tau %.1f %s\n",
-        at_s(times.input), at_s(times.begun), at_s(times.planned), at_s(times.drawn), at_s(Clock::now()),
-        frame.step.scale, frame.step.tau_factor, frame.is_of_moving_eye ? "moving" : "at rest");
+    const char* const eye = !frame.is_of_moving_eye  ? "at rest"
+                            : frame.is_chosen_by_gpu ? "moving, pages chosen by the GPU"
+                                                     : "moving";
+    std::fprintf(stderr,
+                 "frame: input %.4f begun %.4f planned %.4f drawn %.4f shown %.4f scale %.2f tau %.1f %s\n",
+                 at_s(times.input), at_s(times.begun), at_s(times.planned), at_s(times.drawn),
+                 at_s(Clock::now()), frame.step.scale, frame.step.tau_factor, eye);
 }
 
 }  // namespace oro

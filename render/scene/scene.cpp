@@ -464,12 +464,12 @@ Result<bool> Scene::plan_on_device(const Gpu& gpu) {
     return true;
 }
 
-Result<bool> Scene::choose_on_device(const Gpu& gpu) {
+Result<bool> Scene::choose_on_device(const Gpu& gpu, std::uint64_t most_bytes) {
     ORO_TRY(const bool can, plan_on_device(gpu));
     if (!can) return false;
     for (GridScene& grid : grids_) {
         if (grid.choice_ || grid.memory_.sources() == nullptr ||
-            !can_choose_on_device(*grid.pages_, DeviceChoice::most_bytes))
+            !can_choose_on_device(*grid.pages_, most_bytes))
             continue;
         ORO_CHECK(grid.memory_.sources()->fill(grid.memory_.angles()));
         ORO_TRY(DeviceChoice choice, DeviceChoice::create(gpu, *grid.pages_));

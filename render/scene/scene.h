@@ -191,9 +191,10 @@ class Scene {
     Result<bool> plan_on_device(const Gpu& gpu);
     // As plan_on_device(), and the device chooses the pages as well, of frames without shadows, trees, grass
     // and images, while all that comes finds room. What a plan says of missing pages is then that of a frame
-    // before. The frames are the same. No frame is under way. Errors: as plan_on_device(); a file that cannot
-    // be read.
-    Result<bool> choose_on_device(const Gpu& gpu);
+    // before. The frames are the same. No frame is under way. most_bytes: that records of a grid's pages may
+    // take; the records are made now, 264 bytes a page. Errors: as plan_on_device(); a file that cannot be
+    // read.
+    Result<bool> choose_on_device(const Gpu& gpu, std::uint64_t most_bytes = DeviceChoice::most_bytes);
     // Whether that may leave anything to the device of a scene that asks for what this one does: of frames by
     // other views it may be all the same that none is left.
     [[nodiscard]] bool may_leave_choice() const;

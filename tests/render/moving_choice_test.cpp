@@ -314,6 +314,40 @@ TEST_F(MovingChoice, IsLeftToTheProcessorWhereFramesHaveShadows) {
     }
 }
 
+// The last frame before the eye stops is of another place than the one before: what it lacks it tells itself.
+TEST_F(MovingChoice, TellsAnEyeThatStopsWhatItsFrameLacks) {
+    Scene scene = scene_of(1, 500, 600, 400);
+    ASSERT_TRUE(*scene.choose_on_device(*gpu_));
+    FrameRenderer drawing = renderer();
+    WindowsScene window(scene);
+    Flight flight(96);
+    FrameView view = flight.next().view;
+    int lacking = 0, whole = 0;
+    for (int i = 0; i < 8; ++i) {
+        std::vector<std::uint32_t> shown;
+        // Each place twice: it lacks something, then nothing.
+        if (i % 2 == 0)
+            for (int skipped = 0; i > 0 && skipped < 25; ++skipped) view = flight.next().view;
+        view.camera.width_px = widest_px;
+        view.camera.height_px = highest_px;
+        view.tile = test::whole_picture(view.camera);
+        auto plan = window.plan(view, true);
+        ASSERT_TRUE(plan.ok());
+        const bool chosen = plan->grids.front().device.chooses;
+        ASSERT_EQ(chosen, i > 0);
+        const FramePlan expected = processors(scene, *plan);
+        FrameReport report;
+        ids(drawing, std::move(plan).value(), report);
+        window.drawn(chosen, std::move(report), false);
+        ASSERT_EQ(window.is_missing(), !expected.is_settled()) << "frame " << i;
+        ++(window.is_missing() ? lacking : whole);
+        ASSERT_TRUE(settles(window, drawing, view, shown)) << "frame " << i;
+        ASSERT_FALSE(scene.lacks_pages());
+    }
+    EXPECT_GE(lacking, 3);
+    EXPECT_GE(whole, 3);
+}
+
 // Frames are under way while the next ones are planned, as a window has them.
 TEST_F(MovingChoice, ChangesNothingWhereFramesAreUnderWay) {
     Scene scene = scene_of(1, 500, 600, 400);
