@@ -115,6 +115,13 @@ void DeviceChoice::note_plan(const GridPlan& plan) {
     last_.missing_hidden = plan.missing_hidden;
     last_.hidden = plan.hidden;
     last_.pages_wanted = plan.pages_wanted;
+    whole_plans_ = plan.missing.empty() ? whole_plans_ + 1 : 0;
+}
+
+void DeviceChoice::for_each_here(const MadeChoice& made,
+                                 const std::function<void(const PageIndex&)>& visit) const {
+    for (const gpu::WantedPage& page : made.wanted)
+        if (page.block != gpu::uvec2(0U)) visit(numbers_->page(page.page));
 }
 
 void DeviceChoice::apply_changes(const MadeChoice& made) {

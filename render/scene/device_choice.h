@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -38,8 +39,11 @@ class DeviceChoice {
         std::size_t hidden{};
     };
     [[nodiscard]] Missing missing() const;
-    // What the processor has planned in its place.
+    // What the processor has planned in its place; how many such plans in a row lacked nothing.
     void note_plan(const GridPlan& plan);
+    [[nodiscard]] std::uint32_t whole_plans() const { return whole_plans_; }
+    // Each page that a frame wanted and had.
+    void for_each_here(const MadeChoice& made, const std::function<void(const PageIndex&)>& visit) const;
     // Whether the last frame has told of all its pages.
     [[nodiscard]] bool is_whole() const { return last_.is_whole; }
     // Whether the last frame had room for all its pages, and the next one is likely to.
@@ -55,7 +59,7 @@ class DeviceChoice {
 
     const RegionPages* pages_;
     std::shared_ptr<const PageNumbers> numbers_;
-    std::uint32_t capacity_{};
+    std::uint32_t capacity_{}, whole_plans_{};
     Buffer records_;
     Buffer tables_;  // blocks, ratings, slots
     // Of each page its block's address, and when it was last found: the pages that were found then.

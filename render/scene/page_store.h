@@ -73,6 +73,7 @@ class PageStore {
     [[nodiscard]] std::uint64_t places_before() const { return places_before_; }
     // From here on pages are used by the next frame. What is sent lands after all frames before.
     void begin_frame() { cache_.items().begin_frame(); }
+    [[nodiscard]] std::uint64_t frame() const { return cache_.items().frame(); }
 
     // Uploads pages, in their order, until one finds no capacity that the current frame does not use; number
     // of those uploaded. A hidden one evicts no page that was shown in the last `shown_lately` frames.

@@ -119,6 +119,10 @@ bool GridScene::apply_feedback(const FrameFeedback& feedback) {
     const bool is_news =
         choice_->apply(*feedback.choice, [&](const PageIndex& page) { return seen_.is_hidden(page); });
     needs_plan_ = needs_plan_ || !choice_->is_whole();
+    // What gives way once memory is full is what was not shown for longest.
+    constexpr std::uint64_t frames_between_marks = 8;
+    if (store_.frame() % frames_between_marks == 0)
+        choice_->for_each_here(*feedback.choice, [&](const PageIndex& page) { store_.address(page); });
     DeviceChoice::Missing lacks = choice_->missing();
     set_missed(std::move(lacks.pages), lacks.hidden);
     return is_new || is_news;
@@ -221,8 +225,14 @@ bool GridScene::may_leave_choice() const {
 }
 
 bool GridScene::can_leave_choice() const {
-    return choice_ && leaves_choice_ && !needs_plan_ && may_leave_choice() && !full_ && !full_for_hidden_ &&
-           store_.has_capacity() && choice_->has_room() && choice_->last_page_count() <= store_.capacity();
+    if (!choice_ || !leaves_choice_ || needs_plan_ || !may_leave_choice() || full_ || full_for_hidden_ ||
+        !choice_->has_room() || choice_->last_page_count() > store_.capacity())
+        return false;
+    // Where memory is full the processor says what gives way for what comes, until nothing has come for some
+    // frames.
+    constexpr std::uint32_t plans_between = 30;
+    return store_.has_capacity() ||
+           (missed_.empty() && (left_choice_ || choice_->whole_plans() >= plans_between));
 }
 
 Result<std::optional<GridPlan>> GridScene::plan_by_device(const FrameView& view) {
@@ -230,6 +240,7 @@ Result<std::optional<GridPlan>> GridScene::plan_by_device(const FrameView& view)
     std::optional<GridPlan> plan = plan_without_pages(memory_, view, store_.coding());
     if (!plan) return std::optional<GridPlan>();
     left_choice_ = true;
+    store_.begin_frame();
     choice_->note_pages(store_);
     choice_->plan(view, ModelView(view.camera, view.model, store_.coding()),
                   store_.means_offset() > 0 ? means_spacing_px_ : gpu::shading_spacing_px,
@@ -318,6 +329,10 @@ Result<bool> GridScene::advance(NextPlan next) {
         loader_->request(shown_of(missed_));
     else
         loader_->request(missed_);
+    if (left_choice_ && !missed_.empty() && !store_.has_capacity()) {
+        needs_plan_ = true;
+        return true;
+    }
     ORO_TRY(const Sent sent, send_ready(false));
     full_for_hidden_ = full_for_hidden_ || sent.hidden_left;
     full_ = sent.shown_left;
@@ -482,11 +497,17 @@ void Scene::leave_choice(bool on) {
     for (GridScene& grid : grids_) grid.leaves_choice_ = on;
 }
 
+bool GridScene::has_coarsest_pages() const {
+    const int top = pages_->levels() - 1;
+    const PageLayout layout = pages_->layout(top);
+    for (int row = 0; row < layout.rows; ++row)
+        for (int column = 0; column < layout.columns; ++column)
+            if (!store_.has({row, column, top})) return false;
+    return true;
+}
+
 bool Scene::has_coarsest_pages() const {
-    return std::ranges::all_of(grids_, [](const GridScene& grid) {
-        const int top = grid.pages_->levels() - 1;
-        return grid.pages_->layout(top).count() == 0 || grid.store_.has({0, 0, top});
-    });
+    return std::ranges::all_of(grids_, &GridScene::has_coarsest_pages);
 }
 
 bool Scene::lacks_pages() const {

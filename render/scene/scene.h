@@ -110,6 +110,7 @@ class GridScene {
     [[nodiscard]] bool can_leave_choice() const;
     [[nodiscard]] bool may_leave_choice() const;
     Result<std::optional<GridPlan>> plan_by_device(const FrameView& view);
+    [[nodiscard]] bool has_coarsest_pages() const;
     void set_missed(std::vector<PageIndex> missing, std::size_t hidden);
     [[nodiscard]] bool lacks_pages() const;
     Result<GridPlan> plan(const FrameView& view, Clusters clusters);
@@ -201,7 +202,8 @@ class Scene {
     // Whether plans leave the choice to the device from now on where they may; after choose_on_device() they
     // do. A plan that nobody draws must not: it would never be known what it lacks.
     void leave_choice(bool on);
-    // Whether each grid has some ground wherever one looks: its coarsest page is here.
+    // Whether each grid has some ground wherever one looks: its coarsest page is here; of what lies between
+    // grids all pages are.
     [[nodiscard]] bool has_coarsest_pages() const;
     // Whether the last plan lacks pages, as far as is known: where the device chose them the frame tells
     // (apply_feedback()).

@@ -277,6 +277,46 @@ TEST_F(MovingChoice, HasTheFramesOfTheProcessorOfSeveralGrids) {
     EXPECT_GT(seen.by_device, 40);
 }
 
+// In memory that is full the device chooses again where the eye stays over ground that is there.
+TEST_F(MovingChoice, GoesOnInFullMemoryWhereNothingIsMissing) {
+    Scene scene = scene_of(1, 500, 600, 12);
+    ASSERT_TRUE(*scene.choose_on_device(*gpu_));
+    FrameRenderer device = renderer(), processor = renderer();
+    WindowsScene window(scene);
+    Camera camera;
+    camera.width_px = widest_px;
+    camera.height_px = highest_px;
+    // First near the ground, where frames want more than there is room for, then so high up that a few pages
+    // are enough.
+    camera.eye = {46.8, 8.25, 5000.0};
+    camera.attitude = {0.0, -80.0, 0.0};
+    int near_ground = 0, chosen_frames = 0;
+    for (; scene.grids()[0].store().has_capacity(); ++near_ground) {
+        ASSERT_LT(near_ground, 2000) << "memory is never full";
+        ASSERT_TRUE(window.advance().ok());
+        ASSERT_TRUE(window.plan({camera, test::whole_picture(camera), 0.3, {}}, false).ok());
+    }
+    camera.eye.h_m = 60000.0;
+    for (int i = 0; i < 120; ++i) {
+        camera.attitude.heading_deg += 0.5;
+        ASSERT_TRUE(window.advance().ok());
+        auto plan = window.plan({camera, test::whole_picture(camera), 4.0, {}}, true);
+        ASSERT_TRUE(plan.ok());
+        const bool chosen = plan->grids.front().device.chooses;
+        chosen_frames += chosen ? 1 : 0;
+        FramePlan expected = processors(scene, *plan);
+        FrameReport report, expected_report;
+        const auto shown = ids(device, std::move(plan).value(), report);
+        const auto wanted = ids(processor, std::move(expected), expected_report);
+        ASSERT_TRUE(!chosen || shown == wanted) << "frame " << i;
+        window.drawn(chosen, std::move(report), true);
+    }
+    std::printf("%d of 120 frames in full memory chosen by the device\n", chosen_frames);
+    EXPECT_FALSE(scene.grids()[0].store().has_capacity());
+    EXPECT_GT(chosen_frames, 50);
+    EXPECT_LT(chosen_frames, 120);
+}
+
 // Memory is full again and again: the processor then says what may give way.
 TEST_F(MovingChoice, KeepsWhatIsShownWhereMemoryIsFull) {
     Scene scene = scene_of(1, 500, 600, 20);
