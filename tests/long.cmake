@@ -439,6 +439,7 @@ set_tests_properties(
   WindowFlight.AMinuteOverTheAlps
   WindowFlight.MinutesOverPoland
   WindowMesh.ShowsTheClustersThatShotDraws
+  WindowPages.AreChosenByTheGpuWhileTheEyeMoves
   WindowProjects.AreSavedAndOpenedAgain
   WindowProjects.HoldLandCoverThatWasOpened
   WindowTour.LooksAsItDid

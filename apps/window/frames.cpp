@@ -119,9 +119,14 @@ Result<void> prepare_gpu_pages(Viewer& viewer) {
     if (!wants_gpu_pages(viewer) || !viewer.is_settled || is_moving(viewer) || !viewer.under_way.empty() ||
         !viewer.scene->may_leave_choice())
         return {};
-    constexpr std::uint64_t most_bytes = 8'000'000;  // they are soon made
-    ORO_TRY(const bool can, viewer.scene->choose_on_device(viewer.gpu, most_bytes));
-    viewer.scene->leave_choice(false);
+    constexpr std::uint64_t most_bytes = 8'000'000;  // of records, of each grid
+    constexpr double a_turn_s = 0.003;
+    Scene& scene = *viewer.scene;
+    if (std::exchange(viewer.records_of, &scene) != &scene) viewer.records_read = 0;
+    ORO_TRY(const bool are_read, scene.read_records(viewer.records_read, a_turn_s, most_bytes));
+    if (!are_read) return {};
+    ORO_TRY(const bool can, scene.choose_on_device(viewer.gpu, most_bytes));
+    scene.leave_choice(false);
     return can ? viewer.renderer.prepare_choice() : Result<void>();
 }
 

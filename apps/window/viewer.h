@@ -230,6 +230,9 @@ struct Viewer {
     bool leaves{false};         // the user wants to
     // What panels ask for: done once their frame is built.
     std::vector<std::function<Result<void>(Viewer&)>> wishes{};
+    // Whose pages the GPU is going to choose, and how many records of them are read.
+    const Scene* records_of{};
+    std::uint64_t records_read{};
 };
 
 // The finest grid below the eye.

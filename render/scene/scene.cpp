@@ -493,6 +493,24 @@ Result<bool> Scene::choose_on_device(const Gpu& gpu, std::uint64_t most_bytes) {
     return true;
 }
 
+Result<bool> Scene::read_records(std::uint64_t& next, double longest_s, std::uint64_t most_bytes) const {
+    const auto start = Clock::now();
+    std::uint64_t before = 0;
+    for (const GridScene& grid : grids_) {
+        if (!can_choose_on_device(*grid.pages_, most_bytes)) continue;
+        for (int level = 0; level < grid.pages_->levels(); ++level) {
+            const PageLayout layout = grid.pages_->layout(level);
+            while (next < before + layout.count()) {
+                const auto number = static_cast<int>(next++ - before);
+                ORO_CHECK(grid.pages_->record({number / layout.columns, number % layout.columns, level}));
+                if (seconds_since(start) > longest_s) return false;
+            }
+            before += layout.count();
+        }
+    }
+    return true;
+}
+
 void Scene::leave_choice(bool on) {
     for (GridScene& grid : grids_) grid.leaves_choice_ = on;
 }

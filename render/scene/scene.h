@@ -196,8 +196,11 @@ class Scene {
     // take; the records are made now, 264 bytes a page. Errors: as plan_on_device(); a file that cannot be
     // read.
     Result<bool> choose_on_device(const Gpu& gpu, std::uint64_t most_bytes = DeviceChoice::most_bytes);
-    // Whether that may leave anything to the device of a scene that asks for what this one does: of frames by
-    // other views it may be all the same that none is left.
+    // Reads records of pages that choose_on_device() asks for, from the one of that number on, for so long:
+    // so nothing waits for files in one go. True once all are read. Errors: a file that cannot be read.
+    Result<bool> read_records(std::uint64_t& next, double longest_s, std::uint64_t most_bytes) const;
+    // Whether choose_on_device() may leave anything to the device of a scene that asks for what this one
+    // does: of frames by other views it may be all the same that none is left.
     [[nodiscard]] bool may_leave_choice() const;
     // Whether plans leave the choice to the device from now on where they may; after choose_on_device() they
     // do. A plan that nobody draws must not: it would never be known what it lacks.

@@ -264,7 +264,7 @@ TEST_F(MovingChoice, HasTheFramesOfTheProcessor) {
     ASSERT_NO_FATAL_FAILURE(fly(scene, 200, 91, seen));
     print("one grid", 200, 91, seen.by_device, seen.by_processor, seen.not_whole);
     EXPECT_GT(seen.by_device, 150);
-    EXPECT_GT(seen.not_whole, 5);
+    EXPECT_GT(seen.not_whole, 2);
     EXPECT_GT(seen.triangles, 2000U) << "or the eyes see nothing";
 }
 
@@ -386,6 +386,25 @@ TEST_F(MovingChoice, TellsAnEyeThatStopsWhatItsFrameLacks) {
     }
     EXPECT_GE(lacking, 3);
     EXPECT_GE(whole, 3);
+}
+
+// 500 x 600 posts have 4 x 5, 2 x 3, 1 x 2 and 1 x 1 pages: 29, and so has each of two grids.
+TEST_F(MovingChoice, HasItsRecordsReadInTurns) {
+    const Scene scene = scene_of(2, 500, 600, 400);
+    std::uint64_t next = 0;
+    int turns = 0;
+    for (Result<bool> all = false; !*all; ++turns) {
+        ASSERT_LT(turns, 1000);
+        all = scene.read_records(next, 0.0, 1'000'000);
+        ASSERT_TRUE(all.ok()) << all.error().line();
+    }
+    EXPECT_EQ(next, 58U);
+    EXPECT_EQ(turns, 59);
+    EXPECT_TRUE(*scene.read_records(next, 0.0, 1'000'000));
+    // Of grids whose records would take more nothing is read.
+    next = 0;
+    EXPECT_TRUE(*scene.read_records(next, 0.0, 1000));
+    EXPECT_EQ(next, 0U);
 }
 
 // Frames are under way while the next ones are planned, as a window has them.
