@@ -127,7 +127,9 @@ Result<void> prepare_gpu_pages(Viewer& viewer) {
     if (!are_read) return {};
     ORO_TRY(const bool can, scene.choose_on_device(viewer.gpu, most_bytes));
     scene.leave_choice(false);
-    return can ? viewer.renderer.prepare_choice() : Result<void>();
+    if (!can) return {};
+    ORO_CHECK(scene.load_coarsest_pages());
+    return viewer.renderer.prepare_choice();
 }
 
 // What a frame would be drawn from now, and what of it is missing. The GPU may choose pages for an eye that

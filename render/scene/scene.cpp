@@ -515,17 +515,30 @@ void Scene::leave_choice(bool on) {
     for (GridScene& grid : grids_) grid.leaves_choice_ = on;
 }
 
-bool GridScene::has_coarsest_pages() const {
+std::vector<PageIndex> GridScene::coarsest_pages() const {
     const int top = pages_->levels() - 1;
     const PageLayout layout = pages_->layout(top);
+    std::vector<PageIndex> pages;
     for (int row = 0; row < layout.rows; ++row)
-        for (int column = 0; column < layout.columns; ++column)
-            if (!store_.has({row, column, top})) return false;
-    return true;
+        for (int column = 0; column < layout.columns; ++column) pages.push_back({row, column, top});
+    return pages;
+}
+
+bool GridScene::has_coarsest_pages() const {
+    return std::ranges::all_of(coarsest_pages(), [&](const PageIndex& page) { return store_.has(page); });
 }
 
 bool Scene::has_coarsest_pages() const {
     return std::ranges::all_of(grids_, &GridScene::has_coarsest_pages);
+}
+
+Result<void> Scene::load_coarsest_pages() {
+    for (GridScene& grid : grids_) {
+        if (grid.has_coarsest_pages()) continue;
+        const std::vector<PageIndex> pages = grid.coarsest_pages();
+        if (pages.size() < grid.store_.free_capacity()) ORO_CHECK(grid.load_pages(pages));
+    }
+    return {};
 }
 
 bool Scene::lacks_pages() const {

@@ -110,6 +110,7 @@ class GridScene {
     [[nodiscard]] bool can_leave_choice() const;
     [[nodiscard]] bool may_leave_choice() const;
     Result<std::optional<GridPlan>> plan_by_device(const FrameView& view);
+    [[nodiscard]] std::vector<PageIndex> coarsest_pages() const;
     [[nodiscard]] bool has_coarsest_pages() const;
     void set_missed(std::vector<PageIndex> missing, std::size_t hidden);
     [[nodiscard]] bool lacks_pages() const;
@@ -208,6 +209,9 @@ class Scene {
     // Whether each grid has some ground wherever one looks: its coarsest page is here; of what lies between
     // grids all pages are.
     [[nodiscard]] bool has_coarsest_pages() const;
+    // Brings these and waits for them, where memory has room: those of grids that were never in view are not
+    // here. No frame is under way, and the last plan lacked nothing. Errors: as advance().
+    Result<void> load_coarsest_pages();
     // Whether the last plan lacks pages, as far as is known: where the device chose them the frame tells
     // (apply_feedback()).
     [[nodiscard]] bool lacks_pages() const;

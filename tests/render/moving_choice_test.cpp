@@ -388,6 +388,33 @@ TEST_F(MovingChoice, TellsAnEyeThatStopsWhatItsFrameLacks) {
     EXPECT_GE(whole, 3);
 }
 
+// A grid that was never in view has nothing here, and nobody knows yet whether the next frame sees it.
+TEST_F(MovingChoice, HasTheCoarsestPagesOfGridsOutOfView) {
+    Scene scene = scene_of(1, 300, 300, 400);
+    auto far = Scene::create(*gpu_, pages_in_memory(test::rough_field(7.0, 8.0, 300, 300), 1.0, 2), {},
+                             test::asked_heights());
+    ASSERT_TRUE(far.ok()) << far.error().line();
+    scene.add(std::move(far).value());
+    ASSERT_TRUE(*scene.choose_on_device(*gpu_));
+    FrameRenderer drawing = renderer();
+    WindowsScene window(scene);
+    Flight flight(98);
+    const FrameView view = flight.next().view;
+    std::vector<std::uint32_t> shown;
+    ASSERT_TRUE(window.plan(view, false).ok());
+    ASSERT_TRUE(settles(window, drawing, view, shown));
+    EXPECT_EQ(scene.grids()[1].store().size(), 0U);
+    EXPECT_FALSE(scene.has_coarsest_pages());
+    ASSERT_TRUE(scene.load_coarsest_pages().ok());
+    EXPECT_EQ(scene.grids()[1].store().size(), 1U);
+    EXPECT_TRUE(scene.has_coarsest_pages());
+    auto plan = window.plan(view, true);
+    ASSERT_TRUE(plan.ok());
+    EXPECT_TRUE(plan->grids[0].device.chooses && plan->grids[1].device.chooses);
+    FrameReport report;
+    EXPECT_EQ(ids(drawing, std::move(plan).value(), report), shown);
+}
+
 // 500 x 600 posts have 4 x 5, 2 x 3, 1 x 2 and 1 x 1 pages: 29, and so has each of two grids.
 TEST_F(MovingChoice, HasItsRecordsReadInTurns) {
     const Scene scene = scene_of(2, 500, 600, 400);
