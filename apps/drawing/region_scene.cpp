@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -25,9 +26,9 @@ namespace {
 Result<std::unique_ptr<RegionPages>> pages_of(const RegionGrid& grid, double exaggeration,
                                               const std::shared_ptr<const DataMeans>& means,
                                               const RenderProgress& progress, const std::stop_token& stop,
-                                              const std::optional<FrameView>& picture) {
+                                              std::span<const FrameView> pictures) {
     if (const MadePostSource* const made = made_posts_of(grid.field)) {
-        if (exaggeration == 1.0) return made->pages(grid.field, picture);
+        if (exaggeration == 1.0) return made->pages(grid.field, pictures);
         return Error{
             ErrorKind::usage, "--exaggeration",
             "is not for made terrain whose posts are made where they are looked at; narrow the region "
@@ -74,11 +75,11 @@ Result<std::unique_ptr<RegionPages>> pages_of_grid(const RegionGrid& grid, const
                                                    const std::shared_ptr<const DataMeans>& means,
                                                    const RenderProgress& progress,
                                                    const std::stop_token& stop,
-                                                   const std::optional<FrameView>& picture = {}) {
+                                                   std::span<const FrameView> pictures = {}) {
     const bool is_cut = std::ranges::find(cut.masked_posts, 1) != cut.masked_posts.end();
     ORO_TRY(std::unique_ptr<RegionPages> pages,
             is_cut ? pages_of_rest(grid, cut, exaggeration, means, progress, stop)
-                   : pages_of(grid, exaggeration, means, progress, stop, picture));
+                   : pages_of(grid, exaggeration, means, progress, stop, pictures));
     if (!pages) return Error{ErrorKind::failed, "levels", "nobody waits for them any more"};
     if (!is_cut && pages->facts().triangles == 0)
         return Error{ErrorKind::no_data, "region", "no triangle has a height at each corner"};
@@ -107,7 +108,7 @@ Result<std::unique_ptr<RegionPages>> grid_pages(const RegionGrid& grid, const Gr
 
 Result<GridPages> make_grid_pages(const Region& region, const RegionCuts& cuts, double exaggeration,
                                   const RenderProgress& progress, const std::stop_token& stop,
-                                  const std::optional<FrameView>& picture) {
+                                  std::span<const FrameView> pictures) {
     const RegionGrid* const data = data_under_detail(region);
     ORO_TRY(const std::shared_ptr<const DataMeans> data_means, means_under_detail(data, exaggeration));
     GridPages pages;
@@ -115,7 +116,7 @@ Result<GridPages> make_grid_pages(const Region& region, const RegionCuts& cuts, 
         const std::size_t number = pages.size();
         ORO_TRY(std::unique_ptr<RegionPages> more,
                 pages_of_grid(grid, cuts.grids[number], exaggeration, &grid == data ? data_means : nullptr,
-                              number == 0 ? progress : RenderProgress{}, stop, picture));
+                              number == 0 ? progress : RenderProgress{}, stop, pictures));
         pages.push_back(std::move(more));
     }
     return pages;

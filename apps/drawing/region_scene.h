@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -20,13 +21,13 @@ namespace oro {
 Result<std::unique_ptr<RegionPages>> grid_pages(const RegionGrid& grid, const GridClip& cut,
                                                 double exaggeration, const RenderProgress& progress = {},
                                                 const std::stop_token& stop = {});
-// Pages of all grids of a region, in their order. progress: of the first. stop: as grid_pages(). picture: the
-// only one that they are for, with no light from beyond it; they may then cost less
+// Pages of all grids of a region, in their order. progress: of the first. stop: as grid_pages(). pictures:
+// all that they are for, with no light from beyond each; none: any. They may then cost less
 // (MadePostSource::pages()).
 using GridPages = std::vector<std::unique_ptr<RegionPages>>;
 Result<GridPages> make_grid_pages(const Region& region, const RegionCuts& cuts, double exaggeration,
                                   const RenderProgress& progress = {}, const std::stop_token& stop = {},
-                                  const std::optional<FrameView>& picture = {});
+                                  std::span<const FrameView> pictures = {});
 RegionPagesList pointers_to(const GridPages& pages);
 
 // A region with all its grids, ready for a GPU, and the triangles that it has at full resolution.

@@ -1,5 +1,7 @@
 #include "core/frame/picture_culling.h"
 
+#include <glm/geometric.hpp>
+
 #include "core/frame/frame_plan.h"
 
 namespace oro {
@@ -43,6 +45,15 @@ bool PictureCulling::keeps_tau(const PageBound& bound, double error_m) const {
     return gpu::projected_error_px(gpu::vec3(seen.sphere.centre_m), static_cast<float>(seen.sphere.radius_m),
                                    static_cast<float>(error_m * seen.stretch), level_.pixels_per_tangent,
                                    level_.corner_tangent) <= share_of_tau * level_.tau_px;
+}
+
+// gpu::projected_error_px() is no less than what is seen of the error at the sphere's farthest place.
+bool PictureCulling::fails_tau(const PageBound& bound, double error_m) const {
+    if (!model_.culls_nodes()) return false;
+    const ViewSphere seen = model_.seen_at(bound.centre.m, bound.radius_m).sphere;
+    const double farthest_m = glm::length(seen.centre_m) + seen.radius_m;
+    return static_cast<double>(share_of_tau * level_.pixels_per_tangent) * error_m >
+           static_cast<double>(level_.tau_px) * farthest_m;
 }
 
 }  // namespace oro

@@ -25,6 +25,9 @@ class PictureCulling {
     // Whether what is so far from the truth is no more than tau pixels from it wherever in a sphere it is
     // seen, whoever computes it. Any thread.
     [[nodiscard]] bool keeps_tau(const PageBound& bound, double error_m) const;
+    // Whether what is at least so far from the truth is more than tau pixels from it wherever in a sphere it
+    // is seen, whoever computes it. Any thread.
+    [[nodiscard]] bool fails_tau(const PageBound& bound, double error_m) const;
 
   private:
     ModelView model_;

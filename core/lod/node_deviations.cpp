@@ -18,6 +18,14 @@ constexpr int node_quads = static_cast<int>(gpu::meshlet_quads);
 constexpr double placement_share = 1.0e-7;
 // Above the rounding of the interpolations here.
 constexpr double rounding_m = 1.0e-8;
+constexpr std::uint32_t all_edges = gpu::edge_north | gpu::edge_east | gpu::edge_south | gpu::edge_west;
+
+// Of a node of 8 x 8 quads, found once: thousands of comparisons.
+const std::vector<NodeDeviations::Stitched>& triangles_of_whole_node() {
+    static const std::vector<NodeDeviations::Stitched> all =
+        NodeDeviations::stitched_triangles(node_quads, node_quads, all_edges);
+    return all;
+}
 
 }  // namespace
 
@@ -27,8 +35,7 @@ NodeDeviations::NodeDeviations(const PostGrid& grid, const DrawnHeights& heights
       level_(level_grid(grid, level)),
       wraps_longitude_(grid.wraps_longitude()),
       highest_m_(std::max(0.0, heights.highest_steps * height_step_m)),
-      whole_node_(stitched_triangles(node_quads, node_quads,
-                                     gpu::edge_north | gpu::edge_east | gpu::edge_south | gpu::edge_west)) {
+      whole_node_(triangles_of_whole_node()) {
     assert(heights.rows == grid.rows() && heights.columns == grid.columns());
     for (int i = 0; !grid.net && i < level_.row.nodes(); ++i) {
         const double north_deg = grid.lat.at_deg(level_.row.region_post(i * node_quads));
@@ -198,10 +205,11 @@ NodeDeviations::Quad NodeDeviations::pair_deviation(const QuadPosts& quad) const
 }
 
 NodeDeviation NodeDeviations::height_deviation(int node_row, int node_column) const {
-    return height_deviation(node_row, node_column, post_range(node_row, node_column));
+    return height_deviation(node_row, node_column, post_range(node_row, node_column), all_edges);
 }
 
-NodeDeviation NodeDeviations::height_deviation(int node_row, int node_column, const PostRange& range) const {
+NodeDeviation NodeDeviations::height_deviation(int node_row, int node_column, const PostRange& range,
+                                               std::uint32_t asked_edges) const {
     const int rows = level_.row.quads_of_node(node_row);
     const int columns = level_.column.quads_of_node(node_column);
     std::array<Cover, 64> covers{};
@@ -227,7 +235,7 @@ NodeDeviation NodeDeviations::height_deviation(int node_row, int node_column, co
     const std::uint32_t around = edges(node_row, node_column);
     const bool simple = as_it_is && rows == node_quads && columns == node_quads;
     const PerEdge steps = simple ? finest_stitched_deviation(node_row, node_column)
-                                 : stitched_deviation(node_row, node_column, around);
+                                 : stitched_deviation(node_row, node_column, around, asked_edges);
     const std::uint32_t unfit = all_full ? 0U : unfit_edges(covers, rows, columns);
     for (std::size_t i = 0; i < 4; ++i) {
         if ((around >> i & 1U) != 0)
@@ -301,8 +309,12 @@ NodeDeviations::Sag NodeDeviations::sag_of_net(double dh_m, double finest_dh_m) 
 }
 
 NodeDeviation NodeDeviations::deviation(int node_row, int node_column) const {
+    return deviation(node_row, node_column, all_edges);
+}
+
+NodeDeviation NodeDeviations::deviation(int node_row, int node_column, std::uint32_t asked_edges) const {
     const PostRange range = post_range(node_row, node_column);
-    NodeDeviation deviation = height_deviation(node_row, node_column, range);
+    NodeDeviation deviation = height_deviation(node_row, node_column, range, asked_edges);
     if (deviation.empty) return deviation;
     const bool finest = level_.level() == 0;
     // The full resolution's heights differ from the node's by the deviation, at either end of an edge.

@@ -39,6 +39,8 @@ class NodeDeviations {
     // between posts) and the point of the drawn node at the same (row, column); the rounding of the drawn
     // posts' places included. 0 for level 0 as it is.
     [[nodiscard]] NodeDeviation deviation(int node_row, int node_column) const;
+    // The same where stitched_m of some edges alone (as edges()) is asked for; the others may have less.
+    [[nodiscard]] NodeDeviation deviation(int node_row, int node_column, std::uint32_t asked_edges) const;
     // Edges (shaders/choose/levels.glsl) on which a node has a neighbour. Round the Earth the last column's
     // is the first.
     [[nodiscard]] std::uint32_t edges(int node_row, int node_column) const;
@@ -104,10 +106,12 @@ class NodeDeviations {
     [[nodiscard]] double middles_deviation(const QuadPosts& quad) const;
     [[nodiscard]] static std::uint32_t unfit_edges(const std::array<Cover, 64>& covers, int rows,
                                                    int columns);
-    [[nodiscard]] PerEdge stitched_deviation(int node_row, int node_column, std::uint32_t edges) const;
+    [[nodiscard]] PerEdge stitched_deviation(int node_row, int node_column, std::uint32_t edges,
+                                             std::uint32_t asked_edges) const;
     [[nodiscard]] PerEdge finest_stitched_deviation(int node_row, int node_column) const;
     // range: post_range().
-    [[nodiscard]] NodeDeviation height_deviation(int node_row, int node_column, const PostRange& range) const;
+    [[nodiscard]] NodeDeviation height_deviation(int node_row, int node_column, const PostRange& range,
+                                                 std::uint32_t asked_edges) const;
     [[nodiscard]] PostRange post_range(int node_row, int node_column) const;
     [[nodiscard]] Sag sag(int node_row, double dh_m, double finest_dh_m) const;
     [[nodiscard]] Sag sag_of_net(double dh_m, double finest_dh_m) const;

@@ -211,16 +211,20 @@ std::uint32_t NodeDeviations::unfit_edges(const std::array<Cover, 64>& covers, i
 }
 
 // In steps; infinite where a triangle is drawn over voids.
-PerEdge NodeDeviations::stitched_deviation(int node_row, int node_column, std::uint32_t edges) const {
+PerEdge NodeDeviations::stitched_deviation(int node_row, int node_column, std::uint32_t edges,
+                                           std::uint32_t asked_edges) const {
+    PerEdge deviation{};
+    if (asked_edges == 0) return deviation;
     const int rows = level_.row.quads_of_node(node_row);
     const int columns = level_.column.quads_of_node(node_column);
     const bool whole = rows == node_quads && columns == node_quads;
     const std::vector<Stitched> own = whole ? std::vector<Stitched>{}
                                             : stitched_triangles(static_cast<std::uint32_t>(rows),
                                                                  static_cast<std::uint32_t>(columns), edges);
-    PerEdge deviation{};
     for (const Stitched& stitched : whole ? whole_node_ : own) {
         if ((stitched.edges & edges) != stitched.edges) continue;
+        const int edge = std::countr_zero(stitched.edges);
+        if ((asked_edges >> edge & 1U) == 0) continue;
         if (heights_.diagonal(level_.level(), node_row * node_quads + static_cast<int>(stitched.quad[0]),
                               node_column * node_quads + static_cast<int>(stitched.quad[1])) !=
             stitched.diagonal)
@@ -233,7 +237,7 @@ PerEdge NodeDeviations::stitched_deviation(int node_row, int node_column, std::u
                 level_.column.region_post(node_column * node_quads + static_cast<int>(stitched.posts[i][1]))};
             dropped = dropped || heights_.at(triangle[i].row, triangle[i].column) == void_height_steps;
         }
-        double& of_edge = deviation[static_cast<std::size_t>(std::countr_zero(stitched.edges))];
+        double& of_edge = deviation[static_cast<std::size_t>(edge)];
         if (!dropped) of_edge = std::max(of_edge, triangle_deviation(triangle));
     }
     return deviation;

@@ -17,6 +17,13 @@ constexpr std::uint32_t all_edges = gpu::edge_north | gpu::edge_east | gpu::edge
 // Above the rounding of the interpolations here.
 constexpr double interpolation_m = 1.0e-6;
 
+// Found once: thousands of comparisons.
+const std::vector<NodeDeviations::Stitched>& triangles_of_whole_node() {
+    static const std::vector<NodeDeviations::Stitched> all =
+        NodeDeviations::stitched_triangles(quads_a_side, quads_a_side, all_edges);
+    return all;
+}
+
 // Of numbers that are not negative: what std::floor gives, which is a call.
 int floor_of(double number) {
     return static_cast<int>(number);
@@ -34,7 +41,7 @@ CoarseDeviations::CoarseDeviations(const PostGrid& grid, const DrawnHeights& hei
     : heights_(heights),
       coarse_(coarse_steps),
       level_(level_grid(grid, level)),
-      whole_node_(NodeDeviations::stitched_triangles(quads_a_side, quads_a_side, all_edges)) {}
+      whole_node_(triangles_of_whole_node()) {}
 
 double CoarseDeviations::own_m(int node_row, int node_column) const {
     double steps = 0.0;
@@ -125,16 +132,20 @@ double CoarseDeviations::triangle_steps(const std::array<Corner, 3>& corners) co
     return extremes.magnitude();
 }
 
-PerEdge CoarseDeviations::stitched_m(int node_row, int node_column, std::uint32_t edges) const {
+PerEdge CoarseDeviations::stitched_m(int node_row, int node_column, std::uint32_t edges,
+                                     std::uint32_t asked_edges) const {
+    PerEdge found_m{};
+    if (asked_edges == 0) return found_m;
     const int rows = level_.row.quads_of_node(node_row), columns = level_.column.quads_of_node(node_column);
     const bool whole = rows == quads_a_side && columns == quads_a_side;
     const std::vector<NodeDeviations::Stitched> part =
         whole ? std::vector<NodeDeviations::Stitched>{}
               : NodeDeviations::stitched_triangles(static_cast<std::uint32_t>(rows),
                                                    static_cast<std::uint32_t>(columns), edges);
-    PerEdge found_m{};
     for (const NodeDeviations::Stitched& stitched : whole ? whole_node_ : part) {
         if ((stitched.edges & edges) != stitched.edges) continue;
+        const int edge = std::countr_zero(stitched.edges);
+        if ((asked_edges >> edge & 1U) == 0) continue;
         const int row = node_row * quads_a_side, column = node_column * quads_a_side;
         if (heights_.diagonal(level_.level(), row + static_cast<int>(stitched.quad[0]),
                               column + static_cast<int>(stitched.quad[1])) != stitched.diagonal)
@@ -143,7 +154,7 @@ PerEdge CoarseDeviations::stitched_m(int node_row, int node_column, std::uint32_
         for (std::size_t i = 0; i < 3; ++i)
             corners[i] = {level_.row.region_post(row + static_cast<int>(stitched.posts[i][0])),
                           level_.column.region_post(column + static_cast<int>(stitched.posts[i][1]))};
-        double& of_edge_m = found_m[static_cast<std::size_t>(std::countr_zero(stitched.edges))];
+        double& of_edge_m = found_m[static_cast<std::size_t>(edge)];
         of_edge_m = std::max(of_edge_m, triangle_steps(corners) * height_step_m + interpolation_m);
     }
     return found_m;

@@ -29,8 +29,9 @@ class CoarseDeviations {
     // Largest difference of a node as it is, metres. Quads that are not square are left out. Any thread.
     [[nodiscard]] double own_m(int node_row, int node_column) const;
     // The same of the triangles that are there where an edge is stitched to a coarser neighbour
-    // (NodeDeviation::stitched_m). edges: those with a neighbour.
-    [[nodiscard]] PerEdge stitched_m(int node_row, int node_column, std::uint32_t edges) const;
+    // (NodeDeviation::stitched_m). edges: those with a neighbour. 0 of those that are not asked for.
+    [[nodiscard]] PerEdge stitched_m(int node_row, int node_column, std::uint32_t edges,
+                                     std::uint32_t asked_edges) const;
 
   private:
     struct Corner {

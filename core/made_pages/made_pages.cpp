@@ -48,11 +48,12 @@ RegionShape shape_of(const MadeRegion& region) {
 
 class MadePages : public RegionPages {
   public:
-    MadePages(RegionFacts facts, MadeRegion region, const std::optional<FrameView>& picture)
+    MadePages(RegionFacts facts, MadeRegion region, std::span<const FrameView> pictures)
         : RegionPages(std::move(facts)),
           region_(std::move(region)),
           measured_to_(highest_measured_level(region_)) {
-        if (picture) culling_.emplace(*picture, this->facts().shape.occluder);
+        for (const FrameView& picture : pictures)
+            culling_.emplace_back(picture, this->facts().shape.occluder);
         double lowest_N_m = 0.0, highest_N_m = 0.0;
         for (const float N_m : region_.undulation.N_m) {
             lowest_N_m = std::min(lowest_N_m, static_cast<double>(N_m));
@@ -97,6 +98,8 @@ class MadePages : public RegionPages {
     static constexpr std::size_t records_kept = 65536;  // 40 MB
     static constexpr std::size_t blocks_kept = 1024;    // 64 MB
     static constexpr std::size_t unloaded_kept = 512;   // 42 MB
+    // A block that more pictures may show is measured whole: asking all of them would take longer.
+    static constexpr std::size_t most_pictures_asked = 256;
 
     [[nodiscard]] static std::uint64_t number_of(const PageIndex& page) {
         return static_cast<std::uint64_t>(page.level) << 48U | static_cast<std::uint64_t>(page.row) << 24U |
@@ -119,11 +122,28 @@ class MadePages : public RegionPages {
     [[nodiscard]] Ground ground_of(int level, int row, int column, int quads) const;
     [[nodiscard]] double reach_of(const Ground& ground) const;
     [[nodiscard]] PageBound bound_between(const Ground& ground, double low_h_m, double high_h_m) const;
-    [[nodiscard]] bool may_show_node(int level, int row, int column) const;
-    [[nodiscard]] bool is_good_node(int level, int row, int column, const MadeNode& node) const;
+    // Of the pictures that the pages are for.
+    using SomePictures = std::vector<const PictureCulling*>;
+    [[nodiscard]] SomePictures pictures_of(const PageIndex& page) const;
+    [[nodiscard]] bool may_show_node(const SomePictures& pictures, int level, int row, int column) const;
+    [[nodiscard]] bool is_good_node(const SomePictures& pictures, int level, int row, int column,
+                                    const MadeNode& node) const;
+    [[nodiscard]] bool is_bad_node(const SomePictures& pictures, int level, int row, int column,
+                                   double error_m) const;
+    // Whether each of the pictures that may show a node, or one beside it, does as it is asked.
+    template <class Asked>
+    [[nodiscard]] bool in_all(const SomePictures& pictures, const PageBound& around,
+                              const Asked& asked) const {
+        // 3 times hold what is beside it where all nodes are as wide.
+        const PageBound with_beside = wider(around, 3.5);
+        return std::ranges::all_of(pictures, [&](const PictureCulling* picture) {
+            return (pictures.size() > 1 && !picture->may_show(with_beside)) || asked(*picture);
+        });
+    }
+    [[nodiscard]] PageBound wider(const PageBound& bound, double times) const;
 
     MadeRegion region_;
-    std::optional<PictureCulling> culling_;
+    std::vector<PictureCulling> culling_;  // of each picture
     int measured_to_;
     double lowest_h_m_{}, highest_h_m_{};  // of any post
     mutable std::mutex mutex_;
@@ -179,11 +199,16 @@ std::shared_ptr<const MeasuredBlock> MadePages::measured_block(const PageIndex& 
     if (auto there = known()) return there;
     const std::scoped_lock measuring(measuring_);
     if (auto there = known()) return there;
+    const SomePictures pictures = pictures_of(of_top);
     const BlockPicture picture{
-        [&](int row, int column) { return may_show_node(top, row, column); },
-        [&](int row, int column, const MadeNode& node) { return is_good_node(top, row, column, node); }};
+        [&](int row, int column) { return may_show_node(pictures, top, row, column); },
+        [&](int row, int column, double error_m) { return is_bad_node(pictures, top, row, column, error_m); },
+        [&](int row, int column, const MadeNode& node) {
+            return is_good_node(pictures, top, row, column, node);
+        }};
+    const bool is_for_any = culling_.empty() || pictures.size() > most_pictures_asked;
     auto made = std::make_shared<const MeasuredBlock>(region_, of_top, std::max(threads, thread_count()),
-                                                      culling_ ? &picture : nullptr);
+                                                      is_for_any ? nullptr : &picture);
     const std::scoped_lock lock(mutex_);
     if (blocks_.size() >= blocks_kept) blocks_.clear();
     blocks_.emplace(number, made);
@@ -287,26 +312,60 @@ std::optional<PageBound> MadePages::bound(const PageIndex& page) const {
     return bound_between(ground, lowest_h_m_, highest_h_m_);
 }
 
+// A bound of what is beside some ground, too, so many times as wide.
+PageBound MadePages::wider(const PageBound& bound, double times) const {
+    PageBound all = bound;
+    all.radius_m *= times;
+    all.horizon = horizon_over(all.centre, all.radius_m);
+    return all;
+}
+
+// Those that may show a page, or the nodes beside it.
+MadePages::SomePictures MadePages::pictures_of(const PageIndex& page) const {
+    const Ground ground = ground_of(page.level, page.row, page.column, page_quads);
+    const PageBound bound =
+        ground.is_wide() ? PageBound{} : wider(bound_between(ground, lowest_h_m_, highest_h_m_), 1.5);
+    SomePictures pictures;
+    for (const PictureCulling& culling : culling_)
+        if (ground.is_wide() || culling.may_show(bound)) pictures.push_back(&culling);
+    return pictures;
+}
+
 // In slices that are no higher than wide, so that little is asked for that is not over the node.
-bool MadePages::may_show_node(int level, int row, int column) const {
+bool MadePages::may_show_node(const SomePictures& pictures, int level, int row, int column) const {
     const Ground ground = ground_of(level, row, column, static_cast<int>(gpu::meshlet_quads));
     if (ground.is_wide()) return true;
     const double height_m = highest_h_m_ - lowest_h_m_;
     const int slices = std::clamp(static_cast<int>(std::ceil(height_m / reach_of(ground))), 1, 16);
-    for (int i = 0; i < slices; ++i)
-        if (culling_->may_show(bound_between(ground, lowest_h_m_ + height_m * i / slices,
-                                             lowest_h_m_ + height_m * (i + 1) / slices)))
-            return true;
+    for (int i = 0; i < slices; ++i) {
+        const PageBound slice = bound_between(ground, lowest_h_m_ + height_m * i / slices,
+                                              lowest_h_m_ + height_m * (i + 1) / slices);
+        for (const PictureCulling* const picture : pictures)
+            if (picture->may_show(slice)) return true;
+    }
     return false;
 }
 
-bool MadePages::is_good_node(int level, int row, int column, const MadeNode& node) const {
+bool MadePages::is_bad_node(const SomePictures& pictures, int level, int row, int column,
+                            double error_m) const {
     const Ground ground = ground_of(level, row, column, static_cast<int>(gpu::meshlet_quads));
     if (ground.is_wide()) return false;
-    PageBound around = bound_between(ground, lowest_h_m_, highest_h_m_);
+    const PageBound around = bound_between(ground, lowest_h_m_, highest_h_m_);
+    return in_all(pictures, around,
+                  [&](const PictureCulling& picture) { return picture.fails_tau(around, error_m); });
+}
+
+bool MadePages::is_good_node(const SomePictures& pictures, int level, int row, int column,
+                             const MadeNode& node) const {
+    const Ground ground = ground_of(level, row, column, static_cast<int>(gpu::meshlet_quads));
+    if (ground.is_wide()) return false;
+    const PageBound around = bound_between(ground, lowest_h_m_, highest_h_m_);
     // The node's sphere has its middle somewhere in this one.
-    around.radius_m += static_cast<double>(node.lod_radius_m);
-    return culling_->keeps_tau(around, static_cast<double>(node.error_m));
+    PageBound with_sphere = around;
+    with_sphere.radius_m += static_cast<double>(node.lod_radius_m);
+    return in_all(pictures, around, [&](const PictureCulling& picture) {
+        return picture.keeps_tau(with_sphere, static_cast<double>(node.error_m));
+    });
 }
 
 }  // namespace
@@ -366,12 +425,12 @@ float MadePostSource::H_m(int row, int column) const {
 }
 
 std::unique_ptr<RegionPages> MadePostSource::pages(const HeightField& field,
-                                                   const std::optional<FrameView>& picture) const {
+                                                   std::span<const FrameView> pictures) const {
     MadeRegion region = made_region(terrain_, field.grid, field.undulation);
     const auto quads = [](int posts) { return static_cast<std::uint64_t>(posts - 1); };
     RegionFacts facts{field.grid, field.undulation, shape_of(region),
                       2 * quads(field.grid.rows()) * quads(field.grid.columns())};
-    return std::make_unique<MadePages>(std::move(facts), std::move(region), picture);
+    return std::make_unique<MadePages>(std::move(facts), std::move(region), pictures);
 }
 
 HeightField made_field(const MadeTerrain& terrain, const PostGrid& grid, const UndulationField& undulation) {

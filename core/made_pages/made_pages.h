@@ -2,7 +2,7 @@
 #pragma once
 
 #include <memory>
-#include <optional>
+#include <span>
 
 #include "core/frame/frame_plan.h"
 #include "core/frame/region_pages.h"
@@ -29,11 +29,11 @@ class MadePostSource : public PostSource {
     // nodes' errors are made when they are asked for; errors are measured three levels deep and bounded by
     // proven constants below (core/made_pages/level_bounds.h), so they are never less than those that
     // pages_in_memory() has, and levels are chosen by the same rule. Keeps 64 KB for each block of levels
-    // that was asked for. Needs an exaggeration of 1. picture: the only one that
-    // the pages are for; they cost less then. The nodes that it draws where it may show them are those that
-    // it draws without, and their errors are never less than those. Others may have an error of 0.
+    // that was asked for. Needs an exaggeration of 1. pictures: all that the pages are
+    // for; none: any. They cost less then. The nodes that each of them draws where it may show them are those
+    // that it draws without, and their errors are never less than those. Others may have an error of 0.
     [[nodiscard]] std::unique_ptr<RegionPages> pages(const HeightField& field,
-                                                     const std::optional<FrameView>& picture = {}) const;
+                                                     std::span<const FrameView> pictures = {}) const;
 
   private:
     struct Tiles;

@@ -460,6 +460,12 @@ double PartMeasurement::error_below_m(int i, int row, int column) const {
     return error_m;
 }
 
+// Edges of a node at which other nodes than those of its parent are, as NodeDeviations::edges().
+std::uint32_t outer_edges_of(int row, int column) {
+    return (row % 2 == 0 ? gpu::edge_north : gpu::edge_south) |
+           (column % 2 == 0 ? gpu::edge_west : gpu::edge_east);
+}
+
 // The degree from the equator that nothing of a row of nodes, or within a node's width of it, is nearer than.
 void PartMeasurement::find_latitudes(int i, PartLevel& level) const {
     const int width = node_quads << i;
@@ -502,16 +508,17 @@ PartMeasurement::Found PartMeasurement::found_at(int i, const PartLevel& level, 
         for (std::size_t edge = 0; edge < 4; ++edge)
             least.stitched_m[edge] = std::min(least.stitched_m[edge], stitched_m[edge] + rest_m);
     };
-    // Nobody asks for stitched triangles of the top level.
+    // Nodes are stitched to those beside their parents alone, and nobody asks for those of the top level.
     const bool is_top = i + 1 == static_cast<int>(levels_.size());
+    const std::uint32_t outer_edges = is_top ? 0U : outer_edges_of(row, column);
     const bool by_coarse = coarse != nullptr && !ends_oddly(i, row, column);
     const double cut_off_m = by_coarse ? most_cut_off_m(level, row, column) : 0.0;
     if (by_coarse)
         take(i > 0 ? coarse->own_m(row, column) : 0.0,
-             is_top ? PerEdge{} : coarse->stitched_m(row, column, deviations.edges(row, column)),
+             coarse->stitched_m(row, column, deviations.edges(row, column), outer_edges),
              bound(0, level, row).coarse + bound(i, level, row).flat + cut_off_m);
     if (!by_coarse || cut_off_m > 0.0) {
-        const NodeDeviation measured = deviations.deviation(row, column);
+        const NodeDeviation measured = deviations.deviation(row, column, outer_edges);
         const bool may_cut = level.may_cut[level.at(row, column)] != 0;
         take(measured.own_m, measured.stitched_m, bound(0, level, row).triangles.where(may_cut));
     }
@@ -629,25 +636,53 @@ TopNodes shown_nodes(const MadeRegion& region, const PageIndex& top, const Block
     return nodes;
 }
 
-// Roughly the least error that a node of a page has by posts of a base level: what is not measured there.
-MadeNode least_node(const MadeRegion& region, const PageIndex& top, int base) {
+// The bounds of levels where a page is nearest to a pole: none that holds for a node of it is smaller.
+const std::vector<MadeLevelBound>& least_bounds(const MadeRegion& region, const PageIndex& top) {
     const LevelAxis rows = level_grid(region.grid, top.level).row;
     const auto lat_deg = [&](int page_row) {
         return std::abs(
             region.grid.lat.at_deg(rows.region_post(page_row * static_cast<int>(gpu::page_quads))));
     };
     const auto from_deg = static_cast<std::size_t>(std::max(lat_deg(top.row), lat_deg(top.row + 1)));
-    const auto& levels = region.bounds_from_deg[std::min(from_deg, region.bounds_from_deg.size() - 1)];
+    return region.bounds_from_deg[std::min(from_deg, region.bounds_from_deg.size() - 1)];
+}
+
+// Roughly the least error that a node of a page has by posts of a base level: what is not measured there.
+MadeNode least_node(const MadeRegion& region, const PageIndex& top, int base) {
+    const auto& levels = least_bounds(region, top);
     return {static_cast<float>(levels[std::min(static_cast<std::size_t>(base), levels.size() - 1)].coarse),
             0.0F};
 }
 
-// Nodes of a page that a picture needs exactly: those that fewer posts do not prove to be good. decided: gets
-// those that they do prove to be.
-template <class Decided>
+// What no node of a page's block has an error below, whatever is measured: what lies between the posts that
+// it is measured against, or what bounds it where less is known (PartMeasurement::found_at()).
+double least_error_m(const MadeRegion& region, const PageIndex& top) {
+    const int against = measured_against(top.level);
+    if (against == 0) return 0.0;
+    const auto& levels = least_bounds(region, top);
+    const auto of = [&](int level) -> const MadeLevelBound& {
+        return levels[std::min(static_cast<std::size_t>(level), levels.size() - 1)];
+    };
+    const MadeLevelBound& base = of(against);
+    const MadeLevelBound& lowest = of(top.level - levels_of_block + 1);
+    return 0.9999 * std::min({base.coarse, base.triangles.free, base.triangles.cut, lowest.drawn.free,
+                              lowest.drawn.cut});
+}
+
+// Nodes of a page that a picture needs exactly: those that are not sure to be bad, and that fewer posts do
+// not prove to be good. bad: gets the first. good: gets those that they do prove to be.
+template <class Bad, class Good>
 TopNodes undecided_nodes(const MadeRegion& region, const PageIndex& top, int threads,
-                         const BlockPicture& picture, const Decided& decided) {
+                         const BlockPicture& picture, const Bad& bad, const Good& good) {
     TopNodes wanted = shown_nodes(region, top, picture);
+    const double least_m = least_error_m(region, top);
+    if (least_m > 0.0)
+        wanted.fill([&, before = wanted](int row, int column) {
+            if (!before.has(row, column)) return false;
+            if (!picture.is_bad(row, column, least_m)) return true;
+            bad(row, column, least_m);
+            return false;
+        });
     const int against = measured_against(top.level);
     for (int base = std::min(against + 2, top.level - 1); base > against; --base) {
         // Posts that cannot prove anything are not made.
@@ -664,7 +699,7 @@ TopNodes undecided_nodes(const MadeRegion& region, const PageIndex& top, int thr
             if (!asked.has(row, column)) return true;
             const MadeNode node = measured.node(top.level, row, column);
             if (!picture.is_good(row, column, node)) return true;
-            decided(row, column, node);
+            good(row, column, node);
             return false;
         });
     }
@@ -696,6 +731,7 @@ MeasuredBlock::MeasuredBlock(const MadeRegion& region, const PageIndex& top, int
     else
         exact = undecided_nodes(
             region, top, threads, *picture,
+            [&](int row, int column, double error_m) { set_below(row, column, error_m); },
             [&](int row, int column, const MadeNode& node) { levels_.front().at(row, column) = node; });
     const BlockNodes nodes(region, top.level, std::move(exact));
     if (nodes.empty()) return;
@@ -707,6 +743,19 @@ MeasuredBlock::MeasuredBlock(const MadeRegion& region, const PageIndex& top, int
             for (int column = kept.first_column; column < kept.first_column + kept.columns; ++column)
                 if (nodes.exact().has(row >> up, column >> up))
                     kept.at(row, column) = measured.node(level, row, column);
+    }
+}
+
+// Of a node of the top level and all below it.
+void MeasuredBlock::set_below(int top_row, int top_column, double error_m) {
+    for (std::size_t down = 0; down < levels_.size(); ++down) {
+        Level& level = levels_[down];
+        const int side = 1 << down;
+        const int last_row = std::min((top_row + 1) * side, level.first_row + level.rows);
+        const int last_column = std::min((top_column + 1) * side, level.first_column + level.columns);
+        for (int row = top_row * side; row < last_row; ++row)
+            for (int column = top_column * side; column < last_column; ++column)
+                level.at(row, column) = {static_cast<float>(error_m), 0.0F};
     }
 }
 

@@ -59,6 +59,9 @@ int highest_measured_level(const MadeRegion& region);
 struct BlockPicture {
     // Whether anything over the node may be in the picture.
     std::function<bool(int row, int column)> may_show;
+    // Whether the node and those below it, whose errors are no less, are too far from the truth for it: then
+    // something finer than all of the block's levels is drawn in its stead.
+    std::function<bool(int row, int column, double error_m)> is_bad;
     // Whether the node, with such an error and sphere, is near enough to the truth there: then nothing finer
     // is drawn in its stead.
     std::function<bool(int row, int column, const MadeNode& node)> is_good;
@@ -73,7 +76,8 @@ class MeasuredBlock {
     // picture: the only one that the block is for; it is then measured as coarsely as decides what is drawn.
     // Nodes of the top level that may show, and those beside them, are either what they are without a
     // picture, to the bit, and so are all below them; or they are good, with an error that is no less than
-    // that one, and those below them have an error and a sphere of 0. So have all others.
+    // that one, and those below them have an error and a sphere of 0; or they are bad, and they and those
+    // below them have an error that is no more than without, and a sphere of 0. All others have 0 of both.
     MeasuredBlock(const MadeRegion& region, const PageIndex& top, int threads,
                   const BlockPicture* picture = nullptr);
 
@@ -96,6 +100,7 @@ class MeasuredBlock {
         }
     };
     void make_levels(const MadeRegion& region);
+    void set_below(int top_row, int top_column, double error_m);
     PageIndex top_;
     std::vector<Level> levels_;  // the top first
 };

@@ -330,6 +330,10 @@ Result<void> film_it(const FilmOptions& options, const FilmFiles& files, const C
                            {files_of_picture(view, region), {{options.path}, "which is the camera's path"}}));
     ORO_CHECK(make_folder(files.folder));
     ORO_CHECK(look_at_files(options, files, film, bar, frames));
+    std::vector<Camera> cameras;
+    for (const FilmFrame& frame : frames)
+        if (!frame.is_there) cameras.push_back(film.view_of(frame.key, frame.time_utc_s).camera);
+    film.set_frames(std::move(cameras));
     ORO_CHECK(draw_frames(options, files, region, film, bar, frames, report));
     report.scenes = film.scenes_made();
     if (!files.movie.empty()) {

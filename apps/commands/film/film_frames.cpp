@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "apps/drawing/drape.h"
+#include "apps/drawing/known_pictures.h"
 #include "apps/drawing/mesh_cut.h"
 #include "apps/drawing/picking.h"
 #include "apps/drawing/pipeline_choice.h"
@@ -65,7 +66,8 @@ Result<void> FilmFrames::make_scene(const Camera& camera) {
     ORO_TRY(const Style style, load_style(view_, region_.grids.front().field));
     ORO_TRY(cuts_, cut_regions(region_));
     ORO_TRY(ground_, RegionGround::of(region_, cuts_, view_.exaggeration));
-    ORO_TRY(GridPages pages, make_grid_pages(region_, cuts_, view_.exaggeration));
+    ORO_TRY(GridPages pages, make_grid_pages(region_, cuts_, view_.exaggeration, {}, {},
+                                             known_pictures(view_, style, cameras_)));
     if (!meshes_) {
         ORO_TRY(meshes_, mesh_detail_of(region_, view_));
     }

@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "apps/film/camera_path.h"
 #include "apps/options/options.h"
@@ -39,6 +41,9 @@ class FilmFrames {
     // the scene and of the style.
     Result<DrawnPicture> draw(const std::string& file, bool overwrite, View& view,
                               const RenderProgress& progress);
+    // Which frames are drawn from now on: nothing else. Said before the first is, it lets made terrain
+    // be measured for them alone.
+    void set_frames(std::vector<Camera> cameras) { cameras_ = std::move(cameras); }
     // How often the scene was made.
     [[nodiscard]] std::size_t scenes_made() const { return scenes_made_; }
 
@@ -55,6 +60,7 @@ class FilmFrames {
     RegionCuts cuts_;
     std::unique_ptr<const RegionGround> ground_;
     std::optional<Scene> scene_;
+    std::vector<Camera> cameras_;  // of frames that are to be drawn; none: any may be
     std::shared_ptr<const MeshDetail> meshes_;  // null: all of their triangles are drawn
     MeshCut mesh_cut_;
     std::size_t scenes_made_{};

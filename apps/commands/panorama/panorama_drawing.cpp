@@ -8,6 +8,7 @@
 #include "apps/command_line/refusals.h"
 #include "apps/drawing/drape.h"
 #include "apps/drawing/kept_drawing.h"
+#include "apps/drawing/known_pictures.h"
 #include "apps/drawing/mesh_cut.h"
 #include "apps/options/view_limits.h"
 #include "apps/panorama/elevations.h"
@@ -21,6 +22,15 @@ namespace {
 constexpr double usual_px_per_deg = 20.0;
 // Of a scene: it is held as a whole, 3 bytes each.
 constexpr double most_scene_pixels = 2.0e8;
+
+// Of the tiles that draw_scene() draws.
+std::vector<FrameView> pictures_of_panorama(const View& view, const Style& style, const Cylinder& around) {
+    const CylinderCut cut;
+    std::vector<Camera> cameras;
+    for (const CylinderTile& tile : cylinder_tiles(around, view.camera.eye, cut))
+        cameras.push_back(tile.camera);
+    return known_pictures(view, style, cameras, cut.oversampling);
+}
 
 }  // namespace
 
@@ -77,9 +87,10 @@ Result<CylinderPicture> draw_panorama(const View& view, const Region& region, co
                                       const TrueGround& ground, const Style& style, const Cylinder& around,
                                       const PanoramaDrawing& drawing, const Progress& progress) {
     ORO_TRY(const std::shared_ptr<const Gpu> gpu, gpu_to_draw_with());
-    ORO_TRY(GridPages pages, make_grid_pages(
-                                 region, cuts, view.exaggeration,
-                                 [&](double share) { progress(share, "measuring levels"); }, drawing.stop));
+    ORO_TRY(GridPages pages,
+            make_grid_pages(
+                region, cuts, view.exaggeration, [&](double share) { progress(share, "measuring levels"); },
+                drawing.stop, pictures_of_panorama(view, style, around)));
     ORO_TRY(const std::shared_ptr<const MeshDetail> meshes, mesh_detail_of(region, view));
     MeshCut cut;
     if (meshes) {

@@ -2,11 +2,14 @@
 
 #include <cstdio>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "apps/drawing/drape.h"
 #include "apps/drawing/kept_drawing.h"
+#include "apps/drawing/known_pictures.h"
 #include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/mesh_cut.h"
 #include "apps/drawing/region_scene.h"
@@ -60,16 +63,10 @@ void choose_legend(const ShotOptions& options, View& view) {
                                " px wide has no room for the legend of --show");
 }
 
-// What a scene's pages are for, where they are for a single picture whose light does not come from ground
-// beyond it.
-static std::optional<FrameView> only_picture(const ShotOptions& options, const Style& style,
-                                             const View& view) {
-    const bool has_light_from_beyond = style.frame.shadows != 0 || style.frame.sky_openness != 0;
-    if (has_light_from_beyond || view.map || view.heights == HeightStorage::i16 || options.view.tolerance ||
-        keeps_drawing())
-        return std::nullopt;
-    const Camera& camera = view.camera;
-    return FrameView{camera, {0, 0, camera.width_px, camera.height_px, {0.5, 0.5}}, view.tau_px, view.model};
+// What a scene's pages are for: nothing that is known, where bundles are tried or other pictures may follow.
+static std::vector<FrameView> only_picture(const ShotOptions& options, const Style& style, const View& view) {
+    if (options.view.tolerance || keeps_drawing()) return {};
+    return known_pictures(view, style, std::span(&view.camera, 1));
 }
 
 Result<ShotScene> scene_of_shot(const ShotOptions& options, double ceiling_m, const Gpu& gpu,

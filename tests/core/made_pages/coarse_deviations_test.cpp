@@ -163,7 +163,7 @@ TEST(CoarseDeviations, StitchedTrianglesAreMeasuredAtTheWorstPlace) {
         const OddGround ground(54U + static_cast<std::uint32_t>(level));
         const CoarseDeviations deviations(ground.grid, ground.heights, ground.coarse, level);
         const std::uint32_t edges = gpu::edge_north | gpu::edge_east | gpu::edge_south | gpu::edge_west;
-        const PerEdge found_m = deviations.stitched_m(0, 0, edges);
+        const PerEdge found_m = deviations.stitched_m(0, 0, edges, edges);
         std::mt19937 random(55);
         std::uniform_real_distribution<double> any(0.0, 1.0);
         PerEdge sampled_m{};
