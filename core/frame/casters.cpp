@@ -6,6 +6,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/frame/cast_map.h"
@@ -233,6 +234,7 @@ ShadowRequest shadow_request(const gpu::FrameStyle& style) {
 Result<double> region_top_m(const RegionPages& pages) {
     const int top = pages.levels() - 1;
     if (pages.layout(top).count() == 0) return 0.0;
+    if (const std::optional<double> known_m = pages.known_top_m()) return *known_m;
     ORO_TRY(const double top_m, top_of(pages, {0, 0, top}));
     return std::max(top_m, -1.0e5) + 1.0;
 }

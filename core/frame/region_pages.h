@@ -72,6 +72,9 @@ class RegionPages {
     [[nodiscard]] virtual bool is_skirt(const PageIndex&) const { return false; }
     // Triangles of meshes among these, which cast shadows on all grids of a frame; null: there are none.
     [[nodiscard]] virtual const MeshCasters* mesh_casters() const { return nullptr; }
+    // Height above the ellipsoid that nothing of them is above, as drawn, where it is known without records
+    // that take long.
+    [[nodiscard]] virtual std::optional<double> known_top_m() const { return std::nullopt; }
 
   private:
     RegionFacts facts_;

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "core/earth/extremes.h"
 #include "core/lod/node_deviations.h"
+#include "core/made_pages/stitched_samples.h"
 #include "core/terrain/drawn_heights.h"
 #include "core/terrain/post_grid.h"
 
@@ -34,21 +34,17 @@ class CoarseDeviations {
                                      std::uint32_t asked_edges) const;
 
   private:
-    struct Corner {
-        int row, column;
-    };
     [[nodiscard]] std::size_t number_of(int row, int column) const {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(heights_.columns) +
                static_cast<std::size_t>(column);
     }
-    [[nodiscard]] double coarse_at(int row, int column) const { return coarse_[number_of(row, column)]; }
-    void add_crossings(const Corner& from, const Corner& to, Extremes& extremes) const;
-    [[nodiscard]] double triangle_steps(const std::array<Corner, 3>& corners) const;
+    [[nodiscard]] bool is_whole(int node_row, int node_column) const;
 
     const DrawnHeights& heights_;
     std::span<const std::int32_t> coarse_;
     LevelGrid level_;
-    std::vector<NodeDeviations::Stitched> whole_node_;
+    int level_posts_;                             // along a quad
+    std::vector<StitchedSamples> of_whole_node_;  // of each triangle
 };
 
 }  // namespace oro

@@ -64,6 +64,8 @@ class MadePages : public RegionPages {
     }
 
     [[nodiscard]] std::optional<PageBound> bound(const PageIndex& page) const override;
+    // By the rule: to ask the records would be to measure all of a world.
+    [[nodiscard]] std::optional<double> known_top_m() const override { return highest_h_m_; }
 
     [[nodiscard]] Result<PageRecord> record(const PageIndex& page) const override {
         const std::uint64_t number = number_of(page);
