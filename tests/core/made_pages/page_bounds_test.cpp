@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/earth/culling.h"
+#include "core/frame/casters.h"
 #include "core/frame/frame_plan.h"
 #include "core/made_pages/made_pages.h"
 
@@ -182,6 +183,15 @@ TEST(PageBoundsOfFrames, LeaveOutWhatIsNotInThePicture) {
         chosen, unseen, bounded.records.load(), plain.records.load());
     EXPECT_GT(chosen, 400U);
     EXPECT_LT(bounded.records, 0.7 * plain.records);
+}
+
+// Shadows ask for it: it must not take the records of all of a world, which would be measured.
+TEST(PageBounds, TopOfAWorldIsThatOfItsRule) {
+    const auto pages = pages_of({"world", 3600, -179, -60, 179, 60});
+    const auto top_m = region_top_m(*pages);
+    ASSERT_TRUE(top_m.ok());
+    EXPECT_GE(*top_m, 4000.0);
+    EXPECT_LE(*top_m, 4002.0);
 }
 
 }  // namespace
