@@ -46,11 +46,40 @@ RegionShape shape_of(const MadeRegion& region) {
             1.0};
 }
 
+// Blocks by the numbers of their pages: those of a region's pages that were for other pictures. Safe to ask
+// from several threads.
+class BlocksOfRegion {
+  public:
+    explicit BlocksOfRegion(UndulationField undulation) : undulation_(std::move(undulation)) {}
+    // Whether they are those of ground with such undulation.
+    [[nodiscard]] bool are_of(const UndulationField& undulation) const {
+        return undulation.N_m == undulation_.N_m;
+    }
+    [[nodiscard]] std::shared_ptr<const MeasuredBlock> find(std::uint64_t number) const {
+        const std::scoped_lock lock(mutex_);
+        const auto found = blocks_.find(number);
+        return found == blocks_.end() ? nullptr : found->second;
+    }
+    void keep(std::uint64_t number, std::shared_ptr<const MeasuredBlock> block) {
+        const std::scoped_lock lock(mutex_);
+        if (blocks_.size() >= most) blocks_.clear();
+        blocks_[number] = std::move(block);
+    }
+
+  private:
+    static constexpr std::size_t most = 1024;  // 64 MB
+    UndulationField undulation_;
+    mutable std::mutex mutex_;
+    std::unordered_map<std::uint64_t, std::shared_ptr<const MeasuredBlock>> blocks_;
+};
+
 class MadePages : public RegionPages {
   public:
-    MadePages(RegionFacts facts, MadeRegion region, std::span<const FrameView> pictures)
+    MadePages(RegionFacts facts, MadeRegion region, std::span<const FrameView> pictures,
+              std::shared_ptr<BlocksOfRegion> known)
         : RegionPages(std::move(facts)),
           region_(std::move(region)),
+          known_(std::move(known)),
           measured_to_(highest_measured_level(region_)) {
         for (const FrameView& picture : pictures)
             culling_.emplace_back(picture, this->facts().shape.occluder);
@@ -146,6 +175,7 @@ class MadePages : public RegionPages {
 
     MadeRegion region_;
     std::vector<PictureCulling> culling_;  // of each picture
+    std::shared_ptr<BlocksOfRegion> known_;
     int measured_to_;
     double lowest_h_m_{}, highest_h_m_{};  // of any post
     mutable std::mutex mutex_;
@@ -209,8 +239,10 @@ std::shared_ptr<const MeasuredBlock> MadePages::measured_block(const PageIndex& 
             return is_good_node(pictures, top, row, column, node);
         }};
     const bool is_for_any = culling_.empty() || pictures.size() > most_pictures_asked;
+    const auto before = known_->find(number);
     auto made = std::make_shared<const MeasuredBlock>(region_, of_top, std::max(threads, thread_count()),
-                                                      is_for_any ? nullptr : &picture);
+                                                      is_for_any ? nullptr : &picture, before.get());
+    known_->keep(number, made);
     const std::scoped_lock lock(mutex_);
     if (blocks_.size() >= blocks_kept) blocks_.clear();
     blocks_.emplace(number, made);
@@ -387,6 +419,13 @@ struct MadePostSource::Tiles {
     MadeRegion region;
     std::mutex mutex;
     std::vector<Tile> tiles{places};
+    std::shared_ptr<BlocksOfRegion> blocks;
+
+    std::shared_ptr<BlocksOfRegion> blocks_of(const UndulationField& undulation) {
+        const std::scoped_lock lock(mutex);
+        if (!blocks || !blocks->are_of(undulation)) blocks = std::make_shared<BlocksOfRegion>(undulation);
+        return blocks;
+    }
 
     const Tile& at(int row, int column) {
         const std::int64_t tile_row = row / side, tile_column = column / side;
@@ -432,7 +471,8 @@ std::unique_ptr<RegionPages> MadePostSource::pages(const HeightField& field,
     const auto quads = [](int posts) { return static_cast<std::uint64_t>(posts - 1); };
     RegionFacts facts{field.grid, field.undulation, shape_of(region),
                       2 * quads(field.grid.rows()) * quads(field.grid.columns())};
-    return std::make_unique<MadePages>(std::move(facts), std::move(region), pictures);
+    return std::make_unique<MadePages>(std::move(facts), std::move(region), pictures,
+                                       tiles_->blocks_of(field.undulation));
 }
 
 HeightField made_field(const MadeTerrain& terrain, const PostGrid& grid, const UndulationField& undulation) {

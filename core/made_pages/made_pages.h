@@ -31,7 +31,8 @@ class MadePostSource : public PostSource {
     // pages_in_memory() has, and levels are chosen by the same rule. Keeps 64 KB for each block of levels
     // that was asked for. Needs an exaggeration of 1. pictures: all that the pages are
     // for; none: any. They cost less then. The nodes that each of them draws where it may show them are those
-    // that it draws without, and their errors are never less than those. Others may have an error of 0.
+    // that it draws without, and their errors are never less than those. Others may have an error of 0. What
+    // pages of other pictures have measured is not measured again (64 MB are kept).
     [[nodiscard]] std::unique_ptr<RegionPages> pages(const HeightField& field,
                                                      std::span<const FrameView> pictures = {}) const;
 

@@ -672,9 +672,8 @@ double least_error_m(const MadeRegion& region, const PageIndex& top) {
 // Nodes of a page that a picture needs exactly: those that are not sure to be bad, and that fewer posts do
 // not prove to be good. bad: gets the first. good: gets those that they do prove to be.
 template <class Bad, class Good>
-TopNodes undecided_nodes(const MadeRegion& region, const PageIndex& top, int threads,
-                         const BlockPicture& picture, const Bad& bad, const Good& good) {
-    TopNodes wanted = shown_nodes(region, top, picture);
+TopNodes undecided_nodes(const MadeRegion& region, int threads, const BlockPicture& picture,
+                         const PageIndex& top, TopNodes wanted, const Bad& bad, const Good& good) {
     const double least_m = least_error_m(region, top);
     if (least_m > 0.0)
         wanted.fill([&, before = wanted](int row, int column) {
@@ -719,35 +718,11 @@ void MeasuredBlock::make_levels(const MadeRegion& region) {
         kept.columns = std::min(side, all.column.nodes() - kept.first_column);
         kept.nodes.resize(static_cast<std::size_t>(kept.rows) * static_cast<std::size_t>(kept.columns));
     }
+    is_exact_.resize(levels_.front().nodes.size());
 }
 
-MeasuredBlock::MeasuredBlock(const MadeRegion& region, const PageIndex& top, int threads,
-                             const BlockPicture* picture)
-    : top_(top) {
-    make_levels(region);
-    TopNodes exact = nodes_of_page(region, top);
-    if (picture == nullptr)
-        exact.fill([](int, int) { return true; });
-    else
-        exact = undecided_nodes(
-            region, top, threads, *picture,
-            [&](int row, int column, double error_m) { set_below(row, column, error_m); },
-            [&](int row, int column, const MadeNode& node) { levels_.front().at(row, column) = node; });
-    const BlockNodes nodes(region, top.level, std::move(exact));
-    if (nodes.empty()) return;
-    const PartMeasurement measured(region, top.level, measured_against(top.level), nodes, threads);
-    for (int level = top.level; level > top.level - levels_of_block; --level) {
-        Level& kept = levels_[static_cast<std::size_t>(top.level - level)];
-        const int up = top.level - level;
-        for (int row = kept.first_row; row < kept.first_row + kept.rows; ++row)
-            for (int column = kept.first_column; column < kept.first_column + kept.columns; ++column)
-                if (nodes.exact().has(row >> up, column >> up))
-                    kept.at(row, column) = measured.node(level, row, column);
-    }
-}
-
-// Of a node of the top level and all below it.
-void MeasuredBlock::set_below(int top_row, int top_column, double error_m) {
+template <class Asked>
+void MeasuredBlock::set_below(int top_row, int top_column, const Asked& asked) {
     for (std::size_t down = 0; down < levels_.size(); ++down) {
         Level& level = levels_[down];
         const int side = 1 << down;
@@ -755,14 +730,52 @@ void MeasuredBlock::set_below(int top_row, int top_column, double error_m) {
         const int last_column = std::min((top_column + 1) * side, level.first_column + level.columns);
         for (int row = top_row * side; row < last_row; ++row)
             for (int column = top_column * side; column < last_column; ++column)
-                level.at(row, column) = {static_cast<float>(error_m), 0.0F};
+                level.at(row, column) = asked(top_.level - static_cast<int>(down), row, column);
     }
+}
+
+template <class Asked>
+void MeasuredBlock::set_exact(int top_row, int top_column, const Asked& asked) {
+    is_exact_[levels_.front().number_of(top_row, top_column)] = 1;
+    set_below(top_row, top_column, asked);
+}
+
+MeasuredBlock::MeasuredBlock(const MadeRegion& region, const PageIndex& top, int threads,
+                             const BlockPicture* picture, const MeasuredBlock* known)
+    : top_(top) {
+    make_levels(region);
+    TopNodes exact = nodes_of_page(region, top);
+    exact.fill([](int, int) { return true; });
+    if (picture != nullptr) exact = shown_nodes(region, top, *picture);
+    if (known != nullptr)
+        exact.fill([&, wanted = exact](int row, int column) {
+            if (!known->is_exact(row, column)) return wanted.has(row, column);
+            set_exact(row, column, [known](int level, int r, int c) { return known->node(level, r, c); });
+            return false;
+        });
+    if (picture != nullptr)
+        exact = undecided_nodes(
+            region, threads, *picture, top, std::move(exact),
+            [&](int row, int column, double error_m) {
+                set_below(row, column, [error_m](int, int, int) {
+                    return MadeNode{static_cast<float>(error_m), 0.0F};
+                });
+            },
+            [&](int row, int column, const MadeNode& node) { levels_.front().at(row, column) = node; });
+    const BlockNodes nodes(region, top.level, std::move(exact));
+    if (nodes.empty()) return;
+    const PartMeasurement measured(region, top.level, measured_against(top.level), nodes, threads);
+    const Level& all = levels_.front();
+    for (int row = all.first_row; row < all.first_row + all.rows; ++row)
+        for (int column = all.first_column; column < all.first_column + all.columns; ++column)
+            if (nodes.exact().has(row, column))
+                set_exact(row, column, [&](int level, int r, int c) { return measured.node(level, r, c); });
 }
 
 std::uint64_t MeasuredBlock::bytes() const {
     std::uint64_t nodes = 0;
     for (const Level& level : levels_) nodes += level.nodes.size();
-    return nodes * sizeof(MadeNode) + sizeof(MeasuredBlock);
+    return nodes * sizeof(MadeNode) + is_exact_.size() + sizeof(MeasuredBlock);
 }
 
 }  // namespace oro

@@ -78,14 +78,18 @@ class MeasuredBlock {
     // picture, to the bit, and so are all below them; or they are good, with an error that is no less than
     // that one, and those below them have an error and a sphere of 0; or they are bad, and they and those
     // below them have an error that is no more than without, and a sphere of 0. All others have 0 of both.
+    // known: the same block for another picture; what is exact in it is not measured again.
     MeasuredBlock(const MadeRegion& region, const PageIndex& top, int threads,
-                  const BlockPicture* picture = nullptr);
+                  const BlockPicture* picture = nullptr, const MeasuredBlock* known = nullptr);
 
     // A node by its place among those of its level, which is one of the block's; over the block's page.
     [[nodiscard]] const MadeNode& node(int level, int row, int column) const {
         const Level& at = levels_[static_cast<std::size_t>(top_.level - level)];
-        return at.nodes[static_cast<std::size_t>(row - at.first_row) * static_cast<std::size_t>(at.columns) +
-                        static_cast<std::size_t>(column - at.first_column)];
+        return at.nodes[at.number_of(row, column)];
+    }
+    // Whether a node of the top level, and all below it, are what they are without a picture.
+    [[nodiscard]] bool is_exact(int row, int column) const {
+        return is_exact_[levels_.front().number_of(row, column)] != 0;
     }
     // Bytes that it keeps.
     [[nodiscard]] std::uint64_t bytes() const;
@@ -94,15 +98,21 @@ class MeasuredBlock {
     struct Level {
         int first_row{}, first_column{}, rows{}, columns{};
         std::vector<MadeNode> nodes;  // row by row
-        MadeNode& at(int row, int column) {
-            return nodes[static_cast<std::size_t>(row - first_row) * static_cast<std::size_t>(columns) +
-                         static_cast<std::size_t>(column - first_column)];
+        [[nodiscard]] std::size_t number_of(int row, int column) const {
+            return static_cast<std::size_t>(row - first_row) * static_cast<std::size_t>(columns) +
+                   static_cast<std::size_t>(column - first_column);
         }
+        MadeNode& at(int row, int column) { return nodes[number_of(row, column)]; }
     };
     void make_levels(const MadeRegion& region);
-    void set_below(int top_row, int top_column, double error_m);
+    // Of a node of the top level and all below it: asked(level, row, column) gives each.
+    template <class Asked>
+    void set_below(int top_row, int top_column, const Asked& asked);
+    template <class Asked>
+    void set_exact(int top_row, int top_column, const Asked& asked);
     PageIndex top_;
-    std::vector<Level> levels_;  // the top first
+    std::vector<Level> levels_;   // the top first
+    std::vector<char> is_exact_;  // of nodes of the top level
 };
 
 }  // namespace oro
