@@ -60,7 +60,7 @@ class FilmFrames {
     RegionCuts cuts_;
     std::unique_ptr<const RegionGround> ground_;
     std::optional<Scene> scene_;
-    std::vector<Camera> cameras_;  // of frames that are to be drawn; none: any may be
+    std::vector<Camera> cameras_;               // of frames that are to be drawn; none: any may be
     std::shared_ptr<const MeshDetail> meshes_;  // null: all of their triangles are drawn
     MeshCut mesh_cut_;
     std::size_t scenes_made_{};
