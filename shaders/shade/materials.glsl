@@ -65,7 +65,7 @@ ForestLight forest_light(vec3 to_eye, vec3 sun, vec3 normal) {
 const float as_drawn = 1.2;
 
 // How much rock rises and falls, for what its colour does.
-const float relief_of_grain = 1.9;
+const float relief_of_grain = 2.7;
 
 void find_pixel_parcel(SurfacePoint point, float steep_deg, float foot_m) {
     pixel_parcel = Parcel(vec2(0.0), hedge_mean, 0.0);
