@@ -254,8 +254,8 @@ void add_view(CLI::App& app, WindowOptions& options) {
     window.choice(
         "--gpu-pages", options.gpu_pages, {"on", "off"},
         "Let the GPU choose the pages of terrain while the eye moves, where nothing is drawn but "
-        "ground without shadows and images. The picture is the same (default: on where a GPU draws by "
-        "compute shaders).");
+        "ground without shadows and images. The picture is the same. It is quicker where the processor "
+        "takes longer than the GPU (default: off).");
     add_no_paths(command, "The window", options.no_paths);
     add_kml(window, options.kml);
     add_geopose(window, options.geopose);

@@ -107,11 +107,10 @@ DetailStep step_now(const Viewer& viewer) {
     return is_moving(viewer) ? viewer.detail.now() : DetailStep();
 }
 
-// Whether the GPU shall choose pages. By mesh shaders frames are longer by what that takes.
+// Whether the GPU shall choose pages. Where it has more to do than the processor frames are longer by what
+// that takes.
 bool wants_gpu_pages(const Viewer& viewer) {
-    const bool usual =
-        viewer.gpu.report().kind != VK_PHYSICAL_DEVICE_TYPE_CPU && viewer.path == RasterPath::compute;
-    return viewer.options.gpu_pages.value_or(usual);
+    return viewer.options.gpu_pages.value_or(false);
 }
 
 // What the first frame whose pages the GPU chooses would wait for: made while there is nothing to do.
