@@ -151,11 +151,12 @@ class MovingChoice : public test::GpuTest {
         return plan;
     }
     static std::vector<std::uint32_t> ids(FrameRenderer& renderer, FramePlan plan, FrameReport& report) {
-        const std::uint32_t width_px = plan.view.width_px(), height_px = plan.view.height_px();
+        const std::uint32_t picture_width_px = plan.view.width_px(),
+                            picture_height_px = plan.view.height_px();
         auto made = renderer.draw(std::move(plan), {});
         EXPECT_TRUE(made.ok()) << made.error().line();
         report = std::move(made).value();
-        auto read = renderer.read_ids(width_px, height_px);
+        auto read = renderer.read_ids(picture_width_px, picture_height_px);
         EXPECT_TRUE(read.ok()) << read.error().line();
         return std::move(read).value();
     }

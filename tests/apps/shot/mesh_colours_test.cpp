@@ -1,5 +1,6 @@
 // Colours that files of meshes state, as users see them.
 #include <gtest/gtest.h>
+#include <png.h>
 
 #include <array>
 #include <cstdint>
@@ -9,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "geo/pictures/png_bytes.h"
 #include "tests/apps/picture_pixels.h"
 #include "tests/apps/program.h"
 #include "tests/support/test_data.h"
@@ -91,7 +91,11 @@ TEST_F(MeshColoursSeen, AreThoseOfATexture) {
         "v -84.1765 36.606 420\nvt 0 0\nvt 1 1\nusemtl roof\nf 1/1 2/1 3/2 4/2\n");
     oro::test::write_bytes((folder_ / "roof.mtl").string(), "newmtl roof\nKd 1 1 1\nmap_Kd red.png\n");
     const std::vector<std::uint8_t> texel{234, 0, 0};
-    ASSERT_TRUE(oro::write_png(png, texel, 1, 1, true).ok());
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = image.height = 1;
+    image.format = PNG_FORMAT_RGB;
+    ASSERT_NE(png_image_write_to_file(&image, png.c_str(), 0, texel.data(), 0, nullptr), 0);
     const Words shot{"shot",        bundled(), "--at",       "36.605,-84.176", "--altitude", "650",
                      "--pitch",     "-90",     "--size",     "64x48",          "--style",    "plain",
                      "--mesh-file", obj,       "--mesh-crs", "EPSG:4326",      "--out",      picture_,

@@ -169,8 +169,8 @@ TEST_F(Tilesets, ColoursOfMaterialsAreKept) {
 
 // A texture beside its tile, in a folder below the set's: a texel of red.
 TEST_F(Tilesets, TexturesOfTilesAreRead) {
-    const std::vector<std::uint8_t> red{255, 0, 0};
-    const auto png = png_bytes(red, 1, 1);
+    const std::vector<std::uint8_t> red_texel{255, 0, 0};
+    const auto png = png_bytes(red_texel, 1, 1);
     ASSERT_TRUE(png.ok());
     write("t/a.png", {png->begin(), png->end()});
     std::string glb = glb_at(0.0F, R"({"pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})",
