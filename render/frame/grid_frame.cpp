@@ -212,7 +212,7 @@ Result<void> GridFrame::reserve_feedback(const Gpu& gpu, const GridPlan& plan) {
 
 // Bytes of what the frame tells of its nodes or clusters. Of pages that the device chooses those of whom it
 // tells: there is room for many more.
-VkDeviceSize GridFrame::told_feedback() const {
+VkDeviceSize GridFrame::requested_feedback() const {
     const VkDeviceSize size = feedback_size_[slot_];
     if (choice_terms_ == 0) return size;
     const VkDeviceSize pages = (choice_read_bytes_ - sizeof(gpu::ChoiceCounts)) / sizeof(gpu::WantedPage);
@@ -228,7 +228,7 @@ void GridFrame::record_feedback(VkCommandBuffer commands) const {
                         static_cast<std::uint32_t>(copies.size()), copies.data());
     }
     if (feedback_size_[slot_] == 0) return;
-    const VkBufferCopy copy{0, 0, told_feedback()};
+    const VkBufferCopy copy{0, 0, requested_feedback()};
     const Buffer& source_buffer = cluster_groups_ > 0 ? cluster_states_ : feedback_;
     vkCmdCopyBuffer(commands, source_buffer.handle.get(), feedback_read_[slot_].handle.get(), 1, &copy);
 }
@@ -435,7 +435,7 @@ void GridFrame::record_upload(VkCommandBuffer commands) const {
     vkCmdCopyBuffer(commands, staging_[slot_].handle.get(), data_.handle.get(), choice_terms_ != 0 ? 2 : 1,
                     copies.data());
     if (clears_seen_) vkCmdFillBuffer(commands, seen_[turn_].handle.get(), 0, VK_WHOLE_SIZE, 0);
-    const VkDeviceSize feedback_size = told_feedback();
+    const VkDeviceSize feedback_size = requested_feedback();
     if (feedback_size > 0) vkCmdFillBuffer(commands, feedback_.handle.get(), 0, feedback_size, 0);
 }
 

@@ -86,7 +86,7 @@ class GridFrame {
     Result<void> reserve_seen(const Gpu& gpu, std::size_t pages);
     Result<void> reserve_clusters(const Gpu& gpu, const GridPlan& plan);
     Result<void> reserve_feedback(const Gpu& gpu, const GridPlan& plan);
-    [[nodiscard]] VkDeviceSize told_feedback() const;
+    [[nodiscard]] VkDeviceSize requested_feedback() const;
     void remember_pages(std::span<const PageIndex> pages);
     Result<void> reserve_choice(const Gpu& gpu, const GridPlan& plan);
     void address_choice(GridPlan& plan) const;
