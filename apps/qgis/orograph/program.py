@@ -7,7 +7,6 @@ import os
 import re
 import selectors
 import shutil
-import signal
 import subprocess
 import time
 
@@ -96,8 +95,9 @@ def read_some(file):
 
 
 def end(process):
-    """Asks the program to end, as Ctrl-C does: it leaves no half-written file. Ends it where it does not."""
-    process.send_signal(signal.SIGINT)
+    """Asks the program to end: it leaves no half-written file. Ends it where it does not. Not as Ctrl-C does: what was begun in
+    the background of a shell, QGIS too, ignores that."""
+    process.terminate()
     try:
         process.wait(SECONDS_TO_END)
     except subprocess.TimeoutExpired:
