@@ -53,7 +53,7 @@ print(run(script("failing", "echo 'orograph: no such file' >&2; exit 3\n")))
 print(run(script("silent", "exit 4\n"))[0].replace(folder, ""))
 print(run(os.path.join(folder, "nothing"))[0].replace(folder, ""))
 # One that ends when it is asked to, and one that must be made to.
-for name, seconds, trap in (("obedient", 20.0, "trap 'touch $0.asked; exit 130' INT"), ("stubborn", 0.5, "trap '' INT")):
+for name, seconds, trap in (("obedient", 20.0, "trap 'touch $0.asked; exit 143' TERM"), ("stubborn", 0.5, "trap '' TERM")):
     program.SECONDS_TO_END = seconds
     path = script(name, trap + "\ntouch $0.ready\nfor i in {1..600}; do sleep 0.05; done\n")
     begin = time.monotonic()
