@@ -246,7 +246,7 @@ struct WindowOptions {
     bool kml{false};       // beside its pictures, and so are the next two
     bool geopose{false};
     bool stac{false};
-    std::optional<bool> gpu_pages;        // nothing: where a GPU draws by compute shaders
+    std::optional<bool> gpu_pages;        // nothing: off
     std::vector<std::string> gazetteers;  // files with names that places are found by
     std::string coordinates;  // not an option: the CRS that --coordinates names, for places typed later
     bool quiet{false};
