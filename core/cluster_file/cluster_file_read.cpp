@@ -7,6 +7,7 @@
 #include "core/base/parallel.h"
 #include "core/cluster_file/cluster_format.h"
 #include "core/cluster_file/sound_graph.h"
+#include "core/surface/distinct_vertices.h"
 
 namespace oro {
 namespace {
@@ -155,16 +156,10 @@ Result<ClusterGraph> begin_graph(const ClusterFile& file, const OriginalSurface&
     ORO_CHECK(check_surface(file, surface, leaves.size(), triangles));
     ClusterGraph graph;
     graph.levels = file.outline().levels;
-    std::vector<VertexNumber> vertices;
     for (const auto& leaf : leaves) {
-        vertices.clear();
-        for (const VertexTriangle& triangle : leaf)
-            vertices.insert(vertices.end(), triangle.begin(), triangle.end());
-        std::sort(vertices.begin(), vertices.end());
-        const auto different = std::unique(vertices.begin(), vertices.end()) - vertices.begin();
-        graph.clusters.push_back({static_cast<std::uint32_t>(graph.triangles.size()),
-                                  static_cast<std::uint32_t>(leaf.size()),
-                                  static_cast<std::uint32_t>(different), no_group, no_group});
+        graph.clusters.push_back(
+            {static_cast<std::uint32_t>(graph.triangles.size()), static_cast<std::uint32_t>(leaf.size()),
+             static_cast<std::uint32_t>(distinct_vertices(leaf).size()), no_group, no_group});
         graph.triangles.insert(graph.triangles.end(), leaf.begin(), leaf.end());
     }
     return graph;

@@ -8,6 +8,7 @@
 #include "core/cluster_file/mesh_code.h"
 #include "core/cluster_file/point_code.h"
 #include "core/clusters/cluster_split.h"
+#include "core/surface/distinct_vertices.h"
 
 // The order of a payload: members, rising; then each cluster with its counts, its user, its rectangle, its
 // vertices (core/cluster_file/point_code.h) and its triangles (core/cluster_file/mesh_code.h). What is
@@ -26,11 +27,7 @@ struct LocalMesh {
 };
 
 LocalMesh local_mesh(std::span<const VertexTriangle> triangles, const PostCounts& posts) {
-    std::vector<VertexNumber> vertices;
-    for (const VertexTriangle& triangle : triangles)
-        vertices.insert(vertices.end(), triangle.begin(), triangle.end());
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    const std::vector<VertexNumber> vertices = distinct_vertices(triangles);
     LocalMesh mesh;
     SurfaceVertex lowest = posts.place(vertices.front()), highest = lowest;
     for (const VertexNumber number : vertices) {

@@ -9,21 +9,10 @@
 
 #include "core/base/parallel.h"
 #include "core/cluster_file/group_growth.h"
+#include "core/surface/distinct_vertices.h"
 
 namespace oro {
 namespace {
-
-// Vertices of triangles, each once, rising.
-std::vector<VertexNumber> vertices_of(std::span<const VertexTriangle> triangles) {
-    std::vector<VertexNumber> vertices;
-    vertices.reserve(3 * triangles.size());
-    for (const VertexTriangle& triangle : triangles)
-        vertices.insert(vertices.end(), triangle.begin(), triangle.end());
-    std::ranges::sort(vertices);
-    const auto rest = std::ranges::unique(vertices);
-    vertices.erase(rest.begin(), rest.end());
-    return vertices;
-}
 
 // What is said of the first vertex of which something is. Most triangles share two with that before.
 template <class WrongAt>
@@ -198,7 +187,7 @@ Result<std::uint32_t> RegionClusters::triangle_count(std::uint32_t cluster) {
 ClusterReach RegionClusters::reach_of(std::span<const VertexTriangle> all) const {
     std::vector<glm::dvec3> places_m;
     ClusterReach reach{{}, 0.0, {}, {}, grid_.rows(), 0, grid_.columns(), 0};
-    for (const VertexNumber number : vertices_of(all)) {
+    for (const VertexNumber number : distinct_vertices(all)) {
         const SurfaceVertex vertex = surface_.vertex(number);
         places_m.push_back(bounds_.ecef(vertex).m);
         reach.first_row = std::min(reach.first_row, vertex.row);
@@ -281,7 +270,7 @@ Result<std::uint32_t> RegionClusters::fill(std::uint32_t cluster, const HeightQu
 Result<std::uint32_t> RegionClusters::fill_with(std::span<const VertexTriangle> all, std::uint32_t level,
                                                 const HeightQuantization& coding,
                                                 gpu::ClusterBlock& block) const {
-    const std::vector<VertexNumber> vertices = vertices_of(all);
+    const std::vector<VertexNumber> vertices = distinct_vertices(all);
     if (all.empty() || all.size() > gpu::cluster_triangles || vertices.size() > gpu::cluster_vertices)
         return no_graph("have one with " + std::to_string(all.size()) + " triangles and " +
                         std::to_string(vertices.size()) + " vertices");

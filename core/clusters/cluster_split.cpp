@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/clusters/cluster_graph.h"
+#include "core/surface/distinct_vertices.h"
 
 namespace oro {
 namespace {
@@ -77,11 +78,7 @@ std::uint8_t beyond(const LocalTriangle& triangle, const ClusterWalk::Edge& edge
 }  // namespace
 
 std::size_t vertex_count(std::span<const VertexTriangle> triangles) {
-    std::vector<VertexNumber> vertices;
-    for (const VertexTriangle& triangle : triangles)
-        vertices.insert(vertices.end(), triangle.begin(), triangle.end());
-    std::sort(vertices.begin(), vertices.end());
-    return static_cast<std::size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
+    return distinct_vertices(triangles).size();
 }
 
 void split_to_clusters(const OriginalSurface& surface, std::span<VertexTriangle> triangles,
@@ -139,11 +136,7 @@ std::vector<LocalTriangle> walk_order(std::span<const LocalTriangle> triangles, 
 
 std::vector<VertexNumber> vertices_by_place(const OriginalSurface& surface,
                                             std::span<const VertexTriangle> triangles) {
-    std::vector<VertexNumber> vertices;
-    for (const VertexTriangle& triangle : triangles)
-        vertices.insert(vertices.end(), triangle.begin(), triangle.end());
-    std::sort(vertices.begin(), vertices.end());
-    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    std::vector<VertexNumber> vertices = distinct_vertices(triangles);
     const auto by_place = [&](VertexNumber a, VertexNumber b) {
         const SurfaceVertex of_a = surface.vertex(a), of_b = surface.vertex(b);
         return std::tie(of_a.row, of_a.column) < std::tie(of_b.row, of_b.column);

@@ -19,51 +19,76 @@ std::int64_t cross(const SurfaceVertex& a, const SurfaceVertex& b) {
 
 }  // namespace
 
+void GroupSimplifier::look_around(const GroupMesh& mesh, int vertex) {
+    mesh.ring_of(vertex, ring_);
+    const SurfaceVertex& middle = mesh.place(vertex);
+    around_.clear();
+    offsets_.clear();
+    areas_.clear();
+    for (const int other : ring_.vertices) {
+        const SurfaceVertex& place = mesh.place(other);
+        around_.push_back(place);
+        offsets_.push_back({place.row - middle.row, place.column - middle.column, place.steps});
+    }
+    least_ = most_ = offsets_.front();
+    for (const SurfaceVertex& offset : offsets_) {
+        least_.row = std::min(least_.row, offset.row);
+        least_.column = std::min(least_.column, offset.column);
+        most_.row = std::max(most_.row, offset.row);
+        most_.column = std::max(most_.column, offset.column);
+    }
+    for (int i = 0; i < ring_.triangles(); ++i)
+        areas_.push_back(cross(offsets_[at(i)], offsets_[at(i + 1 == ring_.count() ? 0 : i + 1)]));
+}
+
 // Those beside it in the ring are there already.
-bool GroupSimplifier::makes_long_edge(int target) const {
-    const SurfaceVertex& to = offsets_[at(target)];
-    return std::any_of(offsets_.begin(), offsets_.end(), [&](const SurfaceVertex& from) {
-        return std::abs(from.row - to.row) > edges_.rows ||
-               std::abs(from.column - to.column) > edges_.columns;
-    });
+bool GroupSimplifier::makes_long_edge(const SurfaceVertex& to) const {
+    return std::max(most_.row - to.row, to.row - least_.row) > edges_.rows ||
+           std::max(most_.column - to.column, to.column - least_.column) > edges_.columns;
 }
 
 // A trial is possible where all new triangles have an area; the one that covers the vertex says what the
 // trial costs at least. Areas come from those of triangles with the vertex itself.
-void GroupSimplifier::add_trial(const SurfaceVertex& middle, int target, double below) {
-    if (makes_long_edge(target)) return;
-    const int count = ring_.count(), triangles = ring_.triangles();
+void GroupSimplifier::add_trial(int target, double below) {
     const SurfaceVertex& to = offsets_[at(target)];
-    double least = 0.0;
+    if (makes_long_edge(to)) return;
+    const int count = ring_.count(), triangles = ring_.triangles();
+    int covering = none;
+    std::int64_t to_covering{}, from_covering{};
     std::int64_t to_a = cross(to, offsets_[0]);
     for (int i = 0; i < triangles; ++i) {
         const int j = i + 1 == count ? 0 : i + 1;
         const std::int64_t to_b = cross(to, offsets_[at(j)]);
         if (i != target && j != target) {
-            const std::int64_t a_b = cross(offsets_[at(i)], offsets_[at(j)]);
-            const std::int64_t area = to_a + a_b - to_b;
-            if (area <= 0) return;
+            if (to_a + areas_[at(i)] - to_b <= 0) return;
             if (to_a >= 0 && to_b <= 0) {
-                const auto rise = [&](int vertex) {
-                    return static_cast<double>(around_[at(vertex)].steps) - middle.steps;
-                };
-                least = std::abs(static_cast<double>(a_b) * rise(target) +
-                                 static_cast<double>(to_a) * rise(j) - static_cast<double>(to_b) * rise(i)) /
-                        static_cast<double>(area);
+                covering = i;
+                to_covering = to_a;
+                from_covering = to_b;
             }
         }
         to_a = to_b;
+    }
+    double least = 0.0;
+    if (covering != none) {
+        const int next = covering + 1 == count ? 0 : covering + 1;
+        const std::int64_t area = to_covering + areas_[at(covering)] - from_covering;
+        const auto rise = [&](int vertex) {
+            return static_cast<double>(offsets_[at(vertex)].steps) - middle_steps_;
+        };
+        least = std::abs(static_cast<double>(areas_[at(covering)]) * rise(target) +
+                         static_cast<double>(to_covering) * rise(next) -
+                         static_cast<double>(from_covering) * rise(covering)) /
+                static_cast<double>(area);
     }
     if (least < below) trials_.push_back({least, target});
 }
 
 double GroupSimplifier::chord_difference(int from, int to, double limit) {
     if (from > to) std::swap(from, to);
-    double& known = chords_[at(from * ring_.count() + to)];
-    if (known < 0.0) {
-        known = surface_.edge_difference(around_[at(from)], around_[at(to)], limit);
-    }
-    return known;
+    const KnownDifferences::Key key{ring_.vertices[at(from)], ring_.vertices[at(to)]};
+    return chords_.find(key, limit,
+                        [&] { return surface_.edge_difference(around_[at(from)], around_[at(to)], limit); });
 }
 
 double GroupSimplifier::trial_difference(int target, double limit) {
@@ -87,27 +112,19 @@ double GroupSimplifier::trial_difference(int target, double limit) {
 }
 
 GroupSimplifier::Choice GroupSimplifier::best_choice(const GroupMesh& mesh, int vertex, double below) {
-    mesh.ring_of(vertex, ring_);
+    look_around(mesh, vertex);
     const SurfaceVertex& middle = mesh.place(vertex);
-    around_.clear();
-    offsets_.clear();
-    for (const int other : ring_.vertices) {
-        const SurfaceVertex& place = mesh.place(other);
-        around_.push_back(place);
-        offsets_.push_back({place.row - middle.row, place.column - middle.column, 0});
-    }
+    middle_steps_ = static_cast<double>(middle.steps);
     trials_.clear();
     if (ring_.on_rim) {
         if (ring_.triangles() < 2 || twice_area(around_.front(), middle, around_.back()) != 0)
             return {below, none};
-        add_trial(middle, 0, below);
-        add_trial(middle, ring_.count() - 1, below);
+        add_trial(0, below);
+        add_trial(ring_.count() - 1, below);
     } else {
-        for (int target = 0; target < ring_.count(); ++target) add_trial(middle, target, below);
+        for (int target = 0; target < ring_.count(); ++target) add_trial(target, below);
     }
     std::sort(trials_.begin(), trials_.end());
-    if (trials_.empty()) return {below, none};
-    chords_.assign(at(ring_.count() * ring_.count()), -1.0);
     Choice best{below, none};
     for (const Trial& trial : trials_) {
         if (trial.least >= best.difference) break;
@@ -162,12 +179,15 @@ void GroupSimplifier::change_cost(int vertex, double cost) {
 
 void GroupSimplifier::fill_queue(const GroupMesh& mesh) {
     cost_.assign(at(mesh.vertices()), never);
+    target_.assign(at(mesh.vertices()), none);
     outdated_.assign(at(mesh.vertices()), 0);
     slot_.assign(at(mesh.vertices()), none);
     queue_.clear();
     for (int vertex = 0; vertex < mesh.vertices(); ++vertex) {
         if (mesh.is_locked(vertex)) continue;
-        cost_[at(vertex)] = best_choice(mesh, vertex, never).difference;
+        const Choice choice = best_choice(mesh, vertex, never);
+        cost_[at(vertex)] = choice.difference;
+        target_[at(vertex)] = choice.target;
         queue_.push_back(vertex);
         sift_up(static_cast<int>(queue_.size()) - 1);
     }
@@ -175,6 +195,7 @@ void GroupSimplifier::fill_queue(const GroupMesh& mesh) {
 
 void GroupSimplifier::simplify(GroupMesh& mesh, const Aim& aim) {
     edges_ = aim.edges;
+    chords_.forget();
     fill_queue(mesh);
     const auto most = static_cast<int>(aim.most_share * static_cast<double>(queue_.size()));
     double reached = aim.free_difference;
@@ -183,9 +204,13 @@ void GroupSimplifier::simplify(GroupMesh& mesh, const Aim& aim) {
         const double cost = cost_[at(vertex)];
         const double limit = mesh.triangles() > aim.triangles && collapses < most ? aim.limit : reached;
         if (cost == never || cost > limit) return;
-        const Choice choice = best_choice(mesh, vertex, never);
-        if (outdated_[at(vertex)] != 0) {
+        Choice choice{cost, target_[at(vertex)]};
+        if (outdated_[at(vertex)] == 0) {
+            mesh.ring_of(vertex, ring_);
+        } else {
+            choice = best_choice(mesh, vertex, never);
             outdated_[at(vertex)] = 0;
+            target_[at(vertex)] = choice.target;
             if (choice.difference > cost) {
                 change_cost(vertex, choice.difference);
                 if (queue_.front() != vertex || choice.difference > limit || choice.target == none) continue;

@@ -1,10 +1,12 @@
 // One group made of fewer triangles, by half-edge collapses whose largest difference is least.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/clusters/group_mesh.h"
 #include "core/clusters/group_tiling.h"
+#include "core/clusters/known_differences.h"
 
 namespace oro {
 
@@ -43,8 +45,10 @@ class GroupSimplifier {
 
     // The best of a vertex's collapses, if it costs less than `below`; leaves its ring in ring_.
     [[nodiscard]] Choice best_choice(const GroupMesh& mesh, int vertex, double below);
-    [[nodiscard]] bool makes_long_edge(int target) const;
-    void add_trial(const SurfaceVertex& middle, int target, double below);
+    // Takes a vertex's ring, and what all trials at it have in common.
+    void look_around(const GroupMesh& mesh, int vertex);
+    [[nodiscard]] bool makes_long_edge(const SurfaceVertex& to) const;
+    void add_trial(int target, double below);
     [[nodiscard]] double trial_difference(int target, double limit);
     [[nodiscard]] double chord_difference(int from, int to, double limit);
 
@@ -62,15 +66,21 @@ class GroupSimplifier {
     const OriginalSurface& surface_;
     EdgeLimit edges_;
     std::vector<double> cost_;    // by vertex
+    std::vector<int> target_;     // by vertex, in its ring: of the collapse with that cost, unless outdated
     std::vector<char> outdated_;  // by vertex: it may cost more by now
     std::vector<int> touched_;
     std::vector<int> queue_;
     std::vector<int> slot_;  // of a vertex in the queue; none: it is not there
     GroupMesh::Ring ring_;
     std::vector<SurfaceVertex> around_;   // places of the ring
-    std::vector<SurfaceVertex> offsets_;  // of these from the middle; without heights
+    std::vector<SurfaceVertex> offsets_;  // of these from the middle, heights too
+    // Twice the area of the middle, a vertex of the ring and the next; and the rows and columns that the
+    // ring's offsets are within.
+    std::vector<std::int64_t> areas_;
+    SurfaceVertex least_{}, most_{};
+    double middle_steps_{};
     std::vector<Trial> trials_;
-    std::vector<double> chords_;  // differences of the chords of a ring; negative: not asked
+    KnownDifferences chords_;  // of this group's rings: half of them are asked for again
 };
 
 }  // namespace oro
