@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "apps/bench/times/bench_random.h"
+#include "apps/bench/times/bench_ground.h"
 #include "core/earth/ellipsoid.h"
 
 namespace oro {
@@ -16,32 +16,6 @@ constexpr double steepest_deg = 30.0, most_turn_deg_s = 20.0, turn_back_deg_s = 
 constexpr double rim_share = 0.05;     // of a side: nearer to the rim an eye turns back
 constexpr double ground_share = 0.05;  // of what the ground under the eye has changed, a frame
 constexpr double degrees = 180.0 / std::numbers::pi;
-
-// The ground under an eye, between posts.
-class GroundBelow {
-  public:
-    explicit GroundBelow(const RegionPages& pages) : grid_(pages.facts().grid), posts_(pages) {}
-    // Where there is none: as high as it was last.
-    Result<double> h_m(double lat_deg, double lon_deg) {
-        const double row = std::clamp(grid_.lat.index_at(lat_deg), 0.0, grid_.rows() - 1.001);
-        const double column = std::clamp(grid_.lon.index_at(lon_deg), 0.0, grid_.columns() - 1.001);
-        const int north = static_cast<int>(row), west = static_cast<int>(column);
-        double sum = 0.0;
-        for (int i = 0; i < 4; ++i) {
-            ORO_TRY(const double post_m, posts_.h_m(north + i / 2, west + i % 2));
-            if (post_m == static_cast<double>(void_height_m)) return last_m_;
-            const double down = i / 2 == 0 ? north + 1.0 - row : row - north;
-            sum += post_m * down * (i % 2 == 0 ? west + 1.0 - column : column - west);
-        }
-        last_m_ = sum;
-        return last_m_;
-    }
-
-  private:
-    const PostGrid& grid_;
-    DrawnPosts posts_;
-    double last_m_{};
-};
 
 struct FlightCourse {
     double above_m, climb;  // at its begin; what that is multiplied by until its end

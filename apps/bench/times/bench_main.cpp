@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/bench/times/bench_grass.h"
+#include "apps/bench/times/bench_houses.h"
 #include "apps/bench/times/bench_made.h"
 #include "apps/bench/times/bench_moving.h"
 #include "apps/bench/times/bench_patches.h"
@@ -92,6 +93,10 @@ Result<ordered_json> run_path(const Gpu& gpu, RasterPath path, Scene& scene,
         json["peak_triangles_per_s"] = peak;
     }
     if (!options.json) std::printf("%s path\n", name_of(path).c_str());
+    if (options.houses > 0) {
+        ORO_TRY(json["houses"], time_houses(gpu, scene, renderer, eyes, options));
+        return json;
+    }
     json["eyes"] = ordered_json::object();
     std::vector<BenchTimes> all;
     for (const BenchEye& eye : eyes) {
@@ -281,6 +286,10 @@ void add_modes(CLI::App& app, BenchOptions& options, BenchWords& words) {
         "With --moving: tell a checksum of all plans in place of times, each made once all it asks for "
         "is here. Programs that plan alike tell the same");
     app.add_option("--seed", options.seed, "Of random eyes and flights: one seed, the same eyes");
+    app.add_option("--houses", options.houses,
+                   "Time each eye without houses, with so many of 10 triangles each on the ground before it, "
+                   "and with nine times as many behind it as well")
+        ->check(CLI::Range(1, 100000));
     app.add_flag(
         "--tables", options.tables,
         "Print tables of the eyes of --path: triangles and times without level of detail, with it and with "

@@ -42,6 +42,7 @@ struct BenchOptions {
     bool compare_plans{false};     // of flights: by the processor and by the device
     bool fingerprint{false};       // of flights: of their plans, in place of times
     std::uint64_t seed{1};         // of random eyes and flights
+    int houses{0};                 // before each eye, beside frames without them; 0: none
     bool tables{false};
     bool floor{false};
     bool json{false};
