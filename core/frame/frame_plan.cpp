@@ -329,12 +329,15 @@ void PageChoice::set_frame_page(KeptPage& page, bool by_device, gpu::FramePage& 
     frame.cull =
         gpu::cull_by_frustum | (horizon_.eye.angle_rad < std::numbers::pi ? gpu::cull_by_horizon : 0U);
     if (!by_device) set_place(page, frame);
-    if (!model_.culls_nodes() || pages_.is_seam()) frame.cull = 0;
-    if (pages_.is_skirt(summary.index)) frame.cull |= gpu::is_skirt;
+    // What closes gaps reaches out of its bounds; what lies between grids has no horizons.
+    const bool is_skirt = pages_.is_skirt(summary.index);
+    if (!model_.culls_nodes() || is_skirt) frame.cull = 0;
+    if (pages_.is_seam()) frame.cull &= ~gpu::cull_by_horizon;
+    if (is_skirt) frame.cull |= gpu::is_skirt;
     if (pages_.facts().grid.net && !pages_.is_seam() && reaches_far(summary))
         frame.cull |= gpu::places_from_plane;
     if (!model_.may_stand(page.record)) frame.cull |= gpu::never_coarsen;
-    if (model_.culls_nodes() && !pages_.is_seam()) frame.cull |= gpu::cull_by_occlusion;
+    if (model_.culls_nodes() && !is_skirt) frame.cull |= gpu::cull_by_occlusion;
     const std::uint64_t address = page.wanted.address;
     frame.block = {static_cast<gpu::uint>(address), static_cast<gpu::uint>(address >> 32U)};
     frame.level = static_cast<gpu::uint>(summary.index.level);

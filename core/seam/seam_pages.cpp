@@ -15,6 +15,7 @@
 #include "core/net/lattice_georeference.h"
 #include "core/seam/mesh_casters.h"
 #include "core/terrain/drawn_heights.h"
+#include "core/terrain/node_box.h"
 #include "core/terrain/page_on_net.h"
 
 namespace oro {
@@ -22,9 +23,32 @@ namespace {
 
 constexpr int posts = static_cast<int>(gpu::page_posts);
 constexpr int quads_a_page = seam_quads * seam_quads;
+
+struct PagePost {
+    int row, column;
+};
+
+std::size_t meshlet_of(const PagePost& post) {
+    constexpr int quads_across = static_cast<int>(gpu::meshlet_quads);
+    return static_cast<std::size_t>(post.row / quads_across * static_cast<int>(gpu::meshlets_per_side) +
+                                    post.column / quads_across);
+}
+
 // A quad's posts from its first, and what stands in the posts after it.
 constexpr std::array<std::array<int, 2>, 4> corner_posts{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
 constexpr std::array<std::array<int, 2>, 5> vector_posts{{{0, 2}, {1, 2}, {2, 0}, {2, 1}, {2, 2}}};
+
+// The first post of each quad of a page. Quads that follow each other are in one meshlet, so that meshlets
+// are small.
+std::array<PagePost, quads_a_page> posts_of_quads() {
+    std::array<PagePost, quads_a_page> first;
+    for (int number = 0; number < quads_a_page; ++number)
+        first[static_cast<std::size_t>(number)] = {number / seam_quads * seam_stride,
+                                                   number % seam_quads * seam_stride};
+    std::ranges::stable_sort(first, {}, meshlet_of);
+    return first;
+}
+const std::array<PagePost, quads_a_page> first_posts = posts_of_quads();
 
 // As a page holds it: north-west, south-west, south-east, north-east, this one missing of a piece.
 struct SeamQuad {
@@ -231,33 +255,36 @@ PageRecord SeamPages::record_of(int page) const {
 Result<void> SeamPages::load(const PageIndex& page, gpu::PageBlock& block) const {
     const PageSummary& summary = records_[static_cast<std::size_t>(page.column)].summary;
     std::fill(std::begin(block.heights), std::end(block.heights), gpu::void_height);
-    std::fill(std::begin(block.boxes), std::end(block.boxes), 0U);  // nothing asks for them
+    std::fill(std::begin(block.boxes), std::end(block.boxes), 0U);
     std::fill(std::begin(block.sw_ne), std::end(block.sw_ne), 0U);
-    std::vector<Around> around(gpu::meshlets_per_page);
+    std::vector<std::vector<glm::dvec3>> points(gpu::meshlets_per_page);
     const glm::dmat3 page_from_ecef = glm::transpose(summary.ecef_from_page);
     const std::span<const SeamQuad> quads = quads_on(page.column);
     for (std::size_t number = 0; number < quads.size(); ++number) {
         const SeamQuad& quad = quads[number];
-        const int row = static_cast<int>(number) / seam_quads * seam_stride,
-                  column = static_cast<int>(number) % seam_quads * seam_stride;
-        const auto meshlet =
-            static_cast<std::size_t>(row / 8 * static_cast<int>(gpu::meshlets_per_side) + column / 8);
+        const auto [row, column] = first_posts[number];
+        const std::size_t meshlet = meshlet_of(first_posts[number]);
         for (std::size_t i = 0; i < static_cast<std::size_t>(quad.count); ++i) {
             const int post = (row + corner_posts[i][0] + 1) * static_cast<int>(gpu::height_stride) + column +
                              corner_posts[i][1] + 1;
             block.heights[post] = height_steps(quad.corners[i].h_m);
-            around[meshlet].hold(page_from_ecef * (quad.corners[i].at.m - summary.origin_ecef.m));
+            points[meshlet].push_back(page_from_ecef * (quad.corners[i].at.m - summary.origin_ecef.m));
         }
     }
-    for (std::size_t i = 0; i < around.size(); ++i) {
-        const bool there = around[i].low.x <= around[i].high.x;
-        const auto radius = there ? static_cast<float>(around[i].radius()) : -1.0F;
-        block.meshlets[i] = {there ? gpu::vec3(around[i].centre()) : gpu::vec3(0.0F),
-                             radius,
-                             gpu::vec3(0.0F),
-                             4.0F,
-                             0.0F,
-                             radius};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        Around around;
+        for (const glm::dvec3& point : points[i]) around.hold(point);
+        const bool there = !points[i].empty();
+        const auto radius = there ? static_cast<float>(around.radius()) : -1.0F;
+        gpu::MeshletBounds& bounds = block.meshlets[i];
+        bounds = {there ? gpu::vec3(around.centre()) : gpu::vec3(0.0F),
+                  radius,
+                  gpu::vec3(0.0F),
+                  4.0F,
+                  0.0F,
+                  radius};
+        // Asked of pieces alone: skirts reach out of it.
+        if (there) block.boxes[i] = node_box(points[i], bounds, summary.origin.lat_deg);
     }
     set_spacing(facts().grid, summary, block);
     return {};
@@ -271,8 +298,7 @@ Result<void> SeamPages::load_places(const PageIndex& page, const gpu::PageBlock&
     const std::span<const SeamQuad> quads = quads_on(page.column);
     for (std::size_t number = 0; number < quads.size(); ++number) {
         const SeamQuad& quad = quads[number];
-        const int row = static_cast<int>(number) / seam_quads * seam_stride,
-                  column = static_cast<int>(number) % seam_quads * seam_stride;
+        const auto [row, column] = first_posts[number];
         const auto put = [&](const std::array<int, 2>& post, std::size_t axis, std::int64_t steps) {
             places.steps[static_cast<std::size_t>((row + post[0]) * posts + column + post[1]) * 3 + axis] =
                 static_cast<std::int32_t>(steps);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/base/pooled_object.h"
+#include "core/terrain/node_box.h"
 #include "core/terrain/page_on_net.h"
 #include "core/terrain/page_posts.h"
 #include "core/terrain/placed_posts.h"
@@ -243,24 +244,6 @@ gpu::uint PageBuilder::halves_of(int number) const {
     return may_have_triangles(row, column + half, side, half + 1) ? gpu::both_halves : gpu::first_columns;
 }
 
-// PageBlock::boxes, rounded outwards. By more than a float's rounding of each term: the radius is, too.
-gpu::uint PageBuilder::box_around(std::span<const glm::dvec3> points,
-                                  const gpu::MeshletBounds& bounds) const {
-    const SineCosine lat = sine_cosine_deg(summary_.origin.lat_deg);
-    const glm::dvec3 east(0.0, 1.0, 0.0), north(-lat.sine, 0.0, lat.cosine), up(lat.cosine, 0.0, lat.sine);
-    glm::dvec3 farthest_m(0.0);
-    for (const glm::dvec3& point : points) {
-        const glm::dvec3 offset_m = point - glm::dvec3(bounds.centre);
-        farthest_m =
-            glm::max(farthest_m, glm::abs(glm::dvec3(glm::dot(offset_m, east), glm::dot(offset_m, north),
-                                                     glm::dot(offset_m, up))));
-    }
-    constexpr double steps = 1023.0;
-    const glm::uvec3 box(glm::min(glm::ceil(farthest_m / static_cast<double>(bounds.radius) * steps + 0.01),
-                                  glm::dvec3(steps)));
-    return box.x | box.y << 10U | box.z << 20U;
-}
-
 // The posts of a meshlet that are drawn.
 std::size_t PageBuilder::gather_meshlet(int number,
                                         std::array<glm::dvec3, gpu::meshlet_vertices>& points) const {
@@ -301,8 +284,9 @@ void PageBuilder::bound_finely(int number) {
     const glm::dvec3 origin_m(rho0_m_, 0.0, z0_m_);
     for (std::size_t i = 0; i < count; ++i)
         horizon[i] = horizon_point((points[i] + origin_m) / shape_.occluder.radii_m);
-    block_.boxes[number] = box_around(std::span(points).first(count), block_.meshlets[number]) |
-                           halves_of(number) << gpu::halves_bit;
+    block_.boxes[number] =
+        node_box(std::span(points).first(count), block_.meshlets[number], summary_.origin.lat_deg) |
+        halves_of(number) << gpu::halves_bit;
     bound_by_horizon(number, std::span(horizon).first(count));
 }
 

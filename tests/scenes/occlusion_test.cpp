@@ -1,5 +1,8 @@
 // Occlusion over real ground, and where grids meet by seams: the ids in every pixel are those of frames that
 // draw all.
+#include <glm/geometric.hpp>
+#include <random>
+
 #include "core/seam/seam_pages.h"
 #include "core/terrain/ground.h"
 #include "geo/together/cut_regions.h"
@@ -74,6 +77,51 @@ TEST_P(OccludedScene, GridsWithSeamsAreThoseWithout) {
     EXPECT_EQ(test::draw_pairs(renderers, *scene, where, 92, test::occlusion_pairs(25), width_px, height_px),
               0U);
     EXPECT_LT(renderers.drawn_with, renderers.drawn_without);
+}
+
+// Triangles of meshes over rolling ground: some high above it, most of them behind hills or behind each
+// other.
+Seam triangles_over(const HeightField& field, const test::EyeGround& where, unsigned seed) {
+    std::mt19937 random(seed);
+    const auto between = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(random);
+    };
+    Seam seam;
+    for (int i = 0; i < 6000; ++i) {
+        const double lat_deg = between(where.south_deg, where.north_deg),
+                     lon_deg = between(where.west_deg, where.east_deg);
+        const double ground_m = ground_h_m(field, lat_deg, lon_deg).value_or(0.0);
+        const double above_m = i % 10 == 0 ? between(0.0, 400.0) : between(0.0, 20.0);
+        const Ecef middle = ecef_from_geodetic({lat_deg, lon_deg, ground_m + above_m});
+        const double size_m = i % 50 == 0 ? 300.0 : 25.0;
+        SeamPiece piece;
+        piece.two_sided = true;
+        for (SeamCorner& corner : piece.corners) {
+            corner.at = {middle.m +
+                         size_m * glm::dvec3(between(-1.0, 1.0), between(-1.0, 1.0), between(-1.0, 1.0))};
+            corner.h_m = geodetic_from_ecef(corner.at).h_m;
+            corner.normal = glm::normalize(middle.m);
+        }
+        seam.pieces.push_back(piece);
+    }
+    return seam;
+}
+
+TEST_P(OccludedScene, MeshesAreThoseWithout) {
+    const Region region = test::three_grids(500);
+    const HeightField& field = region.grids[0].field;
+    const double middle_deg = 0.5 * 500 / 1200.0;
+    const test::EyeGround where{
+        47.0 - middle_deg - 0.05, 47.0 - middle_deg + 0.05, 8.0 + middle_deg - 0.05, 8.0 + middle_deg + 0.07,
+        [&](double lat_deg, double lon_deg) { return ground_h_m(field, lat_deg, lon_deg).value_or(0.0); }};
+    Scene scene = scene_of(pages_in_memory(field, 1.0, 2));
+    auto pages = seam_pages(triangles_over(field, where, 93), {}, region_shape(field, 1.0));
+    ASSERT_TRUE(pages.ok()) << pages.error().line();
+    scene.add(scene_of(std::move(pages).value()));
+    test::OcclusionPair renderers(*gpu_, GetParam(), width_px, height_px);
+    EXPECT_EQ(test::draw_pairs(renderers, scene, where, 93, test::occlusion_pairs(25), width_px, height_px),
+              0U);
+    EXPECT_LT(3 * renderers.drawn_with, 2 * renderers.drawn_without);
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths, OccludedScene, ::testing::Values(RasterPath::mesh, RasterPath::compute),
