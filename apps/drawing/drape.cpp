@@ -86,7 +86,8 @@ Result<void> add_cover(const View& view, const Scene& scene, bool quiet, std::ve
 }  // namespace
 
 Result<void> lay_images(const View& view, const MemoryOptions& memory, const Gpu& gpu, Scene& scene,
-                        bool quiet, const std::shared_ptr<const PostColours>& colours) {
+                        bool quiet, const std::shared_ptr<const PostColours>& colours,
+                        std::size_t grids_beside) {
     if (view.images.empty() && !view.cover && !colours) return {};
     for (const ImageSource& image : view.images) {
         for (const std::string& note : image.notes) say(quiet, "note: " + note);
@@ -102,8 +103,9 @@ Result<void> lay_images(const View& view, const MemoryOptions& memory, const Gpu
     if (colours) over = with_colours(std::move(over), view, scene, colours);
     if (view.cover) ORO_CHECK(add_cover(view, scene, quiet, over));
     for (OverGrid& one : over) {
-        ORO_TRY(DrapeStore store, DrapeStore::create(gpu, std::move(one.images), look, bytes / over.size(),
-                                                     std::move(one.cover)));
+        ORO_TRY(DrapeStore store,
+                DrapeStore::create(gpu, std::move(one.images), look, bytes / (over.size() + grids_beside),
+                                   std::move(one.cover)));
         scene.set_drape(std::make_unique<DrapeStore>(std::move(store)), one.grid);
     }
     return {};

@@ -33,11 +33,15 @@ Result<std::shared_ptr<const MeshDetail>> mesh_detail_of(const Region& region, c
     return std::make_shared<const MeshDetail>(MeshDetail::of(region, view.exaggeration, thread_count()));
 }
 
-MeshCut mesh_cut_of(const MeshDetail& detail, const View& view, std::span<const Camera> cameras,
+MeshAsked mesh_asked_by(const View& view) {
+    MeshAsked asked{view.tau_px, view.model.air, {}};
+    if (view.mesh_level) asked.level = static_cast<std::uint32_t>(*view.mesh_level);
+    return asked;
+}
+
+MeshCut mesh_cut_of(const MeshDetail& detail, const MeshAsked& asked, std::span<const Camera> cameras,
                     const MeshCut* before) {
-    std::optional<std::uint32_t> level;
-    if (view.mesh_level) level = static_cast<std::uint32_t>(*view.mesh_level);
-    return detail.cut(cameras, view.tau_px, view.model.air, level, before);
+    return detail.cut(cameras, asked.tau_px, asked.air, asked.level, before);
 }
 
 Result<std::optional<DrawnMeshes>> drawn_meshes(const Region& region, const View& view) {
@@ -47,7 +51,7 @@ Result<std::optional<DrawnMeshes>> drawn_meshes(const Region& region, const View
     DrawnMeshes drawn;
     drawn.graph_s = seconds_since(start);
     drawn.built = detail->built();
-    drawn.cut = mesh_cut_of(*detail, view, std::span(&view.camera, 1));
+    drawn.cut = mesh_cut_of(*detail, mesh_asked_by(view), std::span(&view.camera, 1));
     return std::optional(std::move(drawn));
 }
 

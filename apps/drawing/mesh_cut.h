@@ -30,8 +30,15 @@ Result<bool> draws_terrain_clusters(const Region& region, View& view);
 
 // The graphs of the region's meshes; null where draws_mesh_clusters() says no. Errors: as it.
 Result<std::shared_ptr<const MeshDetail>> mesh_detail_of(const Region& region, const View& view);
+// What a view asks of its meshes, beside its camera.
+struct MeshAsked {
+    double tau_px{};
+    Air air{};
+    std::optional<std::uint32_t> level{};  // --mesh-level
+};
+MeshAsked mesh_asked_by(const View& view);
 // What a view with that camera, or several, shows of them. before: as MeshDetail::cut().
-MeshCut mesh_cut_of(const MeshDetail& detail, const View& view, std::span<const Camera> cameras,
+MeshCut mesh_cut_of(const MeshDetail& detail, const MeshAsked& asked, std::span<const Camera> cameras,
                     const MeshCut* before = nullptr);
 
 // Builds the graphs of the region's meshes and chooses from them, on all threads of the machine; nothing

@@ -141,20 +141,23 @@ Result<void> add_clusters(const Gpu& gpu, const RegionGrid& grid, std::uint64_t 
     return {};
 }
 
-// What is between a region's grids, for the frames of their scene; nothing where nothing is.
-Result<std::optional<Scene>> scene_between(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
-                                           double exaggeration, const std::vector<PlacedMesh>* meshes) {
+}  // namespace
+
+Result<std::unique_ptr<RegionPages>> pages_between(const Region& region, const RegionCuts& cuts,
+                                                   double exaggeration,
+                                                   const std::vector<PlacedMesh>* meshes) {
     const Seam seam = seam_between(region, cuts, exaggeration, meshes);
-    if (seam.empty()) return std::optional<Scene>();
+    if (seam.empty()) return std::unique_ptr<RegionPages>();
     const HeightField& field = region.grids.front().field;
-    ORO_TRY(std::unique_ptr<RegionPages> pages,
-            seam_pages(seam, field.undulation, region_shape(field, exaggeration)));
+    return seam_pages(seam, field.undulation, region_shape(field, exaggeration));
+}
+
+Result<std::optional<Scene>> scene_between(const Gpu& gpu, std::unique_ptr<RegionPages> pages) {
+    if (!pages) return std::optional<Scene>();
     // Small beside the rest, which it takes nothing from.
     ORO_TRY(Scene between, Scene::create(gpu, std::move(pages)));
     return std::optional(std::move(between));
 }
-
-}  // namespace
 
 Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
                                     GridPages pages, const SceneRequest& request) {
@@ -178,8 +181,9 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
     if (request.clusters)
         ORO_CHECK(add_clusters(gpu, region.grids.front(), bytes, memory.main, request.mesh_level, *scene));
     if (pages.size() > 1 || region.meshes) {
-        ORO_TRY(std::optional<Scene> between,
-                scene_between(gpu, region, cuts, request.exaggeration, request.meshes.get()));
+        ORO_TRY(std::unique_ptr<RegionPages> pages_beside,
+                pages_between(region, cuts, request.exaggeration, request.meshes.get()));
+        ORO_TRY(std::optional<Scene> between, scene_between(gpu, std::move(pages_beside)));
         if (between) {
             triangles += between->grids().front().pages().facts().triangles;
             scene->add(std::move(*between));
@@ -190,7 +194,8 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
 
 Result<void> redraw_meshes(const Gpu& gpu, const Region& region, const RegionCuts& cuts, double exaggeration,
                            const std::vector<PlacedMesh>& meshes, Scene& scene) {
-    ORO_TRY(std::optional<Scene> between, scene_between(gpu, region, cuts, exaggeration, &meshes));
+    ORO_TRY(std::unique_ptr<RegionPages> pages, pages_between(region, cuts, exaggeration, &meshes));
+    ORO_TRY(std::optional<Scene> between, scene_between(gpu, std::move(pages)));
     scene.replace_between(std::move(between));
     return {};
 }

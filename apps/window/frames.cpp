@@ -58,7 +58,11 @@ bool comes_to_rest(Viewer& viewer) {
 Result<void> write_over(Viewer& viewer, const FrameReport& drawn) {
     const bool whole = !viewer.is_missing && drawn.images_settled && !is_coarse(viewer);
     if (viewer.follows_eye || !whole || !has_writing(viewer.view, viewer.style)) return {};
-    ORO_TRY(const RegionGround* const ground, ground_of(viewer));
+    ORO_TRY(const RegionGround* const ground, ground_so_far(viewer));
+    if (ground == nullptr) {
+        viewer.waits_for_writing = true;
+        return {};
+    }
     return write_over_frame(viewer.gpu, *viewer.scene, viewer.view, ground->ground(), viewer.style,
                             viewer.path, viewer.renderer);
 }
@@ -264,12 +268,13 @@ Result<bool> draw_frame(Viewer& viewer, bool& changed) {
     ORO_TRY(const bool better_second, advance_second(viewer));
     changed = changed || better_second;
     changed = comes_to_rest(viewer) || changed;
+    ORO_TRY(const bool other_meshes, follow_with_meshes(viewer));
+    ORO_TRY(const bool other_second, follow_with_second_meshes(viewer));
+    changed = changed || other_meshes || other_second;
     if (!changed) {
         ORO_CHECK(prepare_gpu_pages(viewer));
         return false;
     }
-    ORO_CHECK(follow_with_meshes(viewer));
-    ORO_CHECK(follow_with_second_meshes(viewer));
     SubmittedFrame frame;
     frame.times.input = viewer.polled;
     frame.times.begun = Clock::now();
@@ -284,7 +289,7 @@ Result<bool> draw_frame(Viewer& viewer, bool& changed) {
         changed = has_ground(plan);
         return false;
     }
-    frame.is_settled = plan.is_settled();
+    frame.is_settled = plan.is_settled() && are_chosen_for(viewer.meshes, viewer.view, viewer.view.camera);
     frame.is_chosen_by_gpu = plan.grids.front().device.chooses;
     frame.times.planned = Clock::now();
     viewer.is_settled = false;

@@ -76,6 +76,10 @@ Result<void> write_picture_of(Viewer& viewer, const PictureChoice& choice) {
     return {};
 }
 
+MeshTarget mesh_target_of(Viewer& viewer, const MemoryOptions& memory) {
+    return {viewer.region, viewer.cuts, viewer.view, memory, viewer.gpu, *viewer.scene};
+}
+
 }  // namespace
 
 void follow_sun(Viewer& viewer) {
@@ -95,33 +99,24 @@ void take_scene(Viewer& viewer, OpenedScene opened) {
                                     : nullptr;
 }
 
-bool choose_cut(EyeMeshes& meshes, const View& view, const Camera& camera) {
-    const bool is_chosen = is_same_view(meshes.camera, camera) && meshes.camera.width_px == camera.width_px &&
-                           meshes.camera.height_px == camera.height_px && meshes.tau_px == view.tau_px;
-    if (!meshes.detail || is_chosen) return false;
-    MeshCut cut = mesh_cut_of(*meshes.detail, view, std::span(&camera, 1), &meshes.cut);
-    const bool is_drawn = cut.meshes == meshes.cut.meshes;
-    meshes = {meshes.detail, std::move(cut), camera, view.tau_px, Clock::now()};
-    return !is_drawn;
-}
-
 Result<void> choose_meshes(Viewer& viewer, const Camera& camera) {
-    if (!choose_cut(viewer.meshes, viewer.view, camera)) return {};
-    ORO_CHECK(finish_frames(viewer));
-    ORO_CHECK(redraw_meshes(viewer.gpu, viewer.region, viewer.cuts, viewer.view.exaggeration,
-                            *viewer.meshes.cut.meshes, *viewer.scene));
-    if (viewer.view.images.empty() && !viewer.view.cover) return {};
-    return lay_images(viewer.view, memory_of_first(viewer), viewer.gpu, *viewer.scene, true);
+    const MemoryOptions memory = memory_of_first(viewer);
+    return draw_cut_of(viewer.meshes, mesh_target_of(viewer, memory), camera,
+                       [&] { return finish_frames(viewer); });
 }
 
-bool is_cut_due(const Viewer& viewer, const EyeMeshes& meshes) {
-    constexpr double between_s = 1.0;
-    return !is_moving(viewer) || seconds_since(meshes.chosen) >= between_s;
-}
-
-Result<void> follow_with_meshes(Viewer& viewer) {
-    if (!is_cut_due(viewer, viewer.meshes)) return {};
-    return choose_meshes(viewer, viewer.view.camera);
+Result<bool> follow_with_meshes(Viewer& viewer) {
+    EyeMeshes& meshes = viewer.meshes;
+    const Camera& camera = viewer.view.camera;
+    if (are_chosen_for(meshes, viewer.view, camera)) return false;
+    const MemoryOptions memory = memory_of_first(viewer);
+    ORO_TRY(const bool are_here,
+            follow_with_meshes(meshes, mesh_target_of(viewer, memory), camera, is_moving(viewer)));
+    if (are_here) {
+        ORO_CHECK(finish_frames(viewer));
+        take_coming(meshes, *viewer.scene);
+    }
+    return are_here || are_chosen_for(meshes, viewer.view, camera);
 }
 
 Result<void> begin_finer_scene(Viewer& viewer) {
@@ -142,8 +137,7 @@ Result<void> begin_finer_scene(Viewer& viewer) {
 void show_finer_scene(Viewer& viewer) {
     viewer.certificates.forget();
     viewer.scene = std::move(viewer.coming);
-    viewer.meshes.cut = {};  // it may have been chosen anew meanwhile
-    viewer.meshes.tau_px = 0.0;
+    forget_drawn(viewer.meshes);  // they may have been chosen anew meanwhile
     viewer.is_missing = false;
     viewer.wants_picture = true;
 }

@@ -10,15 +10,11 @@ namespace oro {
 void take_scene(Viewer& viewer, OpenedScene opened);
 // A sun by time stands elsewhere over every place.
 void follow_sun(Viewer& viewer);
-// Chooses what a camera with the view's tau needs of the meshes. True: that is not what is drawn, and the
-// scene is to take it.
-bool choose_cut(EyeMeshes& meshes, const View& view, const Camera& camera);
 // Draws what a camera needs of the meshes, where they are drawn by clusters. Errors: the device.
 Result<void> choose_meshes(Viewer& viewer, const Camera& camera);
-// Whether an eye's meshes are chosen anew: at once where it rests, each second while it moves.
-bool is_cut_due(const Viewer& viewer, const EyeMeshes& meshes);
-// choose_meshes() for the eye, where that is due.
-Result<void> follow_with_meshes(Viewer& viewer);
+// Goes on without waiting towards what the eye needs of the meshes. True: they are drawn now, or what is
+// drawn already is what it needs. Errors: the device.
+Result<bool> follow_with_meshes(Viewer& viewer);
 // The measured levels become a scene that is not shown yet; waits for them where they are not ready.
 Result<void> begin_finer_scene(Viewer& viewer);
 // The scene that came is the one that is shown.

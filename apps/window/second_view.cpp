@@ -228,6 +228,12 @@ void take_second_report(SecondView& second, const FrameReport& report) {
     second.images_settled = report.images_settled;
 }
 
+// Of what is drawn of the first view's meshes.
+Camera camera_of_second(const Viewer& viewer) {
+    return second_camera(viewer.view.camera, static_cast<int>(viewer.two.second->renderer.extent().width),
+                         0.0);
+}
+
 // As over the first view: where its frame is whole and the eye rests.
 Result<void> write_over_second(Viewer& viewer) {
     SecondView& second = *viewer.two.second;
@@ -364,18 +370,26 @@ Result<bool> advance_second(Viewer& viewer) {
     return viewer.two.second->scene->advance();
 }
 
-Result<void> follow_with_second_meshes(Viewer& viewer) {
-    if (!viewer.two.second || !viewer.two.second->meshes.detail) return {};
+Result<bool> follow_with_second_meshes(Viewer& viewer) {
+    if (!viewer.two.second || !viewer.two.second->meshes.detail) return false;
     SecondView& second = *viewer.two.second;
-    const Camera camera =
-        second_camera(viewer.view.camera, static_cast<int>(second.renderer.extent().width), 0.0);
-    if (!is_cut_due(viewer, second.meshes) || !choose_cut(second.meshes, second.view, camera)) return {};
-    ORO_CHECK(finish_frames(viewer));
-    ORO_CHECK(redraw_meshes(viewer.gpu, viewer.region, viewer.cuts, second.view.exaggeration,
-                            *second.meshes.cut.meshes, *second.scene));
-    if (second.view.images.empty() && !second.view.cover) return {};
-    return lay_images(second.view, half_of(viewer.options.memory, viewer.gpu), viewer.gpu, *second.scene,
-                      true);
+    const Camera camera = camera_of_second(viewer);
+    if (are_chosen_for(second.meshes, second.view, camera)) return false;
+    const MemoryOptions memory = half_of(viewer.options.memory, viewer.gpu);
+    ORO_TRY(const bool are_here,
+            follow_with_meshes(second.meshes,
+                               {viewer.region, viewer.cuts, second.view, memory, viewer.gpu, *second.scene},
+                               camera, is_moving(viewer)));
+    if (are_here) {
+        ORO_CHECK(finish_frames(viewer));
+        take_coming(second.meshes, *second.scene);
+    }
+    return are_here || are_chosen_for(second.meshes, second.view, camera);
+}
+
+bool lacks_second_meshes(const Viewer& viewer) {
+    return viewer.two.second &&
+           !are_chosen_for(viewer.two.second->meshes, viewer.two.second->view, camera_of_second(viewer));
 }
 
 bool second_changes_at_rest(const Viewer& viewer) {

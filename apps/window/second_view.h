@@ -97,9 +97,11 @@ DifferenceWords source_names(const Viewer& viewer);
 Result<void> take_second_size(Viewer& viewer, const VkExtent2D& window, bool& changed);
 // Brings what its last frame lacked: true where some of that is here. Errors: pages that cannot be read.
 Result<bool> advance_second(Viewer& viewer);
-// Draws what the first view's eye needs of its meshes, where they are drawn by clusters, as
-// follow_with_meshes() does. Before a frame is begun. Errors: the device.
-Result<void> follow_with_second_meshes(Viewer& viewer);
+// Goes on towards what the first view's eye needs of its meshes, as follow_with_meshes() does. Errors: the
+// device.
+Result<bool> follow_with_second_meshes(Viewer& viewer);
+// Whether some are still to come.
+bool lacks_second_meshes(const Viewer& viewer);
 // Whether it is another picture once the eye rests, where that is whole already: what is written over it.
 bool second_changes_at_rest(const Viewer& viewer);
 // Draws it from the first view's eye as coarse as the step says, with what is on the GPU: begins it where the

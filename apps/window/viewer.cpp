@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 #include "apps/eye/standpoint.h"
 #include "apps/report/progress_bar.h"
@@ -48,13 +49,29 @@ const HeightField& field_below(const Viewer& viewer) {
 }
 
 Result<const RegionGround*> ground_of(Viewer& viewer) {
+    if (!viewer.ground && viewer.ground_work) {
+        ORO_TRY(viewer.ground, std::exchange(viewer.ground_work, nullptr)->take());
+    }
     if (!viewer.ground) {
         ORO_TRY(viewer.ground, RegionGround::of(viewer.region, viewer.cuts, viewer.view.exaggeration));
     }
     return viewer.ground.get();
 }
 
+Result<const RegionGround*> ground_so_far(Viewer& viewer) {
+    if (viewer.ground) return viewer.ground.get();
+    if (!viewer.ground_work)
+        viewer.ground_work = std::make_unique<BackgroundWork<std::unique_ptr<const RegionGround>>>(
+            [&region = std::as_const(viewer.region), &cuts = std::as_const(viewer.cuts),
+             exaggeration = viewer.view.exaggeration](const auto&, const std::stop_token&) {
+                return RegionGround::of(region, cuts, exaggeration);
+            });
+    if (!viewer.ground_work->ready()) return static_cast<const RegionGround*>(nullptr);
+    return ground_of(viewer);
+}
+
 void forget_ground(Viewer& viewer) {
+    viewer.ground_work.reset();
     viewer.ground.reset();
     viewer.lines_in_motion.forget();
     viewer.lines.clear();

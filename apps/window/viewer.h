@@ -186,6 +186,8 @@ struct Viewer {
     std::vector<std::string> cover_known{};          // of land cover, likewise
     bool is_missing{};                               // something that the last frame should have had
     std::unique_ptr<const RegionGround> ground{};    // made when it is first asked, for all questions after
+    std::unique_ptr<BackgroundWork<std::unique_ptr<const RegionGround>>> ground_work{};  // that makes it
+    bool waits_for_writing{};  // over the picture, until the ground is there
     // The levels that the view asks for, until they are here.
     std::unique_ptr<BackgroundPyramidBuild> finer{};
     std::unique_ptr<RegionOpening> opening{};  // another region, until it is read
@@ -237,8 +239,10 @@ struct Viewer {
 
 // The finest grid below the eye.
 const HeightField& field_below(const Viewer& viewer);
-// Made when it is first asked, and after forget_ground(). Errors: damage in a baked region.
+// Made when it is first asked, and after forget_ground(); waited for. Errors: damage in a baked region.
 Result<const RegionGround*> ground_of(Viewer& viewer);
+// The same for what is looked for unasked: without waiting; null while it is being made. Errors: as above.
+Result<const RegionGround*> ground_so_far(Viewer& viewer);
 // The region is another, or its heights are.
 void forget_ground(Viewer& viewer);
 Result<std::optional<SeenPlace>> seen_at(Viewer& viewer, glm::dvec2 point_px);

@@ -73,12 +73,10 @@ Result<Scene> scene_with_images(const Gpu& gpu, const Region& region, const Regi
 Result<OpenedScene> first_scene(const Gpu& gpu, const Region& region, const RegionCuts& cuts, GridPages pages,
                                 View& view, SceneChoice choice) {
     ORO_TRY(choice.clusters, draws_terrain_clusters(region, view));
-    EyeMeshes meshes{{}, {}, view.camera, view.tau_px, Clock::now()};
+    EyeMeshes meshes;
     ORO_TRY(meshes.detail, mesh_detail_of(region, view));
-    if (meshes.detail) {
-        meshes.cut = mesh_cut_of(*meshes.detail, view, std::span(&view.camera, 1));
-        choice.meshes = meshes.cut.meshes;
-    }
+    choose_cut(meshes, view, view.camera);
+    choice.meshes = meshes.cut.meshes;
     const bool keeps_means = choice.keeps_means;
     const bool lacks_means = keeps_means && measures_means_long(region);
     choice.keeps_means = keeps_means && !lacks_means;

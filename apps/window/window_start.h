@@ -9,10 +9,9 @@
 #include "apps/drawing/region_scene.h"
 #include "apps/styles/style.h"
 #include "apps/view/view.h"
-#include "core/base/elapsed.h"
+#include "apps/window/eye_meshes.h"
 #include "core/base/progress.h"
 #include "core/earth/camera.h"
-#include "geo/together/mesh_detail.h"
 #include "render/device/device_report.h"
 
 namespace oro {
@@ -36,15 +35,6 @@ struct SceneChoice {
 // A scene of pages with the view's images over it. Errors: the device, posts, images.
 Result<Scene> scene_with_images(const Gpu& gpu, const Region& region, const RegionCuts& cuts, GridPages pages,
                                 const View& view, const SceneChoice& choice);
-
-// Meshes at the detail of an eye, where a view asks for that (--mesh clusters, --mesh-level).
-struct EyeMeshes {
-    std::shared_ptr<const MeshDetail> detail;  // null: all of their triangles are drawn
-    MeshCut cut;                               // what is drawn,
-    Camera camera;                             // ... chosen for this one,
-    double tau_px{};
-    Clock::time_point chosen{};
-};
 
 // What a window draws first of a region.
 struct OpenedScene {

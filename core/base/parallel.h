@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <exception>
 #include <new>
 #include <system_error>
@@ -50,6 +51,16 @@ void in_parallel(int count, int threads, const Work& work) {
         take_turns();
     }
     if (thrown) std::rethrow_exception(std::move(thrown));
+}
+
+// The same for work that is too small to be handed out one by one: 8,192 calls at a time.
+template <class Work>
+void in_chunks(std::size_t count, int threads, const Work& work) {
+    constexpr std::size_t at_a_time = 8192;
+    in_parallel(static_cast<int>((count + at_a_time - 1) / at_a_time), threads, [&](int chunk) {
+        const std::size_t first = static_cast<std::size_t>(chunk) * at_a_time;
+        for (std::size_t i = first; i < std::min(first + at_a_time, count); ++i) work(i);
+    });
 }
 
 }  // namespace oro

@@ -88,15 +88,16 @@ Result<EffectSize> EffectPrediction::detail(double tau_px) const {
 EffectSize EffectPrediction::gaps_closed(double tau_px) const {
     const double reach_px = std::max(tau_px, static_cast<double>(gpu::least_gap_px));
     EffectSize size;
-    for (const SurfaceTriangle& piece : ground_.pieces()) {
-        for (const Geodetic& corner : piece.corners) {
-            const glm::dvec3 seen_m =
-                sight_.refraction.apparent_m(ecef_from_geodetic(corner).m - sight_.eye.m);
-            if ((view_from_ecef_ * seen_m).z >= 0.0 || outside_px(seen_m) > reach_px) continue;
-            size.worst_px = reach_px;
-            size.worst_m = std::max(size.worst_m, reach_px / pixels_per_tangent_ * glm::length(seen_m));
-        }
-    }
+    const auto add = [&](const glm::dvec3& corner_m) {
+        const glm::dvec3 seen_m = sight_.refraction.apparent_m(corner_m - sight_.eye.m);
+        if ((view_from_ecef_ * seen_m).z >= 0.0 || outside_px(seen_m) > reach_px) return;
+        size.worst_px = reach_px;
+        size.worst_m = std::max(size.worst_m, reach_px / pixels_per_tangent_ * glm::length(seen_m));
+    };
+    for (const SurfaceTriangle& piece : ground_.pieces())
+        for (const Geodetic& corner : piece.corners) add(ecef_from_geodetic(corner).m);
+    for (const TrueMesh& mesh : ground_.meshes())
+        for (const glm::dvec3& vertex_m : mesh.vertices_m()) add(vertex_m);
     return size;
 }
 

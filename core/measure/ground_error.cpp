@@ -177,8 +177,7 @@ GroundErrors ground_errors(const TrueGround& ground, const Sight& sight, const C
     errors.surface_at_least.assign(width * height, 0);
     const GroundMeter meter(ground, sight, camera);
     // A mesh has no rows and columns to say which place of it was drawn: what is seen measures it.
-    const bool has_meshes =
-        std::ranges::any_of(ground.pieces(), [](const SurfaceTriangle& piece) { return piece.mesh > 0; });
+    const bool has_meshes = !ground.meshes().empty();
     std::vector<std::uint64_t> drawn_in_row(height), beyond_in_row(height), between_in_row(height);
     in_parallel(camera.height_px, threads, [&](int row) {
         const std::size_t r = static_cast<std::size_t>(row);

@@ -59,31 +59,38 @@ MeshSilhouette::MeshSilhouette(const TrueGround& ground, const Sight& sight)
     enu_from_ecef_ = glm::transpose(ecef_from_enu(eye.lat_deg, eye.lon_deg));
     for (const SurfaceTriangle& piece : ground.pieces()) {
         if (piece.mesh == 0) continue;
-        any_ = true;
-        SeenTriangle seen;
-        for (std::size_t i = 0; i < 3; ++i)
-            seen.at[i] = enu_from_ecef_ *
-                         sight.refraction.apparent_m(ecef_from_geodetic(piece.corners[i]).m - sight.eye.m);
-        const bool around = seen.is_around();
-        const double near_m = around ? 0.0 : seen.nearest_m(), high = seen.highest(near_m);
-        const double first = turns_of(seen.at[0]);
-        double low = 0.0, most = 0.0;
-        for (std::size_t i = 1; i < 3; ++i) {
-            const double beside = std::remainder(turns_of(seen.at[i]) - first, 1.0);
-            low = std::min(low, beside), most = std::max(most, beside);
-        }
-        const auto count = static_cast<double>(directions);
-        const auto begin = static_cast<long long>(std::floor((first + low) * count)) - 1,
-                   end = around ? begin + static_cast<long long>(directions)
-                                : static_cast<long long>(std::floor((first + most) * count)) + 2;
-        for (long long i = begin; i < end; ++i) {
-            const auto number = static_cast<std::size_t>(
-                (i % static_cast<long long>(directions) + static_cast<long long>(directions)) %
-                static_cast<long long>(directions));
-            Direction& direction = by_direction_[number];
-            direction.nearest_m = std::min(direction.nearest_m, near_m);
-            direction.highest = std::max(direction.highest, high);
-        }
+        std::array<glm::dvec3, 3> corners_m{};
+        for (std::size_t i = 0; i < 3; ++i) corners_m[i] = ecef_from_geodetic(piece.corners[i]).m;
+        add(corners_m);
+    }
+    for (const TrueMesh& mesh : ground.meshes())
+        for (std::size_t i = 0; i < mesh.size(); ++i) add(mesh.corners_m(i));
+}
+
+void MeshSilhouette::add(const std::array<glm::dvec3, 3>& corners_m) {
+    any_ = true;
+    SeenTriangle seen;
+    for (std::size_t i = 0; i < 3; ++i)
+        seen.at[i] = enu_from_ecef_ * sight_.refraction.apparent_m(corners_m[i] - sight_.eye.m);
+    const bool around = seen.is_around();
+    const double near_m = around ? 0.0 : seen.nearest_m(), high = seen.highest(near_m);
+    const double first = turns_of(seen.at[0]);
+    double low = 0.0, most = 0.0;
+    for (std::size_t i = 1; i < 3; ++i) {
+        const double beside = std::remainder(turns_of(seen.at[i]) - first, 1.0);
+        low = std::min(low, beside), most = std::max(most, beside);
+    }
+    const auto count = static_cast<double>(directions);
+    const auto begin = static_cast<long long>(std::floor((first + low) * count)) - 1,
+               end = around ? begin + static_cast<long long>(directions)
+                            : static_cast<long long>(std::floor((first + most) * count)) + 2;
+    for (long long i = begin; i < end; ++i) {
+        const auto number = static_cast<std::size_t>(
+            (i % static_cast<long long>(directions) + static_cast<long long>(directions)) %
+            static_cast<long long>(directions));
+        Direction& direction = by_direction_[number];
+        direction.nearest_m = std::min(direction.nearest_m, near_m);
+        direction.highest = std::max(direction.highest, high);
     }
 }
 

@@ -1,7 +1,9 @@
 // What meshes may hide from an eye: how high they stand in each direction. Within core.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "core/truth/oracle.h"
@@ -20,6 +22,8 @@ class MeshSilhouette {
     [[nodiscard]] bool may_hide(const Geodetic& point) const;
 
   private:
+    void add(const std::array<glm::dvec3, 3>& corners_m);
+
     static constexpr std::size_t directions = 8192;
     struct Direction {
         double nearest_m, highest;  // level metres; tangent of the elevation

@@ -361,9 +361,18 @@ std::optional<SightHit> Oracle::first_hit_after(const glm::dvec3& start_m, const
         auto hit = Search(*scenery, direction, nearest ? nearest->distance_m : reach_m, start_m).first_hit();
         if (hit) nearest = hit;
     }
-    if (!pieces_) return nearest;
-    const auto hit = pieces_->first_hit(start_m, direction, nearest ? nearest->distance_m : reach_m);
-    return hit ? hit_of_piece(start_m + hit->along_m * direction, hit->along_m, hit->owner) : nearest;
+    double most_m = nearest ? nearest->distance_m : reach_m;
+    std::optional<OfMesh> beside;
+    if (pieces_) {
+        if (const auto hit = pieces_->first_hit(start_m, direction, most_m))
+            most_m = hit->along_m, beside = of_piece(hit->owner);
+    }
+    if (sight_.earth == Earth::ellipsoid) {
+        for (const TrueMesh& mesh : ground_.meshes())
+            if (const auto hit = mesh.first_hit(sight_.eye, sight_.refraction, start_m, direction, most_m))
+                most_m = hit->along_m, beside = OfMesh{mesh.number(), mesh.feature(hit->triangle)};
+    }
+    return beside ? hit_beside(start_m + most_m * direction, most_m, *beside) : nearest;
 }
 
 }  // namespace oro

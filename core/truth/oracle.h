@@ -52,7 +52,8 @@ struct SightHit {
 class Oracle {
   public:
     // What `ground` is made of outlives the oracle. Costs a sine and a cosine for each fourth row and column
-    // of posts, and a tree of the pieces between grids.
+    // of posts, and a tree of the pieces between grids; of meshes, too, on other Earths than the ellipsoid,
+    // where their own trees do not hold.
     Oracle(const TrueGround& ground, const Sight& sight);
     ~Oracle();
     Oracle(const Oracle&) = delete;
@@ -80,12 +81,18 @@ class Oracle {
     class Search;
     [[nodiscard]] std::optional<SightHit> first_hit_after(const glm::dvec3& start_m,
                                                           const glm::dvec3& direction, double reach_m) const;
-    [[nodiscard]] SightHit hit_of_piece(const glm::dvec3& apparent_m, double t_m, std::uint32_t number) const;
+    // Of which mesh a hit is, and of which thing in it.
+    struct OfMesh {
+        std::uint32_t mesh{}, feature{};
+    };
+    // number: as the tree has it: of the pieces, then of the triangles of the meshes.
+    [[nodiscard]] OfMesh of_piece(std::size_t number) const;
+    [[nodiscard]] SightHit hit_beside(const glm::dvec3& apparent_m, double t_m, const OfMesh& of) const;
 
     TrueGround ground_;
     Sight sight_;
     std::vector<std::unique_ptr<const Scenery>> sceneries_;  // of each grid
-    std::unique_ptr<const TriangleBvh> pieces_;              // nothing: there are none
+    std::unique_ptr<const TriangleBvh> pieces_;              // null: there are none
 };
 
 // For one sight line.

@@ -51,20 +51,35 @@ bool crosses_cut(const Sight& sight, const SurfaceTriangle& piece) {
            std::abs(from_eye_deg(1) - from_eye_deg(2)) > half_turn_deg;
 }
 
+// A triangle of a mesh as other Earths place it.
+SurfaceTriangle as_piece(const TrueMesh& mesh, std::size_t triangle) {
+    SurfaceTriangle piece;
+    const std::array<glm::dvec3, 3> corners = mesh.corners_m(triangle);
+    for (std::size_t i = 0; i < 3; ++i) piece.corners[i] = geodetic_from_ecef({corners[i]});
+    piece.mesh = mesh.number();
+    return piece;
+}
+
 std::unique_ptr<const TriangleBvh> tree_of(const TrueGround& ground, const Sight& sight) {
-    if (ground.pieces().empty()) return nullptr;
     std::vector<std::array<glm::dvec3, 3>> triangles;
-    triangles.reserve(ground.pieces().size());
     std::vector<std::uint32_t> numbers;
-    for (std::uint32_t number = 0; number < ground.pieces().size(); ++number) {
-        const SurfaceTriangle& piece = ground.pieces()[number];
-        if (crosses_cut(sight, piece)) continue;
-        triangles.push_back(seen_corners(sight, piece));
-        numbers.push_back(number);
-    }
-    const Geodetic& first = ground.pieces().front().corners[0];
+    std::uint32_t number = 0;
+    std::optional<Geodetic> first;
+    const auto add = [&](const SurfaceTriangle& piece) {
+        if (!first) first = piece.corners[0];
+        if (!crosses_cut(sight, piece)) {
+            triangles.push_back(seen_corners(sight, piece));
+            numbers.push_back(number);
+        }
+        ++number;
+    };
+    for (const SurfaceTriangle& piece : ground.pieces()) add(piece);
+    if (sight.earth != Earth::ellipsoid)
+        for (const TrueMesh& mesh : ground.meshes())
+            for (std::size_t i = 0; i < mesh.size(); ++i) add(as_piece(mesh, i));
+    if (!first) return nullptr;
     return std::make_unique<const TriangleBvh>(
-        std::move(triangles), ecef_from_enu(first.lat_deg, first.lon_deg), std::move(numbers));
+        std::move(triangles), ecef_from_enu(first->lat_deg, first->lon_deg), std::move(numbers));
 }
 
 }  // namespace
@@ -77,7 +92,18 @@ Oracle::Oracle(const TrueGround& ground, const Sight& sight) : ground_(ground), 
 
 Oracle::~Oracle() = default;
 
-SightHit Oracle::hit_of_piece(const glm::dvec3& apparent_m, double t_m, std::uint32_t number) const {
+Oracle::OfMesh Oracle::of_piece(std::size_t number) const {
+    const std::vector<SurfaceTriangle>& pieces = ground_.pieces();
+    if (number < pieces.size()) return {pieces[number].mesh, pieces[number].feature};
+    number -= pieces.size();
+    for (const TrueMesh& mesh : ground_.meshes()) {
+        if (number < mesh.size()) return {mesh.number(), mesh.feature(number)};
+        number -= mesh.size();
+    }
+    return {};
+}
+
+SightHit Oracle::hit_beside(const glm::dvec3& apparent_m, double t_m, const OfMesh& of) const {
     const glm::dvec3 true_m = sight_.refraction.true_m(apparent_m);
     SightHit hit;
     hit.point = sight_.earth == Earth::ellipsoid
@@ -85,8 +111,7 @@ SightHit Oracle::hit_of_piece(const glm::dvec3& apparent_m, double t_m, std::uin
                     : model_point(sight_.earth, sight_.place, true_m).value_or(Geodetic{});
     hit.distance_m = t_m;
     hit.between_grids = true;
-    hit.mesh = ground_.pieces()[number].mesh;
-    hit.feature = ground_.pieces()[number].feature;
+    hit.mesh = of.mesh, hit.feature = of.feature;
     hit.grid = ground_.grid_at(hit.point.lat_deg, hit.point.lon_deg).value_or(0);
     const PostGrid& posts = ground_.surface(hit.grid).field().grid;
     const PostNumber post = posts.post_at(hit.point.lat_deg, hit.point.lon_deg);

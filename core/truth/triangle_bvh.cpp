@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/truth/line_meets.h"
+
 namespace oro {
 namespace {
 
@@ -16,34 +18,6 @@ constexpr std::uint32_t most_in_leaf = 4;
 
 // By what rounding, and turning into the frame, may move a line from 1e9 m away.
 constexpr double rounded_m = 1.0e-6;
-
-// How far along a line a box begins, or infinity: it is not met nearer than reach_m. `inverse` is finite.
-double begin_m(const glm::dvec3& start, const glm::dvec3& inverse, const glm::dvec3& low,
-               const glm::dvec3& high, double reach_m) {
-    const glm::dvec3 one_m = (low - start) * inverse, other_m = (high - start) * inverse;
-    const glm::dvec3 from_m = glm::min(one_m, other_m), to_m = glm::max(one_m, other_m);
-    const double begin_m = std::max(std::max(from_m.x, from_m.y), std::max(from_m.z, 0.0));
-    const double end_m = std::min(std::min(to_m.x, to_m.y), std::min(to_m.z, reach_m));
-    return begin_m <= end_m ? begin_m : infinite;
-}
-
-// Source: T. Möller, B. Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997, eq. 6; a share may
-// be below 0 by rounding.
-std::optional<double> along_m(const std::array<glm::dvec3, 3>& triangle, const glm::dvec3& start,
-                              const glm::dvec3& direction) {
-    const glm::dvec3 one = triangle[1] - triangle[0], other = triangle[2] - triangle[0];
-    const glm::dvec3 across = glm::cross(direction, other);
-    const double determinant = glm::dot(one, across);
-    if (determinant == 0.0) return std::nullopt;
-    constexpr double rounded = 1.0e-9;
-    const glm::dvec3 to_start = start - triangle[0];
-    const double share_1 = glm::dot(to_start, across) / determinant;
-    if (share_1 < -rounded || share_1 > 1.0 + 2.0 * rounded) return std::nullopt;
-    const glm::dvec3 around = glm::cross(to_start, one);
-    const double share_2 = glm::dot(direction, around) / determinant;
-    if (share_2 < -rounded || share_1 + share_2 > 1.0 + rounded) return std::nullopt;
-    return glm::dot(other, around) / determinant;
-}
 
 }  // namespace
 
@@ -106,12 +80,7 @@ std::optional<TriangleBvh::Hit> TriangleBvh::first_hit(const glm::dvec3& start_m
                                                        double reach_m) const {
     if (nodes_.empty()) return std::nullopt;
     const glm::dvec3 start = frame_from_ecef_ * start_m;
-    glm::dvec3 inverse = frame_from_ecef_ * direction;
-    for (int axis = 0; axis < 3; ++axis) {
-        // Along a box's side: farther away than any reach, or never left.
-        constexpr double least = 1.0e-200;
-        inverse[axis] = 1.0 / (std::abs(inverse[axis]) < least ? least : inverse[axis]);
-    }
+    const glm::dvec3 inverse = finite_inverse(frame_from_ecef_ * direction);
     std::optional<Hit> nearest;
     double most_m = reach_m;
     struct Waiting {
@@ -119,7 +88,7 @@ std::optional<TriangleBvh::Hit> TriangleBvh::first_hit(const glm::dvec3& start_m
         double begin_m;
     };
     const auto begin_of = [&](std::uint32_t node) {
-        return begin_m(start, inverse, nodes_[node].low, nodes_[node].high, most_m);
+        return box_begin_m(start, inverse, nodes_[node].low, nodes_[node].high, most_m);
     };
     std::array<Waiting, 64> waiting{};  // 2^32 triangles are 32 levels
     std::size_t count = 0;
@@ -134,7 +103,7 @@ std::optional<TriangleBvh::Hit> TriangleBvh::first_hit(const glm::dvec3& start_m
             if (near.begin_m < infinite) continue;
         } else if (next.begin_m <= most_m) {
             for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-                const auto at_m = along_m(triangles_[i], start_m, direction);
+                const auto at_m = triangle_along_m(triangles_[i], start_m, direction);
                 if (!at_m || *at_m < 0.0 || *at_m >= most_m) continue;
                 most_m = *at_m;
                 nearest = Hit{most_m, owners_[i]};

@@ -7,8 +7,8 @@
 
 namespace oro {
 
-TrueGround::TrueGround(std::vector<Grid> grids, std::shared_ptr<const std::vector<SurfaceTriangle>> pieces)
-    : grids_(std::move(grids)), by_rank_(grids_.size()), pieces_(std::move(pieces)) {
+TrueGround::TrueGround(std::vector<Grid> grids, std::shared_ptr<const GroundBeside> beside)
+    : grids_(std::move(grids)), by_rank_(grids_.size()), beside_(std::move(beside)) {
     assert(!grids_.empty());
     std::iota(by_rank_.begin(), by_rank_.end(), std::size_t{0});
     std::ranges::stable_sort(by_rank_, {}, [&](std::size_t grid) { return grids_[grid].rank; });
@@ -16,7 +16,11 @@ TrueGround::TrueGround(std::vector<Grid> grids, std::shared_ptr<const std::vecto
 
 const std::vector<SurfaceTriangle>& TrueGround::pieces() const {
     static const std::vector<SurfaceTriangle> none;
-    return pieces_ ? *pieces_ : none;
+    return beside_ ? beside_->pieces : none;
+}
+
+std::span<const TrueMesh> TrueGround::meshes() const {
+    return beside_ ? std::span<const TrueMesh>(beside_->meshes) : std::span<const TrueMesh>();
 }
 
 std::optional<std::size_t> TrueGround::grid_at(double lat_deg, double lon_deg) const {

@@ -6,16 +6,18 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/base/result.h"
 #include "core/earth/ellipsoid.h"
+#include "core/truth/true_mesh.h"
 #include "core/truth/true_surface.h"
 
 namespace oro {
 
 // A triangle of ground that belongs to no grid: an upright step along the rim of one that lies over another,
-// or one of a mesh.
+// or along the rim of what a mesh cuts out of the terrain.
 // Straight between its corners.
 struct SurfaceTriangle {
     std::array<Geodetic, 3> corners;  // h above the ellipsoid, exaggerated as the surfaces are
@@ -24,8 +26,15 @@ struct SurfaceTriangle {
     std::uint32_t feature{};  // of that mesh: its number, from 1; 0: none
 };
 
-// The surfaces of grids, and the pieces between them. Where several have ground for a place, that with the
-// smallest rank is the ground. A surface alone is ground too. Cheap to copy; what it is made of outlives it.
+// What there is beside grids.
+struct GroundBeside {
+    std::vector<SurfaceTriangle> pieces;
+    std::vector<TrueMesh> meshes;
+};
+
+// The surfaces of grids, the pieces between them, and meshes. Where several have ground for a place, that
+// with the smallest rank is the ground. A surface alone is ground too. Cheap to copy; what it is made of
+// outlives it.
 class TrueGround {
   public:
     TrueGround(const TrueSurface& surface) : grids_{{&surface, 0}}, by_rank_{0} {}  // NOLINT: is ground
@@ -35,12 +44,13 @@ class TrueGround {
         bool is_invented{};  // its posts lie between those of data (--detail)
     };
     // At least one grid, all with the same exaggeration. They are numbered as they are given.
-    TrueGround(std::vector<Grid> grids, std::shared_ptr<const std::vector<SurfaceTriangle>> pieces);
+    TrueGround(std::vector<Grid> grids, std::shared_ptr<const GroundBeside> beside);
 
     [[nodiscard]] std::size_t grids() const { return grids_.size(); }
     [[nodiscard]] const TrueSurface& surface(std::size_t grid) const { return *grids_[grid].surface; }
     [[nodiscard]] double exaggeration() const { return grids_.front().surface->exaggeration(); }
     [[nodiscard]] const std::vector<SurfaceTriangle>& pieces() const;
+    [[nodiscard]] std::span<const TrueMesh> meshes() const;
 
     // Which grid is the ground at a place; nothing where there is none.
     [[nodiscard]] std::optional<std::size_t> grid_at(double lat_deg, double lon_deg) const;
@@ -62,7 +72,7 @@ class TrueGround {
   private:
     std::vector<Grid> grids_;
     std::vector<std::size_t> by_rank_;
-    std::shared_ptr<const std::vector<SurfaceTriangle>> pieces_;
+    std::shared_ptr<const GroundBeside> beside_;
 };
 
 }  // namespace oro

@@ -7,6 +7,7 @@
 #include "core/base/checksum.h"
 #include "core/base/compressed_bytes.h"
 #include "core/base/elapsed.h"
+#include "core/base/parallel.h"
 #include "core/mesh_file/mesh_bytes.h"
 #include "core/mesh_file/stored_mesh.h"
 #include "core/terrain/page_on_net.h"
@@ -36,14 +37,16 @@ Result<void> write_container(const std::string& path, std::span<const std::byte>
 // The vertices and triangles of a mesh as its file has them.
 void add_triangles(std::shared_ptr<const StoredMesh> stored, const UndulationField& undulation,
                    PlacedMesh& mesh) {
-    mesh.vertices.reserve(stored->places.size());
-    for (const LatticeSteps& at : stored->places) {
+    const auto placed = [&](const LatticeSteps& at) -> PlacedVertex {
         const Geodetic place = geodetic_from_ecef(Ecef{{static_cast<double>(at[0]) / lattice_steps_per_m,
                                                         static_cast<double>(at[1]) / lattice_steps_per_m,
                                                         static_cast<double>(at[2]) / lattice_steps_per_m}});
         const double N_m = undulation.N_m.empty() ? 0.0 : undulation.at_m(place.lat_deg, place.lon_deg);
-        mesh.vertices.push_back({place.lat_deg, place.lon_deg, place.h_m - N_m});
-    }
+        return {place.lat_deg, place.lon_deg, place.h_m - N_m};
+    };
+    mesh.vertices.resize(stored->places.size());
+    in_chunks(mesh.vertices.size(), thread_count(),
+              [&](std::size_t i) { mesh.vertices[i] = placed(stored->places[i]); });
     const ClusterGraph& graph = stored->graph.clusters;
     for (const Cluster& cluster : graph.clusters) {
         if (cluster.made_by != no_group) break;

@@ -1,31 +1,36 @@
 #include "geo/together/mesh_surface.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "core/base/parallel.h"
 #include "core/terrain/page_on_net.h"
 #include "geo/meshes/triangle_looks.h"
 
 namespace oro {
 namespace {
 
-// Vertices of a mesh as they are drawn: on the lattice.
+// A vertex of a mesh as it is drawn: on the lattice.
+SeamCorner drawn_vertex(const PlacedVertex& vertex, const UndulationField& undulation, double exaggeration) {
+    const Geodetic at = geodetic_of(vertex, undulation, exaggeration);
+    SeamCorner corner;
+    corner.h_m = at.h_m;
+    const LatticePoint point = lattice_point(ecef_from_geodetic(at).m);
+    for (int axis = 0; axis < 3; ++axis)
+        corner.at.m[axis] =
+            static_cast<double>(point.steps[static_cast<std::size_t>(axis)]) * gpu::height_step_m;
+    return corner;
+}
+
 std::vector<SeamCorner> drawn_vertices(const PlacedMesh& mesh, const UndulationField& undulation,
                                        double exaggeration) {
     std::vector<SeamCorner> corners;
     corners.reserve(mesh.vertices.size());
-    for (const PlacedVertex& vertex : mesh.vertices) {
-        const Geodetic at = geodetic_of(vertex, undulation, exaggeration);
-        SeamCorner corner;
-        corner.h_m = at.h_m;
-        const LatticePoint point = lattice_point(ecef_from_geodetic(at).m);
-        for (int axis = 0; axis < 3; ++axis)
-            corner.at.m[axis] =
-                static_cast<double>(point.steps[static_cast<std::size_t>(axis)]) * gpu::height_step_m;
-        corners.push_back(corner);
-    }
+    for (const PlacedVertex& vertex : mesh.vertices)
+        corners.push_back(drawn_vertex(vertex, undulation, exaggeration));
     return corners;
 }
 
@@ -128,9 +133,10 @@ void add_rim_wall(const RimWall& wall, const std::vector<SeamCorner>& corners, s
 
 std::vector<glm::dvec3> drawn_places_m(const PlacedMesh& mesh, const UndulationField& undulation,
                                        double exaggeration) {
-    std::vector<glm::dvec3> places;
-    for (const SeamCorner& corner : drawn_vertices(mesh, undulation, exaggeration))
-        places.push_back(corner.at.m);
+    std::vector<glm::dvec3> places(mesh.vertices.size());
+    in_chunks(places.size(), thread_count(), [&](std::size_t i) {
+        places[i] = drawn_vertex(mesh.vertices[i], undulation, exaggeration).at.m;
+    });
     return places;
 }
 
@@ -172,6 +178,22 @@ void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double 
         piece.feature = mesh.feature_of.empty() ? 0 : mesh.feature_of[k] + 1;
         pieces.push_back(piece);
     }
+    for (const RimWall& wall : mesh.rim_walls) add_rim_wall(wall, corners, number, pieces);
+}
+
+MeshTriangles true_triangles(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration) {
+    MeshTriangles all;
+    all.vertices_m = drawn_places_m(mesh, undulation, exaggeration);
+    all.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+    all.features.reserve(mesh.feature_of.size());
+    for (const std::uint32_t feature : mesh.feature_of) all.features.push_back(feature + 1);
+    return all;
+}
+
+void add_rim_walls(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration,
+                   std::uint32_t number, std::vector<SurfaceTriangle>& pieces) {
+    if (mesh.rim_walls.empty()) return;
+    const std::vector<SeamCorner> corners = drawn_vertices(mesh, undulation, exaggeration);
     for (const RimWall& wall : mesh.rim_walls) add_rim_wall(wall, corners, number, pieces);
 }
 

@@ -27,7 +27,14 @@ void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double 
 std::vector<std::array<glm::vec3, 3>> corner_normals(const PlacedMesh& mesh,
                                                      std::span<const glm::dvec3> vertices_m);
 
-// The same triangles as sight lines meet them. Corners are those of the lattice of 2^-11 m that is drawn,
+// The same triangles as the true ground has them, without rim walls.
+MeshTriangles true_triangles(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration);
+// The walls along the rim of what the mesh cuts out of the terrain, as sight lines meet them. number: of the
+// mesh in its region, from 1.
+void add_rim_walls(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration,
+                   std::uint32_t number, std::vector<SurfaceTriangle>& pieces);
+
+// All of them as pieces. Corners are those of the lattice of 2^-11 m that is drawn,
 // within 0.43 mm of the mesh.
 // number: of the mesh in its region, from 1.
 void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration,

@@ -95,12 +95,12 @@ Result<std::unique_ptr<const RegionGround>> RegionGround::of(const Region& regio
         grids.push_back({&made->surfaces_.emplace_back(*field, exaggeration, thread_count(), masked),
                          one.rank, one.detail.has_value()});
     }
-    auto pieces = std::make_shared<std::vector<SurfaceTriangle>>();
+    auto beside = std::make_shared<GroundBeside>();
     for (std::size_t i = 0; i < cuts.grids.size(); ++i) {
         std::vector<const TrueSurface*> surfaces{grids[i].surface};
         for (const RegionGrid* const finer : finer_than(region, region.grids[i]))
             surfaces.push_back(grids[static_cast<std::size_t>(finer - region.grids.data())].surface);
-        add_steps(cuts.grids[i], surfaces, *pieces);
+        add_steps(cuts.grids[i], surfaces, beside->pieces);
     }
     for (const GapBridge& bridge : cuts.bridges) {
         SurfaceTriangle piece;
@@ -108,13 +108,17 @@ Result<std::unique_ptr<const RegionGround>> RegionGround::of(const Region& regio
             const auto& [grid, post] = bridge.posts[i];
             piece.corners[i] = true_point(*grids[grid].surface, {0, {post, post, post}, {1.0, 0.0, 0.0}});
         }
-        pieces->push_back(piece);
+        beside->pieces.push_back(piece);
     }
     if (region.meshes)
-        for (std::uint32_t i = 0; i < region.meshes->size(); ++i)
-            add_mesh((*region.meshes)[i], grids.front().surface->field().undulation, exaggeration, i + 1,
-                     *pieces);
-    made->ground_.emplace(std::move(grids), std::move(pieces));
+        for (std::uint32_t i = 0; i < region.meshes->size(); ++i) {
+            const PlacedMesh& mesh = (*region.meshes)[i];
+            const UndulationField& undulation = grids.front().surface->field().undulation;
+            beside->meshes.emplace_back(true_triangles(mesh, undulation, exaggeration), i + 1,
+                                        thread_count());
+            add_rim_walls(mesh, undulation, exaggeration, i + 1, beside->pieces);
+        }
+    made->ground_.emplace(std::move(grids), std::move(beside));
     return std::unique_ptr<const RegionGround>(std::move(made));
 }
 

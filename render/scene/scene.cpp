@@ -541,6 +541,24 @@ Result<void> Scene::load_coarsest_pages() {
     return {};
 }
 
+Result<bool> GridScene::bring_coarsest_pages() {
+    std::vector<PageIndex> missing = coarsest_pages();
+    std::erase_if(missing, [&](const PageIndex& page) { return store_.has(page); });
+    if (missing.empty()) return true;
+    loader_->request(missing);
+    ORO_TRY(const Sent sent, send_ready(false));
+    return sent.shown_left || sent.count == missing.size();
+}
+
+Result<bool> Scene::bring_coarsest_pages() {
+    bool are_here = true;
+    for (GridScene& grid : grids_) {
+        ORO_TRY(const bool all, grid.bring_coarsest_pages());
+        are_here = are_here && all;
+    }
+    return are_here;
+}
+
 bool Scene::lacks_pages() const {
     return std::ranges::any_of(grids_, &GridScene::lacks_pages);
 }

@@ -1,6 +1,7 @@
 #include "apps/window/session/turn.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "apps/window/frames.h"
 #include "apps/window/measuring.h"
@@ -184,6 +185,20 @@ Result<void> look_around(Session& session, const WindowInput& input, bool is_new
     return {};
 }
 
+// Whether the ground is there to be asked, which is made beside the window. What was left out for it is made
+// up for then.
+Result<bool> can_look_around(Session& session) {
+    Viewer& viewer = session.viewer;
+    if (!viewer.has_picture || (viewer.panels.hidden && !viewer.waits_for_writing)) return true;
+    ORO_TRY(const RegionGround* const ground, ground_so_far(viewer));
+    if (ground == nullptr) {
+        session.looks_under_pointer = true;
+        return false;
+    }
+    viewer.wants_picture = std::exchange(viewer.waits_for_writing, false) || viewer.wants_picture;
+    return true;
+}
+
 std::optional<glm::dvec2> point_under_pointer(const Viewer& viewer) {
     if (!viewer.under_pointer) return std::nullopt;
     return viewer.under_pointer->point_px;
@@ -201,7 +216,9 @@ double wait_s(const Session& session) {
     if (viewer.window.extent().width == 0) return 0.05;  // minimised
     if (session.changed || session.frames_due > 0 || viewer.gestures->is_moving()) return 0.0;
     const bool lacks_second = viewer.two.second && viewer.two.second->is_missing;
-    return viewer.is_missing || lacks_second || viewer.coming ? 0.005 : 0.05;
+    const bool lacks_meshes =
+        !are_chosen_for(viewer.meshes, viewer.view, viewer.view.camera) || lacks_second_meshes(viewer);
+    return viewer.is_missing || lacks_second || lacks_meshes || viewer.coming ? 0.005 : 0.05;
 }
 
 Result<void> show(Session& session, bool is_new) {
@@ -276,7 +293,8 @@ Result<bool> turn(Session& session) {
     if (wants_another) ORO_CHECK(say_that_it_is_outdated(session));
     // Panels know that the pointer has come to them or left them once they have been shown again.
     const bool is_asked = session.looks_under_pointer || !input.events.empty();
-    if (!is_moving(viewer) && (is_asked || session.frames_due > 0)) {
+    ORO_TRY(const bool can_look, can_look_around(session));
+    if (can_look && !is_moving(viewer) && (is_asked || session.frames_due > 0)) {
         const auto before = point_under_pointer(viewer);
         ORO_CHECK(look_around(session, input, std::exchange(session.looks_under_pointer, false)));
         if (is_asked || point_under_pointer(viewer) != before)

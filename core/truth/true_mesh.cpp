@@ -1,0 +1,190 @@
+#include "core/truth/true_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "core/base/parallel.h"
+#include "core/truth/line_meets.h"
+
+namespace oro {
+namespace {
+
+constexpr std::uint32_t most_in_leaf = 6;
+// By what rounding, and turning into the frame, may move a line from 1e9 m away.
+constexpr double rounded_m = 1.0e-6;
+
+// Of a tree over so many triangles.
+std::uint32_t nodes_over(std::uint32_t triangles) {
+    if (triangles <= most_in_leaf) return 1;
+    return 1 + nodes_over(triangles / 2) + nodes_over(triangles - triangles / 2);
+}
+
+float below(double value) {
+    const auto rounded = static_cast<float>(value);
+    return rounded <= value ? rounded : std::nextafter(rounded, -std::numeric_limits<float>::infinity());
+}
+float above(double value) {
+    return -below(-value);
+}
+
+}  // namespace
+
+TrueMesh::TrueMesh(MeshTriangles mesh, std::uint32_t number, int threads)
+    : mesh_(std::move(mesh)), number_(number) {
+    if (mesh_.triangles.empty()) return;
+    glm::dvec3 low(HUGE_VAL), high(-HUGE_VAL);
+    for (const glm::dvec3& vertex : mesh_.vertices_m)
+        low = glm::min(low, vertex), high = glm::max(high, vertex);
+    origin_m_ = 0.5 * (low + high);
+    const Geodetic middle = geodetic_from_ecef({origin_m_});
+    frame_from_ecef_ = glm::transpose(ecef_from_enu(middle.lat_deg, middle.lon_deg));
+    const auto count = static_cast<std::uint32_t>(mesh_.triangles.size());
+    std::vector<glm::vec3> middles(count);
+    order_.resize(count);
+    std::iota(order_.begin(), order_.end(), 0U);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const auto [a, b, c] = corners_m(i);
+        middles[i] = glm::vec3(frame_from_ecef_ * ((a + b + c) / 3.0 - origin_m_));
+    }
+    nodes_.resize(nodes_over(count));
+    // The upper part here, and what is below it on all threads.
+    constexpr std::uint32_t parts_wanted = 256, worth_a_thread = 4096;
+    const std::uint32_t small = std::max(count / parts_wanted, worth_a_thread);
+    std::vector<Part> parts{{0, 0, count}};
+    std::vector<std::uint32_t> joined;
+    for (std::size_t i = 0; i < parts.size();) {
+        if (parts[i].last - parts[i].first <= small) {
+            ++i;
+            continue;
+        }
+        joined.push_back(parts[i].node);
+        Part other;
+        parts[i] = halve(parts[i], middles, other);
+        parts.push_back(other);
+    }
+    in_parallel(static_cast<int>(parts.size()), threads,
+                [&](int i) { build(parts[static_cast<std::size_t>(i)], middles); });
+    std::ranges::sort(joined, std::greater<>());  // those below first
+    for (const std::uint32_t node : joined) join(node);
+}
+
+// Halves a part along the longest side of the box around its triangles' middles.
+TrueMesh::Part TrueMesh::halve(const Part& part, const std::vector<glm::vec3>& middles, Part& other) {
+    glm::vec3 least(HUGE_VALF), most(-HUGE_VALF);
+    for (std::uint32_t i = part.first; i < part.last; ++i) {
+        least = glm::min(least, middles[order_[i]]);
+        most = glm::max(most, middles[order_[i]]);
+    }
+    const glm::vec3 size = most - least;
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const std::uint32_t half = part.first + (part.last - part.first) / 2;
+    const auto at = [&](std::uint32_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(part.first), at(half), at(part.last), [&](std::uint32_t a, std::uint32_t b) {
+        const float one = middles[a][axis], two = middles[b][axis];
+        return one != two ? one < two : a < b;
+    });
+    const std::uint32_t second = part.node + 1 + nodes_over(half - part.first);
+    nodes_[part.node].first = second;
+    other = {second, half, part.last};
+    return {part.node + 1, part.first, half};
+}
+
+void TrueMesh::build(const Part& part, const std::vector<glm::vec3>& middles) {
+    if (part.last - part.first <= most_in_leaf) {
+        bound(part);
+        return;
+    }
+    Part other;
+    build(halve(part, middles, other), middles);
+    build(other, middles);
+    join(part.node);
+}
+
+void TrueMesh::bound(const Part& part) {
+    glm::dvec3 low(HUGE_VAL), high(-HUGE_VAL);
+    for (std::uint32_t i = part.first; i < part.last; ++i)
+        for (const glm::dvec3& corner : corners_m(order_[i])) {
+            const glm::dvec3 at = frame_from_ecef_ * (corner - origin_m_);
+            low = glm::min(low, at), high = glm::max(high, at);
+        }
+    Node& node = nodes_[part.node];
+    node.first = part.first, node.count = part.last - part.first;
+    for (int axis = 0; axis < 3; ++axis) {
+        node.low[static_cast<std::size_t>(axis)] = below(low[axis] - rounded_m);
+        node.high[static_cast<std::size_t>(axis)] = above(high[axis] + rounded_m);
+    }
+}
+
+void TrueMesh::join(std::uint32_t node) {
+    const Node &one = nodes_[node + 1], &other = nodes_[nodes_[node].first];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        nodes_[node].low[axis] = std::min(one.low[axis], other.low[axis]);
+        nodes_[node].high[axis] = std::max(one.high[axis], other.high[axis]);
+    }
+}
+
+std::optional<TrueMesh::Hit> TrueMesh::first_hit(const Ecef& eye, const Refraction& refraction,
+                                                 const glm::dvec3& start_m, const glm::dvec3& direction,
+                                                 double reach_m) const {
+    if (nodes_.empty()) return std::nullopt;
+    const glm::dvec3 eye_m = frame_from_ecef_ * (eye.m - origin_m_);
+    const glm::dvec3 start = eye_m + frame_from_ecef_ * start_m,
+                     inverse = finite_inverse(frame_from_ecef_ * direction),
+                     up = frame_from_ecef_ * refraction.up();
+    const double curvature_per_m = refraction.curvature_per_m();
+    std::optional<Hit> nearest;
+    double most_m = reach_m;
+    // Where light bends a box is seen higher up. Points of it are lifted by c a^2 / 2, and where their
+    // distances across the vertical, a, differ by at most r, that differs by at most c r (a + r / 2).
+    const auto begin_of = [&](std::uint32_t number) {
+        const Node& node = nodes_[number];
+        glm::dvec3 low(node.low[0], node.low[1], node.low[2]), high(node.high[0], node.high[1], node.high[2]);
+        if (curvature_per_m != 0.0) {
+            const glm::dvec3 from_eye = 0.5 * (low + high) - eye_m;
+            const double radius_m = 0.5 * glm::length(high - low),
+                         across_m = glm::length(from_eye - glm::dot(from_eye, up) * up);
+            const glm::dvec3 lift = 0.5 * curvature_per_m * across_m * across_m * up;
+            const double wider_m =
+                rounded_m + std::abs(curvature_per_m) * radius_m * (across_m + 0.5 * radius_m);
+            low += lift - wider_m, high += lift + wider_m;
+        }
+        return box_begin_m(start, inverse, low, high, most_m);
+    };
+    struct Waiting {
+        std::uint32_t node;
+        double begin_m;
+    };
+    std::array<Waiting, 64> waiting{};  // 2^32 triangles are 32 levels
+    std::size_t count = 0;
+    Waiting next{0, begin_of(0)};
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    for (;;) {
+        const Node& node = nodes_[next.node];
+        if (next.begin_m <= most_m && node.count == 0) {
+            Waiting near{next.node + 1, begin_of(next.node + 1)}, far{node.first, begin_of(node.first)};
+            if (far.begin_m < near.begin_m) std::swap(near, far);
+            if (far.begin_m < infinite) waiting[count++] = far;
+            next = near;
+            if (near.begin_m < infinite) continue;
+        } else if (next.begin_m <= most_m) {
+            for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+                std::array<glm::dvec3, 3> seen = corners_m(order_[i]);
+                for (glm::dvec3& corner : seen) corner = refraction.apparent_m(corner - eye.m);
+                const auto at_m = triangle_along_m(seen, start_m, direction);
+                if (!at_m || *at_m < 0.0 || *at_m >= most_m) continue;
+                most_m = *at_m;
+                nearest = Hit{most_m, order_[i]};
+            }
+        }
+        if (count == 0) return nearest;
+        next = waiting[--count];
+    }
+}
+
+}  // namespace oro
