@@ -7,6 +7,7 @@
 #include "apps/report/figures.h"
 #include "core/base/elapsed.h"
 #include "core/base/parallel.h"
+#include "geo/together/graph_memory.h"
 
 namespace oro {
 
@@ -30,6 +31,8 @@ Result<bool> draws_terrain_clusters(const Region& region, View& view) {
 Result<std::shared_ptr<const MeshDetail>> mesh_detail_of(const Region& region, const View& view) {
     ORO_TRY(const bool draws, draws_mesh_clusters(region, view));
     if (!draws) return std::shared_ptr<const MeshDetail>();
+    for (const PlacedMesh& mesh : *region.meshes)
+        if (!mesh.stored) ORO_CHECK(check_graph_memory(mesh.path, mesh.triangles.size()));
     return std::make_shared<const MeshDetail>(MeshDetail::of(region, view.exaggeration, thread_count()));
 }
 

@@ -28,7 +28,8 @@ Result<bool> draws_mesh_clusters(const Region& region, const View& view);
 // "clusters", where draws_mesh_clusters(). Errors: as both.
 Result<bool> draws_terrain_clusters(const Region& region, View& view);
 
-// The graphs of the region's meshes; null where draws_mesh_clusters() says no. Errors: as it.
+// The graphs of the region's meshes; null where draws_mesh_clusters() says no. Errors: as it, and
+// check_graph_memory() of meshes that are not baked.
 Result<std::shared_ptr<const MeshDetail>> mesh_detail_of(const Region& region, const View& view);
 // What a view asks of its meshes, beside its camera.
 struct MeshAsked {

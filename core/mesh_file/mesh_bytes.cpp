@@ -45,7 +45,7 @@ std::string implausible(const MeshNumbers& numbers) {
         for (const std::int64_t step : at)
             if (step < -2 * most_steps || step > most_steps) return "lies outside of the Earth";
     if (numbers.triangles == 0 || numbers.triangles > most_stored_triangles)
-        return "has " + std::to_string(numbers.triangles) + " triangles, expected 1 to 2,000,000";
+        return "has " + std::to_string(numbers.triangles) + " triangles, expected 1 to 5,000,000";
     if (numbers.vertices < 3 || numbers.vertices > 3 * numbers.triangles)
         return "has " + std::to_string(numbers.vertices) + " vertices, which its triangles do not have";
     if (numbers.levels == 0 || numbers.levels > most_levels)

@@ -15,7 +15,7 @@
 namespace oro {
 
 // No mesh that is written has more, so none that is read asks for more memory.
-inline constexpr std::uint32_t most_stored_triangles = 2000000;
+inline constexpr std::uint32_t most_stored_triangles = 5000000;
 // Of all levels together.
 inline constexpr std::uint32_t most_graph_triangles = 1U << 25U;
 

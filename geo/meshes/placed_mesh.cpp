@@ -216,12 +216,12 @@ class MeshPlacing {
                     longest_m =
                         std::max(longest_m, glm::distance(ecef_[triangle[i]], ecef_[triangle[(i + 1) % 3]]));
         if (longest_m <= longest_side_m)
-            return {ErrorKind::failed, source_.path, "has more than 2,000,000 triangles, which is the limit"};
+            return {ErrorKind::failed, source_.path, "has more than 5,000,000 triangles, which is the limit"};
         char text[400];
         std::snprintf(
             text, sizeof text,
             "has %zu triangle%s with sides of up to %.0f m. Sides are cut to 200 m, to be straight on the "
-            "map and in space, and that makes more than 2,000,000 triangles, which is the limit: give a "
+            "map and in space, and that makes more than 5,000,000 triangles, which is the limit: give a "
             "part of the mesh, or is its unit wrong (--mesh-unit)?",
             source_.triangles.size(), source_.triangles.size() == 1 ? "" : "s", longest_m);
         return {ErrorKind::failed, source_.path, text};

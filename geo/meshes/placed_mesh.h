@@ -82,7 +82,7 @@ std::string note_of_mesh(const PlacedMesh& mesh);
 // one that is straight in space.
 inline constexpr double longest_side_m = 200.0;
 // Triangles that may be drawn together, after cutting.
-inline constexpr std::size_t most_placed_triangles = 2000000;
+inline constexpr std::size_t most_placed_triangles = 5000000;
 
 // Reads and places the meshes that a request names. undulation: N of the region; empty: N is 0. A vertex's
 // place is that of PROJ to within 1 um, its height to within 0.3 mm up to 4 km (heights of another datum are

@@ -12,43 +12,22 @@
 #include <utility>
 #include <vector>
 
+#include "geo/meshes/implicit_tiles.h"
 #include "geo/meshes/mesh_file.h"
 #include "geo/meshes/mesh_readers.h"
 #include "geo/meshes/mesh_words.h"
 #include "geo/meshes/path_beside.h"
+#include "geo/meshes/tile_json.h"
 #include "geo/vectors/json_text.h"
 
 namespace oro {
 namespace {
 
-Error tileset_fault(const std::string& why) {
-    return {ErrorKind::failed, "", why};
-}
-
-// The members of an object, found once: to look for each would go through all tiles below each time.
-class TileMembers {
-  public:
-    explicit TileMembers(const JsonValue& object) : members_(object.members()) {}
-    [[nodiscard]] std::optional<JsonValue> find(std::string_view name) const {
-        for (const auto& [its_name, value] : members_)
-            if (its_name == name) return value;
-        return std::nullopt;
-    }
-    [[nodiscard]] std::vector<JsonValue> list(std::string_view name) const {
-        std::vector<JsonValue> list;
-        if (const auto array = find(name))
-            array->each([&](const JsonValue& one) { return list.push_back(one), true; });
-        return list;
-    }
-
-  private:
-    std::vector<std::pair<std::string, JsonValue>> members_;
-};
-
 // Those that change nothing of what is read.
 bool is_known_tile_extension(const std::string& name) {
-    constexpr std::array<std::string_view, 4> known{"3DTILES_content_gltf", "3DTILES_bounding_volume_S2",
-                                                    "3DTILES_metadata", "3DTILES_batch_table_hierarchy"};
+    constexpr std::array<std::string_view, 5> known{"3DTILES_content_gltf", "3DTILES_bounding_volume_S2",
+                                                    "3DTILES_metadata", "3DTILES_batch_table_hierarchy",
+                                                    "3DTILES_implicit_tiling"};
     return std::ranges::find(known, name) != known.end();
 }
 
@@ -190,17 +169,20 @@ class TilesetReader {
         const auto has = [&](std::string_view name) {
             return extensions && TileMembers(*extensions).find(name).has_value();
         };
-        const bool is_implicit = tile.find("implicitTiling") || has("3DTILES_implicit_tiling");
-        if (is_implicit) return fault_at(where, "has implicit tiles (implicitTiling), which are not read");
         if (has("3DTILES_multiple_contents"))
             return fault_at(where, "needs the extension 3DTILES_multiple_contents, which is not read");
         return {};
     }
 
-    Result<void> read_tile(const JsonValue& tile, const Where& where, const glm::dmat4& above,
-                           bool replaced) {
+    Result<void> count_tile() {
         constexpr std::size_t most_tiles = 1'000'000;
         if (++tiles_ > most_tiles) return tileset_fault("has more than 1,000,000 tiles");
+        return {};
+    }
+
+    Result<void> read_tile(const JsonValue& tile, const Where& where, const glm::dmat4& above,
+                           bool replaced) {
+        ORO_CHECK(count_tile());
         if (!tile.is(JsonValue::Kind::object)) return fault_at(where, "is no JSON object");
         const TileMembers members(tile);
         ORO_CHECK(check_extensions(members, where));
@@ -208,25 +190,71 @@ class TilesetReader {
         const glm::dmat4 transform = above * own;
         ORO_TRY(const bool replaced_below, is_replaced(members, where, replaced));
         const std::vector<JsonValue> children = members.list("children");
-        if (children.empty() || !replaced_below) {
-            std::vector<JsonValue> contents = members.list("contents");
-            if (const auto one = members.find("content"); one && !one->is(JsonValue::Kind::null))
-                contents.push_back(*one);
-            for (const JsonValue& content : contents) ORO_CHECK(read_content(content, where, transform));
-        }
+        ORO_TRY(const std::vector<std::string> contents, uris_of(members, where));
+        ORO_TRY(const bool is_implicit,
+                read_implicit_tiles(members, contents, where, transform, replaced_below));
+        if (is_implicit) return {};
+        if (children.empty() || !replaced_below)
+            for (const std::string& uri : contents) ORO_CHECK(read_content(uri, where, transform));
         for (std::size_t i = 0; i < children.size(); ++i)
             ORO_CHECK(read_tile(children[i], where.child(i), transform, replaced_below));
         return {};
     }
 
-    Result<void> read_content(const JsonValue& content, const Where& where, const glm::dmat4& transform) {
-        const TileMembers members(content);
-        auto uri = members.find("uri");
-        if (!uri) uri = members.find("url");  // before 1.0
-        if (!uri) return fault_at(where, "has a content without a uri");
-        const std::optional<std::string> path = path_beside(where.folder, uri->text());
+    // Of a tile's contents.
+    [[nodiscard]] static Result<std::vector<std::string>> uris_of(const TileMembers& tile,
+                                                                  const Where& where) {
+        std::vector<JsonValue> contents = tile.list("contents");
+        if (const auto one = tile.find("content"); one && !one->is(JsonValue::Kind::null))
+            contents.push_back(*one);
+        std::vector<std::string> uris;
+        for (const JsonValue& content : contents) {
+            const TileMembers members(content);
+            auto uri = members.find("uri");
+            if (!uri) uri = members.find("url");  // before 1.0
+            if (!uri) return fault_at(where, "has a content without a uri");
+            uris.push_back(uri->text());
+        }
+        return uris;
+    }
+
+    // False where the tile has none.
+    Result<bool> read_implicit_tiles(const TileMembers& tile, const std::vector<std::string>& contents,
+                                     const Where& where, const glm::dmat4& transform, bool replaced) {
+        Result<std::optional<ImplicitTiling>> tiling = implicit_tiling_of(tile, contents);
+        if (!tiling.ok()) return fault_at(where, tiling.error().what);
+        if (!*tiling) return false;
+        ImplicitWalk walk;
+        walk.subtree = [&](const std::string& uri) { return file_at(where.folder, uri); };
+        walk.buffer = [&](const std::string& subtree, const std::string& uri) -> Result<std::string> {
+            const std::string path = path_beside(where.folder, subtree).value_or("");
+            Result<std::string> bytes = file_at(std::string(folder_of_path(path)), uri);
+            if (!bytes.ok())
+                return tileset_fault("has a buffer in " + shown_word(uri) + ", which " + bytes.error().what);
+            return bytes;
+        };
+        walk.content = [&](const ImplicitTile& one, const std::string& uri) {
+            return read_content(uri, {where.folder, one.name((*tiling)->is_octree)}, transform);
+        };
+        walk.count = [&] { return count_tile(); };
+        ORO_CHECK(walk_implicit_tiles(**tiling, replaced, walk));
+        return true;
+    }
+
+    // The bytes of a file that one in `folder` names.
+    Result<std::string> file_at(const std::string& folder, const std::string& uri) {
+        const std::optional<std::string> path = path_beside(folder, uri);
+        if (!path) return tileset_fault("is not below the tileset's folder: only files there are read");
+        ORO_TRY(std::string bytes, beside_(*path));
+        if ((bytes_ += bytes.size()) > most_mesh_bytes)
+            return tileset_fault("has tiles of more than 1 GiB; a mesh may have so much");
+        return bytes;
+    }
+
+    Result<void> read_content(const std::string& uri, const Where& where, const glm::dmat4& transform) {
+        const std::optional<std::string> path = path_beside(where.folder, uri);
         if (!path)
-            return fault_at(where, "has its content at " + shown_word(uri->text()) +
+            return fault_at(where, "has its content at " + shown_word(uri) +
                                        ": only files below the tileset's folder are read");
         Result<std::string> bytes = beside_(*path);
         if (!bytes.ok())

@@ -13,6 +13,7 @@
 #include "core/terrain/page_on_net.h"
 #include "geo/files/whole_file.h"
 #include "geo/meshes/mesh_facts.h"
+#include "geo/together/graph_memory.h"
 #include "geo/together/mesh_detail.h"
 
 namespace oro {
@@ -108,6 +109,7 @@ std::string path_of_mesh(const std::string& path, std::size_t number) {
 Result<BakedMeshReport> write_baked_mesh(const std::string& path, const PlacedMesh& mesh,
                                          const UndulationField& undulation, int threads,
                                          const Region* ground) {
+    ORO_CHECK(check_graph_memory(mesh.path, mesh.triangles.size()));
     BakedMeshReport report;
     const auto start = Clock::now();
     const MeshDetail::Graph built = MeshDetail::graph_of(mesh, undulation, 1.0, threads, ground);

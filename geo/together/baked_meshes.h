@@ -29,7 +29,8 @@ struct BakedMeshReport {
 // Builds the graph of a mesh, as it is drawn at no exaggeration, and writes both as a container of their own.
 // undulation: N of the region; empty: 0. ground: the region, where small parts may be dropped onto its
 // ground; null: they may not. The same mesh gives the same bytes by any number of threads. Errors: those of
-// writing; a mesh that no file holds (mesh_to_bytes()).
+// writing; a mesh that no file holds (mesh_to_bytes()), or whose graph needs more memory than there is
+// (check_graph_memory()).
 Result<BakedMeshReport> write_baked_mesh(const std::string& path, const PlacedMesh& mesh,
                                          const UndulationField& undulation, int threads,
                                          const Region* ground = nullptr);

@@ -105,18 +105,18 @@ TEST(PlacedMesh, LongSidesAreCutAlike) {
     EXPECT_EQ(mesh.in_file, 2U);
 }
 
-// A thousand triangles of 5 km were refused for "more than 2,000,000 triangles with sides of 200 m and less".
-// Of a square of 200 km no fewer than 2.3 million are left: 4e10 m2 / 17,320 m2. Its diagonal has 282.8 km.
+// A thousand triangles of 5 km were refused for "more than 5,000,000 triangles with sides of 200 m and less".
+// Of a square of 300 km no fewer than 5.2 million are left: 9e10 m2 / 17,320 m2. Its diagonal has 424.3 km.
 TEST(PlacedMesh, TooManyPiecesAreToldWithTheirReason) {
     const auto meshes = placed_from("large.obj",
-                                    "v 2500000 1080000 500\nv 2700000 1080000 500\nv 2700000 1280000 500\n"
-                                    "v 2500000 1280000 500\nf 1 2 3\nf 1 3 4\n",
-                                    "EPSG:2056");
+                                    "v 350000 5000000 500\nv 650000 5000000 500\nv 650000 5300000 500\n"
+                                    "v 350000 5300000 500\nf 1 2 3\nf 1 3 4\n",
+                                    "EPSG:25832");
     ASSERT_FALSE(meshes.ok());
-    EXPECT_TRUE(meshes.error().what.starts_with("has 2 triangles with sides of up to 282"))
+    EXPECT_TRUE(meshes.error().what.starts_with("has 2 triangles with sides of up to 424"))
         << meshes.error().what;
     for (const char* const words :
-         {"Sides are cut to 200 m", "more than 2,000,000 triangles, which is the limit", "--mesh-unit"})
+         {"Sides are cut to 200 m", "more than 5,000,000 triangles, which is the limit", "--mesh-unit"})
         EXPECT_NE(meshes.error().what.find(words), std::string::npos) << meshes.error().what;
     // Between its corners, which have places, a triangle may leave what a CRS is made for.
     const auto beyond = placed_from(
