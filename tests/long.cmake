@@ -48,6 +48,11 @@ set_tests_properties(
   Batch.WhatIsDoneIsNotDoneAgain
   BrokenOffBake.InterruptedAgainAndAgain
   BrokenOffBake.KilledAtAnyMoment
+  CameraCutsLong.NoLineGetsThroughABall
+  CameraCutsLong.OfASurveyCoverEachPlaceOnce
+  CameraCutsLong.OfDelftCoverEachPlaceOnce
+  CameraCutsLong.OfHousesOnTheGroundCoverEachPlaceOnce
+  CameraCutsLong.OfZurichCoverEachPlaceOnce
   CanopyCommand.AnEyeUnderTreesSeesNothing
   CanopyCommand.PanoramasNameWhatIsSeenOverIt
   CanopyCommand.PicturesHaveItAndTellOfIt

@@ -199,7 +199,7 @@ Result<void> run_mesh_info(const InfoOptions& options) {
     for (const std::string& path : options.region.paths) {
         ORO_TRY(const SourceMesh mesh, read_mesh(path, options.region.mesh_lod));
         ORO_TRY(const std::optional<PlacedMesh> placed, placed_alone(mesh, options.region));
-        const MeshCensus census = census_of(mesh);
+        const MeshCensus census = census_of(mesh, options.region.mesh_crs);
         std::optional<MeshGraph> graph;
         if (options.check) {
             ORO_TRY(graph, graph_of_source(mesh, thread_count()));

@@ -106,8 +106,9 @@ void count_edges(const std::vector<SourceTriangle>& triangles, MeshCensus& censu
 }
 
 // Metres of a step along each axis; of degrees near the first vertex.
-glm::dvec3 metres_of(const SourceMesh& mesh) {
-    if (mesh.crs.empty() || crs_unit_m(mesh.crs)) return glm::dvec3(mesh.metres_per_unit);
+glm::dvec3 metres_of(const SourceMesh& mesh, const std::string& asked_crs) {
+    const std::string& crs = asked_crs.empty() ? mesh.crs : asked_crs;
+    if (crs.empty() || crs == ecef_crs || crs_unit_m(crs)) return glm::dvec3(mesh.metres_per_unit);
     constexpr double m_per_deg = 111320.0;
     const double lat_deg = mesh.triangles.empty() ? 0.0 : mesh.vertices[mesh.triangles.front()[0]].y;
     return {m_per_deg * std::cos(lat_deg * std::numbers::pi / 180.0), m_per_deg, mesh.metres_per_unit};
@@ -115,11 +116,11 @@ glm::dvec3 metres_of(const SourceMesh& mesh) {
 
 }  // namespace
 
-MeshCensus census_of(const SourceMesh& mesh) {
+MeshCensus census_of(const SourceMesh& mesh, const std::string& crs) {
     MeshCensus census;
     census.triangles = mesh.triangles.size();
     std::vector<glm::dvec3> lattice(mesh.vertices.size());
-    const glm::dvec3 metres = metres_of(mesh);
+    const glm::dvec3 metres = metres_of(mesh, crs);
     std::ranges::transform(mesh.vertices, lattice.begin(), [&](const glm::dvec3& at) {
         return glm::round(at * (metres * lattice_steps_per_m));
     });

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <glm/vec3.hpp>
+#include <string>
 
 #include "geo/meshes/source_mesh.h"
 
@@ -23,7 +24,8 @@ struct MeshCensus {
     glm::dvec3 least{}, most{};   // extent of the triangles' vertices, in the file's units
 };
 
-// Counts; the mesh has a triangle, and its vertices are finite. It takes some 70 bytes a triangle.
-MeshCensus census_of(const SourceMesh& mesh);
+// Counts; the mesh has a triangle, and its vertices are finite. It takes some 70 bytes a triangle. crs: that its
+// numbers are in; "": as its file states.
+MeshCensus census_of(const SourceMesh& mesh, const std::string& crs = "");
 
 }  // namespace oro

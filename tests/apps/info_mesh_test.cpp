@@ -61,6 +61,18 @@ TEST_F(InfoOfMeshes, TakesTheUnitToo) {
     EXPECT_NEAR(said["meshes"][0]["placed"]["highest_m"].get<double>(), 609.6, 1.0e-9);
 }
 
+// A triangle of 1 m in degrees was counted as one without an area, as a lattice of 54 m has it.
+TEST_F(InfoOfMeshes, CountsInMetresOfTheDegreesThatAreAsked) {
+    oro::test::write_bytes(ply_,
+                           "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+                           "property double z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                           "end_header\n7.5 46.5 500\n7.50001 46.5 500\n7.5 46.50001 500\n3 0 1 2\n");
+    const auto said = oro::test::object_said_by({"info", ply_, "--mesh-crs", "EPSG:4326", "--json"});
+    EXPECT_EQ(said["meshes"][0]["degenerate"], 0);
+    EXPECT_EQ(said["meshes"][0]["vertices"], 3);
+    EXPECT_EQ(said["meshes"][0]["rim_edges"], 3);
+}
+
 TEST_F(InfoOfMeshes, WithoutTheOptionNothingIsPlacedAndOthersAreRefused) {
     const auto said = oro::test::object_said_by({"info", ply_, "--json"});
     EXPECT_FALSE(said["meshes"][0].contains("placed"));

@@ -20,41 +20,12 @@
 #include "geo/together/mesh_detail.h"
 #include "geo/together/mesh_ground.h"
 #include "geo/together/mesh_surface.h"
+#include "tests/geo/together/made_houses.h"
 #include "tests/support/rough_terrain.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
 namespace {
-
-constexpr int house_rows = 12, most_storeys = 5;
-
-// Houses of 10 x 8 m and 3 to 15 m, 60 m apart, half a metre in the ground: their walls and roofs.
-PlacedMesh houses_on(const TrueSurface& surface) {
-    PlacedMesh mesh;
-    mesh.path = "houses.gpkg";
-    constexpr double per_lat = 1.0 / 111200.0, per_lon = 1.0 / 76000.0;
-    for (int row = 0; row < house_rows; ++row)
-        for (int column = 0; column < house_rows; ++column) {
-            const double south = 46.965 + 60.0 * row * per_lat, west = 8.03 + 60.0 * column * per_lon;
-            const std::array<std::array<double, 2>, 4> ring{{{south, west},
-                                                             {south, west + 10.0 * per_lon},
-                                                             {south + 8.0 * per_lat, west + 10.0 * per_lon},
-                                                             {south + 8.0 * per_lat, west}}};
-            double lowest_m = 1.0e9;
-            for (const auto& [lat, lon] : ring) lowest_m = std::min(lowest_m, surface.h_m(lat, lon).value());
-            const double top_m = lowest_m + 3.0 * (1 + (row * 7 + column * 3) % most_storeys);
-            const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-            for (const double h_m : {lowest_m - 0.5, top_m})
-                for (const auto& [lat, lon] : ring) mesh.vertices.push_back({lat, lon, h_m});
-            for (std::uint32_t i = 0; i < 4; ++i) {
-                const std::uint32_t a = first + i, b = first + (i + 1) % 4;
-                mesh.triangles.push_back({a, b, b + 4}), mesh.triangles.push_back({a, b + 4, a + 4});
-            }
-            mesh.triangles.push_back({first + 4, first + 5, first + 6});
-            mesh.triangles.push_back({first + 4, first + 6, first + 7});
-        }
-    return mesh;
-}
 
 // Places on the triangles that are drawn, at most a metre apart.
 std::vector<glm::dvec3> places_on(const PlacedMesh& mesh) {
@@ -75,7 +46,8 @@ class MeshDrops : public ::testing::Test {
         region_.grids.resize(1);
         region_.grids[0].field = test::rough_field(47.0, 8.0, 90, 90);
         surface_.emplace(region_.grids[0].field, 1.0, 1);
-        region_.meshes = std::make_shared<const std::vector<PlacedMesh>>(std::vector{houses_on(*surface_)});
+        region_.meshes =
+            std::make_shared<const std::vector<PlacedMesh>>(std::vector{test::houses_on(*surface_)});
     }
     [[nodiscard]] MeshCut cut_from(const MeshDetail& detail, double distance_m) const {
         Camera camera;
