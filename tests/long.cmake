@@ -227,6 +227,7 @@ set_tests_properties(
   MeshBake.HasPanoramasByClusters
   MeshBake.IsDrawnAsTheFilesAre
   MeshBake.IsFilmedByClusters
+  MeshBakeBrokenOff.TakesMeshesThatAreDone
   MeshCheckByGrammar.ChangedMeshesAreRefusedOrTrue
   MeshClusters.AreDrawnAgainFromAPicture
   MeshColoursSeen.AreMixedAsLight

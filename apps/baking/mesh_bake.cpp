@@ -24,19 +24,26 @@ Result<MeshBake> bake_meshes(const Region& region, const std::string& out) {
         const std::string path = path_of_mesh(out, number);
         ORO_CHECK(check_path_of_part(path));
         bake.parts.push_back({path, static_cast<std::uint32_t>(number)});
-        ORO_TRY(const BakedMeshReport report,
-                write_baked_mesh(path, mesh, region.grids.front().field.undulation, thread_count(), &region));
-        bake.reports.push_back(report);
+        const UndulationField& undulation = region.grids.front().field.undulation;
+        std::optional<BakedMeshReport> report = mesh_baked_before(path, mesh, undulation, &region);
+        if (!report) {
+            ORO_TRY(report, write_baked_mesh(path, mesh, undulation, thread_count(), &region));
+        }
+        bake.reports.push_back(*report);
     }
     return bake;
 }
 
 std::string words_of(const std::string& name, const BakedMeshReport& report) {
-    char text[160];
-    std::snprintf(text, sizeof text, ", %.2f bytes a triangle, graph built in %.1f s",
-                  static_cast<double>(report.bytes) / static_cast<double>(report.triangles), report.build_s);
+    char text[160], built[60];
+    if (report.was_there)
+        std::snprintf(built, sizeof built, "of a bake that was broken off");
+    else
+        std::snprintf(built, sizeof built, "built in %.1f s", report.build_s);
+    std::snprintf(text, sizeof text, ", %.2f bytes a triangle, graph ",
+                  static_cast<double>(report.bytes) / static_cast<double>(report.triangles));
     return "with " + name + ": " + counted(report.triangles, "triangle", "triangles") + ", " +
-           counted(report.levels, "level", "levels") + " above them" + text;
+           counted(report.levels, "level", "levels") + " above them" + text + built;
 }
 
 }  // namespace oro

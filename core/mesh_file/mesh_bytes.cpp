@@ -71,7 +71,8 @@ class MeshBytesCode {
           source_(source),
           mesh_(mesh),
           leaf_(numbers.least, numbers.vertices, numbers.labels),
-          maps_(numbers.vertices) {}
+          maps_(numbers.vertices),
+          counted_by_(numbers.vertices) {}
 
     // "" where all is well.
     std::string code() {
@@ -127,6 +128,7 @@ class MeshBytesCode {
     StoredMesh& mesh_;
     LeafCode leaf_;
     GroupMaps maps_;
+    std::vector<std::uint32_t> counted_by_;  // by vertex: the last cluster that it was counted for; 0: none
     std::vector<glm::dvec3> vertices_m_;
     // An encoder's, by triangles of the mesh: which it was given, and which of its corners comes first.
     std::vector<std::uint32_t> given_original_;
@@ -139,14 +141,16 @@ class MeshBytesCode {
 
 template <class Coder>
 std::string MeshBytesCode<Coder>::too_full(const Cluster& cluster) {
-    std::vector<std::uint32_t> corners;
+    const auto number = static_cast<std::uint32_t>(graph().clusters.size());  // of the next one
+    std::uint32_t vertices = 0;
     for (const VertexTriangle& triangle : graph().triangles_of(cluster))
-        corners.insert(corners.end(), triangle.begin(), triangle.end());
-    std::sort(corners.begin(), corners.end());
-    const auto vertices = std::unique(corners.begin(), corners.end()) - corners.begin();
-    graph().clusters.back().vertices = static_cast<std::uint32_t>(vertices);
+        for (const std::uint32_t corner : triangle) {
+            vertices += counted_by_[corner] == number ? 0U : 1U;
+            counted_by_[corner] = number;
+        }
+    graph().clusters.back().vertices = vertices;
     if (cluster.triangles >= 1 && cluster.triangles <= most_cluster_triangles &&
-        vertices <= static_cast<std::ptrdiff_t>(most_cluster_vertices))
+        vertices <= most_cluster_vertices)
         return "";
     return "has a cluster of " + std::to_string(cluster.triangles) + " triangles and " +
            std::to_string(vertices) + " vertices";

@@ -1,5 +1,7 @@
 #include "geo/together/baked_meshes.h"
 
+#include <algorithm>
+#include <array>
 #include <map>
 #include <memory>
 #include <utility>
@@ -14,13 +16,17 @@
 #include "geo/files/whole_file.h"
 #include "geo/meshes/mesh_facts.h"
 #include "geo/together/graph_memory.h"
+#include "geo/together/lattice_mesh.h"
 #include "geo/together/mesh_detail.h"
+#include "geo/together/mesh_ground.h"
+#include "geo/together/mesh_surface.h"
 
 namespace oro {
 namespace {
 
 // Of features with their attributes, before they are pressed.
 constexpr std::size_t most_fact_bytes = std::size_t{1} << 30U;
+constexpr std::uint64_t most_triangle_bytes = std::uint64_t{64} * most_stored_triangles;
 
 Result<void> write_container(const std::string& path, std::span<const std::byte> facts,
                              std::span<const std::byte> triangles) {
@@ -59,13 +65,11 @@ void add_triangles(std::shared_ptr<const StoredMesh> stored, const UndulationFie
 }
 
 // Colours of the vertices of a mesh as its bytes number them. Vertices at one place have that of the first.
-std::vector<VertexColour> stored_colours(const PlacedMesh& mesh, const MeshDetail::Graph& graph,
-                                         std::span<const LatticeSteps> places,
-                                         std::span<const std::byte> bytes) {
-    StoredMesh stored;
-    if (mesh.colours.empty() || mesh_from_bytes(bytes, stored)) return {};
+// vertex_of: of the mesh, for each of those places.
+std::vector<VertexColour> stored_colours(const PlacedMesh& mesh, std::span<const std::uint32_t> vertex_of,
+                                         std::span<const LatticeSteps> places, const StoredMesh& stored) {
     std::map<LatticeSteps, std::uint32_t> vertex_at;
-    for (std::size_t i = 0; i < places.size(); ++i) vertex_at.emplace(places[i], graph.vertex_of[i]);
+    for (std::size_t i = 0; i < places.size(); ++i) vertex_at.emplace(places[i], vertex_of[i]);
     std::vector<VertexColour> colours(stored.places.size());
     for (std::size_t i = 0; i < colours.size(); ++i) {
         const auto found = vertex_at.find(stored.places[i]);
@@ -73,6 +77,55 @@ std::vector<VertexColour> stored_colours(const PlacedMesh& mesh, const MeshDetai
             colours[i] = mesh.colours[found->second];
     }
     return colours;
+}
+
+// Triangles in any order, each from any of its corners on, with their features: what tells them from others.
+struct TriangleSum {
+    std::uint64_t count{}, one{}, other{};
+    void add(std::array<LatticeSteps, 3> corners, std::uint32_t label) {
+        std::ranges::rotate(corners, std::ranges::min_element(corners));
+        const std::uint64_t labelled = xxh64(std::as_bytes(std::span(&label, 1)));
+        ++count;
+        one += xxh64(std::as_bytes(std::span(corners)), labelled);
+        other += xxh64(std::as_bytes(std::span(corners)), ~labelled);
+    }
+    bool operator==(const TriangleSum&) const = default;
+};
+
+// A mesh as its graph is built over it.
+struct MeshOnLattice {
+    LatticeMesh lattice;
+    std::vector<LatticeSteps> places;  // of its vertices
+    MeshOnLattice(const PlacedMesh& mesh, const UndulationField& undulation) {
+        const std::vector<glm::dvec3> places_m = drawn_places_m(mesh, undulation, 1.0);
+        lattice = lattice_mesh(places_m, mesh.triangles);
+        for (const std::uint32_t vertex : lattice.vertex_of)
+            places.push_back(lattice_point(places_m[vertex]).steps);
+    }
+    [[nodiscard]] TriangleSum sum(const PlacedMesh& mesh) const {
+        TriangleSum sum;
+        for (std::size_t i = 0; i < lattice.triangles.size(); ++i) {
+            const auto& [a, b, c] = lattice.triangles[i];
+            sum.add({places[a], places[b], places[c]},
+                    mesh.features.empty() ? 0 : mesh.feature_of[lattice.triangle_of[i]]);
+        }
+        return sum;
+    }
+};
+
+TriangleSum sum_of(const StoredMesh& stored) {
+    TriangleSum sum;
+    const ClusterGraph& graph = stored.graph.clusters;
+    std::size_t number = 0;
+    for (const Cluster& cluster : graph.clusters) {
+        if (cluster.made_by != no_group) break;
+        for (const VertexTriangle& triangle : graph.triangles_of(cluster)) {
+            sum.add({stored.places[triangle[0]], stored.places[triangle[1]], stored.places[triangle[2]]},
+                    stored.labels.empty() ? 0 : stored.labels[number]);
+            ++number;
+        }
+    }
+    return sum;
 }
 
 Result<PlacedMesh> read_mesh_of(const Container& container, const Chunk& facts_chunk,
@@ -83,8 +136,7 @@ Result<PlacedMesh> read_mesh_of(const Container& container, const Chunk& facts_c
     const auto facts = decompressed(packed, most_fact_bytes);
     std::optional<PlacedMesh> mesh = facts ? facts_from_bytes(*facts) : std::nullopt;
     if (!mesh) return file.damaged(facts_chunk.offset, "facts of a mesh that are none");
-    constexpr std::uint64_t most_bytes = std::uint64_t{64} * most_stored_triangles;
-    ORO_TRY(const std::vector<std::byte> bytes, container.read(triangles_chunk, most_bytes));
+    ORO_TRY(const std::vector<std::byte> bytes, container.read(triangles_chunk, most_triangle_bytes));
     auto stored = std::make_shared<StoredMesh>();
     if (const auto wrong = mesh_from_bytes(bytes, *stored))
         return file.damaged(triangles_chunk.offset, "the mesh " + *wrong);
@@ -124,13 +176,48 @@ Result<BakedMeshReport> write_baked_mesh(const std::string& path, const PlacedMe
         mesh_to_bytes({lattice_point(built.origin_m).steps, places, labels,
                        static_cast<std::uint32_t>(mesh.features.size()), graph, built.ground_fingerprint});
     if (!bytes) return Error{bytes.error().kind, mesh.path, bytes.error().what};
-    const std::vector<std::byte> facts =
-        compressed(facts_to_bytes(mesh, stored_colours(mesh, built, places, *bytes)));
+    std::vector<VertexColour> colours;
+    if (StoredMesh stored; !mesh.colours.empty() && !mesh_from_bytes(*bytes, stored))
+        colours = stored_colours(mesh, built.vertex_of, places, stored);
+    const std::vector<std::byte> facts = compressed(facts_to_bytes(mesh, std::move(colours)));
     ORO_CHECK(write_container(path, facts, *bytes));
     report.triangles = built.triangle_of.size();
     report.graph_triangles = graph.clusters.triangles.size();
     report.levels = graph.clusters.levels.size();
     report.bytes = bytes->size(), report.fact_bytes = facts.size();
+    return report;
+}
+
+std::optional<BakedMeshReport> mesh_baked_before(const std::string& path, const PlacedMesh& mesh,
+                                                 const UndulationField& undulation, const Region* ground) {
+    const auto container = Container::open(path);
+    if (!container.ok()) return std::nullopt;
+    const Chunk* const facts_chunk = (*container)->find(ChunkType::mesh_facts, 0);
+    const Chunk* const triangles_chunk = (*container)->find(ChunkType::mesh_triangles, 0);
+    if (facts_chunk == nullptr || triangles_chunk == nullptr) return std::nullopt;
+    const auto packed = (*container)->read(*facts_chunk, most_fact_bytes);
+    const auto bytes = (*container)->read(*triangles_chunk, most_triangle_bytes);
+    StoredMesh stored;
+    if (!packed.ok() || !bytes.ok() || mesh_from_bytes(*bytes, stored)) return std::nullopt;
+    const MeshOnLattice now(mesh, undulation);
+    if (stored.origin != lattice_point(now.lattice.origin_m).steps ||
+        stored.label_count != mesh.features.size() || sum_of(stored) != now.sum(mesh))
+        return std::nullopt;
+    MeshGround below;
+    if (ground != nullptr)
+        below = ground_below_parts(now.lattice.vertices, now.lattice.triangles, now.lattice.origin_m, *ground,
+                                   1.0);
+    if (stored.ground_fingerprint != fingerprint_of(below, now.lattice.origin_m)) return std::nullopt;
+    std::vector<VertexColour> colours;
+    if (!mesh.colours.empty()) colours = stored_colours(mesh, now.lattice.vertex_of, now.places, stored);
+    if (decompressed(*packed, most_fact_bytes) != facts_to_bytes(mesh, std::move(colours)))
+        return std::nullopt;
+    BakedMeshReport report;
+    report.triangles = now.lattice.triangles.size();
+    report.graph_triangles = stored.graph.clusters.triangles.size();
+    report.levels = stored.graph.clusters.levels.size();
+    report.bytes = bytes->size(), report.fact_bytes = packed->size();
+    report.was_there = true;
     return report;
 }
 

@@ -17,7 +17,7 @@ std::uint64_t machine_bytes() {
 }  // namespace
 
 std::uint64_t graph_bytes(std::uint64_t triangles) {
-    constexpr std::uint64_t bytes_a_triangle = 850, bytes_besides = 100'000'000;
+    constexpr std::uint64_t bytes_a_triangle = 1200, bytes_besides = 100'000'000;
     return bytes_besides + bytes_a_triangle * triangles;
 }
 
@@ -33,9 +33,9 @@ Result<void> check_graph_memory(const std::string& path, std::uint64_t triangles
     std::snprintf(
         text, sizeof text,
         "building the cluster graph of its %llu triangles needs %.1f GB of memory, and this machine "
-        "has %.1f GB, enough for %.0f: give a part of the mesh, or bake it on a larger machine",
+        "has %.1f GB, enough for %llu: give a part of the mesh, or bake it on a larger machine",
         static_cast<unsigned long long>(triangles), static_cast<double>(needed) / gb,
-        static_cast<double>(there) / gb, fitting > 0.0 ? fitting : 0.0);
+        static_cast<double>(there) / gb, static_cast<unsigned long long>(fitting > 0.0 ? fitting : 0.0));
     return Error{ErrorKind::failed, path, text};
 }
 

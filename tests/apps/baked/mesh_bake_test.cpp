@@ -2,7 +2,9 @@
 // damaged.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -166,6 +168,69 @@ TEST_F(MeshBake, HasPanoramasByClusters) {
                       "--sector", "60,120", "--width", "500", "--out", one_, "--json", "-q"});
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
     EXPECT_EQ(json::parse(drawn.out)["view"]["mesh"], "clusters");
+}
+
+// A rough hill beside the ball: 44,402 triangles, whose graph takes seconds.
+std::string obj_of_rough_hill() {
+    constexpr int n = 150;
+    std::string text;
+    char line[100];
+    for (int i = 0; i < n; ++i)
+        for (int k = 0; k < n; ++k) {
+            const double x = i / (n - 1.0), y = k / (n - 1.0);
+            std::snprintf(
+                line, sizeof line, "v %.9f %.9f %.4f\n", -84.18 + 0.004 * x, 36.61 + 0.003 * y,
+                500.0 + 20.0 * std::sin(9.0 * x) * std::cos(7.0 * y) + 0.7 * std::sin(91.0 * i * k));
+            text += line;
+        }
+    for (int i = 0; i + 1 < n; ++i)
+        for (int k = 0; k + 1 < n; ++k) {
+            const int a = 1 + i * n + k;
+            text += "f " + std::to_string(a) + " " + std::to_string(a + n) + " " + std::to_string(a + n + 1) +
+                    "\nf " + std::to_string(a) + " " + std::to_string(a + n + 1) + " " +
+                    std::to_string(a + 1) + "\n";
+        }
+    return text;
+}
+
+// Killed while the second mesh's graph is built: the same command takes the first one's from there, and
+// writes what it would have written at once.
+TEST(MeshBakeBrokenOff, TakesMeshesThatAreDone) {
+    const fs::path folder = oro::test::scratch_folder();
+    const std::string ball = folder.string() + "-ball.obj", hill = folder.string() + "-hill.obj",
+                      out = (folder / "region.oro").string();
+    write_bytes(ball, obj_of_small_ball());
+    write_bytes(hill, obj_of_rough_hill());
+    const Words bake{"bake",       bundled(),   "--mesh-file", ball, "--mesh-file", hill,
+                     "--mesh-crs", "EPSG:4326", "--out",       out,  "--json",      "-q"};
+    const auto begun = std::chrono::steady_clock::now();
+    const Outcome whole = run_orograph(bake);
+    ASSERT_EQ(whole.exit_code, 0) << whole.err;
+    const double duration_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+    const json said = json::parse(whole.out)["meshes"];
+    EXPECT_FALSE(said[0]["of_a_bake_broken_off"]);
+    EXPECT_EQ(said[1]["triangles"], 44402);
+    const std::string expected = bytes_of(out);
+    bool is_between = false;
+    for (const double share : {0.5, 0.6, 0.4, 0.7, 0.3, 0.8, 0.2}) {
+        for (const std::string& name : oro::test::names_in(folder)) fs::remove(folder / name);
+        oro::test::Circumstances broken_off;
+        broken_off.signal = SIGKILL, broken_off.signal_after_s = share * duration_s;
+        const Outcome killed = run_orograph(bake, broken_off);
+        is_between =
+            killed.exit_code == 128 + SIGKILL && fs::exists(out + ".mesh-1") && !fs::exists(out + ".mesh-2");
+        if (is_between) break;
+    }
+    ASSERT_TRUE(is_between);
+    EXPECT_FALSE(fs::exists(out));
+    const Outcome second = run_orograph(bake);
+    ASSERT_EQ(second.exit_code, 0) << second.err;
+    const json again = json::parse(second.out)["meshes"];
+    EXPECT_TRUE(again[0]["of_a_bake_broken_off"]);
+    EXPECT_FALSE(again[1]["of_a_bake_broken_off"]);
+    EXPECT_TRUE(bytes_of(out) == expected);
+    EXPECT_EQ(oro::test::names_in(folder), Words{"region.oro"});
+    fs::remove(ball), fs::remove(hill);
 }
 
 }  // namespace

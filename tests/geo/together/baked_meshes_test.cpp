@@ -155,6 +155,62 @@ TEST_F(BakedMeshes, GiveTheSameCutsWithoutBuilding) {
     EXPECT_EQ(MeshDetail::of(baked, 1.0, 2).built(), 1U);
 }
 
+// What a bake that was broken off has built is taken for the same mesh, and for no other.
+TEST_F(BakedMeshes, AreTakenFromABakeThatWasBrokenOff) {
+    PlacedMesh mesh = described_ball();
+    mesh.colours.assign(mesh.vertices.size(), VertexColour{200, 100, 50, 1});
+    const auto written = write_baked_mesh(path_.string(), mesh, geoid_, 1);
+    ASSERT_TRUE(written.ok()) << written.error().line();
+    EXPECT_FALSE(written->was_there);
+    const auto found = [&](const PlacedMesh& other) {
+        return mesh_baked_before(path_.string(), other, geoid_);
+    };
+    const auto there = found(mesh);
+    ASSERT_TRUE(there);
+    EXPECT_TRUE(there->was_there);
+    EXPECT_EQ(there->triangles, written->triangles);
+    EXPECT_EQ(there->graph_triangles, written->graph_triangles);
+    EXPECT_EQ(there->levels, written->levels);
+    EXPECT_EQ(there->bytes, written->bytes);
+    EXPECT_EQ(there->fact_bytes, written->fact_bytes);
+    // In another order it is the same mesh.
+    PlacedMesh other = mesh;
+    std::ranges::reverse(other.triangles);
+    std::ranges::reverse(other.feature_of);
+    EXPECT_FALSE(found(other)) << "its graph would be built around another origin";
+    other = mesh;
+    std::swap(other.triangles[100], other.triangles[200]);
+    std::swap(other.feature_of[100], other.feature_of[200]);
+    EXPECT_TRUE(found(other));
+    other = mesh;
+    other.vertices[70].H_m += 0.01;
+    EXPECT_FALSE(found(other)) << "a vertex";
+    other = mesh;
+    std::swap(other.triangles[50][0], other.triangles[50][1]);
+    EXPECT_FALSE(found(other)) << "turned";
+    other = mesh;
+    other.triangles.pop_back(), other.feature_of.pop_back();
+    EXPECT_FALSE(found(other)) << "a triangle less";
+    other = mesh;
+    other.feature_of[0] = 1 - other.feature_of[0];
+    EXPECT_FALSE(found(other)) << "a feature's triangle";
+    other = mesh;
+    other.features[1].name = "east";
+    EXPECT_FALSE(found(other)) << "a feature's name";
+    other = mesh;
+    other.colours[5].red = 201;
+    EXPECT_FALSE(found(other)) << "a colour";
+    other = mesh;
+    other.crease_deg = 40.0;
+    EXPECT_FALSE(found(other)) << "the crease";
+    EXPECT_FALSE(mesh_baked_before(path_.string(), mesh, {})) << "another geoid";
+    std::string bytes = text_in(path_);
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+    put_text(path_, bytes);
+    EXPECT_FALSE(found(mesh)) << "damaged";
+    EXPECT_FALSE(mesh_baked_before((folder_ / "none.mesh").string(), mesh, geoid_));
+}
+
 TEST_F(BakedMeshes, EveryChangedByteIsRefused) {
     constexpr unsigned seed = 521;
     std::printf("seed %u\n", seed);
