@@ -67,12 +67,16 @@ void decisive_steps_of_row(const HeightField& field, int row, int first_column,
     const auto at = [&](int i) -> std::int32_t& { return steps[static_cast<std::size_t>(i)]; };
     // Posts that are points of their own, and within the region.
     int from = count, to = count;
-    if (row > 0 && row < grid.rows() - 1 && !field.posts && masked == nullptr) {
+    if (row > 0 && row < grid.rows() - 1 && masked == nullptr) {
         from = std::clamp(-first_column, 0, count);
         to = std::clamp(grid.columns() - 1 - first_column, from, count);
+        std::vector<float> read(field.posts ? static_cast<std::size_t>(to - from) : 0);
+        if (field.posts) field.posts->row_H_m(row, first_column + from, read);
         const float* const H_m =
-            &field.H_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns())];
-        for (int i = from; i < to; ++i) at(i) = decisive_steps(H_m[first_column + i]);
+            field.posts
+                ? read.data()
+                : field.H_m.data() + static_cast<std::ptrdiff_t>(row) * grid.columns() + first_column + from;
+        for (int i = from; i < to; ++i) at(i) = decisive_steps(H_m[i - from]);
     }
     for (int i = 0; i < from; ++i) at(i) = decisive_steps_at(field, row, first_column + i, masked);
     for (int i = to; i < count; ++i) at(i) = decisive_steps_at(field, row, first_column + i, masked);

@@ -146,6 +146,26 @@ double UndulationField::at_m(const Between& row, const Between& column) const {
     return (1.0 - row.share) * N_north + row.share * N_south;
 }
 
+// It is bilinear between nodes.
+std::pair<float, float> UndulationField::range_m(double north_deg, double south_deg, double west_deg,
+                                                 double east_deg) const {
+    if (N_m.empty()) return {0.0F, 0.0F};
+    float lowest_m = std::numeric_limits<float>::infinity(), highest_m = -lowest_m;
+    const int first_row = row_between(north_deg).first, last_row = row_between(south_deg).first;
+    const int first_column = column_between(west_deg).first, last_column = column_between(east_deg).first;
+    // Of a field all around, ground over its first meridian: all columns.
+    const bool turns = last_column < first_column;
+    const int to_column = turns ? lon.count - 1 : std::min(last_column + 1, lon.count - 1);
+    for (int row = first_row; row <= std::min(last_row + 1, lat.count - 1); ++row)
+        for (int column = turns ? 0 : first_column; column <= to_column; ++column) {
+            const float node_m = N_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(lon.count) +
+                                     static_cast<std::size_t>(column)];
+            lowest_m = std::min(lowest_m, node_m);
+            highest_m = std::max(highest_m, node_m);
+        }
+    return {lowest_m, highest_m};
+}
+
 double HeightField::N_at_post_m(int row, int column) const {
     if (!grid.net) return undulation.at_m(grid.lat.at_deg(row), grid.lon.at_deg(column));
     if (N_of_posts_m.empty()) {

@@ -6,6 +6,8 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "core/base/result.h"
@@ -97,6 +99,10 @@ struct UndulationField {
     // N in metres at a place; places beyond the nodes take the nearest value (in whichever whole turn of the
     // longitude is nearest). Error: 8 um of rounding.
     [[nodiscard]] double at_m(double lat_deg, double lon_deg) const;
+    // What N is not below or above between two latitudes and two longitudes, in metres; (0, 0) of an empty
+    // field.
+    [[nodiscard]] std::pair<float, float> range_m(double north_deg, double south_deg, double west_deg,
+                                                  double east_deg) const;
 };
 
 struct HeightRange {
@@ -114,6 +120,20 @@ class PostSource {
     [[nodiscard]] virtual float H_m(int row, int column) const = 0;
     // The first error that stood in the way of a post, from whichever thread it was asked for; it stays.
     [[nodiscard]] virtual Result<void> health() const = 0;
+    // H_m() of posts of a row, from a column on; all are of the grid.
+    virtual void row_H_m(int row, int first_column, std::span<float> H_m) const {
+        for (std::size_t i = 0; i < H_m.size(); ++i)
+            H_m[i] = this->H_m(row, first_column + static_cast<int>(i));
+    }
+    // What H of no cell is below or above, of 128 x 128 cells: those of a page of level 0. Nothing where all
+    // posts would have to be looked at for it.
+    struct Range {
+        double lowest_H_m, highest_H_m;
+    };
+    [[nodiscard]] virtual std::optional<Range> range_of_page(int page_row, int page_column) const {
+        static_cast<void>(page_row), static_cast<void>(page_column);
+        return std::nullopt;
+    }
 };
 
 // The true surface of a scene: orthometric heights H on a post grid, and the undulation N that lifts them

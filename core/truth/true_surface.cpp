@@ -100,8 +100,8 @@ namespace {
 
 // What a slot holds, made by `make` where it is empty; of several threads that make it one keeps its own.
 template <class Kept, class Make>
-const Kept& kept_in(std::atomic<Kept*>& slot, const Make& make) {
-    if (const Kept* const there = slot.load(std::memory_order_acquire)) return *there;
+Kept& kept_in(std::atomic<Kept*>& slot, const Make& make) {
+    if (Kept* const there = slot.load(std::memory_order_acquire)) return *there;
     Kept* const made = make();
     Kept* none = nullptr;
     if (slot.compare_exchange_strong(none, made, std::memory_order_acq_rel)) return *made;
@@ -135,7 +135,7 @@ TrueSurface::TrueSurface(const HeightField& field, double exaggeration, int thre
               across = divided_up(grid.columns() - 1, chunk_cells);
     levels_ = chunk_level + 1;
     while ((std::max(down, across) - 1) >> (levels_ - 1 - chunk_level) > 0) ++levels_;
-    chunks_ = std::vector<ChunkSlot>(static_cast<std::size_t>(down) * static_cast<std::size_t>(across));
+    chunk_rows_ = std::vector<std::atomic<ChunkRow*>>(static_cast<std::size_t>(down));
     measure_above(threads);
     if (grid.net) place_corners(threads);
 }
@@ -155,9 +155,13 @@ void TrueSurface::place_corners(int threads) {
 }
 
 TrueSurface::~TrueSurface() {
-    for (const ChunkSlot& slot : chunks_) {
-        delete slot.layers.load();
-        delete slot.diagonals.load();
+    for (const std::atomic<ChunkRow*>& row : chunk_rows_) {
+        const std::unique_ptr<ChunkRow> slots(row.load());
+        if (!slots) continue;
+        for (const ChunkSlot& slot : slots->slots) {
+            delete slot.layers.load();
+            delete slot.diagonals.load();
+        }
     }
 }
 
@@ -186,15 +190,22 @@ void TrueSurface::row_h_m(int row, int first_column, std::span<double> h_m) cons
     const PostGrid& grid = field_.grid;
     std::size_t i = 0;
     // But for those of the first row, the last, and the last column, posts are points of their own.
-    if (row > 0 && row < grid.rows() - 1 && !grid.net && !field_.posts && !N_rows_.empty()) {
+    if (row > 0 && row < grid.rows() - 1 && !grid.net && !N_rows_.empty()) {
+        const std::size_t own =
+            std::min(h_m.size(), static_cast<std::size_t>(std::max(0, grid.columns() - 1 - first_column)));
+        std::vector<float> read(field_.posts ? own : 0);
+        if (field_.posts) field_.posts->row_H_m(row, first_column, read);
         const float* const H_m =
-            &field_.H_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns())];
+            field_.posts
+                ? read.data()
+                : &field_.H_m[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns()) +
+                              static_cast<std::size_t>(first_column)];
         const UndulationField::Between& N_row = N_rows_[static_cast<std::size_t>(row)];
-        for (; i < h_m.size() && first_column + static_cast<int>(i) < grid.columns() - 1; ++i) {
+        for (; i < own; ++i) {
             const auto column = static_cast<std::size_t>(first_column) + i;
-            h_m[i] = is_void(H_m[column]) ? none
-                                          : static_cast<double>(H_m[column]) * exaggeration_ +
-                                                field_.undulation.at_m(N_row, N_columns_[column]);
+            h_m[i] = is_void(H_m[i]) ? none
+                                     : static_cast<double>(H_m[i]) * exaggeration_ +
+                                           field_.undulation.at_m(N_row, N_columns_[column]);
         }
     }
     for (; i < h_m.size(); ++i) h_m[i] = post_h_m(row, first_column + static_cast<int>(i)).value_or(none);
@@ -269,11 +280,28 @@ Layer TrueSurface::scanned_layer(int chunk_row, int chunk_column) const {
     return {static_cast<double>(lowest) * exaggeration_, static_cast<double>(highest) * exaggeration_};
 }
 
+// Of posts that are not in memory, where they tell it. Posts that are one point are as high as one of them:
+// of those nothing is known.
+std::optional<Layer> TrueSurface::layer_of_source(int chunk_row, int chunk_column) const {
+    const PostGrid& grid = field_.grid;
+    const int first_row = chunk_row * chunk_cells, last_row = first_row + chunk_cells;
+    const int first_column = chunk_column * chunk_cells, last_column = first_column + chunk_cells;
+    if (grid.net || first_row == 0 || last_row >= grid.rows() - 1 || last_column >= grid.columns() - 1)
+        return std::nullopt;
+    const auto range = field_.posts->range_of_page(chunk_row, chunk_column);
+    if (!range) return std::nullopt;
+    const auto [lowest_N_m, highest_N_m] =
+        field_.undulation.range_m(grid.lat.at_deg(first_row), grid.lat.at_deg(last_row),
+                                  grid.lon.at_deg(first_column), grid.lon.at_deg(last_column));
+    return Layer{range->lowest_H_m * exaggeration_ + static_cast<double>(lowest_N_m) - slack_m,
+                 range->highest_H_m * exaggeration_ + static_cast<double>(highest_N_m) + slack_m};
+}
+
 void TrueSurface::measure_above(int threads) {
     // Of posts that are read when they are asked for, one layer holds all.
     if (field_.posts) return;
     const auto [down, across] = blocks(chunk_level);
-    std::vector<Layer> chunks(chunks_.size());
+    std::vector<Layer> chunks(static_cast<std::size_t>(down) * static_cast<std::size_t>(across));
     const int columns = across;
     in_parallel(down, threads, [&](int row) {
         for (int column = 0; column < columns; ++column) {
@@ -363,8 +391,10 @@ TrueSurface::ChunkDiagonals* TrueSurface::new_chunk_diagonals(int chunk_row, int
 }
 
 TrueSurface::ChunkSlot& TrueSurface::slot_of(int row, int column) const {
-    const auto across = static_cast<std::size_t>(blocks(chunk_level).second);
-    return chunks_[static_cast<std::size_t>(row) * across + static_cast<std::size_t>(column)];
+    ChunkRow& slots = kept_in(chunk_rows_[static_cast<std::size_t>(row)], [this] {
+        return new ChunkRow(static_cast<std::size_t>(blocks(chunk_level).second));
+    });
+    return slots.slots[static_cast<std::size_t>(column)];
 }
 
 Diagonal TrueSurface::diagonal_at(int row, int column) const {
@@ -393,6 +423,8 @@ Layer TrueSurface::layer(const Block& block) const {
             .at(block.level, block.row & mask, block.column & mask);
     }
     if (above_.empty()) {
+        if (block.level == chunk_level)
+            if (const std::optional<Layer> known = layer_of_source(block.row, block.column)) return *known;
         const HeightRange range = height_range(field_);
         return {static_cast<double>(range.lowest_m) * exaggeration_ + N_range_m_.lowest_h_m - slack_m,
                 static_cast<double>(range.highest_m) * exaggeration_ + N_range_m_.highest_h_m + slack_m};

@@ -101,6 +101,7 @@ class TrueSurface {
     [[nodiscard]] ChunkDiagonals* new_chunk_diagonals(int row, int column) const;
     struct ChunkSlot;
     [[nodiscard]] ChunkSlot& slot_of(int row, int column) const;
+    [[nodiscard]] std::optional<Layer> layer_of_source(int chunk_row, int chunk_column) const;
     [[nodiscard]] Layer scanned_layer(int chunk_row, int chunk_column) const;
     void measure_above(int threads);
     void place_corners(int threads);
@@ -118,7 +119,12 @@ class TrueSurface {
         std::atomic<Chunk*> layers{nullptr};
         std::atomic<ChunkDiagonals*> diagonals{nullptr};
     };
-    mutable std::vector<ChunkSlot> chunks_;
+    // Of each row of chunks, those that were looked at.
+    struct ChunkRow {
+        explicit ChunkRow(std::size_t chunks) : slots(chunks) {}
+        std::vector<ChunkSlot> slots;
+    };
+    mutable std::vector<std::atomic<ChunkRow*>> chunk_rows_;
 };
 
 }  // namespace oro
