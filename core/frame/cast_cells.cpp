@@ -11,8 +11,6 @@
 namespace oro {
 namespace {
 
-constexpr int cells_max = 128;  // along a side
-
 // The ellipsoid's point at a place of a grid.
 glm::dvec3 sea_level_ecef(const PostGrid& grid, double row, double column) {
     const PostPlace at = grid.place_at(row, column);
@@ -21,13 +19,17 @@ glm::dvec3 sea_level_ecef(const PostGrid& grid, double row, double column) {
 
 }  // namespace
 
-CastCells::CastCells(const RegionPages& pages) : grid_(pages.facts().grid) {
+int CastCells::level_of_whole(const RegionPages& pages) {
+    constexpr int cells_max = 128;
     int level = 0;
     while (level + 1 < pages.levels() &&
            std::max(pages.layout(level).rows, pages.layout(level).columns) > cells_max)
         ++level;
-    layout_ = pages.layout(level);
-    cells_.resize(static_cast<std::size_t>(layout_.count()));
+    return level;
+}
+
+CastCells::CastCells(const RegionPages& pages, int level)
+    : grid_(pages.facts().grid), layout_(pages.layout(level)) {
     posts_ = std::int64_t{gpu::page_quads} << level;
     const double last_row = grid_.rows() - 1, last_column = grid_.columns() - 1;
     middle_ = {sea_level_ecef(grid_, 0.5 * last_row, 0.5 * last_column)};
@@ -39,18 +41,19 @@ CastCells::CastCells(const RegionPages& pages) : grid_(pages.facts().grid) {
 }
 
 const CastCells::Cell& CastCells::cell(int row, int column) {
-    std::unique_ptr<Cell>& cell = cells_[static_cast<std::size_t>(layout_.number(row, column))];
-    if (cell) return *cell;
+    const auto known = cells_.find(layout_.number(row, column));
+    if (known != cells_.end()) return known->second;
     const auto posts = static_cast<double>(posts_);
     const std::int64_t at_post_row = std::min<std::int64_t>(row * posts_ + posts_ / 2, grid_.rows() - 1);
     const std::int64_t at_post_column =
         std::min<std::int64_t>(column * posts_ + posts_ / 2, grid_.columns() - 1);
     const Frame frame = frame_of_post(at_post_row, at_post_column);
     const double row_m = posts * frame.row_m, column_m = std::max(1.0, posts * frame.column_m);
-    cell = std::make_unique<Cell>(
-        Cell{frame, glm::transpose(ecef_from_enu(frame.place.lat_deg, frame.place.lon_deg)),
-             0.5 * std::hypot(row_m, column_m) / mean_radius_m});
-    return *cell;
+    return cells_
+        .emplace(layout_.number(row, column),
+                 Cell{frame, glm::transpose(ecef_from_enu(frame.place.lat_deg, frame.place.lon_deg)),
+                      0.5 * std::hypot(row_m, column_m) / mean_radius_m})
+        .first->second;
 }
 
 CastCells::Frame CastCells::frame_of_post(std::int64_t row, std::int64_t column) const {

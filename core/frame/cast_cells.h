@@ -1,22 +1,23 @@
 // The cells of a cast map, and what of them does not depend on the eye or the sun: kept from frame to frame.
 #pragma once
 
-#include <cstddef>
+#include <bit>
 #include <cstdint>
 #include <glm/mat3x3.hpp>
-#include <memory>
-#include <vector>
+#include <unordered_map>
 
 #include "core/earth/ellipsoid.h"
 #include "core/frame/region_pages.h"
 
 namespace oro {
 
-// Cells of pages of one level over a region: at most 128 along a side. For one thread at a time.
+// Cells of pages of one level over a region. For one thread at a time.
 class CastCells {
   public:
     // The pages outlive it.
-    explicit CastCells(const RegionPages& pages);
+    CastCells(const RegionPages& pages, int level);
+    // The finest level of which a region has at most 128 pages along a side.
+    [[nodiscard]] static int level_of_whole(const RegionPages& pages);
 
     // How the posts lie around one of them.
     struct Frame {
@@ -35,6 +36,10 @@ class CastCells {
     // Of a post; reckoned anew each time.
     [[nodiscard]] Frame frame_of_post(std::int64_t row, std::int64_t column) const;
 
+    [[nodiscard]] const PostGrid& grid() const { return grid_; }
+    [[nodiscard]] int level() const {
+        return std::countr_zero(static_cast<std::uint64_t>(posts_) / gpu::page_quads);
+    }
     [[nodiscard]] const PageLayout& layout() const { return layout_; }
     [[nodiscard]] std::int64_t posts() const { return posts_; }  // along a cell
     // All of the region's ground lies in this sphere, but for heights.
@@ -47,7 +52,7 @@ class CastCells {
     std::int64_t posts_{};
     Ecef middle_;
     double reach_m_{};
-    std::vector<std::unique_ptr<Cell>> cells_;  // row by row; null: nobody has asked
+    std::unordered_map<std::uint64_t, Cell> cells_;  // that were asked for, by number
 };
 
 }  // namespace oro

@@ -15,40 +15,79 @@ constexpr double sun_radius_rad = 0.00465;
 
 // How a line towards the sun rises from anywhere within half_m of a place.
 struct SunRise {
-    double level;   // cosine of the sun's elevation
-    double lowest;  // metres a metre, of the line that rises least, to the sun's lower edge
-    double slope;   // ... of those by which casters may be off, 0.02 to 1
+    double level;       // cosine of the sun's elevation
+    double lowest;      // metres a metre, of the line that rises least, to the sun's lower edge
+    double slope;       // ... of those by which casters may be off, 0.02 to 1
+    double most_slope;  // ... of the line that rises most
 };
 SunRise sun_rise(const glm::dvec3& sun_enu, double half_rad) {
     const double level = std::max(std::hypot(sun_enu.x, sun_enu.y), 1e-6);
     const double rise = std::atan2(sun_enu.z, level) - half_rad;
     return {level, std::tan(std::clamp(rise - 1.1 * sun_radius_rad, -1.5, 1.5)),
-            std::clamp(std::tan(rise), 0.02, 1.0)};
+            std::clamp(std::tan(rise), 0.02, 1.0),
+            std::clamp(std::tan(std::min(rise + 2.0 * half_rad, 1.5)), 0.02, 1.0)};
 }
 
 }  // namespace
 
-CastMap::Patch CastMap::patch(std::int64_t row, std::int64_t column, std::int64_t posts) const {
-    const auto clamped = [](std::int64_t cell, int count) {
-        return static_cast<int>(std::clamp<std::int64_t>(cell, 0, count - 1));
+CastMap::Window CastMap::window_of(const CastCells& cells, const Window& seen, const glm::dvec3& sun_enu,
+                                   double farthest_m, double lowest_m, double top_m) {
+    // The sun stands lower by as much as its direction turns over the ground, and its disc.
+    const double rise = std::atan2(sun_enu.z, std::hypot(sun_enu.x, sun_enu.y)) - 1.2 * sun_radius_rad -
+                        1.1 * farthest_m / mean_radius_m;
+    const double slope = std::tan(std::clamp(rise, -1.5, 1.5)), over_m = std::max(10.0, top_m - lowest_m);
+    // slope d + d^2 / 2 R = over, and no line is followed farther than 1,200 km.
+    const double way_m =
+        std::min(1.25e6, mean_radius_m * (std::sqrt(slope * slope + 2.05 * over_m / mean_radius_m) - slope));
+    const auto last_post = [&](std::int64_t cell, int count) {
+        return std::min<std::int64_t>(cell * cells.posts(), count - 1);
     };
-    return {clamped(row / posts_, layout_.rows), clamped((row + posts - 1) / posts_, layout_.rows),
-            clamped(column / posts_, layout_.columns),
-            clamped((column + posts - 1) / posts_, layout_.columns)};
+    const int last_row = seen.first_row + seen.rows, last_column = seen.first_column + seen.columns;
+    const PageLayout& all = cells.layout();
+    const std::int64_t column = last_post(seen.first_column, cells.grid().columns());
+    const CastCells::Frame north =
+                               cells.frame_of_post(last_post(seen.first_row, cells.grid().rows()), column),
+                           south = cells.frame_of_post(last_post(last_row, cells.grid().rows()), column);
+    const auto posts = static_cast<double>(cells.posts());
+    const auto cells_of = [&](double cell_m, int most) {
+        return static_cast<int>(
+            std::min(1.2 * way_m / std::max(1.0, cell_m) + 3.0, static_cast<double>(most)));
+    };
+    const int rows = cells_of(posts * std::min(north.row_m, south.row_m), all.rows);
+    const int columns = cells_of(posts * std::min(north.column_m, south.column_m), all.columns);
+    Window window{std::max(0, seen.first_row - rows), std::max(0, seen.first_column - columns), 0, 0};
+    window.rows = std::min(all.rows, last_row + rows) - window.first_row;
+    window.columns = std::min(all.columns, last_column + columns) - window.first_column;
+    return window;
 }
 
-void CastMap::receive(const Patch& patch, double error_per_slope_m, double lowest_m) {
+CastMap::Patch CastMap::patch(std::int64_t row, std::int64_t column, std::int64_t posts) const {
+    const auto first = [](std::int64_t cell, int from) {
+        return static_cast<int>(std::max<std::int64_t>(cell - from, 0));
+    };
+    const auto last = [](std::int64_t cell, int from, int count) {
+        return static_cast<int>(std::clamp<std::int64_t>(cell - from, -1, count - 1));
+    };
+    return {first(row / posts_, window_.first_row),
+            last((row + posts - 1) / posts_, window_.first_row, window_.rows),
+            first(column / posts_, window_.first_column),
+            last((column + posts - 1) / posts_, window_.first_column, window_.columns)};
+}
+
+void CastMap::receive(const Patch& patch, double error_per_slope_m, double most_error_per_slope_m,
+                      double lowest_m) {
     for (int row = patch.north; row <= patch.south; ++row)
         for (int column = patch.west; column <= patch.east; ++column) {
             Need& need = receivers_[place(row, column)];
             need.error_m = std::min(need.error_m, error_per_slope_m);
+            need.most_error_m = std::max(need.most_error_m, most_error_per_slope_m);
             need.low_m = std::min(need.low_m, lowest_m);
         }
 }
 
 void CastMap::cast() {
-    for (int row = 0; row < layout_.rows; ++row)
-        for (int column = 0; column < layout_.columns; ++column)
+    for (int row = 0; row < window_.rows; ++row)
+        for (int column = 0; column < window_.columns; ++column)
             if (receivers_[place(row, column)].low_m < std::numeric_limits<double>::infinity())
                 cast_from(row, column);
 }
@@ -57,8 +96,10 @@ CastMap::Need CastMap::need(const Patch& patch) const {
     Need all;
     for (int row = patch.north; row <= patch.south; ++row)
         for (int column = patch.west; column <= patch.east; ++column) {
-            all.error_m = std::min(all.error_m, needs_[place(row, column)].error_m);
-            all.low_m = std::min(all.low_m, needs_[place(row, column)].low_m);
+            const Need& here = needs_[place(row, column)];
+            all.error_m = std::min(all.error_m, here.error_m);
+            all.most_error_m = std::max(all.most_error_m, here.most_error_m);
+            all.low_m = std::min(all.low_m, here.low_m);
         }
     return all;
 }
@@ -67,13 +108,14 @@ void CastMap::mark(double north, double south, double west, double east, const N
     const auto clamped = [](double cell, int count) {
         return static_cast<int>(std::clamp(std::floor(cell), 0.0, static_cast<double>(count - 1)));
     };
-    if (south < 0.0 || east < 0.0 || north >= layout_.rows || west >= layout_.columns) return;
+    if (south < 0.0 || east < 0.0 || north >= window_.rows || west >= window_.columns) return;
     any_ = true;
-    for (int row = clamped(north, layout_.rows); row <= clamped(south, layout_.rows); ++row)
-        for (int column = clamped(west, layout_.columns); column <= clamped(east, layout_.columns);
+    for (int row = clamped(north, window_.rows); row <= clamped(south, window_.rows); ++row)
+        for (int column = clamped(west, window_.columns); column <= clamped(east, window_.columns);
              ++column) {
             Need& there = needs_[place(row, column)];
             there.error_m = std::min(there.error_m, need.error_m);
+            there.most_error_m = std::max(there.most_error_m, need.most_error_m);
             there.low_m = std::min(there.low_m, need.low_m);
         }
 }
@@ -82,14 +124,14 @@ void CastMap::mark(double north, double south, double west, double east, const N
 void CastMap::cast_from(int row, int column) {
     const Need& receiver = receivers_[place(row, column)];
     const auto posts = static_cast<double>(posts_);
-    const CastCells::Cell& cell = cells_.cell(row, column);
+    const CastCells::Cell& cell = cells_.cell(row + window_.first_row, column + window_.first_column);
     const CastCells::Frame& local_frame = cell.frame;
     const glm::dvec3 sun = cell.enu_from_ecef * sun_ecef_;
     const double row_m = posts * local_frame.row_m, column_m = std::max(1.0, posts * local_frame.column_m);
     const double half_rad = cell.half_rad;  // the sun's rise differs over the cell
     const SunRise rise = sun_rise(sun, half_rad);
     const double level = rise.level, lowest = rise.lowest;
-    const Need need{receiver.error_m * rise.slope, receiver.low_m};
+    const Need need{receiver.error_m * rise.slope, receiver.low_m, receiver.most_error_m * rise.most_slope};
     const double step_m = 0.5 * std::min(row_m, column_m);
     // Cells a metre.
     const double south = (sun.x * local_frame.turn.sine - sun.y * local_frame.turn.cosine) / level / row_m;
@@ -106,10 +148,11 @@ void CastMap::cast_from(int row, int column) {
         mark(row + std::min(from_m * south, to_m * south) - rows,
              row + 1.0 + std::max(from_m * south, to_m * south) + rows,
              column + std::min(from_m * east, to_m * east) - columns,
-             column + 1.0 + std::max(from_m * east, to_m * east) + columns, {need.error_m, low_m});
+             column + 1.0 + std::max(from_m * east, to_m * east) + columns,
+             {need.error_m, low_m, need.most_error_m});
         const double at_row = row + 0.5 + from_m * south, at_column = column + 0.5 + from_m * east;
-        if (at_row < -1.0 - rows || at_row > layout_.rows + 1.0 + rows || at_column < -1.0 - columns ||
-            at_column > layout_.columns + 1.0 + columns)
+        if (at_row < -1.0 - rows || at_row > window_.rows + 1.0 + rows || at_column < -1.0 - columns ||
+            at_column > window_.columns + 1.0 + columns)
             break;
     }
 }
@@ -156,8 +199,10 @@ void CastMap::cast_from_other_grid(const ShadowReceiver& receiver) {
         const auto posts = static_cast<double>(posts_);
         const double rows = 1.02 * around_m / (posts * local_frame.row_m) + 0.01,
                      columns = 1.02 * around_m / (posts * std::max(local_frame.column_m, 1.0e-2)) + 0.01;
-        mark(post.row / posts - rows, post.row / posts + rows, post.column / posts - columns,
-             post.column / posts + columns, {receiver.error_per_slope_m * rise.slope, low_m});
+        const double row = post.row / posts - window_.first_row,
+                     column = post.column / posts - window_.first_column;
+        mark(row - rows, row + rows, column - columns, column + columns,
+             {receiver.error_per_slope_m * rise.slope, low_m, receiver.error_per_slope_m * rise.most_slope});
     }
 }
 

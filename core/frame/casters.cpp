@@ -150,9 +150,8 @@ Result<void> CasterChoice::list(GridPlan& plan) {
     return {};
 }
 
-// What casters may be off for each metre from the eye.
 double error_per_metre(const GridPlan& plan) {
-    return caster_error_px / static_cast<double>(plan.constants.pixels_per_tangent);
+    return caster_error_per_metre(plan.constants.pixels_per_tangent);
 }
 
 // A quarter of a plan's page that is seen, and so may be shaded.
@@ -260,6 +259,62 @@ Result<std::vector<ShadowReceiver>> shadow_receivers(const RegionPages& pages, c
     return shadow_receivers(memory, view, plan);
 }
 
+// Of a region that is wider than a map of fine cells: those around what is seen, and as fine as may be.
+static CastMap::Window window_around(PlanMemory& memory, const std::vector<SeenQuarter>& seen,
+                                     const FrameView& view, const glm::dvec3& sun_enu, double top_m) {
+    constexpr int cells_most = 128;
+    std::int64_t north = std::numeric_limits<std::int64_t>::max(), south = -1, west = north, east = -1;
+    double farthest_m = 0.0, lowest_m = top_m;
+    for (const SeenQuarter& quarter : seen) {
+        north = std::min(north, quarter.row);
+        south = std::max(south, quarter.row + quarter.posts - 1);
+        west = std::min(west, quarter.column);
+        east = std::max(east, quarter.column + quarter.posts - 1);
+        farthest_m = std::max(farthest_m, glm::length(quarter.ground.centre.m - view.camera.eye_ecef().m) +
+                                              quarter.ground.radius_m);
+        lowest_m = std::min(lowest_m, quarter.ground.lowest_m);
+    }
+    if (south < 0) return {};
+    for (int level = 0;; ++level) {
+        const CastCells& cells = memory.cast_cells(level);
+        const auto cell = [&](std::int64_t post, int count) {
+            return static_cast<int>(std::min<std::int64_t>(post / cells.posts(), count - 1));
+        };
+        const int row = cell(north, cells.layout().rows), column = cell(west, cells.layout().columns);
+        const CastMap::Window window =
+            CastMap::window_of(cells,
+                               {row, column, cell(south, cells.layout().rows) - row + 1,
+                                cell(east, cells.layout().columns) - column + 1},
+                               sun_enu, farthest_m, lowest_m, top_m);
+        if (std::max(window.rows, window.columns) <= cells_most || level + 1 == memory.pages().levels())
+            return window;
+    }
+}
+
+// What lines need from all that a plan shows towards the sun.
+static Result<void> map_casters(PlanMemory& memory, const FrameView& view, const glm::dvec3& sun_enu,
+                                double top_m, const GridPlan& plan, std::span<const ShadowReceiver> others,
+                                std::optional<CastMap>& found) {
+    std::vector<SeenQuarter> seen;
+    ORO_CHECK(
+        look_for_quarters(memory, view, plan, [&](const SeenQuarter& quarter) { seen.push_back(quarter); }));
+    const int level = CastCells::level_of_whole(memory.pages());
+    const bool is_whole = level == 0 || seen.empty() || !others.empty() || memory.pages().facts().grid.net;
+    CastMap::Window window;
+    if (!is_whole) window = window_around(memory, seen, view, sun_enu, top_m);
+    CastCells& cells = is_whole ? memory.cast_cells(level) : memory.kept_cast_cells();
+    if (is_whole) window = CastMap::whole(cells);
+    CastMap& map = found.emplace(memory.pages(), cells,
+                                 ecef_from_enu(view.camera.eye.lat_deg, view.camera.eye.lon_deg) * sun_enu,
+                                 top_m, window);
+    for (const SeenQuarter& quarter : seen)
+        map.receive(map.patch(quarter.row, quarter.column, quarter.posts), quarter.ground.error_per_slope_m,
+                    quarter.ground.lowest_m);
+    map.cast();
+    for (const ShadowReceiver& receiver : others) map.cast_from_other_grid(receiver);
+    return {};
+}
+
 Result<void> plan_casters(PlanMemory& memory, const std::function<std::uint64_t(const PageIndex&)>& residency,
                           const FrameView& view, const ShadowRequest& request, double top_m, GridPlan& plan,
                           std::span<const ShadowReceiver> others) {
@@ -269,19 +324,16 @@ Result<void> plan_casters(PlanMemory& memory, const std::function<std::uint64_t(
     CasterChoice choice(memory, residency);
     bool for_shadows = request.sun_enu.has_value();
     if (for_shadows) {
-        CastMap map(pages, memory.cast_cells(),
-                    ecef_from_enu(view.camera.eye.lat_deg, view.camera.eye.lon_deg) * *request.sun_enu,
-                    top_m);
-        ORO_CHECK(look_for_quarters(memory, view, plan, [&](const SeenQuarter& quarter) {
-            map.receive(map.patch(quarter.row, quarter.column, quarter.posts),
-                        quarter.ground.error_per_slope_m, quarter.ground.lowest_m);
-        }));
-        map.cast();
-        for (const ShadowReceiver& receiver : others) map.cast_from_other_grid(receiver);
-        for_shadows = !plan.pages.empty() || map.any();
+        std::optional<CastMap> found;
+        const CastMap* map = pages.cast_map();
+        if (map == nullptr) {
+            ORO_CHECK(map_casters(memory, view, *request.sun_enu, top_m, plan, others, found));
+            map = &*found;
+        }
+        for_shadows = !plan.pages.empty() || map->any();
         if (for_shadows) {
             ORO_TRY(KeptPage* const whole, memory.page({0, 0, top}));
-            ORO_CHECK(choice.want(map, *whole));
+            ORO_CHECK(choice.want(*map, *whole));
         }
     }
     if (plan.pages.empty() && !for_shadows) return {};

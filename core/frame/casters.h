@@ -37,6 +37,11 @@ struct CasterPlan {
 
 // A shadow's edge may be off by so many pixels because coarser levels cast it.
 inline constexpr double caster_error_px = 0.1;
+// Casters may be off by so much for each metre from the eye to what they shade, times the slope of the light
+// there.
+inline double caster_error_per_metre(float pixels_per_tangent) {
+    return caster_error_px / static_cast<double>(pixels_per_tangent);
+}
 
 // Height above the ellipsoid that nothing in the region is above, as drawn. Reads the records of some pages.
 Result<double> region_top_m(const RegionPages& pages);

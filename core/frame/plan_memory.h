@@ -114,9 +114,12 @@ class PlanMemory {
     [[nodiscard]] PlanSources* sources() { return sources_ ? &*sources_ : nullptr; }
 
     [[nodiscard]] KeptAngles& angles() { return angles_; }
-    [[nodiscard]] CastCells& cast_cells() {
-        return cast_cells_ ? *cast_cells_ : cast_cells_.emplace(*pages_);
+    [[nodiscard]] CastCells& cast_cells(int level) {
+        if (!cast_cells_ || cast_cells_->level() != level) cast_cells_.emplace(*pages_, level);
+        return *cast_cells_;
     }
+    // Those of the level that was asked for last.
+    [[nodiscard]] CastCells& kept_cast_cells() { return *cast_cells_; }
     [[nodiscard]] const RegionPages& pages() const { return *pages_; }
     [[nodiscard]] const PageLayout& layout(int level) const {
         return layouts_[static_cast<std::size_t>(level)];

@@ -26,6 +26,7 @@ struct RegionFacts {
     std::uint64_t triangles{};  // at full resolution
 };
 
+class CastMap;       // core/frame/cast_map.h
 struct MeshCasters;  // core/seam/mesh_casters.h
 
 // What all triangles of a page and of all pages below it lie in: a sphere and a cone (core/earth/culling.h).
@@ -75,6 +76,9 @@ class RegionPages {
     // Height above the ellipsoid that nothing of them is above, as drawn, where it is known without records
     // that take long.
     [[nodiscard]] virtual std::optional<double> known_top_m() const { return std::nullopt; }
+    // What casters need to be for shadows in all pictures that the pages are for, where these and their light
+    // were known beforehand; others are not measured. Null: any picture may be planned.
+    [[nodiscard]] virtual const CastMap* cast_map() const { return nullptr; }
 
   private:
     RegionFacts facts_;
