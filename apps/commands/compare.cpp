@@ -9,6 +9,7 @@
 #include "apps/commands/commands.h"
 #include "apps/drawing/drape.h"
 #include "apps/drawing/kept_drawing.h"
+#include "apps/drawing/known_pictures.h"
 #include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/mesh_cut.h"
 #include "apps/drawing/pipeline_choice.h"
@@ -109,11 +110,13 @@ Result<void> run_compare(const CompareOptions& options) {
     if (!options.out.empty())
         ORO_CHECK(
             spare_inputs({options.out}, {files_of_picture(view, region), files_of_view(options.view_file)}));
-    ORO_TRY(const Style style, load_style(view, region.grids.front().field));
+    ORO_TRY(const Style style, load_style(view, region.grids.front().field, WorldLight::drawn));
     ORO_TRY(const std::shared_ptr<const Gpu> gpu, gpu_to_draw_with());
     ORO_TRY(const RegionCuts cuts, cut_regions(region));
-    ORO_TRY(GridPages pages, make_grid_pages(region, cuts, view.exaggeration,
-                                             [&](double share) { bar.show(share, "measuring levels"); }));
+    ORO_TRY(GridPages pages,
+            make_grid_pages(
+                region, cuts, view.exaggeration, [&](double share) { bar.show(share, "measuring levels"); },
+                {}, known_pictures(view, style, std::span(&view.camera, 1))));
     ORO_TRY(const std::optional<DrawnMeshes> meshes, drawn_meshes(region, view));
     ORO_TRY(const bool clusters, meshes ? Result<bool>(false) : draws_clusters(region, view));
     ORO_TRY(RegionScene whole, scene_of_region(*gpu, region, cuts, std::move(pages),

@@ -26,7 +26,7 @@ namespace {
 Result<std::unique_ptr<RegionPages>> pages_of(const RegionGrid& grid, double exaggeration,
                                               const std::shared_ptr<const DataMeans>& means,
                                               const RenderProgress& progress, const std::stop_token& stop,
-                                              std::span<const FrameView> pictures) {
+                                              const KnownPictures& pictures) {
     if (const MadePostSource* const made = made_posts_of(grid.field)) {
         if (exaggeration == 1.0) return made->pages(grid.field, pictures);
         return Error{
@@ -75,7 +75,7 @@ Result<std::unique_ptr<RegionPages>> pages_of_grid(const RegionGrid& grid, const
                                                    const std::shared_ptr<const DataMeans>& means,
                                                    const RenderProgress& progress,
                                                    const std::stop_token& stop,
-                                                   std::span<const FrameView> pictures = {}) {
+                                                   const KnownPictures& pictures = {}) {
     const bool is_cut = std::ranges::find(cut.masked_posts, 1) != cut.masked_posts.end();
     ORO_TRY(std::unique_ptr<RegionPages> pages,
             is_cut ? pages_of_rest(grid, cut, exaggeration, means, progress, stop)
@@ -108,15 +108,18 @@ Result<std::unique_ptr<RegionPages>> grid_pages(const RegionGrid& grid, const Gr
 
 Result<GridPages> make_grid_pages(const Region& region, const RegionCuts& cuts, double exaggeration,
                                   const RenderProgress& progress, const std::stop_token& stop,
-                                  std::span<const FrameView> pictures) {
+                                  const KnownPictures& pictures) {
     const RegionGrid* const data = data_under_detail(region);
     ORO_TRY(const std::shared_ptr<const DataMeans> data_means, means_under_detail(data, exaggeration));
     GridPages pages;
+    // Light on what stands on other ground is not known beforehand.
+    const bool is_alone = region.grids.size() == 1 && !region.meshes;
+    const KnownPictures known = is_alone || !pictures.light.any() ? pictures : KnownPictures{};
     for (const RegionGrid& grid : region.grids) {
         const std::size_t number = pages.size();
         ORO_TRY(std::unique_ptr<RegionPages> more,
                 pages_of_grid(grid, cuts.grids[number], exaggeration, &grid == data ? data_means : nullptr,
-                              number == 0 ? progress : RenderProgress{}, stop, pictures));
+                              number == 0 ? progress : RenderProgress{}, stop, known));
         pages.push_back(std::move(more));
     }
     return pages;

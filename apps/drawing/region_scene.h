@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/options/options.h"
+#include "core/frame/known_pictures.h"
 #include "geo/region/region.h"
 #include "geo/together/cut_regions.h"
 #include "render/scene/scene.h"
@@ -22,12 +23,12 @@ Result<std::unique_ptr<RegionPages>> grid_pages(const RegionGrid& grid, const Gr
                                                 double exaggeration, const RenderProgress& progress = {},
                                                 const std::stop_token& stop = {});
 // Pages of all grids of a region, in their order. progress: of the first. stop: as grid_pages(). pictures:
-// all that they are for, with no light from beyond each; none: any. They may then cost less
+// all that they are for; none: any. They may then cost less
 // (MadePostSource::pages()).
 using GridPages = std::vector<std::unique_ptr<RegionPages>>;
 Result<GridPages> make_grid_pages(const Region& region, const RegionCuts& cuts, double exaggeration,
                                   const RenderProgress& progress = {}, const std::stop_token& stop = {},
-                                  std::span<const FrameView> pictures = {});
+                                  const KnownPictures& pictures = {});
 RegionPagesList pointers_to(const GridPages& pages);
 
 // A region with all its grids, ready for a GPU, and the triangles that it has at full resolution.

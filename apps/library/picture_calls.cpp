@@ -207,7 +207,8 @@ Result<std::unique_ptr<PreparedShot>> prepared_shot(const OpenRegion& open,
     shot.on_summit = shot.view.stood.summit;
     if (options.ortho) ORO_CHECK(oro::make_map(shot.view, options, shot.region));
     oro::choose_legend(options, shot.view);
-    ORO_TRY(prepared->style, oro::load_style(shot.view, shot.region.grids.front().field));
+    ORO_TRY(prepared->style,
+            oro::load_style(shot.view, shot.region.grids.front().field, oro::WorldLight::drawn));
     ORO_TRY(prepared->ground, oro::ground_of_shot(shot));
     return prepared;
 }

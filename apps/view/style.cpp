@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -163,7 +164,16 @@ bool has_sun_by_place(View& view) {
     return read.ok() && read->sun_by_place;
 }
 
-Result<Style> load_style(const View& view, const HeightField& field) {
+// Whether an eye is so low that most of the ground around it is hidden, and not so near to a pole that it
+// sees all meridians.
+static bool shows_little_ground(const View& view, const HeightField& field) {
+    constexpr double most_over_m = 1000.0, most_lat_deg = 75.0;
+    const Geodetic& eye = view.camera.eye;
+    return eye.h_m <= static_cast<double>(height_range(field).highest_m) + most_over_m &&
+           std::abs(eye.lat_deg) <= most_lat_deg;
+}
+
+Result<Style> load_style(const View& view, const HeightField& field, WorldLight light) {
     const std::string& name = view.style;
     const bool is_path = is_style_path(name);
     const std::string path = file_of_style(name);
@@ -199,9 +209,8 @@ Result<Style> load_style(const View& view, const HeightField& field) {
     ORO_CHECK(plant_by(view, style.frame));
     ORO_CHECK(space_contours_by(view, style));
     ORO_CHECK(label_by(view, style));
-    // Both look over the ground in all directions. Where its posts are made as they are asked for, most of
-    // what they would make is never shown.
-    if (made_posts_of(field) != nullptr) style.frame.shadows = style.frame.sky_openness = 0;
+    if (made_posts_of(field) != nullptr && !(light == WorldLight::drawn && shows_little_ground(view, field)))
+        style.frame.shadows = style.frame.sky_openness = 0;
     if (view.shadows) style.frame.shadows = *view.shadows ? 1 : 0;
     if (view.sky_openness) style.frame.sky_openness = *view.sky_openness ? 1 : 0;
     if (view.show)

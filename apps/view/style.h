@@ -32,7 +32,12 @@ void light_by(const SunDirection& sun, gpu::FrameStyle& style);
 // A view's style, by name (in the data folder) or by path (.json, or .txt: a colour table of GDAL), lit by
 // the view's sun where it has one; `field` is what the view looks at. Colours are turned from sRGB to linear
 // light. Errors: no such style, or what is wrong in it; posts that cannot be read.
-Result<Style> load_style(const View& view, const HeightField& field);
+// light: shadows and the light of the sky look over the ground in all directions. Of made terrain whose posts
+// are made where they are looked at, only pictures that are known beforehand (known_pictures()) have them
+// unasked, from an eye at most 1,000 m above the highest ground and at most 75 degrees from the equator;
+// others are left without unless the view asks for them.
+enum class WorldLight { left_out, drawn };
+Result<Style> load_style(const View& view, const HeightField& field, WorldLight light = WorldLight::left_out);
 
 // What of a style follows from the view, after the eye has moved. Of one that moves on, what is shown stays
 // as long as it may (steady_interval_m). Errors: posts that cannot be read.

@@ -110,6 +110,21 @@ void made_row_coarse_heights(const MadeTerrain& terrain, const gpu::MadeRule& ru
     }
 }
 
+void made_row_of_octaves(const MadeTerrain& terrain, const gpu::MadeRule& rule, int row,
+                         std::span<const MadeColumn> columns, std::uint32_t octaves,
+                         std::span<std::int32_t> steps) {
+    const MadeRow placed = made_row(terrain.north - row, terrain.posts_per_deg);
+    const std::int32_t middle = rule.low + ((rule.high - rule.low) >> 1);
+    MadeRun run{};
+    for (std::size_t first = 0; first < steps.size(); first += run_posts) {
+        const std::size_t count = std::min(run_posts, steps.size() - first);
+        place_run(placed, columns.subspan(first, count), run);
+        run.sum.fill(0);
+        for (std::uint32_t k = 0; k < octaves; ++k) add_fbm(rule.octave[k], run, (count + 15) / 16 * 16);
+        for (std::size_t i = 0; i < count; ++i) steps[first + i] = middle + ((run.sum[i] + 2) >> 2);
+    }
+}
+
 void made_row_heights(const MadeTerrain& terrain, const gpu::MadeRule& rule, int row, int first_column,
                       std::span<const MadeColumn> columns, std::span<std::int32_t> steps) {
     const std::int64_t lat_post = terrain.north - row;

@@ -24,6 +24,11 @@ void made_row_coarse_heights(const MadeTerrain& terrain, const gpu::MadeRule& ru
                              std::span<const MadeColumn> columns, std::uint32_t coarse_octaves,
                              std::span<std::int32_t> steps, std::span<std::int32_t> coarse_steps);
 
+// The same of the coarse octaves alone.
+void made_row_of_octaves(const MadeTerrain& terrain, const gpu::MadeRule& rule, int row,
+                         std::span<const MadeColumn> columns, std::uint32_t octaves,
+                         std::span<std::int32_t> steps);
+
 // Adds one octave's noise (2^-28, r.m.s. 0.27) times a factor at each of many places in 2^-6 m of ECEF; all
 // have the same length.
 void add_made_noise(const gpu::MadeOctave& octave, float factor, std::span<const std::int32_t> x,

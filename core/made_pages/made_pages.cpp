@@ -12,10 +12,13 @@
 
 #include "core/base/parallel.h"
 #include "core/earth/culling.h"
+#include "core/frame/cast_map.h"
 #include "core/frame/picture_culling.h"
 #include "core/lod/page_sums.h"
 #include "core/made/made_heights.h"
+#include "core/made_pages/coarse_ground.h"
 #include "core/made_pages/measured_block.h"
+#include "core/made_pages/seen_ground.h"
 #include "core/terrain/page_posts.h"
 
 namespace oro {
@@ -75,14 +78,14 @@ class BlocksOfRegion {
 
 class MadePages : public RegionPages {
   public:
-    MadePages(RegionFacts facts, MadeRegion region, std::span<const FrameView> pictures,
+    MadePages(RegionFacts facts, MadeRegion region, const KnownPictures& pictures,
               std::shared_ptr<BlocksOfRegion> known)
         : RegionPages(std::move(facts)),
           region_(std::move(region)),
+          coarse_ground_(region_),
+          has_coarse_ground_(CoarseGround::level < static_cast<int>(region_.bounds().size())),
           known_(std::move(known)),
           measured_to_(highest_measured_level(region_)) {
-        for (const FrameView& picture : pictures)
-            culling_.emplace_back(picture, this->facts().shape.occluder);
         double lowest_N_m = 0.0, highest_N_m = 0.0;
         for (const float N_m : region_.undulation.N_m) {
             lowest_N_m = std::min(lowest_N_m, static_cast<double>(N_m));
@@ -90,11 +93,20 @@ class MadePages : public RegionPages {
         }
         lowest_h_m_ = made_step_m * region_.terrain.low + lowest_N_m - 1.0;
         highest_h_m_ = made_step_m * region_.terrain.high + highest_N_m + 1.0;
+        const std::vector<FrameView>& views = pictures.views;
+        for (const FrameView& picture : views)
+            pictures_.push_back({PictureCulling(picture, this->facts().shape.occluder), nullptr});
+        if (views.size() <= most_pictures_looked_into)
+            for (std::size_t i = 0; i < views.size(); ++i)
+                pictures_[i].ground = SeenGround::of(coarse_ground_, views[i], pictures_[i].culling,
+                                                     lowest_h_m_, highest_h_m_, thread_count());
+        if (pictures.light.sun_enu) map_casters(views, *pictures.light.sun_enu);
     }
 
     [[nodiscard]] std::optional<PageBound> bound(const PageIndex& page) const override;
     // By the rule: to ask the records would be to measure all of a world.
     [[nodiscard]] std::optional<double> known_top_m() const override { return highest_h_m_; }
+    [[nodiscard]] const CastMap* cast_map() const override { return cast_map_ ? &*cast_map_ : nullptr; }
 
     [[nodiscard]] Result<PageRecord> record(const PageIndex& page) const override {
         const std::uint64_t number = number_of(page);
@@ -129,8 +141,9 @@ class MadePages : public RegionPages {
     static constexpr std::size_t records_kept = 65536;  // 40 MB
     static constexpr std::size_t blocks_kept = 1024;    // 64 MB
     static constexpr std::size_t unloaded_kept = 512;   // 42 MB
-    // A block that more pictures may show is measured whole: asking all of them would take longer.
-    static constexpr std::size_t most_pictures_asked = 256;
+    // A block that more pictures may show is measured whole: asking all of them would take longer. And of
+    // more than so many it is not asked what ground hides of others.
+    static constexpr std::size_t most_pictures_asked = 256, most_pictures_looked_into = 16;
 
     [[nodiscard]] static std::uint64_t number_of(const PageIndex& page) {
         return static_cast<std::uint64_t>(page.level) << 48U | static_cast<std::uint64_t>(page.row) << 24U |
@@ -154,7 +167,29 @@ class MadePages : public RegionPages {
     [[nodiscard]] double reach_of(const Ground& ground) const;
     [[nodiscard]] PageBound bound_between(const Ground& ground, double low_h_m, double high_h_m) const;
     // Of the pictures that the pages are for.
-    using SomePictures = std::vector<const PictureCulling*>;
+    struct Picture {
+        PictureCulling culling;
+        std::unique_ptr<SeenGround> ground;  // null: whatever is in its frustum
+    };
+    using SomePictures = std::vector<const Picture*>;
+    // Ground that is seen, by its first post and posts along a side, and what may cast on it.
+    struct LitGround {
+        std::int64_t row, column, posts;
+        double error_m, most_error_m;  // that casters may have, for light that rises a metre on a metre
+        double farthest_m;             // from the eye
+        double lowest_h_m;
+    };
+    void find_lit_in_frustum(const PictureCulling& culling, const Ecef& eye, double error_per_m,
+                             const PageIndex& node, std::vector<LitGround>& lit) const;
+    [[nodiscard]] std::vector<LitGround> lit_ground(const Picture& picture, const FrameView& view) const;
+    void map_casters(std::span<const FrameView> pictures, const glm::dvec3& sun_enu);
+    [[nodiscard]] CastMap::Window window_of_casters(const CastCells& cells, std::span<const LitGround> lit,
+                                                    const glm::dvec3& sun_enu) const;
+    [[nodiscard]] CastMap::Need need_of_casters(int level, int row, int column) const;
+    [[nodiscard]] bool may_cast_node(int level, int row, int column) const;
+    // Whether an error is more than any light over the node allows.
+    [[nodiscard]] bool fails_casters(int level, int row, int column, double error_m) const;
+    static constexpr double most_cast_cells = 4.0e6;  // 200 MB
     [[nodiscard]] SomePictures pictures_of(const PageIndex& page) const;
     [[nodiscard]] bool may_show_node(const SomePictures& pictures, int level, int row, int column) const;
     [[nodiscard]] bool is_good_node(const SomePictures& pictures, int level, int row, int column,
@@ -167,14 +202,19 @@ class MadePages : public RegionPages {
                               const Asked& asked) const {
         // 3 times hold what is beside it where all nodes are as wide.
         const PageBound with_beside = wider(around, 3.5);
-        return std::ranges::all_of(pictures, [&](const PictureCulling* picture) {
-            return (pictures.size() > 1 && !picture->may_show(with_beside)) || asked(*picture);
+        return std::ranges::all_of(pictures, [&](const Picture* picture) {
+            return (pictures.size() > 1 && !picture->culling.may_show(with_beside)) ||
+                   asked(picture->culling);
         });
     }
     [[nodiscard]] PageBound wider(const PageBound& bound, double times) const;
 
     MadeRegion region_;
-    std::vector<PictureCulling> culling_;  // of each picture
+    CoarseGround coarse_ground_;
+    bool has_coarse_ground_;
+    std::vector<Picture> pictures_;
+    std::optional<CastCells> cast_cells_;
+    std::optional<CastMap> cast_map_;
     std::shared_ptr<BlocksOfRegion> known_;
     int measured_to_;
     double lowest_h_m_{}, highest_h_m_{};  // of any post
@@ -232,13 +272,15 @@ std::shared_ptr<const MeasuredBlock> MadePages::measured_block(const PageIndex& 
     const std::scoped_lock measuring(measuring_);
     if (auto there = known()) return there;
     const SomePictures pictures = pictures_of(of_top);
-    const BlockPicture picture{
+    BlockPicture picture{
         [&](int row, int column) { return may_show_node(pictures, top, row, column); },
         [&](int row, int column, double error_m) { return is_bad_node(pictures, top, row, column, error_m); },
         [&](int row, int column, const MadeNode& node) {
             return is_good_node(pictures, top, row, column, node);
-        }};
-    const bool is_for_any = culling_.empty() || pictures.size() > most_pictures_asked;
+        },
+        {}};
+    if (cast_map_) picture.may_cast = [&](int row, int column) { return may_cast_node(top, row, column); };
+    const bool is_for_any = pictures_.empty() || pictures.size() > most_pictures_asked;
     const auto before = known_->find(number);
     auto made = std::make_shared<const MeasuredBlock>(region_, of_top, std::max(threads, thread_count()),
                                                       is_for_any ? nullptr : &picture, before.get());
@@ -360,8 +402,8 @@ MadePages::SomePictures MadePages::pictures_of(const PageIndex& page) const {
     const PageBound bound =
         ground.is_wide() ? PageBound{} : wider(bound_between(ground, lowest_h_m_, highest_h_m_), 1.5);
     SomePictures pictures;
-    for (const PictureCulling& culling : culling_)
-        if (ground.is_wide() || culling.may_show(bound)) pictures.push_back(&culling);
+    for (const Picture& picture : pictures_)
+        if (ground.is_wide() || picture.culling.may_show(bound)) pictures.push_back(&picture);
     return pictures;
 }
 
@@ -369,13 +411,16 @@ MadePages::SomePictures MadePages::pictures_of(const PageIndex& page) const {
 bool MadePages::may_show_node(const SomePictures& pictures, int level, int row, int column) const {
     const Ground ground = ground_of(level, row, column, static_cast<int>(gpu::meshlet_quads));
     if (ground.is_wide()) return true;
+    SomePictures showing;
+    for (const Picture* const picture : pictures)
+        if (!picture->ground || picture->ground->may_show(level, row, column)) showing.push_back(picture);
     const double height_m = highest_h_m_ - lowest_h_m_;
     const int slices = std::clamp(static_cast<int>(std::ceil(height_m / reach_of(ground))), 1, 16);
     for (int i = 0; i < slices; ++i) {
         const PageBound slice = bound_between(ground, lowest_h_m_ + height_m * i / slices,
                                               lowest_h_m_ + height_m * (i + 1) / slices);
-        for (const PictureCulling* const picture : pictures)
-            if (picture->may_show(slice)) return true;
+        for (const Picture* const picture : showing)
+            if (picture->culling.may_show(slice)) return true;
     }
     return false;
 }
@@ -384,15 +429,129 @@ bool MadePages::is_bad_node(const SomePictures& pictures, int level, int row, in
                             double error_m) const {
     const Ground ground = ground_of(level, row, column, static_cast<int>(gpu::meshlet_quads));
     if (ground.is_wide()) return false;
+    if (cast_map_ && may_cast_node(level, row, column) && !fails_casters(level, row, column, error_m))
+        return false;
     const PageBound around = bound_between(ground, lowest_h_m_, highest_h_m_);
     return in_all(pictures, around,
                   [&](const PictureCulling& picture) { return picture.fails_tau(around, error_m); });
+}
+
+// What a picture shows where nothing is known of what hides what: all in its frustum, in nodes that are small
+// beside their distance.
+void MadePages::find_lit_in_frustum(const PictureCulling& culling, const Ecef& eye, double error_per_m,
+                                    const PageIndex& node, std::vector<LitGround>& lit) const {
+    const LevelGrid all = level_grid(facts().grid, node.level);
+    if (node.row >= all.row.nodes() || node.column >= all.column.nodes()) return;
+    const Ground ground = ground_of(node.level, node.row, node.column, static_cast<int>(gpu::meshlet_quads));
+    bool is_small = node.level <= 3;
+    if (!ground.is_wide()) {
+        const PageBound bound = bound_between(ground, lowest_h_m_, highest_h_m_);
+        if (!culling.may_show(bound)) return;
+        const double away_m = glm::distance(bound.centre.m, eye.m);
+        is_small = is_small || away_m > 5.0 * bound.radius_m;
+        const std::int64_t posts = std::int64_t{gpu::meshlet_quads} << node.level;
+        if (is_small) {
+            lit.push_back({node.row * posts, node.column * posts, posts,
+                           error_per_m * std::max(0.5, away_m - bound.radius_m),
+                           error_per_m * (away_m + bound.radius_m), away_m + bound.radius_m, lowest_h_m_});
+            return;
+        }
+    }
+    if (is_small) return;
+    for (int i = 0; i < 4; ++i)
+        find_lit_in_frustum(culling, eye, error_per_m,
+                            {2 * node.row + i / 2, 2 * node.column + i % 2, node.level - 1}, lit);
+}
+
+std::vector<MadePages::LitGround> MadePages::lit_ground(const Picture& picture, const FrameView& view) const {
+    std::vector<LitGround> lit;
+    const double error_per_m =
+        caster_error_per_metre(level_view(view.camera, view.tau_px).pixels_per_tangent);
+    if (!picture.ground) {
+        const int top = levels() - 1;
+        const LevelGrid all = level_grid(facts().grid, top);
+        for (int row = 0; row < all.row.nodes(); ++row)
+            for (int column = 0; column < all.column.nodes(); ++column)
+                find_lit_in_frustum(picture.culling, view.camera.eye_ecef(), error_per_m, {row, column, top},
+                                    lit);
+        return lit;
+    }
+    constexpr std::int64_t posts = std::int64_t{gpu::meshlet_quads} << 3;
+    for (const SeenGround::Node& node : picture.ground->nodes())
+        lit.push_back({node.row * posts, node.column * posts, posts, error_per_m * node.nearest_m,
+                       error_per_m * node.farthest_m, node.farthest_m, node.lowest_h_m});
+    return lit;
+}
+
+// A map of what all pictures need: they have one eye, so light goes the same way in each.
+void MadePages::map_casters(std::span<const FrameView> pictures, const glm::dvec3& sun_enu) {
+    if (pictures.empty()) return;
+    std::vector<LitGround> lit;
+    for (std::size_t i = 0; i < pictures.size(); ++i) {
+        const std::vector<LitGround> more = lit_ground(pictures_[i], pictures[i]);
+        lit.insert(lit.end(), more.begin(), more.end());
+    }
+    const Geodetic& eye = pictures.front().camera.eye;
+    CastMap::Window window;
+    for (int level = 0; level < levels(); ++level) {
+        cast_cells_.emplace(*this, level);
+        window = window_of_casters(*cast_cells_, lit, sun_enu);
+        if (static_cast<double>(window.rows) * window.columns <= most_cast_cells) break;
+    }
+    cast_map_.emplace(*this, *cast_cells_, ecef_from_enu(eye.lat_deg, eye.lon_deg) * sun_enu, highest_h_m_,
+                      window);
+    for (const LitGround& ground : lit)
+        cast_map_->receive(cast_map_->patch(ground.row, ground.column, ground.posts), 0.999 * ground.error_m,
+                           1.001 * ground.most_error_m, ground.lowest_h_m - 1.0);
+    cast_map_->cast();
+}
+
+// All that is lit, and as far towards the sun as light may pass ground.
+CastMap::Window MadePages::window_of_casters(const CastCells& cells, std::span<const LitGround> lit,
+                                             const glm::dvec3& sun_enu) const {
+    int north = std::numeric_limits<int>::max(), south = -1, west = north, east = -1;
+    double farthest_m = 0.0;
+    const auto cell = [&](std::int64_t post, int count) {
+        return static_cast<int>(std::min<std::int64_t>(post / cells.posts(), count - 1));
+    };
+    const PageLayout& all = cells.layout();
+    for (const LitGround& ground : lit) {
+        north = std::min(north, cell(ground.row, all.rows));
+        south = std::max(south, cell(ground.row + ground.posts - 1, all.rows));
+        west = std::min(west, cell(ground.column, all.columns));
+        east = std::max(east, cell(ground.column + ground.posts - 1, all.columns));
+        farthest_m = std::max(farthest_m, ground.farthest_m);
+    }
+    if (south < 0) return {};
+    return CastMap::window_of(cells, {north, west, south - north + 1, east - west + 1}, sun_enu, farthest_m,
+                              lowest_h_m_, highest_h_m_);
+}
+
+CastMap::Need MadePages::need_of_casters(int level, int row, int column) const {
+    const std::int64_t posts = std::int64_t{gpu::meshlet_quads} << level;
+    return cast_map_->need(cast_map_->patch(row * posts, column * posts, posts));
+}
+
+bool MadePages::may_cast_node(int level, int row, int column) const {
+    const CastMap::Need need = need_of_casters(level, row, column);
+    return need.low_m <= highest_h_m_ && (level > 6 || coarse_ground_.highest_m(level, row, column) >=
+                                                           static_cast<float>(need.low_m) - 2.0F);
+}
+
+bool MadePages::fails_casters(int level, int row, int column, double error_m) const {
+    return error_m > 1.01 * need_of_casters(level, row, column).most_error_m;
 }
 
 bool MadePages::is_good_node(const SomePictures& pictures, int level, int row, int column,
                              const MadeNode& node) const {
     const Ground ground = ground_of(level, row, column, static_cast<int>(gpu::meshlet_quads));
     if (ground.is_wide()) return false;
+    // What is too coarse for light whatever it is may be any bound that is, too.
+    if (cast_map_ && may_cast_node(level, row, column) &&
+        static_cast<double>(node.error_m) > 0.99 * need_of_casters(level, row, column).error_m &&
+        !fails_casters(level, row, column,
+                       least_error_m(region_, {row / page_side, column / page_side, level})))
+        return false;
     const PageBound around = bound_between(ground, lowest_h_m_, highest_h_m_);
     // The node's sphere has its middle somewhere in this one.
     PageBound with_sphere = around;
@@ -420,6 +579,31 @@ struct MadePostSource::Tiles {
     std::mutex mutex;
     std::vector<Tile> tiles{places};
     std::shared_ptr<BlocksOfRegion> blocks;
+
+    // Of pages of level 0 by their numbers; 16 MB are kept.
+    static constexpr std::size_t ranges_kept = 262'144;
+    std::mutex ranges_mutex;
+    std::unordered_map<std::uint64_t, PostSource::Range> ranges;
+
+    std::optional<PostSource::Range> range_of_page(int row, int column) {
+        if (CoarseGround::level >= static_cast<int>(region.bounds().size())) return std::nullopt;
+        const std::uint64_t number =
+            static_cast<std::uint64_t>(row) << 32U | static_cast<std::uint32_t>(column);
+        {
+            const std::scoped_lock lock(ranges_mutex);
+            if (const auto known = ranges.find(number); known != ranges.end()) return known->second;
+        }
+        const CoarseGround::Tile tile = CoarseGround(region).tile(row, column);
+        PostSource::Range range{1.0e9, -1.0e9};
+        for (std::size_t post = 0; post < tile.coarse_m.size(); ++post) {
+            range.lowest_H_m = std::min(range.lowest_H_m, static_cast<double>(tile.low_m(post)));
+            range.highest_H_m = std::max(range.highest_H_m, static_cast<double>(tile.high_m(post)));
+        }
+        const std::scoped_lock lock(ranges_mutex);
+        if (ranges.size() >= ranges_kept) ranges.clear();
+        ranges.emplace(number, range);
+        return range;
+    }
 
     std::shared_ptr<BlocksOfRegion> blocks_of(const UndulationField& undulation) {
         const std::scoped_lock lock(mutex);
@@ -453,9 +637,7 @@ struct MadePostSource::Tiles {
 
 MadePostSource::MadePostSource(const MadeTerrain& terrain, const PostGrid& grid)
     : terrain_(terrain_on(terrain, grid)), tiles_(std::make_unique<Tiles>()) {
-    tiles_->region.terrain = terrain_;
-    tiles_->region.rule = made_rule(terrain_);
-    tiles_->region.grid = grid;
+    tiles_->region = made_region(terrain_, grid, {});
 }
 MadePostSource::~MadePostSource() = default;
 
@@ -465,8 +647,34 @@ float MadePostSource::H_m(int row, int column) const {
         .H_m[static_cast<std::size_t>(row % Tiles::side * Tiles::side + column % Tiles::side)];
 }
 
+// Who asks for one row asks for the next: places of columns, which take as long as the noise, are kept.
+void MadePostSource::row_H_m(int row, int first_column, std::span<float> H_m) const {
+    struct Columns {
+        std::int64_t first{}, posts_per_deg{};
+        std::vector<MadeColumn> places;
+    };
+    static thread_local Columns kept;
+    const std::int64_t first = terrain_.west + first_column;
+    const auto end = first + static_cast<std::int64_t>(H_m.size());
+    if (kept.posts_per_deg != terrain_.posts_per_deg || first < kept.first ||
+        end > kept.first + static_cast<std::int64_t>(kept.places.size())) {
+        constexpr int more = 2;  // diagonals look as far beyond 128 cells
+        kept = {first - more, terrain_.posts_per_deg, {}};
+        for (std::int64_t post = first - more; post < end + more; ++post)
+            kept.places.push_back(made_column(post, terrain_.posts_per_deg));
+    }
+    made_posts_of_row(tiles_->region, row,
+                      std::span<const MadeColumn>(kept.places)
+                          .subspan(static_cast<std::size_t>(first - kept.first), H_m.size()),
+                      H_m);
+}
+
+std::optional<PostSource::Range> MadePostSource::range_of_page(int page_row, int page_column) const {
+    return tiles_->range_of_page(page_row, page_column);
+}
+
 std::unique_ptr<RegionPages> MadePostSource::pages(const HeightField& field,
-                                                   std::span<const FrameView> pictures) const {
+                                                   const KnownPictures& pictures) const {
     MadeRegion region = made_region(terrain_, field.grid, field.undulation);
     const auto quads = [](int posts) { return static_cast<std::uint64_t>(posts - 1); };
     RegionFacts facts{field.grid, field.undulation, shape_of(region),

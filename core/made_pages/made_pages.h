@@ -2,9 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
-#include "core/frame/frame_plan.h"
+#include "core/frame/known_pictures.h"
 #include "core/frame/region_pages.h"
 #include "core/made/made_terrain.h"
 #include "core/terrain/post_grid.h"
@@ -24,6 +25,8 @@ class MadePostSource : public PostSource {
 
     [[nodiscard]] float H_m(int row, int column) const override;
     [[nodiscard]] Result<void> health() const override { return {}; }
+    void row_H_m(int row, int first_column, std::span<float> H_m) const override;
+    [[nodiscard]] std::optional<Range> range_of_page(int page_row, int page_column) const override;
 
     // The pages of all levels, whose undulation is the field's, of which this is the source. Heights and
     // nodes' errors are made when they are asked for; errors are measured three levels deep and bounded by
@@ -33,8 +36,10 @@ class MadePostSource : public PostSource {
     // for; none: any. They cost less then. The nodes that each of them draws where it may show them are those
     // that it draws without, and their errors are never less than those. Others may have an error of 0. What
     // pages of other pictures have measured is not measured again (64 MB are kept).
+    // With light, casters are followed on the levels that pages for any have. Pictures with a sun have one
+    // eye.
     [[nodiscard]] std::unique_ptr<RegionPages> pages(const HeightField& field,
-                                                     std::span<const FrameView> pictures = {}) const;
+                                                     const KnownPictures& pictures = {}) const;
 
   private:
     struct Tiles;

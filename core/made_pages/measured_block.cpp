@@ -632,7 +632,9 @@ TopNodes shown_nodes(const MadeRegion& region, const PageIndex& top, const Block
         if (column < 0 || column >= level.column.nodes()) return region.grid.wraps_longitude();
         return picture.may_show(row, column);
     });
-    nodes.fill([&](int row, int column) { return shown.has_beside(row, column); });
+    nodes.fill([&](int row, int column) {
+        return shown.has_beside(row, column) || (picture.may_cast && picture.may_cast(row, column));
+    });
     return nodes;
 }
 
@@ -652,21 +654,6 @@ MadeNode least_node(const MadeRegion& region, const PageIndex& top, int base) {
     const auto& levels = least_bounds(region, top);
     return {static_cast<float>(levels[std::min(static_cast<std::size_t>(base), levels.size() - 1)].coarse),
             0.0F};
-}
-
-// What no node of a page's block has an error below, whatever is measured: what lies between the posts that
-// it is measured against, or what bounds it where less is known (PartMeasurement::found_at()).
-double least_error_m(const MadeRegion& region, const PageIndex& top) {
-    const int against = measured_against(top.level);
-    if (against == 0) return 0.0;
-    const auto& levels = least_bounds(region, top);
-    const auto of = [&](int level) -> const MadeLevelBound& {
-        return levels[std::min(static_cast<std::size_t>(level), levels.size() - 1)];
-    };
-    const MadeLevelBound& base = of(against);
-    const MadeLevelBound& lowest = of(top.level - levels_of_block + 1);
-    return 0.9999 * std::min({base.coarse, base.triangles.free, base.triangles.cut, lowest.drawn.free,
-                              lowest.drawn.cut});
 }
 
 // Nodes of a page that a picture needs exactly: those that are not sure to be bad, and that fewer posts do
@@ -706,6 +693,21 @@ TopNodes undecided_nodes(const MadeRegion& region, int threads, const BlockPictu
 }
 
 }  // namespace
+
+// What no node of a page's block has an error below, whatever is measured: what lies between the posts that
+// it is measured against, or what bounds it where less is known (PartMeasurement::found_at()).
+double least_error_m(const MadeRegion& region, const PageIndex& top) {
+    const int against = measured_against(top.level);
+    if (against == 0) return 0.0;
+    const auto& levels = least_bounds(region, top);
+    const auto of = [&](int level) -> const MadeLevelBound& {
+        return levels[std::min(static_cast<std::size_t>(level), levels.size() - 1)];
+    };
+    const MadeLevelBound& base = of(against);
+    const MadeLevelBound& lowest = of(top.level - levels_of_block + 1);
+    return 0.9999 * std::min({base.coarse, base.triangles.free, base.triangles.cut, lowest.drawn.free,
+                              lowest.drawn.cut});
+}
 
 void MeasuredBlock::make_levels(const MadeRegion& region) {
     for (int level = top_.level; level > top_.level - levels_of_block; --level) {
@@ -757,11 +759,18 @@ MeasuredBlock::MeasuredBlock(const MadeRegion& region, const PageIndex& top, int
         exact = undecided_nodes(
             region, threads, *picture, top, std::move(exact),
             [&](int row, int column, double error_m) {
-                set_below(row, column, [error_m](int, int, int) {
-                    return MadeNode{static_cast<float>(error_m), 0.0F};
+                set_below(row, column, [&](int level, int, int) {
+                    // What light passes must not be higher than it is known to be.
+                    return MadeNode{picture->may_cast ? unmeasured_node(region, level).error_m
+                                                      : static_cast<float>(error_m),
+                                    0.0F};
                 });
             },
-            [&](int row, int column, const MadeNode& node) { levels_.front().at(row, column) = node; });
+            [&](int row, int column, const MadeNode& node) {
+                if (picture->may_cast)
+                    set_below(row, column, [&](int, int, int) { return MadeNode{node.error_m, 0.0F}; });
+                levels_.front().at(row, column) = node;
+            });
     const BlockNodes nodes(region, top.level, std::move(exact));
     if (nodes.empty()) return;
     const PartMeasurement measured(region, top.level, measured_against(top.level), nodes, threads);

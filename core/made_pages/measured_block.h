@@ -65,7 +65,13 @@ struct BlockPicture {
     // Whether the node, with such an error and sphere, is near enough to the truth there: then nothing finer
     // is drawn in its stead.
     std::function<bool(int row, int column, const MadeNode& node)> is_good;
+    // Whether light to what the picture shows may need to be known past the node; empty: light does not
+    // matter. The three above tell of that, too, and errors are then bounds wherever they are not 0.
+    std::function<bool(int row, int column)> may_cast{};
 };
+
+// What no node of a block, whose top page is given, has an error below, whatever is measured.
+double least_error_m(const MadeRegion& region, const PageIndex& top);
 
 // The nodes of the levels of a block over the ground of one page of its top level.
 class MeasuredBlock {

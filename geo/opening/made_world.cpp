@@ -58,11 +58,13 @@ Result<RegionGrid> made_world(const ChosenGrid& chosen, const RegionRequest& req
     world.posts_hash = sum.sum();
     world.sources.front().posts_hash = world.posts_hash;
     world.geoid_fingerprint = undulation_fingerprint(world.field.undulation);
-    char note[240];
+    char note[320];
     std::snprintf(
         note, sizeof note,
-        "%.3g posts are made where they are looked at; H is told as the rule bounds it; pictures have "
-        "no shadows and no light of the sky unless --shadows on and --sky-openness on ask for them",
+        "%.3g posts are made where they are looked at; H is told as the rule bounds it; windows, films and "
+        "pictures from high up or near a pole have no shadows and no light of the sky unless --shadows on "
+        "and "
+        "--sky-openness on ask for them",
         grid.lat.count * static_cast<double>(grid.lon.count));
     add_note(world.notes, note);
     return world;

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <vector>
 
+#include "tests/apps/picture_pixels.h"
 #include "tests/apps/program.h"
 #include "tests/apps/said_json.h"
 #include "tests/support/test_data.h"
@@ -71,18 +73,34 @@ TEST(MadeTerrain, OfAWholeWorldIsDrawnWithinItsCertificate) {
         EXPECT_GT(error["largest_px"].get<double>(), 0.0);
         EXPECT_EQ(shot["settled"], true);
     }
-    // The usual style has shadows and light of the sky. Both ask for ground in all directions, so here they
-    // are for who asks for them, and a note says so.
-    const auto usual = run_orograph({"shot", world, "--at", "46.5,8.3", "--above", "1500", "--style",
-                                     "natural", "--size", "60x40", "--out", folder / "natural.png"});
-    EXPECT_EQ(usual.exit_code, 0) << usual.err;
-    EXPECT_NE(usual.err.find("--shadows on and --sky-openness on"), std::string::npos) << usual.err;
     expect_refusal(run_orograph({"shot", world, "--at", "46.5,8.3", "--above", "1500", "--detail", "2",
                                  "--out", folder / "d.png"}),
                    oro::test::usage, {"--detail", "--bbox"});
     expect_refusal(run_orograph({"shot", world, "--at", "46.5,8.3", "--above", "1500", "--exaggeration", "2",
                                  "-q", "--out", folder / "e.png"}),
                    oro::test::usage, {"--exaggeration", "--bbox"});
+}
+
+// The usual style has shadows and light of the sky. From high up they would ask for more ground than anybody
+// waits for, so there they are for who asks for them, and a note says so.
+TEST(MadeTerrain, OfAWholeWorldHasTheLightOfItsStyleFromNearTheGround) {
+    const fs::path folder = oro::test::scratch_folder();
+    const auto pixels = [&](const std::string& above, const std::vector<std::string>& light,
+                            const std::string& name) {
+        std::vector<std::string> words{"shot",    world,     "--at",   "46.5,8.3",   "--above", above,
+                                       "--pitch", "-30",     "--size", "60x40",      "--sun",   "200,30",
+                                       "--style", "natural", "--out",  folder / name};
+        words.insert(words.end(), light.begin(), light.end());
+        const auto outcome = run_orograph(words);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_NE(outcome.err.find("--shadows on and --sky-openness on"), std::string::npos) << outcome.err;
+        return oro::test::pixels_of(folder / name).rgb;
+    };
+    const std::vector<std::string> none{"--shadows", "off", "--sky-openness", "off"};
+    const auto lit = pixels("1500", {}, "lit.png");
+    EXPECT_EQ(lit, pixels("1500", {"--shadows", "on", "--sky-openness", "on"}, "asked.png"));
+    EXPECT_NE(lit, pixels("1500", none, "none.png"));
+    EXPECT_EQ(pixels("20000", {}, "high.png"), pixels("20000", none, "high_none.png"));
 }
 
 // 1,000 m over 10,000 m to the east, from the middle: 767.6 m over the 7,676 m of the line, by hand.

@@ -24,7 +24,7 @@ constexpr double usual_px_per_deg = 20.0;
 constexpr double most_scene_pixels = 2.0e8;
 
 // Of the tiles that draw_scene() draws.
-std::vector<FrameView> pictures_of_panorama(const View& view, const Style& style, const Cylinder& around) {
+KnownPictures pictures_of_panorama(const View& view, const Style& style, const Cylinder& around) {
     const CylinderCut cut;
     std::vector<Camera> cameras;
     for (const CylinderTile& tile : cylinder_tiles(around, view.camera.eye, cut))
@@ -80,7 +80,7 @@ Result<Style> style_of_panorama(const View& view, const Region& region) {
     part.camera = tiles[tiles.size() / 2].camera;
     // Invented trees would hide mountains that are there, and are named.
     if (!part.trees) part.trees = false;
-    return load_style(part, region.grids.front().field);
+    return load_style(part, region.grids.front().field, WorldLight::drawn);
 }
 
 Result<CylinderPicture> draw_panorama(const View& view, const Region& region, const RegionCuts& cuts,

@@ -266,7 +266,7 @@ Result<Style> open_shot(const ShotOptions& options, const PictureFiles& files, c
     shot.times.read_s = seconds_since(reading);
     ORO_CHECK(spare_files_of(options, files, shot));
     if (options.layers) ORO_CHECK(check_layers(shot.view.camera));
-    return load_style(shot.view, shot.region.grids.front().field);
+    return load_style(shot.view, shot.region.grids.front().field, WorldLight::drawn);
 }
 
 // The files beside the picture, as they are asked for: without names yet.

@@ -1,5 +1,6 @@
 #include "apps/commands/shot/shot_scene.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <optional>
 #include <span>
@@ -18,6 +19,7 @@
 #include "apps/view/accuracy.h"
 #include "core/base/elapsed.h"
 #include "core/lod/ground_means.h"
+#include "core/made_pages/made_pages.h"
 
 namespace oro {
 namespace {
@@ -63,9 +65,17 @@ void choose_legend(const ShotOptions& options, View& view) {
                                " px wide has no room for the legend of --show");
 }
 
+// Whether a scene is left to other pictures: not one of made terrain whose pages are made for one alone.
+static bool leaves_scene(const Region& region) {
+    return keeps_drawing() && std::ranges::none_of(region.grids, [](const RegionGrid& grid) {
+               return made_posts_of(grid.field) != nullptr;
+           });
+}
+
 // What a scene's pages are for: nothing that is known, where bundles are tried or other pictures may follow.
-static std::vector<FrameView> only_picture(const ShotOptions& options, const Style& style, const View& view) {
-    if (options.view.tolerance || keeps_drawing()) return {};
+static KnownPictures only_picture(const ShotOptions& options, const Style& style, const View& view,
+                                  const Region& region) {
+    if (options.view.tolerance || leaves_scene(region)) return {};
     return known_pictures(view, style, std::span(&view.camera, 1));
 }
 
@@ -81,7 +91,7 @@ Result<ShotScene> scene_of_shot(const ShotOptions& options, double ceiling_m, co
                            [&](double share) {
                                if (progress) progress(share, "measuring levels");
                            },
-                           {}, only_picture(options, style, shot.view)));
+                           {}, only_picture(options, style, shot.view, shot.region)));
         return {};
     };
     if (asks) {
@@ -101,7 +111,7 @@ Result<ShotScene> scene_of_shot(const ShotOptions& options, double ceiling_m, co
     const bool means = asks_for_means(style.frame);
     std::string key;
     std::optional<RegionScene> whole;
-    if (keeps_drawing() && !asks && !shot.meshes) {
+    if (leaves_scene(shot.region) && !asks && !shot.meshes) {
         key = scene_key(shot.view, options.memory, means, clusters);
         whole = take_kept_scene(key);
     }
