@@ -223,6 +223,7 @@ set_tests_properties(
   Made/MadePagesTest.AreThoseInMemoryWithErrorsThatAreNoSmallerAndNested/Number2
   MadeHeights.NoiseHasNoGrainAndTheSpectrumOfItsGain
   MadeTerrain.OfAWholeWorldIsDrawnWithinItsCertificate
+  MadeTerrain.OfAWholeWorldHasTheLightOfItsStyleFromNearTheGround
   Manual.HasEachOptionOfHelp
   MeshBake.HasPanoramasByClusters
   MeshBake.IsDrawnAsTheFilesAre
@@ -888,6 +889,7 @@ set_tests_properties(
   DamagedGeoid.CutEmptyAndHeaderOnlyGridsAreErrors
   DamagedGeoid.CutGridsAreErrorsBehindLinksAndInTheUsersOwnFolder
   DamagedGeoid.ZerosNoValuesAndForeignNumbersAreErrors
+  CastersOfPicture.AreFollowedOnTheLevelsOfPagesForAny
   DisplayText.NothingIsDecidedOnIt
   Earths/OracleOfModels.MeetsPostsOnANetAsMarchingAlongTheRayDoes/ellipsoid
   Earths/OracleOfModels.MeetsPostsOnANetAsMarchingAlongTheRayDoes/flat
