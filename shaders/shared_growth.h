@@ -79,6 +79,8 @@ ORO_CONST uint site_in_forest = 4u;  // among others
 ORO_CONST uint site_sun_bit = 8u;   // eight bits: the sun's light on a stand, of most_sun
 ORO_CONST float most_sun = 1.5f;    // times that on level ground
 ORO_CONST uint site_size_bit = 16u; // eight bits: the share of a grown tree's height
+ORO_CONST uint site_patch_bit = 24u; // eight bits: the noise of the forest's colour there, of -most_patch to most_patch
+ORO_CONST float most_patch = 2.0f;
 
 #ifdef __cplusplus
 }  // namespace oro::gpu

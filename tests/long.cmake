@@ -405,6 +405,7 @@ set_tests_properties(
   TradeCommand.WritesATableAndAPage
   TradePage.TheCheckFindsWhatIsWrong
   TreesOfShots.OffDrawsWhatAStyleWithoutTreesDraws
+  TreesOfShots.SayWhereTheyHideTheView
   Unseen.APartThatWasChosenEndsAndMissesNothing
   Unseen.APictureOfAllTheDataSaysNothing
   Unseen.NothingIsSaidWhereAllLinesEndOnData
@@ -807,10 +808,12 @@ set_tests_properties(
   TradeOrder.CountsAreThoseOfAnyOrderAndAnyRepeats
   TradeOrder.NorDoTheyDependOnWhatFillsTheMemory
   TreePictures.AreAsLightAsTheirForestFromFar
+  TreePictures.AreAsLightWhereTheyEnd
   TreePictures.AreNoGround
   TreePictures.AreTheSameByBothWaysOfDrawing
   TreePictures.AreTheSameInTiles
   TreePictures.AreTheSameWhereHiddenOnesAreDrawn
+  TreePictures.ChangeLittleAsTheEyeDrawsNearer
   TreePictures.StandInNoWater
   Triangles/FullLists.PicturesAreThoseOfListsWithRoom/blocks
   Triangles/FullLists.PicturesAreThoseOfListsWithRoom/clusters

@@ -14,6 +14,8 @@
 #include "apps/text/text_face.h"
 #include "core/base/parallel.h"
 #include "core/base/srgb.h"
+#include "core/growth/near_trees.h"
+#include "shaders/shared_growth.h"
 
 namespace oro {
 namespace {
@@ -143,6 +145,14 @@ RowSink written_rows(ViewWriting& writing, const Camera& camera, const RowSink& 
     return [filled](std::span<const std::uint8_t> row) { return filled->take(row); };
 }
 
+// Whether an eye may stand among a style's trees.
+static bool may_stand_among_trees(const View& view, const TrueGround& ground, const Style& style) {
+    if ((style.frame.materials.on & gpu::materials_with_trees) == 0 || view.show) return false;
+    const Geodetic& eye = view.camera.eye;
+    const auto ground_h_m = ground.h_m(eye.lat_deg, eye.lon_deg);
+    return ground_h_m && eye.h_m - *ground_h_m < highest_tree_m * std::max(view.exaggeration, 1.0);
+}
+
 Result<LabelledPicture> render_labelled(const Gpu& gpu, Scene& scene, const View& view,
                                         const TrueGround& ground, const Style& style, RasterPath path,
                                         const RowSink& sink, const RenderProgress& progress) {
@@ -152,8 +162,10 @@ Result<LabelledPicture> render_labelled(const Gpu& gpu, Scene& scene, const View
     picture.labels = std::move(writing.labels);
     picture.names = std::move(writing.names);
     picture.overlay = std::move(writing.overlay);
-    ORO_TRY(picture.report, render_picture(gpu, scene, view.camera, style.frame, picture_options(view, path),
-                                           rows, progress));
+    PictureOptions options = picture_options(view, path);
+    options.counts_near_trees = may_stand_among_trees(view, ground, style);
+    if (options.counts_near_trees) ORO_CHECK(ground.health());
+    ORO_TRY(picture.report, render_picture(gpu, scene, view.camera, style.frame, options, rows, progress));
     return picture;
 }
 

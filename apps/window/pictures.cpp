@@ -11,6 +11,7 @@
 #include "apps/output/picture_file.h"
 #include "apps/output/pose_files.h"
 #include "apps/report/json_text.h"
+#include "apps/report/near_trees_words.h"
 #include "apps/report/progress_bar.h"
 #include "apps/window/frames.h"
 #include "apps/window/window_start.h"
@@ -36,9 +37,9 @@ View pictured(View view, const PictureChoice& choice) {
 }
 
 // Draws a picture, and gives it and the files beside it their names together.
-Result<void> write_with_poses(Viewer& viewer, const PictureFiles& files, const View& view,
-                              const RegionGround& ground, const std::optional<SeenPlace>& middle,
-                              std::span<const std::uint8_t> strip, PoseChoice poses) {
+Result<PictureReport> write_with_poses(Viewer& viewer, const PictureFiles& files, const View& view,
+                                       const RegionGround& ground, const std::optional<SeenPlace>& middle,
+                                       std::span<const std::uint8_t> strip, PoseChoice poses) {
     ORO_TRY(const std::vector<PoseText> texts,
             pose_texts(files.picture, poses, view, pose_facts(view, viewer.region)));
     ORO_TRY(std::vector<WholeFile> written, pose_files(texts, false));
@@ -47,7 +48,8 @@ Result<void> write_with_poses(Viewer& viewer, const PictureFiles& files, const V
     written.push_back(std::move(picture.file));
     std::vector<WholeFile*> all;
     for (WholeFile& file : written) all.push_back(&file);
-    return commit_together(all);
+    ORO_CHECK(commit_together(all));
+    return picture.report;
 }
 
 Result<void> write_picture_of(Viewer& viewer, const PictureChoice& choice) {
@@ -68,7 +70,11 @@ Result<void> write_picture_of(Viewer& viewer, const PictureChoice& choice) {
     ORO_CHECK(fit_to_view(viewer.style, view, viewer.region.grids.front().field));
     ORO_TRY(const auto strip, strip_of(view, viewer.region, viewer.style, middle));
     const auto written = write_with_poses(viewer, files, view, *ground, middle, strip, choice.poses);
-    tell(viewer, written.ok() ? written_words(files.picture) : written.error().line(), !written.ok());
+    const std::string hidden = written.ok() ? near_trees_note(*written, view.camera) : "";
+    tell(viewer,
+         written.ok() ? written_words(files.picture) + (hidden.empty() ? "" : "; " + hidden)
+                      : written.error().line(),
+         !written.ok());
     say(viewer.options.quiet && written.ok(), viewer.message);
     if (!written.ok() || viewer.options.quiet) return {};
     ORO_TRY(const UnseenGround unseen, unseen_in(view, viewer.region, usual_unseen_ceiling_m));

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cstring>
 
+#include "core/growth/near_trees.h"
 #include "render/frame/frame_layout.h"
 #include "render/frame/frame_renderer.h"
 
@@ -104,6 +105,20 @@ Result<std::vector<float>> FrameRenderer::read_depths(std::uint32_t width, std::
     std::vector<float> depths(bits.size());
     std::memcpy(depths.data(), bits.data(), bits.size() * sizeof(float));
     return depths;
+}
+
+Result<std::vector<std::uint8_t>> FrameRenderer::read_near_trees(std::uint32_t width, std::uint32_t height) {
+    std::vector<std::uint8_t> shown(std::size_t{width} * height, 0);
+    const FramePlan& plan = *slots_[slot_].plan;
+    const auto has_trees = [](const GridPlan& grid) { return !grid.growth.tiles.empty(); };
+    if (std::ranges::none_of(plan.grids, has_trees)) return shown;
+    ORO_TRY(const std::vector<std::uint32_t> ids, read_ids(width, height));
+    for (const GridPlan& grid : plan.grids) {
+        NearTrees near_trees(grid.growth, plan.view.camera.eye);
+        for (std::size_t i = 0; i < ids.size(); ++i)
+            if (near_trees.has(ids[i])) shown[i] = 1;
+    }
+    return shown;
 }
 
 // Some 60 MB at a time.

@@ -111,6 +111,9 @@ class FrameRenderer {
     // With keep_depths: reversed depth of each of its pixels at the centre, from the triangle seen there; 0
     // for the background.
     Result<std::vector<float>> read_depths(std::uint32_t width, std::uint32_t height);
+    // Whether each pixel of the last frame, which was that large, shows a tree near its eye
+    // (core/growth/near_trees.h): 1 or 0. Nothing is read where the frame had no trees.
+    Result<std::vector<std::uint8_t>> read_near_trees(std::uint32_t width, std::uint32_t height);
     // With keep_triangles: what each pixel of some of its rows shows, row by row. first_row: a multiple of
     // triangle_rows(), which is the most that are read at a time.
     Result<std::vector<ShownTriangle>> read_triangles(std::uint32_t first_row, std::uint32_t rows);

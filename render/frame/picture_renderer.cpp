@@ -151,6 +151,7 @@ void PictureReport::add(const PictureReport& part) {
     mesh_groups += part.mesh_groups;
     triangles_drawn += part.triangles_drawn;
     ground_px += part.ground_px;
+    near_tree_px += part.near_tree_px;
     pages_drawn += part.pages_drawn;
     pages_beyond_frustum += part.pages_beyond_frustum;
     pages_beyond_horizon += part.pages_beyond_horizon;
@@ -208,6 +209,20 @@ Result<void> PictureRenderer::keep_depths(const Tile& drawn, const Tile& own, in
     return {};
 }
 
+// Of a tile's own pixels.
+Result<std::uint32_t> PictureRenderer::near_tree_pixels(const Tile& drawn, const Tile& own) {
+    ORO_TRY(const std::vector<std::uint8_t> shown,
+            renderer_.read_near_trees(static_cast<std::uint32_t>(drawn.width_px),
+                                      static_cast<std::uint32_t>(drawn.height_px)));
+    std::uint32_t count = 0;
+    for (int y = 0; y < own.height_px; ++y) {
+        const auto from = shown.begin() + std::ptrdiff_t{own.y_px - drawn.y_px + y} * drawn.width_px +
+                          (own.x_px - drawn.x_px);
+        count += static_cast<std::uint32_t>(std::count(from, from + own.width_px, std::uint8_t{1}));
+    }
+    return count;
+}
+
 Result<PictureReport> PictureRenderer::draw(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
                                             const RowSink& sink, const RenderProgress& progress) {
     return draw_part(scene, camera, {0, 0, camera.width_px, camera.height_px}, style, sink, progress);
@@ -249,6 +264,10 @@ Result<PictureReport> PictureRenderer::draw_part(Scene& scene, const Camera& cam
                     renderer_.read_picture(static_cast<std::uint32_t>(drawn.width_px),
                                            static_cast<std::uint32_t>(drawn.height_px)));
             if (options_.keep_depths) ORO_CHECK(keep_depths(drawn, own, camera.width_px));
+            if (options_.counts_near_trees) {
+                ORO_TRY(const std::uint32_t near_px, near_tree_pixels(drawn, own));
+                report.near_tree_px += near_px;
+            }
             const std::vector<std::uint8_t> rgba = inner_pixels(pixels, drawn, own);
             report.ground_px += ground_pixels(rgba);
             copy_rgb(rgba, {own.x_px - part.x_px, 0, own.width_px, own.height_px}, part.width_px, band);

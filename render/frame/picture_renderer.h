@@ -21,6 +21,7 @@ struct PictureOptions {
     WorldModel model{};
     bool keep_depths{false};                           // for PictureRenderer::depths()
     bool depths_of_growth{false};                      // as FrameRendererOptions::depths_of_growth
+    bool counts_near_trees{false};                     // for PictureReport::near_tree_px
     gpu::uint show{};                                  // gpu::show_..., of pictures of one sample
     OcclusionUse occlusion{OcclusionUse::if_it_pays};  // the picture is the same
 };
@@ -33,11 +34,12 @@ struct PictureReport {
     std::uint64_t meshlets_beyond_horizon{};
     std::uint64_t mesh_groups{};
     std::uint64_t triangles_drawn{};
-    std::uint64_t ground_px{};    // pixels that show ground, in any of their samples
-    std::uint64_t pages_drawn{};  // with a meshlet of the right level
-    bool settled{true};           // all that tau asks for was there
-    bool images_settled{true};    // all of the images over the ground that the picture can show was there
-    double choose_s{};            // GPU timestamps, all samples
+    std::uint64_t ground_px{};     // pixels that show ground, in any of their samples
+    std::uint64_t pages_drawn{};   // with a meshlet of the right level
+    bool settled{true};            // all that tau asks for was there
+    bool images_settled{true};     // all of the images over the ground that the picture can show was there
+    std::uint32_t near_tree_px{};  // that show a tree near the eye, in their last samples
+    double choose_s{};             // GPU timestamps, all samples
     double raster_s{};
     double shade_s{};
     std::uint64_t pages_beyond_frustum{};
@@ -75,6 +77,7 @@ class PictureRenderer {
 
   private:
     Result<void> keep_depths(const Tile& drawn, const Tile& own, int picture_width);
+    Result<std::uint32_t> near_tree_pixels(const Tile& drawn, const Tile& own);
     PictureRenderer(const PictureOptions& options, FrameRenderer renderer)
         : options_(options), renderer_(std::move(renderer)) {}
     PictureOptions options_;

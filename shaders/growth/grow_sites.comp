@@ -94,12 +94,13 @@ uint what_stands(uint hash, SitePlace place) {
     float needle = in_forest ? stands.needle / forest : 1.0 - broad_share(point);
     uint kind = site_number(hash, 12u) < needle ? site_needle : site_broad;
     // Where trees are left out the farther they are, the next of them are small already.
-    float size = size_at(point, !in_forest, hash) * smoothstep(0.0, grows_in, kept_rank(place) - site_rank(hash));
+    float size = size_at(point, !in_forest, hash) * smoothstep(0.0, trees_grow_in, kept_rank(place) - site_rank(hash));
     uint size_code = uint(clamp(size, 0.0, 1.0) * 255.0 + 0.5);
     if (size_code < 20u) return 0u;
     float sun = sun_on_site(place, point, 0.6 * (size * tree_height_m(hash))) * (in_forest ? sun_on_canopy(point) : 1.0);
     uint sun_code = uint(sun / most_sun * 255.0 + 0.5);
-    return kind | (in_forest ? site_in_forest : 0u) | sun_code << site_sun_bit | size_code << site_size_bit;
+    uint patch_code = uint((clamp(pixel_noise.patches / most_patch, -1.0, 1.0) + 1.0) * 127.0 + 0.5);
+    return kind | (in_forest ? site_in_forest : 0u) | sun_code << site_sun_bit | size_code << site_size_bit | patch_code << site_patch_bit;
 }
 
 void main() {

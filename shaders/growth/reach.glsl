@@ -14,8 +14,10 @@ ORO_FUNCTION float tree_reach_m(float pixels_per_tangent, float tau_px) {
 
 // The share of a forest's trees that stand at a distance: all of them near, none beyond the reach.
 ORO_FUNCTION float trees_at(float distance_m, float reach_m) {
-    float x = (reach_m - distance_m) / (0.5f * reach_m);
+    float x = (reach_m - distance_m) / (0.65f * reach_m);
     x = x < 0.0f ? 0.0f : x > 1.0f ? 1.0f : x;
     return x * x * (3.0f - 2.0f * x);
 }
+// Ranks (tree_rule.glsl) over which a tree goes from nothing to its height: the more, the less changes at once.
+ORO_CONST float trees_grow_in = 0.32f;
 #endif

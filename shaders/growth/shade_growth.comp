@@ -60,10 +60,14 @@ void keep_colour(ivec2 pixel, vec3 colour) {
 // A crown in the sun is lighter than a forest's mean, which holds the shade between crowns.
 const float needle_lighter = 3.3, broad_lighter = 1.25;
 
+// Lighter and darker parts of forests have lighter and darker trees.
+float patch_of_site(uint stands) { return most_patch * (float(stands >> site_patch_bit) / 127.0 - 1.0); }
+
 // What leaves send back of the sun's light and the sky's.
 GroundLight light_of_crown(Crown crown, CrownHit hit, uint stands, vec3 sun, vec3 to_eye, float pixel_m) {
     uint material = crown.kind == site_needle ? material_needle_forest : material_broad_forest;
-    vec3 albedo = FRAME.style.materials.of[material].colour + crown.colour * FRAME.style.materials.of[material].patches;
+    vec3 albedo = FRAME.style.materials.of[material].colour + (crown.colour + patch_of_site(stands)) * FRAME.style.materials.of[material].patches;
+    albedo = max(albedo, vec3(0.0));
     // Trees of a kind differ: some are older, drier, of another species.
     float lighter = crown.kind == site_needle ? needle_lighter : broad_lighter;
     albedo *= lighter * (1.0 + 0.3 * crown.colour) * mix(vec3(1.0), vec3(1.1, 1.0, 0.85), clamp(crown.colour + 0.25, 0.0, 1.0));

@@ -22,7 +22,7 @@
 namespace oro {
 namespace {
 
-constexpr double grown_over = 0.12;  // ranks over which a tree grows to its height: kept_rank.glsl
+constexpr auto grown_over = static_cast<double>(gpu::site_rule::trees_grow_in);
 
 struct CrownCounts {
     std::size_t crowns{}, seen_crowns{}, crown_px{}, bare_px{}, doubtful_px{};

@@ -31,6 +31,7 @@
 #include "apps/output/pose_files.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_text.h"
+#include "apps/report/near_trees_words.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
 #include "apps/report/resampling_words.h"
@@ -185,6 +186,8 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
         say(options.quiet, "note: " + note);
     shot.view.fingerprints = picture.fingerprints;
     shot.times.draw_s = seconds_since(drawing);
+    if (const std::string note = near_trees_note(shot.picture, shot.view.camera); !note.empty())
+        say(options.quiet, "note: " + note);
     if (shot.picture.ground_px == 0)
         say(options.quiet, "note: " + (nothing.ok() ? *nothing : nothing.error().what));
     for (const GridScene& grid : scene.grids()) {

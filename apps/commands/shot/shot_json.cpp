@@ -9,6 +9,7 @@
 #include "apps/report/feature_words.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
+#include "apps/report/near_trees_words.h"
 #include "apps/report/region_json.h"
 #include "apps/report/summit_words.h"
 #include "apps/styles/growth_json.h"
@@ -159,6 +160,8 @@ void put_style(const ShotResult& shot, const Style& style, ordered_json& json) {
     if (const ordered_json growth = growth_json(style, shot.view.trees ? "left out (--trees off)" : nullptr);
         !growth.empty())
         json["growth"] = growth;
+    if (shot.picture.near_tree_px > 0)
+        json["growth"]["near_eye"] = near_trees_json(shot.picture, shot.view.camera);
     json["contour_interval_m"] = nullptr;
     if (style.frame.contours.interval_m > 0.0F) json["contour_interval_m"] = style.frame.contours.interval_m;
 }

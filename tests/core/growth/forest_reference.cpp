@@ -16,6 +16,8 @@ namespace {
 namespace forest_rule {
 #define ORO_FUNCTION [[maybe_unused]]
 #undef OROGRAPH_SHADERS_GROWTH_TREE_RULE
+#undef OROGRAPH_SHADERS_GROWTH_REACH
+#include "shaders/growth/reach.glsl"
 #include "shaders/growth/tree_rule.glsl"
 #undef ORO_FUNCTION
 }  // namespace forest_rule
@@ -28,7 +30,7 @@ namespace {
 constexpr double relief = 1.2, most_sun = 1.5;  // as the style `natural`, and shaders/shared_growth.h
 constexpr double needle_lighter = 3.3, broad_lighter = 1.25;  // as shade_growth.comp
 constexpr double floor_light = 0.65;                          // of ground below trees, as materials.glsl
-constexpr double grows_in = 0.12;                             // as grow_sites.comp
+constexpr auto grows_in = static_cast<double>(gpu::forest_rule::trees_grow_in);
 constexpr std::uint32_t middle_site = 30'000'000;
 
 struct Stem {
