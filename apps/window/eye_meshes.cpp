@@ -70,7 +70,7 @@ Result<bool> follow_with_meshes(EyeMeshes& meshes, const MeshTarget& target, con
                                 bool is_moving) {
     if (are_chosen_for(meshes, target.view, camera)) return false;
     if (meshes.work) ORO_CHECK(take_choice(meshes, target));
-    if (meshes.coming) return meshes.coming_scene ? meshes.coming_scene->bring_coarsest_pages() : true;
+    if (meshes.coming) return meshes.coming_scene ? meshes.coming_scene->advance_coarsest_pages() : true;
     if (!meshes.work && may_begin(meshes, is_moving) && !are_chosen_for(meshes, target.view, camera))
         begin_choice(meshes, target, camera);
     return false;

@@ -18,7 +18,7 @@
 #include "core/made/made_heights.h"
 #include "core/made_pages/coarse_ground.h"
 #include "core/made_pages/measured_block.h"
-#include "core/made_pages/seen_ground.h"
+#include "core/made_pages/visible_ground.h"
 #include "core/terrain/page_posts.h"
 
 namespace oro {
@@ -98,7 +98,7 @@ class MadePages : public RegionPages {
             pictures_.push_back({PictureCulling(picture, this->facts().shape.occluder), nullptr});
         if (views.size() <= most_pictures_looked_into)
             for (std::size_t i = 0; i < views.size(); ++i)
-                pictures_[i].ground = SeenGround::of(coarse_ground_, views[i], pictures_[i].culling,
+                pictures_[i].ground = VisibleGround::of(coarse_ground_, views[i], pictures_[i].culling,
                                                      lowest_h_m_, highest_h_m_, thread_count());
         if (pictures.light.sun_enu) map_casters(views, *pictures.light.sun_enu);
     }
@@ -169,7 +169,7 @@ class MadePages : public RegionPages {
     // Of the pictures that the pages are for.
     struct Picture {
         PictureCulling culling;
-        std::unique_ptr<SeenGround> ground;  // null: whatever is in its frustum
+        std::unique_ptr<VisibleGround> ground;  // null: whatever is in its frustum
     };
     using SomePictures = std::vector<const Picture*>;
     // Ground that is seen, by its first post and posts along a side, and what may cast on it.
@@ -477,7 +477,7 @@ std::vector<MadePages::LitGround> MadePages::lit_ground(const Picture& picture, 
         return lit;
     }
     constexpr std::int64_t posts = std::int64_t{gpu::meshlet_quads} << 3;
-    for (const SeenGround::Node& node : picture.ground->nodes())
+    for (const VisibleGround::Node& node : picture.ground->nodes())
         lit.push_back({node.row * posts, node.column * posts, posts, error_per_m * node.nearest_m,
                        error_per_m * node.farthest_m, node.farthest_m, node.lowest_h_m});
     return lit;

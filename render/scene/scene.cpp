@@ -541,7 +541,7 @@ Result<void> Scene::load_coarsest_pages() {
     return {};
 }
 
-Result<bool> GridScene::bring_coarsest_pages() {
+Result<bool> GridScene::advance_coarsest_pages() {
     std::vector<PageIndex> missing = coarsest_pages();
     std::erase_if(missing, [&](const PageIndex& page) { return store_.has(page); });
     if (missing.empty()) return true;
@@ -550,10 +550,10 @@ Result<bool> GridScene::bring_coarsest_pages() {
     return sent.shown_left || sent.count == missing.size();
 }
 
-Result<bool> Scene::bring_coarsest_pages() {
+Result<bool> Scene::advance_coarsest_pages() {
     bool are_here = true;
     for (GridScene& grid : grids_) {
-        ORO_TRY(const bool all, grid.bring_coarsest_pages());
+        ORO_TRY(const bool all, grid.advance_coarsest_pages());
         are_here = are_here && all;
     }
     return are_here;

@@ -112,7 +112,7 @@ class GridScene {
     Result<std::optional<GridPlan>> plan_by_device(const FrameView& view);
     [[nodiscard]] std::vector<PageIndex> coarsest_pages() const;
     [[nodiscard]] bool has_coarsest_pages() const;
-    Result<bool> bring_coarsest_pages();
+    Result<bool> advance_coarsest_pages();
     void set_missed(std::vector<PageIndex> missing, std::size_t hidden);
     [[nodiscard]] bool lacks_pages() const;
     Result<GridPlan> plan(const FrameView& view, Clusters clusters);
@@ -210,13 +210,13 @@ class Scene {
     // Whether each grid has some ground wherever one looks: its coarsest page is here; of what lies between
     // grids all pages are.
     [[nodiscard]] bool has_coarsest_pages() const;
-    // Brings these and waits for them, where memory has room: those of grids that were never in view are not
+    // Loads these and waits for them, where memory has room: those of grids that were never in view are not
     // here. No frame is under way, and the last plan lacked nothing. Errors: as advance().
     Result<void> load_coarsest_pages();
-    // Brings these without waiting, whatever a frame needs: to be asked again until it is true, which it is
+    // Loads these without waiting, whatever a frame needs: to be asked again until it is true, which it is
     // once they are here, or memory has no room for the rest. No plan of this scene is drawn before. Errors:
     // as advance().
-    Result<bool> bring_coarsest_pages();
+    Result<bool> advance_coarsest_pages();
     // Whether the last plan lacks pages, as far as is known: where the device chose them the frame tells
     // (apply_feedback()).
     [[nodiscard]] bool lacks_pages() const;

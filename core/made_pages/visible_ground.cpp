@@ -1,4 +1,4 @@
-#include "core/made_pages/seen_ground.h"
+#include "core/made_pages/visible_ground.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,10 +77,10 @@ double highest_tangent(double h_m, double eye_h_m, double curvature_per_m, doubl
 }  // namespace
 
 // Goes through tiles from the eye outwards.
-class SeenGroundSearch {
+class VisibleGroundSearch {
   public:
-    SeenGroundSearch(SeenGround& found, const FrameView& view, const PictureCulling& culling,
-                     double lowest_h_m, double highest_h_m, int threads);
+    VisibleGroundSearch(VisibleGround& found, const FrameView& view, const PictureCulling& culling,
+                        double lowest_h_m, double highest_h_m, int threads);
     // False where it is given up.
     bool run();
 
@@ -103,8 +103,8 @@ class SeenGroundSearch {
     };
     struct MadeTile {
         std::vector<PlacedPost> posts;
-        std::array<SeenGround::Reach, 4> reaches{};
-        std::array<SeenGround::Node, 4> nodes{};
+        std::array<VisibleGround::Reach, 4> reaches{};
+        std::array<VisibleGround::Node, 4> nodes{};
     };
     struct Seen {
         glm::dvec3 enu_m;
@@ -123,16 +123,16 @@ class SeenGroundSearch {
     bool list_tiles();
     [[nodiscard]] std::optional<Listed> listed(int row, int column) const;
     [[nodiscard]] bool in_frustum(const Listed& tile) const;
-    [[nodiscard]] SeenGround::Reach whole_reach(const Listed& tile) const;
-    void set_reach(const Listed& tile, int node, const SeenGround::Reach& reach);
+    [[nodiscard]] VisibleGround::Reach whole_reach(const Listed& tile) const;
+    void set_reach(const Listed& tile, int node, const VisibleGround::Reach& reach);
     [[nodiscard]] MadeTile made(const Listed& tile) const;
     [[nodiscard]] SeenPost seen_post(const Seen& low, const Seen& high, double low_h_m) const;
-    static void take_post(const SeenPost& post, SeenGround::Reach& reach, SeenGround::Node& node);
+    static void take_post(const SeenPost& post, VisibleGround::Reach& reach, VisibleGround::Node& node);
     void take_unknown(const Listed& tile);
     void take(const MadeTile& tile);
     void find_nodes();
 
-    SeenGround& found_;
+    VisibleGround& found_;
     const MadeRegion& region_;
     const PictureCulling& culling_;
     double lowest_h_m_, highest_h_m_;
@@ -143,11 +143,12 @@ class SeenGroundSearch {
     double curvature_per_m_, heading_rad_, half_rad_, reach_m_, post_m_;
     std::vector<Listed> tiles_;
     std::shared_ptr<PolarHorizon> horizon_;
-    std::vector<SeenGround::Node> of_nodes_;  // of all that were made
+    std::vector<VisibleGround::Node> of_nodes_;  // of all that were made
 };
 
-SeenGroundSearch::SeenGroundSearch(SeenGround& found, const FrameView& view, const PictureCulling& culling,
-                                   double lowest_h_m, double highest_h_m, int threads)
+VisibleGroundSearch::VisibleGroundSearch(VisibleGround& found, const FrameView& view,
+                                         const PictureCulling& culling, double lowest_h_m, double highest_h_m,
+                                         int threads)
     : found_(found),
       region_(found.ground_.region()),
       culling_(culling),
@@ -175,7 +176,7 @@ SeenGroundSearch::SeenGroundSearch(SeenGround& found, const FrameView& view, con
     found_.margin_m_ = 2.0 + ModelView(view.camera, view.model, {}).rounding_m();
 }
 
-std::optional<SeenGroundSearch::Listed> SeenGroundSearch::listed(int row, int column) const {
+std::optional<VisibleGroundSearch::Listed> VisibleGroundSearch::listed(int row, int column) const {
     constexpr double half = CoarseGround::tile_cells / 2.0;
     const PostGrid& grid = region_.grid;
     const auto lat_deg = [&](double cells) { return grid.lat.at_deg(0) - cells * grid.lat.spacing_deg(); };
@@ -203,7 +204,7 @@ std::optional<SeenGroundSearch::Listed> SeenGroundSearch::listed(int row, int co
 }
 
 // Those in the picture's azimuths, and beside them; those around the region, too.
-bool SeenGroundSearch::list_tiles() {
+bool VisibleGroundSearch::list_tiles() {
     const PostGrid& grid = region_.grid;
     const double reach_deg = deg_from_radians(Radians(reach_m_ / least_curved_radius_m)) + 0.2;
     const double farthest_deg = std::abs(eye_.lat_deg) + reach_deg;
@@ -242,7 +243,7 @@ bool SeenGroundSearch::list_tiles() {
     return true;
 }
 
-bool SeenGroundSearch::in_frustum(const Listed& tile) const {
+bool VisibleGroundSearch::in_frustum(const Listed& tile) const {
     PageBound bound;
     const PostGrid& grid = region_.grid;
     constexpr double half = CoarseGround::tile_cells / 2.0;
@@ -256,7 +257,7 @@ bool SeenGroundSearch::in_frustum(const Listed& tile) const {
 }
 
 // Of the highest ground there may be.
-SeenGround::Reach SeenGroundSearch::whole_reach(const Listed& tile) const {
+VisibleGround::Reach VisibleGroundSearch::whole_reach(const Listed& tile) const {
     const double nearest_m = tile.nearest_m();
     if (nearest_m < 10.0 * post_m_) return {no_tangent, 0.0F, 0.0F, 0.0F};
     const double around_rad = std::asin(std::min(1.0, tile.radius_m / tile.across_m)) + 1.0e-5;
@@ -267,7 +268,7 @@ SeenGround::Reach SeenGroundSearch::whole_reach(const Listed& tile) const {
             static_cast<float>(tile.azimuth_rad + around_rad), static_cast<float>(nearest_m)};
 }
 
-void SeenGroundSearch::set_reach(const Listed& tile, int node, const SeenGround::Reach& reach) {
+void VisibleGroundSearch::set_reach(const Listed& tile, int node, const VisibleGround::Reach& reach) {
     const int row = tile.row * nodes_of_tile + node / 2 - found_.first_row_;
     const int column = tile.column * nodes_of_tile + node % 2 - found_.first_column_;
     found_.reaches_[static_cast<std::size_t>(row) * static_cast<std::size_t>(found_.columns_) +
@@ -275,7 +276,7 @@ void SeenGroundSearch::set_reach(const Listed& tile, int node, const SeenGround:
 }
 
 // Whatever is there hides nothing.
-void SeenGroundSearch::take_unknown(const Listed& tile) {
+void VisibleGroundSearch::take_unknown(const Listed& tile) {
     constexpr int parts = 4;
     if (tile.nearest_m() < 2.0 * tile.radius_m) {
         horizon_->take(0.0, 4.0, 0.0, tile.across_m + tile.radius_m, -std::numeric_limits<float>::infinity());
@@ -299,7 +300,7 @@ void SeenGroundSearch::take_unknown(const Listed& tile) {
     }
 }
 
-SeenGroundSearch::MadeTile SeenGroundSearch::made(const Listed& tile) const {
+VisibleGroundSearch::MadeTile VisibleGroundSearch::made(const Listed& tile) const {
     const CoarseGround::Tile ground = found_.ground_.tile(tile.row, tile.column);
     const PostGrid& grid = region_.grid;
     MadeTile made;
@@ -339,8 +340,8 @@ SeenGroundSearch::MadeTile SeenGroundSearch::made(const Listed& tile) const {
     return made;
 }
 
-SeenGroundSearch::SeenPost SeenGroundSearch::seen_post(const Seen& low, const Seen& high,
-                                                       double low_h_m) const {
+VisibleGroundSearch::SeenPost VisibleGroundSearch::seen_post(const Seen& low, const Seen& high,
+                                                             double low_h_m) const {
     const double across_m = low.across_m(), high_across_m = high.across_m();
     const bool is_near = across_m < 6.0 * post_m_;
     // Between posts a way that is straight lies nearer to the eye's vertical.
@@ -362,7 +363,8 @@ SeenGroundSearch::SeenPost SeenGroundSearch::seen_post(const Seen& low, const Se
     return post;
 }
 
-void SeenGroundSearch::take_post(const SeenPost& post, SeenGround::Reach& reach, SeenGround::Node& node) {
+void VisibleGroundSearch::take_post(const SeenPost& post, VisibleGround::Reach& reach,
+                                    VisibleGround::Node& node) {
     reach.tangent = std::max(reach.tangent, post.high_tangent);
     reach.from_rad = std::min(reach.from_rad, post.placed.azimuth_rad);
     reach.to_rad = std::max(reach.to_rad, post.placed.azimuth_rad);
@@ -372,7 +374,7 @@ void SeenGroundSearch::take_post(const SeenPost& post, SeenGround::Reach& reach,
     node.lowest_h_m = std::min(node.lowest_h_m, post.low_h_m);
 }
 
-void SeenGroundSearch::take(const MadeTile& tile) {
+void VisibleGroundSearch::take(const MadeTile& tile) {
     for (const PlacedPost& post : tile.posts) {
         const double across_m = static_cast<double>(post.across_m);
         // How far it may be over the ground from where it is drawn, as heights are not known: its vertical
@@ -384,7 +386,7 @@ void SeenGroundSearch::take(const MadeTile& tile) {
     }
 }
 
-bool SeenGroundSearch::run() {
+bool VisibleGroundSearch::run() {
     if (!std::isfinite(reach_m_) || !list_tiles()) return false;
     horizon_ =
         std::make_shared<PolarHorizon>(half_rad_, reach_m_, std::max(0.75 * post_m_, reach_m_ / 4096.0));
@@ -398,7 +400,7 @@ bool SeenGroundSearch::run() {
         wanted.clear();
         for (; first < tiles_.size() && tiles_[first].nearest_m() <= from_m + ring_m; ++first) {
             const Listed& tile = tiles_[first];
-            const SeenGround::Reach reach = whole_reach(tile);
+            const VisibleGround::Reach reach = whole_reach(tile);
             if (tile.is_ground && in_frustum(tile) && !found_.is_hidden(reach)) {
                 wanted.push_back(&tile);
                 continue;
@@ -428,32 +430,32 @@ bool SeenGroundSearch::run() {
     return true;
 }
 
-void SeenGroundSearch::find_nodes() {
+void VisibleGroundSearch::find_nodes() {
     found_.shows_.resize(found_.reaches_.size());
     for (int row = 0; row < found_.rows_; ++row)
         for (int column = 0; column < found_.columns_; ++column) {
-            const SeenGround::Reach reach =
+            const VisibleGround::Reach reach =
                 found_.reach_of(row + found_.first_row_, column + found_.first_column_);
             found_.shows_[static_cast<std::size_t>(row) * static_cast<std::size_t>(found_.columns_) +
                           static_cast<std::size_t>(column)] = found_.is_hidden(reach) ? 0 : 1;
         }
-    for (const SeenGround::Node& node : of_nodes_)
+    for (const VisibleGround::Node& node : of_nodes_)
         if (found_.shows_of(node.row, node.column)) found_.nodes_.push_back(node);
 }
 
-std::unique_ptr<SeenGround> SeenGround::of(const CoarseGround& ground, const FrameView& view,
-                                           const PictureCulling& culling, double lowest_h_m,
-                                           double highest_h_m, int threads) {
+std::unique_ptr<VisibleGround> VisibleGround::of(const CoarseGround& ground, const FrameView& view,
+                                                 const PictureCulling& culling, double lowest_h_m,
+                                                 double highest_h_m, int threads) {
     if (view.model.earth != Earth::ellipsoid || highest_measured_level(ground.region()) < 3 ||
         CoarseGround::level >= static_cast<int>(ground.region().bounds().size()))
         return nullptr;
-    std::unique_ptr<SeenGround> found(new SeenGround(ground));
-    SeenGroundSearch search(*found, view, culling, lowest_h_m, highest_h_m, threads);
+    std::unique_ptr<VisibleGround> found(new VisibleGround(ground));
+    VisibleGroundSearch search(*found, view, culling, lowest_h_m, highest_h_m, threads);
     if (!search.run()) return nullptr;
     return found;
 }
 
-SeenGround::Reach SeenGround::reach_of(int row, int column) const {
+VisibleGround::Reach VisibleGround::reach_of(int row, int column) const {
     const int r = row - first_row_, c = column - first_column_;
     if (r < 0 || c < 0 || r >= rows_ || c >= columns_) return {no_tangent, 0.0F, 0.0F, 0.0F};
     return reaches_[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) +
@@ -461,7 +463,7 @@ SeenGround::Reach SeenGround::reach_of(int row, int column) const {
 }
 
 // What is before it may be drawn lower by the tolerance.
-bool SeenGround::is_hidden(const Reach& reach) const {
+bool VisibleGround::is_hidden(const Reach& reach) const {
     if (reach.tangent == no_tangent) return false;
     const double nearest_m = static_cast<double>(reach.nearest_m);
     const double hidden_below = static_cast<double>(horizon_->hidden_below(
@@ -475,7 +477,7 @@ bool SeenGround::is_hidden(const Reach& reach) const {
     return highest < hidden_below - margin_per_m_ * (1.0 + hidden_below * hidden_below);
 }
 
-bool SeenGround::shows_of(int row, int column) const {
+bool VisibleGround::shows_of(int row, int column) const {
     const int r = row - first_row_, c = column - first_column_;
     if (r < 0 || c < 0 || r >= rows_ || c >= columns_) return true;
     return shows_[static_cast<std::size_t>(r) * static_cast<std::size_t>(columns_) +
@@ -484,7 +486,7 @@ bool SeenGround::shows_of(int row, int column) const {
 
 // Of a wider node all that is in it, together: where its triangles go from one place to another they may lie
 // over ground that is lower.
-bool SeenGround::may_show(int node_level, int row, int column) const {
+bool VisibleGround::may_show(int node_level, int row, int column) const {
     const int up = node_level - 3;
     if (up == 0) return shows_of(row, column);
     if (up > 3) return true;

@@ -1,6 +1,6 @@
 // Must hold: ground of made terrain that the oracle sees is never taken to be hidden, and lies between the
 // distances and above the height that are told of it; most ground that is hidden is known to be.
-#include "core/made_pages/seen_ground.h"
+#include "core/made_pages/visible_ground.h"
 
 #include <gtest/gtest.h>
 
@@ -19,9 +19,9 @@ namespace {
 
 constexpr double lowest_h_m = -201.0, highest_h_m = 4001.0;
 
-class SeenGroundOfTests : public testing::Test {
+class VisibleGroundOfTests : public testing::Test {
   protected:
-    SeenGroundOfTests()
+    VisibleGroundOfTests()
         : field_(made_ground()),
           surface_(field_, 1.0, 1),
           ground_(surface_),
@@ -30,8 +30,8 @@ class SeenGroundOfTests : public testing::Test {
           coarse_(region_),
           occluder_(occluder_below(-201.0, 140.0)) {}
 
-    [[nodiscard]] std::unique_ptr<SeenGround> seen(const FrameView& view) const {
-        return SeenGround::of(coarse_, view, PictureCulling(view, occluder_), lowest_h_m, highest_h_m, 2);
+    [[nodiscard]] std::unique_ptr<VisibleGround> seen(const FrameView& view) const {
+        return VisibleGround::of(coarse_, view, PictureCulling(view, occluder_), lowest_h_m, highest_h_m, 2);
     }
     // Of so many lines through a picture, places that the oracle sees and that are said to be hidden, or to
     // be elsewhere.
@@ -44,8 +44,8 @@ class SeenGroundOfTests : public testing::Test {
         const auto found = seen(view);
         if (!found) return compared;
         const Oracle oracle(ground_, sight_from(view.camera.eye, view.model.air));
-        std::map<std::pair<int, int>, SeenGround::Node> nodes;
-        for (const SeenGround::Node& node : found->nodes()) nodes[{node.row, node.column}] = node;
+        std::map<std::pair<int, int>, VisibleGround::Node> nodes;
+        for (const VisibleGround::Node& node : found->nodes()) nodes[{node.row, node.column}] = node;
         std::map<std::pair<int, int>, bool> hit_nodes;
         for (int i = 0; i < lines; ++i) {
             const glm::dvec2 at{view.camera.width_px * share(random), view.camera.height_px * share(random)};
@@ -91,7 +91,7 @@ FrameView view_from(const Geodetic& eye, const Attitude& attitude, double fov_de
     return {camera, Tile{.width_px = 640, .height_px = 360}, 1.0};
 }
 
-TEST_F(SeenGroundOfTests, HoldsAllThatTheOracleSees) {
+TEST_F(VisibleGroundOfTests, HoldsAllThatTheOracleSees) {
     constexpr unsigned seed = 53;
     std::mt19937 random(seed);
     int hits = 0;
@@ -112,7 +112,7 @@ TEST_F(SeenGroundOfTests, HoldsAllThatTheOracleSees) {
 }
 
 // Less than a third of the ground in the frustum is listed.
-TEST_F(SeenGroundOfTests, LeavesOutWhatHillsHide) {
+TEST_F(VisibleGroundOfTests, LeavesOutWhatHillsHide) {
     std::mt19937 random(53);
     const Geodetic at{46.3, 8.8, *surface_.h_m(46.3, 8.8) + 500.0};
     const FrameView view = view_from(at, {.heading_deg = 0.0, .pitch_deg = -4.0}, 30.0);

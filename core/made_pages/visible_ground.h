@@ -14,11 +14,11 @@ namespace oro {
 
 // Conservative: ground that it drops is hidden by nearer ground, wherever in a pixel is sampled, as long as
 // what is drawn of the nearer ground keeps the view's tolerance. Any thread.
-class SeenGround {
+class VisibleGround {
   public:
     // Null where too much ground may show for it to be worth while, or where places are not those of WGS84.
     // culling: of the same picture. lowest_h_m, highest_h_m: of any ground. ground outlives it.
-    static std::unique_ptr<SeenGround> of(const CoarseGround& ground, const FrameView& view,
+    static std::unique_ptr<VisibleGround> of(const CoarseGround& ground, const FrameView& view,
                                           const PictureCulling& culling, double lowest_h_m,
                                           double highest_h_m, int threads);
 
@@ -37,7 +37,7 @@ class SeenGround {
     [[nodiscard]] std::size_t tiles() const { return tiles_; }
 
   private:
-    friend class SeenGroundSearch;
+    friend class VisibleGroundSearch;
     // How far up a node of level 3 reaches, and where.
     struct Reach {
         float tangent;           // no ground is seen higher; infinite: nothing is known
@@ -48,7 +48,7 @@ class SeenGround {
     [[nodiscard]] bool is_hidden(const Reach& reach) const;
     [[nodiscard]] bool shows_of(int row, int column) const;
 
-    explicit SeenGround(const CoarseGround& ground) : ground_(ground) {}
+    explicit VisibleGround(const CoarseGround& ground) : ground_(ground) {}
 
     const CoarseGround& ground_;
     std::shared_ptr<const class PolarHorizon> horizon_;
