@@ -61,7 +61,7 @@ Result<RegionGrid> made_world(const ChosenGrid& chosen, const RegionRequest& req
     char note[320];
     std::snprintf(
         note, sizeof note,
-        "%.3g posts are made where they are looked at; H is told as the rule bounds it; windows, films and "
+        "%.3g posts are made where they are looked at; H is stated as the rule bounds it; windows, films and "
         "pictures from high up or near a pole have no shadows and no light of the sky unless --shadows on "
         "and "
         "--sky-openness on ask for them",
