@@ -88,7 +88,7 @@ Result<void> add_cover(const View& view, const Scene& scene, bool quiet, std::ve
 Result<void> lay_images(const View& view, const MemoryOptions& memory, const Gpu& gpu, Scene& scene,
                         bool quiet, const std::shared_ptr<const PostColours>& colours,
                         std::size_t grids_beside) {
-    if (view.images.empty() && !view.cover && !colours) return {};
+    if ((view.images.empty() && !view.cover && !colours) || view.shows_mesh_parts) return {};
     for (const ImageSource& image : view.images) {
         for (const std::string& note : image.notes) say(quiet, "note: " + note);
     }

@@ -8,7 +8,8 @@ namespace {
 // Why there are none; "" where there are some.
 std::string without_clusters(const Region& region, const View& view) {
     if (region.grids.size() > 1) return "the region has several grids, and clusters are of one";
-    if (region.meshes) return "a mesh lies on the region (--mesh-file), and clusters are drawn alone";
+    if (region.meshes)
+        return "a mesh lies on the region (--mesh-file), and clusters of the ground are drawn alone";
     const RegionGrid& grid = region.grids.front();
     if (!grid.file || !grid.clusters)
         return "the region has no clusters: bake it with --mesh clusters, and draw the whole .oro file";
@@ -48,6 +49,17 @@ Result<bool> draws_clusters(const Region& region, View& view) {
     const bool clusters = why_not.empty() && view.mesh != "grid";
     view.mesh = clusters ? "clusters" : "auto";
     return clusters;
+}
+
+bool asks_for_mesh_clusters(const Region& region, const View& view) {
+    if (!region.meshes) return false;
+    return view.mesh == "clusters" || view.mesh_level || (is_of_clusters(view.show) && view.mesh != "grid");
+}
+
+void settle_mesh_parts(const Region& region, View& view) {
+    view.shows_mesh_parts =
+        (is_of_clusters(view.show) || view.show == Show::levels) && asks_for_mesh_clusters(region, view);
+    if (view.shows_mesh_parts) view.mesh = "clusters";
 }
 
 }  // namespace oro

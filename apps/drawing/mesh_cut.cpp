@@ -12,9 +12,10 @@
 namespace oro {
 
 Result<bool> draws_mesh_clusters(const Region& region, const View& view) {
-    if (!region.meshes || is_of_clusters(view.show)) return false;
-    if (view.mesh != "clusters" && !view.mesh_level) return false;
-    const char* const asks = view.mesh_level ? "--mesh-level" : "--mesh clusters";
+    if (!asks_for_mesh_clusters(region, view)) return false;
+    const char* const asks = view.mesh_level           ? "--mesh-level"
+                             : view.mesh == "clusters" ? "--mesh clusters"
+                                                       : "--show";
     if (view.map) return Error{ErrorKind::usage, asks, "is not for maps of a region with meshes"};
     if (view.model.earth != Earth::ellipsoid)
         return Error{ErrorKind::usage, asks, "clusters are drawn on the ellipsoid"};
@@ -36,15 +37,21 @@ Result<std::shared_ptr<const MeshDetail>> mesh_detail_of(const Region& region, c
     return std::make_shared<const MeshDetail>(MeshDetail::of(region, view.exaggeration, thread_count()));
 }
 
+static MeshParts shown_parts(const std::optional<Show>& show) {
+    if (show == Show::clusters) return MeshParts::clusters;
+    if (show == Show::groups) return MeshParts::groups;
+    return show == Show::levels ? MeshParts::levels : MeshParts::none;
+}
+
 MeshAsked mesh_asked_by(const View& view) {
-    MeshAsked asked{view.tau_px, view.model.air, {}};
+    MeshAsked asked{view.tau_px, view.model.air, {}, shown_parts(view.show)};
     if (view.mesh_level) asked.level = static_cast<std::uint32_t>(*view.mesh_level);
     return asked;
 }
 
 MeshCut mesh_cut_of(const MeshDetail& detail, const MeshAsked& asked, std::span<const Camera> cameras,
                     const MeshCut* before) {
-    return detail.cut(cameras, asked.tau_px, asked.air, asked.level, before);
+    return detail.cut(cameras, asked.tau_px, asked.air, asked.level, before, asked.parts);
 }
 
 Result<std::optional<DrawnMeshes>> drawn_meshes(const Region& region, const View& view) {

@@ -20,8 +20,8 @@ struct DrawnMeshes {
     std::size_t built{};  // of them; the others lie in a baked file
 };
 
-// True where meshes lie on the region and the view asks for clusters (--mesh clusters, --mesh-level); the
-// terrain is then drawn by blocks. Errors: the view asks, and is a map, or not drawn on the ellipsoid.
+// True where meshes lie on the region and the view asks for clusters of them; the terrain is then drawn by
+// blocks. Errors: the view asks, and is a map, or not drawn on the ellipsoid.
 Result<bool> draws_mesh_clusters(const Region& region, const View& view);
 
 // Whether the view's clusters are those of the terrain (draws_clusters()): false, and its mesh stays
@@ -36,6 +36,7 @@ struct MeshAsked {
     double tau_px{};
     Air air{};
     std::optional<std::uint32_t> level{};  // --mesh-level
+    MeshParts parts{};                     // --show
 };
 MeshAsked mesh_asked_by(const View& view);
 // What a view with that camera, or several, shows of them. before: as MeshDetail::cut().

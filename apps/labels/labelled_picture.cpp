@@ -84,7 +84,7 @@ PictureOptions picture_options(const View& view, RasterPath path) {
     options.tau_px = view.tau_px;
     options.model = view.model;
     options.path = path;
-    if (view.show) options.show = shown_by(*view.show);
+    if (view.show && !view.shows_mesh_parts) options.show = shown_by(*view.show);
     return options;
 }
 

@@ -8,6 +8,7 @@
 #include "core/drape/materials.h"
 #include "core/frame/frame_colours.h"
 #include "core/terrain/level_grid.h"
+#include "geo/together/mesh_detail.h"
 
 namespace oro {
 namespace {
@@ -30,6 +31,23 @@ double snow_line_m(const gpu::GroundCover& cover, double lat_deg) {
 StripColour coded(const gpu::vec3& colour) {
     return {code_of(static_cast<double>(colour.x)), code_of(static_cast<double>(colour.y)),
             code_of(static_cast<double>(colour.z))};
+}
+
+// What a picture shows of how meshes are drawn.
+ColourKey key_of_mesh_parts(Show show, std::size_t levels) {
+    ColourKey key;
+    key.shape = KeyShape::names;
+    if (show == Show::levels) {
+        key.title = "Levels of the meshes' cluster graphs: 0 has every triangle";
+        for (std::size_t level = 0; level < levels; ++level)
+            key.names.push_back(
+                {coded(colour_of_level(static_cast<gpu::uint>(level))), std::to_string(level)});
+        return key;
+    }
+    key.title = std::string("Each ") + (show == Show::groups ? "group of clusters" : "cluster") +
+                " of meshes in a colour of its own";
+    for (gpu::uint i = 0; i < 6; ++i) key.names.push_back({coded(colour_of_number(i)), ""});
+    return key;
 }
 
 // What a picture shows of its own making.
@@ -137,6 +155,7 @@ StripColour ColourKey::colour(double value) const {
 }
 
 ColourKey colour_key(const View& view, const Region& region, const Style& style, int every) {
+    if (view.shows_mesh_parts) return key_of_mesh_parts(*view.show, mesh_levels(region));
     if (view.show) return key_of_show(*view.show, view.mesh == "clusters", region, every);
     const gpu::FrameStyle& frame = style.frame;
     if (view.cover && frame.colour_by == gpu::colour_by_cover) return key_of_cover(*view.cover);

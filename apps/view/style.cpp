@@ -173,7 +173,18 @@ static bool shows_little_ground(const View& view, const HeightField& field) {
            std::abs(eye.lat_deg) <= most_lat_deg;
 }
 
+// Of a view that shows parts of meshes by their colours: the ground below them has one, and its light.
+static View plainly(const View& view) {
+    View plain = view;
+    plain.shows_mesh_parts = false;
+    plain.style = "plain";
+    plain.visibility_km.reset(), plain.contour_interval_m.reset();
+    plain.trees.reset(), plain.labels.reset();
+    return plain;
+}
+
 Result<Style> load_style(const View& view, const HeightField& field, WorldLight light) {
+    if (view.shows_mesh_parts) return load_style(plainly(view), field, light);
     const std::string& name = view.style;
     const bool is_path = is_style_path(name);
     const std::string path = file_of_style(name);

@@ -95,6 +95,9 @@ struct View : ViewSettings<OfView> {
     std::string read_from;   // the file, of a view that read_view() gave
     std::optional<StyleText> style_text;  // of its style, where that was read already
     bool paths_from_own_file{false};      // relative paths start from the file that the view is in
+    // --show is of the clusters of the region's meshes, from open_view on: their triangles have its colours,
+    // and the ground is plain (settle_mesh_parts()).
+    bool shows_mesh_parts{};
     // What it was drawn from, as its file tells; from open_view on, what it is drawn from here.
     std::optional<Fingerprints> fingerprints;
     std::optional<RecordedView> recorded;  // of a view from a file, from open_view on

@@ -6,6 +6,7 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/cover/canopy_words.h"
+#include "apps/drawing/mesh_choice.h"
 #include "apps/eye/standpoint.h"
 #include "apps/report/figures.h"
 #include "apps/report/option_words.h"
@@ -250,11 +251,13 @@ Result<void> open_region_of(const RegionOptions& region_options, const Progress&
         view.fingerprints->vectors.clear();
         view.first_grid = held->first_grid;
         begin_with_grid_at(view.camera.eye, view, region);
+        settle_mesh_parts(region, view);
         return check_own_posts(view, region);
     }
     auto opened = open_region(view.region, progress);
     if (!opened) return with_way_out(opened.error(), view, region_options);
     region = std::move(*opened);
+    settle_mesh_parts(region, view);
     view.own_posts = keeps_own_posts(region);
     view.several_grids = region.grids.size() > 1;
     view.fingerprints = fingerprints_of(region);
@@ -267,6 +270,7 @@ Result<void> open_region_of(const RegionOptions& region_options, const Progress&
 
 // All of a view from options that needs its region, which was opened for it.
 Result<void> look_at_region(const ViewOptions& options, View& view, Region& region) {
+    settle_mesh_parts(region, view);
     view.own_posts = keeps_own_posts(region);
     view.several_grids = region.grids.size() > 1;
     view.fingerprints = fingerprints_of(region);

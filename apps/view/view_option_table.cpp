@@ -314,12 +314,14 @@ void add_drawing(Rows looks) {
                  &View::edges, edge_names,
                  "Edges of the ground before the sky and before farther ground, in pictures of one sample: "
                  "smooth, each pixel shows what it has of both; or steps, it shows what is in its middle.");
-    looks.choice({"--show", changes_looks, "", "show"}, &ViewOptions::show, &View::show, show_names,
-                 "Show how the picture was made, in the place of colours: visible, whether the last round "
-                 "drew it or one before; levels, how coarse; meshlets or triangles, each in a colour of its "
-                 "own; overdraw, how many triangles cover a pixel; clusters or groups of them, each in a "
-                 "colour of its own, of a file that was baked with clusters. A legend says which colour is "
-                 "what. For pictures of one sample.");
+    looks.choice(
+        {"--show", changes_looks, "", "show"}, &ViewOptions::show, &View::show, show_names,
+        "Show how the picture was made, in the place of colours: visible, whether the last round "
+        "drew it or one before; levels, how coarse; meshlets or triangles, each in a colour of its "
+        "own; overdraw, how many triangles cover a pixel; clusters or groups of them, each in a "
+        "colour of its own, of meshes or of a file that was baked with clusters. Where meshes are drawn "
+        "by clusters, levels are theirs, and the ground is plain. A legend says which colour is what. For "
+        "pictures of one sample.");
     looks.setting({"--samples N", in_every_view, "1", "samples", {1, 64}}, &ViewOptions::samples,
                   &View::samples,
                   "How many samples make a pixel, {}. More make edges smoother, and take longer.");

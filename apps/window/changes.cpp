@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/mesh_cut.h"
 #include "apps/navigation/flight_step.h"
 #include "apps/window/frames.h"
@@ -36,12 +37,13 @@ Result<void> take_renderer(Viewer& viewer, FrameRenderer renderer) {
 // Takes a view whose style or light differ from what is shown; told and left where it cannot be drawn so.
 Result<void> take_look(Viewer& viewer, View view) {
     const HeightField& field = viewer.region.grids.front().field;
+    forget_mesh(viewer, view);
+    settle_mesh_parts(viewer.region, view);
     Result<Style> style = load_style(view, field);
     if (!style.ok()) {
         tell(viewer, style.error());
         return field.health();
     }
-    forget_mesh(viewer, view);
     const Result<bool> clusters = draws_terrain_clusters(viewer.region, view);
     if (!clusters.ok()) {
         tell(viewer, clusters.error());

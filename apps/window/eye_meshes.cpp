@@ -10,9 +10,10 @@
 namespace oro {
 namespace {
 
-bool is_of(const Camera& chosen, double tau_px, const View& view, const Camera& camera) {
-    return is_same_view(chosen, camera) && chosen.width_px == camera.width_px &&
-           chosen.height_px == camera.height_px && tau_px == view.tau_px;
+bool is_of(const Camera& chosen, double tau_px, MeshParts parts, const View& view, const Camera& camera) {
+    return parts == mesh_asked_by(view).parts && is_same_view(chosen, camera) &&
+           chosen.width_px == camera.width_px && chosen.height_px == camera.height_px &&
+           tau_px == view.tau_px;
 }
 
 void give_up(EyeMeshes& meshes) {
@@ -62,8 +63,8 @@ bool may_begin(const EyeMeshes& meshes, bool is_moving) {
 }  // namespace
 
 bool are_chosen_for(const EyeMeshes& meshes, const View& view, const Camera& camera) {
-    return !meshes.detail ||
-           (!meshes.work && !meshes.coming && is_of(meshes.camera, meshes.tau_px, view, camera));
+    return !meshes.detail || (!meshes.work && !meshes.coming &&
+                              is_of(meshes.camera, meshes.tau_px, meshes.cut.parts, view, camera));
 }
 
 Result<bool> follow_with_meshes(EyeMeshes& meshes, const MeshTarget& target, const Camera& camera,

@@ -355,7 +355,7 @@ Result<FrameRenderer> renderer_for(const Gpu& gpu, const View& view, const Style
     options.path = path;
     options.waits_for_images = false;
     options.smooth_edges = style.frame.smooth_edges != 0;
-    if (view.show) options.show = shown_by(*view.show);
+    if (view.show && !view.shows_mesh_parts) options.show = shown_by(*view.show);
     if (options.extent.width == 0 || options.extent.height == 0) options.extent = {64, 64};
     return FrameRenderer::create(gpu, options);
 }

@@ -174,6 +174,7 @@ Result<OpenedScene> scene_of(Viewer& viewer, OpenedRegion& opened, Style& style)
     if (!opened.project) keep_choices(viewer.view, opened.view);
     // Data in no projected CRS have the other graticule.
     if (!find_graticule_crs(opened.view, opened.region).ok()) opened.view.graticule = Graticule::geographic;
+    settle_mesh_parts(opened.region, opened.view);
     ORO_TRY(style, load_style(opened.view, opened.region.grids.front().field));
     const bool keeps_means = viewer.keeps_means || asks_for_means(style.frame);
     ORO_TRY(OpenedScene scene, first_scene(viewer.gpu, opened.region, opened.cuts, std::move(opened.pages),

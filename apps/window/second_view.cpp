@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "apps/drawing/drape.h"
+#include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/mesh_cut.h"
 #include "apps/window/changes.h"
 #include "apps/window/frames.h"
@@ -131,6 +132,7 @@ Result<std::unique_ptr<SecondView>> second_of(Viewer& viewer, SecondGround groun
     ORO_TRY(View view, view_beside(viewer, ground.choice, own));
     // Of its levels, whatever the first view has come to meanwhile.
     view.exaggeration = ground.exaggeration;
+    settle_mesh_parts(region, view);
     ORO_TRY(const Style style, load_style(view, region.grids.front().field));
     EyeMeshes meshes;
     meshes.detail = detail_beside(viewer, own, view);
@@ -161,6 +163,7 @@ Result<bool> change_second(Viewer& viewer, const SecondChoice& choice) {
     if (!have_same_data(second.choice, choice)) return false;
     const Region& region = region_of(viewer, second.own.get());
     ORO_TRY(View view, view_beside(viewer, choice, second.own.get()));
+    settle_mesh_parts(region, view);
     ORO_TRY(const Style style, load_style(view, region.grids.front().field));
     const auto detail = detail_beside(viewer, second.own.get(), view);
     ORO_TRY(const bool clusters, clusters_beside(region, view, detail));

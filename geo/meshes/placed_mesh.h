@@ -51,6 +51,9 @@ struct PlacedMesh {
     // Of the vertices, as the file states them; those beyond its end have none. Empty where the file states
     // none, or where another look was asked for.
     std::vector<VertexColour> colours;
+    // Of the triangles, in the place of all other colours: what they are a part of (MeshParts). Empty: not
+    // asked for.
+    std::vector<VertexColour> part_colours;
     std::vector<MeshFeature> features;
     std::vector<std::uint32_t> feature_of;  // number of each triangle's feature; empty where there are none
     std::uint32_t look{};                   // gpu::mesh_look_..., but for features whose type says another

@@ -16,7 +16,7 @@ TriangleLook TriangleLooks::of(std::size_t triangle) const {
     constexpr float only_tone = 0.08F;  // of a mesh without features
     TriangleLook look{mesh_.look, only_tone};
     if (!mesh_.feature_of.empty()) look = features_[mesh_.feature_of[triangle]];
-    if (is_coloured(mesh_, triangle)) look.look = gpu::mesh_look_coloured;
+    if (!mesh_.part_colours.empty() || is_coloured(mesh_, triangle)) look.look = gpu::mesh_look_coloured;
     return look;
 }
 

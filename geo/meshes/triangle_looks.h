@@ -18,7 +18,8 @@ struct TriangleLook {
 class TriangleLooks {
   public:
     explicit TriangleLooks(const PlacedMesh& mesh);
-    // By the number of the triangle. gpu::mesh_look_coloured where the file states colours of its corners.
+    // By the number of the triangle. gpu::mesh_look_coloured where the file states colours of its corners, or
+    // a part's colour is shown.
     [[nodiscard]] TriangleLook of(std::size_t triangle) const;
 
   private:

@@ -1,10 +1,12 @@
 #include "geo/together/mesh_detail.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/cluster_frame/cluster_cut.h"
 #include "core/cluster_frame/group_rule.h"
+#include "core/frame/frame_colours.h"
 #include "core/mesh_file/stored_mesh.h"
 #include "core/terrain/page_on_net.h"
 #include "geo/together/lattice_mesh.h"
@@ -26,6 +28,30 @@ bool lies_as_stored(const PlacedMesh& mesh, const Region& region, double exagger
     if (mesh.stored->ground_fingerprint == 0) return true;
     const MeshGround ground = ground_below_parts(*mesh.stored, region, exaggeration);
     return fingerprint_of(ground, mesh.stored->origin_ecef_m()) == mesh.stored->ground_fingerprint;
+}
+
+VertexColour coded(const gpu::vec3& colour) {
+    const auto code = [](float value) {
+        return static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(value, 0.0F, 1.0F)));
+    };
+    return {code(colour.x), code(colour.y), code(colour.z), 1};
+}
+
+// The colour of a cluster, as pictures of the ground's own clusters have it (shaders/shade/show.comp). Those
+// of several meshes have other numbers.
+VertexColour colour_of_part(const ClusterGraph& graph, std::uint32_t number, MeshParts parts,
+                            std::size_t mesh) {
+    const Cluster& cluster = graph.clusters[number];
+    const auto first = static_cast<std::uint32_t>(mesh << 24U);
+    if (parts == MeshParts::clusters) return coded(colour_of_number(first ^ number));
+    if (parts == MeshParts::groups)
+        return coded(
+            colour_of_number(first ^ (cluster.made_by != no_group ? cluster.made_by : cluster.used_by)));
+    const std::uint32_t level = cluster.made_by == no_group ? 0 : graph.groups[cluster.made_by].level;
+    // Clusters beside each other differ by a little light.
+    const float light = 0.85F + 0.15F * colour_of_number(first ^ number).x;
+    const gpu::vec3 colour = colour_of_level(level);
+    return coded(gpu::vec3(light * colour.x, light * colour.y, light * colour.z));
 }
 
 }  // namespace
@@ -106,15 +132,18 @@ PlacedMesh MeshDetail::drawn(const PlacedMesh& mesh, const Graph& graph,
 }
 
 MeshCut MeshDetail::cut(const Camera& camera, double tau_px, const Air& air,
-                        const std::optional<std::uint32_t>& level, const MeshCut* before) const {
-    return cut(std::span(&camera, 1), tau_px, air, level, before);
+                        const std::optional<std::uint32_t>& level, const MeshCut* before,
+                        MeshParts parts) const {
+    return cut(std::span(&camera, 1), tau_px, air, level, before, parts);
 }
 
 MeshCut MeshDetail::cut(std::span<const Camera> cameras, double tau_px, const Air& air,
-                        const std::optional<std::uint32_t>& level, const MeshCut* before) const {
+                        const std::optional<std::uint32_t>& level, const MeshCut* before,
+                        MeshParts parts) const {
     std::vector<GroupRule> rules;
     for (const Camera& camera : cameras) rules.emplace_back(camera, tau_px, air, level);
     MeshCut cut;
+    cut.parts = parts;
     for (const Graph& one : graphs_) {
         const ClusterGraph& graph = one.graph->clusters;
         std::vector<char> stands;
@@ -132,15 +161,37 @@ MeshCut MeshDetail::cut(std::span<const Camera> cameras, double tau_px, const Ai
             cut.triangles += graph.clusters[cluster].triangles;
     }
     for (const PlacedMesh& mesh : *meshes_) cut.of_triangles += mesh.triangles.size();
-    if (before != nullptr && before->clusters == cut.clusters) {
+    if (before != nullptr && before->clusters == cut.clusters && before->parts == parts) {
         cut.meshes = before->meshes;
         return cut;
     }
     auto meshes = std::make_shared<std::vector<PlacedMesh>>();
-    for (std::size_t i = 0; i < graphs_.size(); ++i)
+    for (std::size_t i = 0; i < graphs_.size(); ++i) {
         meshes->push_back(drawn((*meshes_)[i], graphs_[i], cut.clusters[i]));
+        if (parts == MeshParts::none) continue;
+        const ClusterGraph& graph = graphs_[i].graph->clusters;
+        for (const std::uint32_t cluster : cut.clusters[i])
+            meshes->back().part_colours.insert(meshes->back().part_colours.end(),
+                                               graph.clusters[cluster].triangles,
+                                               colour_of_part(graph, cluster, parts, i));
+    }
     cut.meshes = std::move(meshes);
     return cut;
+}
+
+std::size_t mesh_levels(const Region& region) {
+    std::size_t levels = 1;
+    for (const PlacedMesh& mesh : *region.meshes) {
+        std::size_t of_mesh = 1;
+        if (mesh.stored)
+            of_mesh += mesh.stored->graph.clusters.levels.size();
+        else
+            for (double left = static_cast<double>(mesh.triangles.size()); left > most_cluster_triangles;
+                 left *= 2.0 / 3.0)
+                ++of_mesh;
+        levels = std::max(levels, of_mesh);
+    }
+    return levels;
 }
 
 }  // namespace oro

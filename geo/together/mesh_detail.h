@@ -15,6 +15,11 @@
 
 namespace oro {
 
+// What triangles that are drawn have the colours of: the cluster that each is of; the group that made that
+// cluster, or for one of the mesh's own triangles the group that uses it; the level of the cluster, where 0
+// are the mesh's own triangles. None: what the mesh looks like.
+enum class MeshParts { none, clusters, groups, levels };
+
 // What is drawn in the place of a region's meshes.
 struct MeshCut {
     std::shared_ptr<const std::vector<PlacedMesh>> meshes;  // as many, with fewer triangles each
@@ -26,6 +31,7 @@ struct MeshCut {
     double error_m{};
     double error_px{};
     std::vector<std::vector<std::uint32_t>> clusters;  // of each mesh's graph, those that are drawn
+    MeshParts parts{};                                 // what their triangles have the colours of
 };
 
 // The cluster graphs of a region's meshes (core/mesh_graph/mesh_graph.h). Vertices at one place of the
@@ -39,15 +45,16 @@ class MeshDetail {
 
     // What a view draws: of each mesh as few triangles as keep all within tau_px of where the mesh is seen,
     // or those of one level from everywhere: 0 are all triangles. Its triangles' features are those of the
-    // triangles that they began as. camera: of the whole picture. before: a cut of these meshes; where the
-    // same clusters are drawn now, its meshes are given once more.
+    // triangles that they began as. camera: of the whole picture. parts: what
+    // they have the colours of. before: a cut of these meshes; where the
+    // same clusters are drawn in the same colours now, its meshes are given once more.
     [[nodiscard]] MeshCut cut(const Camera& camera, double tau_px, const Air& air,
-                              const std::optional<std::uint32_t>& level,
-                              const MeshCut* before = nullptr) const;
+                              const std::optional<std::uint32_t>& level, const MeshCut* before = nullptr,
+                              MeshParts parts = MeshParts::none) const;
     // The same of several views at once: what is drawn keeps tau_px in each of them.
     [[nodiscard]] MeshCut cut(std::span<const Camera> cameras, double tau_px, const Air& air,
-                              const std::optional<std::uint32_t>& level,
-                              const MeshCut* before = nullptr) const;
+                              const std::optional<std::uint32_t>& level, const MeshCut* before = nullptr,
+                              MeshParts parts = MeshParts::none) const;
 
     // The graph of a mesh, by its number from 0, and its vertices as drawn, ECEF metres.
     [[nodiscard]] const MeshGraph& graph(std::size_t mesh) const { return *graphs_[mesh].graph; }
@@ -78,5 +85,9 @@ class MeshDetail {
     std::vector<Graph> graphs_;
     std::size_t built_{};
 };
+
+// The levels of the graphs of a region's meshes, and level 0: as they are stored; of one that is not baked,
+// as many as halve its triangles to a cluster's two thirds at a time.
+std::size_t mesh_levels(const Region& region);
 
 }  // namespace oro

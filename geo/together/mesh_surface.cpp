@@ -25,6 +25,12 @@ SeamCorner drawn_vertex(const PlacedVertex& vertex, const UndulationField& undul
     return corner;
 }
 
+// Of a corner of a triangle whose look is gpu::mesh_look_coloured.
+VertexColour colour_at(const PlacedMesh& mesh, std::size_t triangle, std::size_t corner) {
+    return mesh.part_colours.empty() ? mesh.colours[mesh.triangles[triangle][corner]]
+                                     : mesh.part_colours[triangle];
+}
+
 std::vector<SeamCorner> drawn_vertices(const PlacedMesh& mesh, const UndulationField& undulation,
                                        double exaggeration) {
     std::vector<SeamCorner> corners;
@@ -156,7 +162,7 @@ void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double 
         const TriangleLook look = looks.of(number);
         piece.look = look.look, piece.tone = look.tone;
         if (look.look == gpu::mesh_look_coloured)
-            for (std::size_t i = 0; i < 3; ++i) piece.colours[i] = mesh.colours[mesh.triangles[number][i]];
+            for (std::size_t i = 0; i < 3; ++i) piece.colours[i] = colour_at(mesh, number, i);
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t vertex = mesh.triangles[number][i];
             piece.corners[i] = corners[vertex];

@@ -42,7 +42,7 @@ void show_choice(Viewer& viewer) {
         };
         choice(std::nullopt);
         for (const auto& [name, value] : show_names)
-            if (!is_of_clusters(value)) choice(value);
+            if (!is_of_clusters(value) || viewer.region.meshes) choice(value);
         ImGui::EndCombo();
     }
     tip("The ground, or how a frame of it is made: levels, meshlets, triangles, how often pixels are drawn");

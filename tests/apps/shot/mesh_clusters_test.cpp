@@ -1,6 +1,7 @@
 // Meshes drawn at the detail that a view needs: what is told of it, and that the picture keeps its promise.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -16,6 +17,8 @@ using oro::test::bundled;
 using oro::test::expect_refusal;
 using oro::test::joined;
 using oro::test::Outcome;
+using oro::test::Pixels;
+using oro::test::pixels_of;
 using oro::test::run_orograph;
 using oro::test::says;
 using oro::test::usage;
@@ -101,6 +104,41 @@ TEST_F(MeshClusters, AreDrawnAgainFromAPicture) {
     const Outcome compared = run_orograph({"compare", picture_, "--json", "-q"});
     ASSERT_EQ(compared.exit_code, 0) << compared.err;
     EXPECT_EQ(json::parse(compared.out)["pixels"]["differ"], 0) << compared.out;
+}
+
+// The ball fills the middle of the picture; below it there is ground.
+TEST_F(MeshClusters, AreShownByTheirLevels) {
+    const auto drawn = [&](const char* level) {
+        static_cast<void>(said_by({"--mesh-level", level, "--show", "levels", "--no-legend"}));
+        return pixels_of(picture_).rgb;
+    };
+    const auto at = [](const std::vector<std::uint8_t>& rgb, int x, int y) {
+        const std::size_t first = 3 * static_cast<std::size_t>(y * 200 + x);
+        return std::array<int, 3>{rgb[first], rgb[first + 1], rgb[first + 2]};
+    };
+    const auto blue = at(drawn("0"), 100, 60), green = at(drawn("2"), 100, 60);
+    EXPECT_GT(blue[2], blue[1] + 20);
+    EXPECT_GT(blue[1], blue[0] + 20);
+    EXPECT_GT(green[1], green[0] + 20);
+    EXPECT_GT(green[0], green[2] + 20);
+    const auto ground = at(drawn("2"), 100, 148);
+    EXPECT_LT(std::abs(ground[0] - ground[1]), 16) << "the style's one colour";
+    EXPECT_LT(std::abs(ground[1] - ground[2]), 24);
+}
+
+TEST_F(MeshClusters, AreShownInColoursOfTheirOwn) {
+    const json said = said_by({"--show", "clusters"});
+    EXPECT_LT(said["meshes"]["triangles"], 1600) << "of clusters alone: they are what is drawn";
+    const Pixels clusters = pixels_of(picture_);
+    const Outcome compared = run_orograph({"compare", picture_, "--json", "-q"});
+    ASSERT_EQ(compared.exit_code, 0) << compared.err;
+    EXPECT_EQ(json::parse(compared.out)["pixels"]["differ"], 0) << compared.out;
+    static_cast<void>(said_by({"--show", "groups", "--mesh", "clusters"}));
+    const Pixels groups = pixels_of(picture_);
+    EXPECT_EQ(clusters.rgb.size(), groups.rgb.size()) << "a legend of the same height";
+    EXPECT_NE(clusters.rgb, groups.rgb);
+    expect_refusal(shot({"--show", "clusters", "--mesh", "grid"}), usage,
+                   {"--show clusters", "a mesh lies on the region"});
 }
 
 TEST_F(MeshClusters, AreRefusedWhereTheyCannotBe) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "apps/drawing/mesh_choice.h"
 #include "apps/legend/legend.h"
 #include "tests/support/made_terrain.h"
 
@@ -41,6 +42,36 @@ TEST(KeyNames, OfLevelsCountPostsOfTheRegion) {
     EXPECT_EQ(words_in(key_of(Show::levels, region)), (std::vector<std::string>{"1", "2", "4"}));
     EXPECT_EQ(words_in(key_of(Show::levels, region, 4)), (std::vector<std::string>{"4", "8", "16"}))
         << "of every fourth post alone";
+}
+
+// 1,000 triangles, 667, 444, 296, 198, 132, 88: the last are one cluster.
+TEST(KeyNames, OfMeshesSayWhatTheirClustersColoursStandFor) {
+    Region region = flat_region(3, 3);
+    PlacedMesh mesh;
+    mesh.triangles.resize(1000);
+    region.meshes = std::make_shared<const std::vector<PlacedMesh>>(1, mesh);
+    View view;
+    view.show = Show::levels;
+    settle_mesh_parts(region, view);
+    EXPECT_FALSE(view.shows_mesh_parts) << "all triangles of the mesh are drawn: levels are the ground's";
+    view.mesh = "clusters";
+    settle_mesh_parts(region, view);
+    ASSERT_TRUE(view.shows_mesh_parts);
+    const ColourKey levels = colour_key(view, region, Style{});
+    EXPECT_EQ(levels.title, "Levels of the meshes' cluster graphs: 0 has every triangle");
+    EXPECT_EQ(words_in(levels), (std::vector<std::string>{"0", "1", "2", "3", "4", "5", "6"}));
+    EXPECT_EQ(levels.names[2].colour, (StripColour{120, 196, 66}));
+    view.mesh = "auto", view.show = Show::groups;
+    settle_mesh_parts(region, view);
+    ASSERT_TRUE(view.shows_mesh_parts) << "groups are of clusters alone";
+    EXPECT_EQ(colour_key(view, region, Style{}).title,
+              "Each group of clusters of meshes in a colour of its own");
+    view.mesh = "grid";
+    settle_mesh_parts(region, view);
+    EXPECT_FALSE(view.shows_mesh_parts);
+    view.mesh = "clusters", view.show = Show::meshlets;
+    settle_mesh_parts(region, view);
+    EXPECT_FALSE(view.shows_mesh_parts);
 }
 
 // A strip has room for as many lines as names need.
