@@ -979,6 +979,7 @@ set_tests_properties(
   Raster.RealCollection
   RealHorizons.AreThoseOfSightLines
   RealHorizons.TakesSecondsForThousandsOfPosts
+  RealMeshGraph.OfAScanIsWithinItsErrors
   RealMeshGraph.OfASurveyIsWithinItsErrors
   RealMeshGraph.OfDelftIsWithinItsErrors
   RealMeshGraph.OfZurichIsWithinItsErrors

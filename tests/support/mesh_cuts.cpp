@@ -181,6 +181,70 @@ void check_cut(const SpaceMesh& mesh, const MeshGraph& graph, const MeshPlaceCha
     check_edges(mesh, triangles, check);
 }
 
+std::vector<Corners> corners_of_all(const SpaceMesh& mesh,
+                                    std::span<const std::array<std::uint32_t, 3>> triangles) {
+    std::vector<Corners> all;
+    all.reserve(triangles.size());
+    for (const auto& triangle : triangles) all.push_back(corners_of(mesh, triangle));
+    return all;
+}
+
+namespace {
+
+// How far a place is from some triangles, and whether that is farther than a bound and a micrometre.
+struct Measured {
+    double distance_m{};
+    bool is_over{};
+};
+Measured measured(const glm::dvec3& at, const NearestTriangles& tree, std::span<const Corners> triangles,
+                  double bound_m) {
+    constexpr double slack_m = 1.0e-6;
+    Measured found{std::sqrt(tree.nearest(at).distance2)};
+    if (found.distance_m <= bound_m + slack_m) return found;
+    for (const Corners& triangle : triangles)
+        found.distance_m = std::min(found.distance_m, to_triangle(at, triangle));
+    found.is_over = found.distance_m > bound_m + slack_m;
+    return found;
+}
+
+}  // namespace
+
+void check_many(const SpaceMesh& mesh, const NearestTriangles& whole, const MeshGraph& graph,
+                const MeshPlaceChains& chains, const std::vector<char>& stands, std::size_t every,
+                std::mt19937_64& random, ManyPlaces& found) {
+    const std::vector<ClusterGroup>& groups = graph.clusters.groups;
+    found.farthest_m.resize(groups.size(), 0.0);
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<std::uint32_t> made_by;
+    for (const Cluster& cluster : graph.clusters.clusters) {
+        if (cluster.made_by != no_group && stands[cluster.made_by] == 0) continue;
+        if (cluster.used_by != no_group && stands[cluster.used_by] != 0) continue;
+        for (const VertexTriangle& triangle : graph.clusters.triangles_of(cluster))
+            triangles.push_back(triangle);
+        made_by.resize(triangles.size(), cluster.made_by);
+    }
+    const std::vector<Corners> drawn = corners_of_all(mesh, triangles);
+    const NearestTriangles tree(drawn);
+    for (std::size_t i = random() % every; i < chains.places.size(); i += every) {
+        std::uint32_t last = no_group;
+        for (const std::uint32_t group : chains.groups[i]) {
+            if (stands[group] == 0) break;
+            last = group;
+        }
+        const Measured place =
+            measured(chains.places[i], tree, drawn, last == no_group ? 0.0 : groups[last].error_m);
+        ++found.places, found.places_over += place.is_over ? 1U : 0U;
+        if (last != no_group) found.farthest_m[last] = std::max(found.farthest_m[last], place.distance_m);
+    }
+    const std::vector<Corners> all = corners_of_all(mesh, mesh.triangles);
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+        if (made_by[i] == no_group) continue;  // the mesh itself
+        const Measured place = measured(place_in(drawn[i], random), whole, all, groups[made_by[i]].error_m);
+        ++found.drawn, found.drawn_over += place.is_over ? 1U : 0U;
+        found.farthest_m[made_by[i]] = std::max(found.farthest_m[made_by[i]], place.distance_m);
+    }
+}
+
 MeshPlaceChains wrong_users(const MeshGraph& graph, const MeshPlaceChains& chains, std::mt19937_64& random) {
     std::map<std::uint32_t, std::set<std::uint32_t>> users;
     for (const auto& [maker, user] : links_of(graph.clusters)) users[maker].insert(user);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/mesh_graph/mesh_graph.h"
+#include "core/mesh_graph/nearest_triangles.h"
 
 namespace oro::test {
 
@@ -42,6 +43,22 @@ struct CutCheck {
 void check_cut(const SpaceMesh& mesh, const MeshGraph& graph, const MeshPlaceChains& chains,
                const std::vector<char>& stands, std::size_t count, std::mt19937_64& random, CutCheck& check,
                const MeshGround* ground = nullptr);
+
+// The corners of triangles, for a tree of them.
+std::vector<std::array<glm::dvec3, 3>> corners_of_all(
+    const SpaceMesh& mesh, std::span<const std::array<std::uint32_t, 3>> triangles);
+
+// What trees find of many places in many cuts.
+struct ManyPlaces {
+    std::uint64_t places{}, places_over{};  // as of CutCheck
+    std::uint64_t drawn{}, drawn_over{};
+    std::vector<double> farthest_m;  // of each group: of the places that it answers for, and of those it made
+};
+// Holds each `every`th place of chains, and one of each drawn triangle, as check_cut() does, by trees:
+// `whole` is the mesh's. What they say is too far is measured again by brute force.
+void check_many(const SpaceMesh& mesh, const NearestTriangles& whole, const MeshGraph& graph,
+                const MeshPlaceChains& chains, const std::vector<char>& stands, std::size_t every,
+                std::mt19937_64& random, ManyPlaces& found);
 
 // A mutant: each chain goes, at a step by chance, to another user of the same group, and ends there.
 MeshPlaceChains wrong_users(const MeshGraph& graph, const MeshPlaceChains& chains, std::mt19937_64& random);
