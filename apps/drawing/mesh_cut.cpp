@@ -5,6 +5,7 @@
 
 #include "apps/drawing/mesh_choice.h"
 #include "apps/report/figures.h"
+#include "apps/view/mesh_parts.h"
 #include "core/base/elapsed.h"
 #include "core/base/parallel.h"
 #include "geo/together/graph_memory.h"

@@ -6,10 +6,10 @@
 
 #include "apps/command_line/refusals.h"
 #include "apps/cover/canopy_words.h"
-#include "apps/drawing/mesh_choice.h"
 #include "apps/eye/standpoint.h"
 #include "apps/report/figures.h"
 #include "apps/report/option_words.h"
+#include "apps/view/mesh_parts.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
 #include "apps/view/view_in_region.h"

@@ -2,9 +2,9 @@
 
 #include <utility>
 
-#include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/mesh_cut.h"
 #include "apps/navigation/flight_step.h"
+#include "apps/view/mesh_parts.h"
 #include "apps/window/frames.h"
 #include "apps/window/pictures.h"
 #include "apps/window/search.h"

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <utility>
 
-#include "apps/drawing/mesh_choice.h"
 #include "apps/eye/standpoint.h"
 #include "apps/report/region_json.h"
 #include "apps/settings/recent_files.h"
+#include "apps/view/mesh_parts.h"
 #include "apps/window/changes.h"
 #include "apps/window/frames.h"
 #include "apps/window/kept_view.h"

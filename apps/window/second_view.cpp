@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "apps/drawing/drape.h"
-#include "apps/drawing/mesh_choice.h"
 #include "apps/drawing/mesh_cut.h"
+#include "apps/view/mesh_parts.h"
 #include "apps/window/changes.h"
 #include "apps/window/frames.h"
 #include "apps/window/kept_view.h"

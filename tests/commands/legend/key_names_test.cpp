@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/drawing/mesh_choice.h"
 #include "apps/legend/legend.h"
+#include "apps/view/mesh_parts.h"
 #include "tests/support/made_terrain.h"
 
 namespace oro {

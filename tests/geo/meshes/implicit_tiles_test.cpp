@@ -19,8 +19,6 @@ namespace {
 
 using test::content_of, test::firsts_of, test::glb_at, test::put_number;
 
-using ImplicitTiles = test::FolderOfTiles;
-
 std::string padded(std::string text, char with) {
     while (text.size() % 8 != 0) text += with;
     return text;
@@ -65,6 +63,20 @@ std::string tiling_of(const std::string& scheme, int levels, int subtree_levels)
            R"(,"subtrees":{"uri":"s/{level}/{x}.{y}.{z}.subtree"}})";
 }
 const std::string templated = content_of("c/{level}.{x}.{y}.{z}.glb");
+
+struct ImplicitTiles : test::FolderOfTiles {
+    // Why tiles of that tiling are refused.
+    std::string why(const std::string& tiling) {
+        return refusal(R"({"refine":"ADD",)" + tiling + "," + templated + "}");
+    }
+    // ... whose first subtree has these bytes.
+    std::string of_subtree(const std::string& bytes, int levels = 2) {
+        write("s/0/0.0.0.subtree", bytes);
+        const std::string line = why(tiling_of("QUADTREE", levels, 2));
+        const std::string begin = "implicit tile 0/0/0 has its subtree in s/0/0.0.0.subtree, which ";
+        return line.starts_with(begin) ? line.substr(begin.size()) : line;
+    }
+};
 
 TEST_F(ImplicitTiles, TemplatesTakeTheNumbersOfATile) {
     EXPECT_EQ(uri_of("a/{level}/{x}-{y}{z}.glb", {3, 5, 6, 7}), "a/3/5-67.glb");
@@ -120,88 +132,117 @@ TEST_F(ImplicitTiles, AreReadAsTheExtensionHasThem) {
 
 // Random trees: what is taken is what a tree of their own says, by coordinates that are halved step by step,
 // with no code of Morton's order.
+struct TileKey {
+    std::uint32_t level, x, y, z;
+    auto operator<=>(const TileKey&) const = default;
+};
+
+// Tiles of which each is there by chance, and has a content by chance, and the subtrees that say so.
+class RandomTree {
+  public:
+    RandomTree(bool is_octree, std::uint32_t levels, std::mt19937& random)
+        : is_octree_(is_octree),
+          levels_(levels),
+          subtree_levels_(static_cast<std::uint32_t>(1 + random() % 3)) {
+        tiles_.insert(TileKey{0, 0, 0, 0});
+        grow({0, 0, 0, 0}, random);
+    }
+    [[nodiscard]] std::uint32_t subtree_levels() const { return subtree_levels_; }
+    [[nodiscard]] std::size_t tiles() const { return tiles_.size(); }
+    [[nodiscard]] std::map<std::string, std::string> files() const {
+        std::map<std::string, std::string> files;
+        for (const TileKey& root : tiles_)
+            if (root.level % subtree_levels_ == 0) files[name_of("", root)] = subtree_at(root);
+        return files;
+    }
+    // Contents that are to be taken, sorted.
+    [[nodiscard]] std::vector<std::string> taken(bool replaced) const {
+        std::vector<std::string> names;
+        for (const TileKey& key : with_content_)
+            if (!replaced || !has_children(key)) names.push_back(name_of("c", key));
+        std::ranges::sort(names);
+        return names;
+    }
+
+  private:
+    static std::string name_of(const std::string& begin, const TileKey& key) {
+        return uri_of(begin + "{level}.{x}.{y}.{z}", {key.level, key.x, key.y, key.z});
+    }
+    void grow(const TileKey& key, std::mt19937& random) {
+        if (random() % 2 == 0) with_content_.insert(key);
+        if (key.level + 1 >= levels_) return;
+        for (std::uint32_t child = 0; child < (is_octree_ ? 8U : 4U); ++child) {
+            if (random() % 3 == 0) continue;
+            const TileKey below{key.level + 1, 2 * key.x + child % 2, 2 * key.y + child / 2 % 2,
+                                2 * key.z + child / 4};
+            tiles_.insert(below);
+            grow(below, random);
+        }
+    }
+    [[nodiscard]] bool has_children(const TileKey& key) const {
+        return std::ranges::any_of(tiles_, [&](const TileKey& one) {
+            return one.level == key.level + 1 && one.x / 2 == key.x && one.y / 2 == key.y &&
+                   one.z / 2 == key.z;
+        });
+    }
+    // Tiles of so many levels of a subtree.
+    [[nodiscard]] std::size_t count_of(std::uint32_t levels) const {
+        std::size_t all = 0;
+        for (std::uint32_t level = 0, count = 1; level < levels; ++level, count *= is_octree_ ? 8 : 4)
+            all += count;
+        return all;
+    }
+    // The place of a tile below another among the bits of its level: one digit of base 4 or 8 a level.
+    [[nodiscard]] std::size_t place_of(const TileKey& key, const TileKey& root) const {
+        std::size_t place = 0;
+        for (std::uint32_t level = root.level + 1; level <= key.level; ++level) {
+            const std::uint32_t up = key.level - level;
+            const std::size_t digit = (key.x >> up) % 2 + 2 * ((key.y >> up) % 2) + 4 * ((key.z >> up) % 2);
+            place = place * (is_octree_ ? 8 : 4) + digit;
+        }
+        return place;
+    }
+    static bool is_below(const TileKey& key, const TileKey& root) {
+        const std::uint32_t up = key.level - root.level;
+        return key.level >= root.level && key.x >> up == root.x && key.y >> up == root.y &&
+               key.z >> up == root.z;
+    }
+    [[nodiscard]] std::string subtree_at(const TileKey& root) const {
+        const std::size_t all = count_of(subtree_levels_);
+        std::vector<std::vector<bool>> lists{std::vector<bool>(all), std::vector<bool>(all),
+                                             std::vector<bool>(count_of(subtree_levels_ + 1) - all)};
+        for (const TileKey& key : tiles_) {
+            if (!is_below(key, root) || key.level > root.level + subtree_levels_) continue;
+            const std::uint32_t level = key.level - root.level;
+            const std::size_t place = place_of(key, root);
+            if (level == subtree_levels_) {
+                lists[2][place] = true;
+                continue;
+            }
+            lists[0][count_of(level) + place] = true;
+            lists[1][count_of(level) + place] = with_content_.contains(key);
+        }
+        std::string binary;
+        const std::string json = bits_of(lists, binary);
+        return subtree_of(json, binary);
+    }
+
+    bool is_octree_;
+    std::uint32_t levels_, subtree_levels_;
+    std::set<TileKey> tiles_, with_content_;
+};
+
 TEST_F(ImplicitTiles, OfRandomTreesThoseWithoutChildrenAreTaken) {
     const unsigned seed = 5240;
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937 random(seed);
-    struct Key {
-        std::uint32_t level, x, y, z;
-        auto operator<=>(const Key&) const = default;
-    };
     int trees_of_several_subtrees = 0;
     for (int round = 0; round < 60; ++round) {
         const bool is_octree = round % 2 == 0, replaced = round % 3 != 0;
-        const std::uint32_t levels = static_cast<std::uint32_t>(2 + round % 4),
-                            subtree_levels = static_cast<std::uint32_t>(1 + random() % 3),
-                            sides = is_octree ? 2 : 1;
-        std::set<Key> tiles{{0, 0, 0, 0}};
-        std::set<Key> with_content;
-        const auto grow = [&](auto&& self, const Key& key) -> void {
-            if (random() % 2 == 0) with_content.insert(key);
-            if (key.level + 1 >= levels) return;
-            for (std::uint32_t x = 0; x < 2; ++x)
-                for (std::uint32_t y = 0; y < 2; ++y)
-                    for (std::uint32_t z = 0; z < sides; ++z) {
-                        if (random() % 3 == 0) continue;
-                        const Key child{key.level + 1, 2 * key.x + x, 2 * key.y + y, 2 * key.z + z};
-                        tiles.insert(child);
-                        self(self, child);
-                    }
-        };
-        grow(grow, Key{0, 0, 0, 0});
-        const auto children_of = [&](const Key& key) {
-            return std::ranges::count_if(tiles, [&](const Key& one) {
-                return one.level == key.level + 1 && one.x / 2 == key.x && one.y / 2 == key.y &&
-                       one.z / 2 == key.z;
-            });
-        };
-        // The place of a tile below another among the bits of its level: one digit of base 4 or 8 a level.
-        const auto place_of = [&](const Key& key, const Key& root) {
-            std::size_t place = 0;
-            for (std::uint32_t level = root.level + 1; level <= key.level; ++level) {
-                const std::uint32_t up = key.level - level;
-                const std::size_t digit =
-                    (key.x >> up) % 2 + 2 * ((key.y >> up) % 2) + 4 * ((key.z >> up) % 2);
-                place = place * (is_octree ? 8 : 4) + digit;
-            }
-            return place;
-        };
-        const auto is_below = [](const Key& key, const Key& root) {
-            const std::uint32_t up = key.level - root.level;
-            return key.level >= root.level && key.x >> up == root.x && key.y >> up == root.y &&
-                   key.z >> up == root.z;
-        };
-        std::map<std::string, std::string> files;
-        std::vector<std::string> expected;
-        std::size_t all = 0;
-        for (std::uint32_t level = 0, count = 1; level < subtree_levels; ++level, count *= is_octree ? 8 : 4)
-            all += count;
-        for (const Key& root : tiles) {
-            if (root.level % subtree_levels != 0) continue;
-            std::vector<std::vector<bool>> lists{std::vector<bool>(all), std::vector<bool>(all),
-                                                 std::vector<bool>(1 + all * (is_octree ? 7 : 3))};
-            for (const Key& key : tiles) {
-                if (!is_below(key, root) || key.level > root.level + subtree_levels) continue;
-                const std::uint32_t level = key.level - root.level;
-                if (level == subtree_levels) {
-                    lists[2][place_of(key, root)] = true;
-                    continue;
-                }
-                std::size_t first = 0;
-                for (std::uint32_t i = 0, count = 1; i < level; ++i, count *= is_octree ? 8 : 4)
-                    first += count;
-                lists[0][first + place_of(key, root)] = true;
-                if (with_content.contains(key)) lists[1][first + place_of(key, root)] = true;
-            }
-            std::string binary;
-            const std::string json = bits_of(lists, binary);
-            files[uri_of("{level}.{x}.{y}.{z}", {root.level, root.x, root.y, root.z})] =
-                subtree_of(json, binary);
-        }
+        const auto levels = static_cast<std::uint32_t>(2 + round % 4);
+        const RandomTree tree(is_octree, levels, random);
+        const std::map<std::string, std::string> files = tree.files();
         trees_of_several_subtrees += files.size() > 1 ? 1 : 0;
-        for (const Key& key : with_content)
-            if (!replaced || children_of(key) == 0)
-                expected.push_back(uri_of("c{level}.{x}.{y}.{z}", {key.level, key.x, key.y, key.z}));
         std::vector<std::string> taken;
         std::size_t counted = 0;
         ImplicitWalk walk;
@@ -219,21 +260,17 @@ TEST_F(ImplicitTiles, OfRandomTreesThoseWithoutChildrenAreTaken) {
             return {};
         };
         const auto walked = walk_implicit_tiles(
-            {is_octree, subtree_levels, levels, "{level}.{x}.{y}.{z}", {"c{level}.{x}.{y}.{z}"}}, replaced,
-            walk);
+            {is_octree, tree.subtree_levels(), levels, "{level}.{x}.{y}.{z}", {"c{level}.{x}.{y}.{z}"}},
+            replaced, walk);
         ASSERT_TRUE(walked.ok()) << walked.error().line();
-        EXPECT_EQ(counted, tiles.size());
+        EXPECT_EQ(counted, tree.tiles());
         std::ranges::sort(taken);
-        std::ranges::sort(expected);
-        EXPECT_EQ(taken, expected) << "round " << round;
+        EXPECT_EQ(taken, tree.taken(replaced)) << "round " << round;
     }
     EXPECT_GT(trees_of_several_subtrees, 20);
 }
 
 TEST_F(ImplicitTiles, RefusesInOneLine) {
-    const auto why = [&](const std::string& tiling) {
-        return refusal(R"({"refine":"ADD",)" + tiling + "," + templated + "}");
-    };
     EXPECT_EQ(why(R"("implicitTiling":{})"),
               "the root has implicit tiles by no scheme: QUADTREE and OCTREE are read");
     EXPECT_EQ(why(tiling_of("KDTREE", 1, 1)),
@@ -246,12 +283,9 @@ TEST_F(ImplicitTiles, RefusesInOneLine) {
               "the root has implicit tiles whose subtreeLevels is no number from 1 to 8");
     EXPECT_EQ(why(R"("implicitTiling":{"subdivisionScheme":"OCTREE","availableLevels":1,"subtreeLevels":1})"),
               "the root has implicit tiles without a template of subtrees");
-    const auto of_subtree = [&](const std::string& bytes, int levels = 2) {
-        write("s/0/0.0.0.subtree", bytes);
-        const std::string line = why(tiling_of("QUADTREE", levels, 2));
-        const std::string begin = "implicit tile 0/0/0 has its subtree in s/0/0.0.0.subtree, which ";
-        return line.starts_with(begin) ? line.substr(begin.size()) : line;
-    };
+}
+
+TEST_F(ImplicitTiles, RefusesSubtreesThatCannotBeRead) {
     EXPECT_EQ(of_subtree("subt"), "is cut off: a subtree has 24 bytes and more");
     std::string other = subtree_of(constants(1, 0, 0));
     other[4] = 2;
@@ -277,6 +311,9 @@ TEST_F(ImplicitTiles, RefusesInOneLine) {
     EXPECT_EQ(of_subtree(R"({"buffers":[{"uri":"http://example.org/b","byteLength":1}]})"),
               "has a buffer in http://example.org/b, which is not below the tileset's folder: only files "
               "there are read");
+}
+
+TEST_F(ImplicitTiles, RefusesTreesThatContradictThemselves) {
     EXPECT_EQ(of_subtree(constants(0, 0, 0)), "implicit tile 0/0/0 has a subtree without it");
     std::string binary;
     EXPECT_EQ(of_subtree(subtree_of(bits_of({{true, false, false, false, false},
