@@ -231,6 +231,7 @@ set_tests_properties(
   MeshBakeBrokenOff.TakesMeshesThatAreDone
   MeshCheckByGrammar.ChangedMeshesAreRefusedOrTrue
   MeshClusters.AreDrawnAgainFromAPicture
+  MeshClusters.AreShownByTheirLevels
   MeshColoursSeen.AreMixedAsLight
   MeshColoursSeen.AreThoseOfTheFileInThePlainStyle
   MeshColoursSeen.AreThoseOfTheFileInTheStyleNatural
@@ -268,6 +269,8 @@ set_tests_properties(
   OwnPostsOfShots.BesideOtherFilesAreKeptByWhatPredicts
   OwnPostsOfShots.OfTheSwissTileHaveItsSummit
   OwnPostsOfShots.ViewsThatSayNothingOfThemAreDrawnResampled
+  PagesOfPicture.DrawTheNodesOfPagesForAnyAfterOtherPictures
+  PagesOfPicture.DrawTheNodesOfPagesForAnyInEachOfSeveralPictures
   Panorama.GoesRoundPolesAndTheAntimeridian
   Panorama.HasLinesOverTheGround
   Panorama.HasTreesWhereTheyAreAskedFor
