@@ -52,11 +52,11 @@ struct MeshTarget {
 bool are_chosen_for(const EyeMeshes& meshes, const View& view, const Camera& camera);
 
 // Goes on without waiting towards what a camera with the view's tau needs of the meshes: begins to choose
-// it, or looks whether that is done, or brings it to the GPU. At least as long as a choice took passes until
+// it, or looks whether that is done, or loads it onto the GPU. At least as long as a choice took passes until
 // the next while the eye moves. True where all is on the GPU: take_coming() draws it. Errors: the device.
 Result<bool> follow_with_meshes(EyeMeshes& meshes, const MeshTarget& target, const Camera& camera,
                                 bool is_moving);
-// Draws what follow_with_meshes() has brought. No frame of the scene is under way.
+// Draws what follow_with_meshes() has loaded. No frame of the scene is under way.
 void take_coming(EyeMeshes& meshes, Scene& scene);
 
 // What is drawn is not known any more.

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/truth/box_walk.h"
 #include "core/truth/line_meets.h"
 
 namespace oro {
@@ -83,35 +84,24 @@ std::optional<TriangleBvh::Hit> TriangleBvh::first_hit(const glm::dvec3& start_m
     const glm::dvec3 inverse = finite_inverse(frame_from_ecef_ * direction);
     std::optional<Hit> nearest;
     double most_m = reach_m;
-    struct Waiting {
-        std::uint32_t node;
-        double begin_m;
-    };
     const auto begin_of = [&](std::uint32_t node) {
         return box_begin_m(start, inverse, nodes_[node].low, nodes_[node].high, most_m);
     };
-    std::array<Waiting, 64> waiting{};  // 2^32 triangles are 32 levels
-    std::size_t count = 0;
-    Waiting next{0, begin_of(0)};
-    for (;;) {
-        const Node& node = nodes_[next.node];
-        if (next.begin_m <= most_m && node.count == 0) {
-            Waiting near{node.first, begin_of(node.first)}, far{node.first + 1, begin_of(node.first + 1)};
-            if (far.begin_m < near.begin_m) std::swap(near, far);
-            if (far.begin_m < infinite) waiting[count++] = far;
-            next = near;
-            if (near.begin_m < infinite) continue;
-        } else if (next.begin_m <= most_m) {
-            for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-                const auto at_m = triangle_along_m(triangles_[i], start_m, direction);
-                if (!at_m || *at_m < 0.0 || *at_m >= most_m) continue;
-                most_m = *at_m;
-                nearest = Hit{most_m, owners_[i]};
-            }
+    using Two = std::optional<std::pair<std::uint32_t, std::uint32_t>>;
+    const auto below_of = [&](std::uint32_t number) {
+        const Node& node = nodes_[number];
+        return node.count == 0 ? Two({node.first, node.first + 1}) : Two();
+    };
+    walk_boxes(most_m, begin_of, below_of, [&](std::uint32_t number) {
+        const Node& node = nodes_[number];
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            const auto at_m = triangle_along_m(triangles_[i], start_m, direction);
+            if (!at_m || *at_m < 0.0 || *at_m >= most_m) continue;
+            most_m = *at_m;
+            nearest = Hit{most_m, owners_[i]};
         }
-        if (count == 0) return nearest;
-        next = waiting[--count];
-    }
+    });
+    return nearest;
 }
 
 }  // namespace oro

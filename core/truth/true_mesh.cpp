@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/truth/box_walk.h"
 #include "core/truth/line_meets.h"
 
 namespace oro {
@@ -156,35 +157,23 @@ std::optional<TrueMesh::Hit> TrueMesh::first_hit(const Ecef& eye, const Refracti
         }
         return box_begin_m(start, inverse, low, high, most_m);
     };
-    struct Waiting {
-        std::uint32_t node;
-        double begin_m;
+    using Two = std::optional<std::pair<std::uint32_t, std::uint32_t>>;
+    const auto below_of = [&](std::uint32_t number) {
+        const Node& node = nodes_[number];
+        return node.count == 0 ? Two({number + 1, node.first}) : Two();
     };
-    std::array<Waiting, 64> waiting{};  // 2^32 triangles are 32 levels
-    std::size_t count = 0;
-    Waiting next{0, begin_of(0)};
-    constexpr double infinite = std::numeric_limits<double>::infinity();
-    for (;;) {
-        const Node& node = nodes_[next.node];
-        if (next.begin_m <= most_m && node.count == 0) {
-            Waiting near{next.node + 1, begin_of(next.node + 1)}, far{node.first, begin_of(node.first)};
-            if (far.begin_m < near.begin_m) std::swap(near, far);
-            if (far.begin_m < infinite) waiting[count++] = far;
-            next = near;
-            if (near.begin_m < infinite) continue;
-        } else if (next.begin_m <= most_m) {
-            for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-                std::array<glm::dvec3, 3> seen = corners_m(order_[i]);
-                for (glm::dvec3& corner : seen) corner = refraction.apparent_m(corner - eye.m);
-                const auto at_m = triangle_along_m(seen, start_m, direction);
-                if (!at_m || *at_m < 0.0 || *at_m >= most_m) continue;
-                most_m = *at_m;
-                nearest = Hit{most_m, order_[i]};
-            }
+    walk_boxes(most_m, begin_of, below_of, [&](std::uint32_t number) {
+        const Node& node = nodes_[number];
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            std::array<glm::dvec3, 3> seen = corners_m(order_[i]);
+            for (glm::dvec3& corner : seen) corner = refraction.apparent_m(corner - eye.m);
+            const auto at_m = triangle_along_m(seen, start_m, direction);
+            if (!at_m || *at_m < 0.0 || *at_m >= most_m) continue;
+            most_m = *at_m;
+            nearest = Hit{most_m, order_[i]};
         }
-        if (count == 0) return nearest;
-        next = waiting[--count];
-    }
+    });
+    return nearest;
 }
 
 }  // namespace oro

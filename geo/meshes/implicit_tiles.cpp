@@ -101,10 +101,7 @@ Result<SubtreeParts> parts_of(std::string_view bytes) {
 class SubtreeReader {
   public:
     SubtreeReader(const ImplicitTiling& tiling, const ImplicitWalk& walk, std::string uri)
-        : tiling_(tiling),
-          walk_(walk),
-          uri_(std::move(uri)),
-          shape_{tiling.is_octree ? 8U : 4U, tiling.subtree_levels} {}
+        : walk_(walk), uri_(std::move(uri)), shape_{tiling.is_octree ? 8U : 4U, tiling.subtree_levels} {}
 
     Result<void> read(std::string_view bytes, Subtree& subtree) {
         ORO_TRY(const SubtreeParts parts, parts_of(bytes));
@@ -188,7 +185,6 @@ class SubtreeReader {
         return Availability(bytes);
     }
 
-    const ImplicitTiling& tiling_;
     const ImplicitWalk& walk_;
     std::string uri_;  // of the subtree
     SubtreeShape shape_;

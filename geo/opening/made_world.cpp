@@ -63,8 +63,7 @@ Result<RegionGrid> made_world(const ChosenGrid& chosen, const RegionRequest& req
         note, sizeof note,
         "%.3g posts are made where they are looked at; H is stated as the rule bounds it; windows, films and "
         "pictures from high up or near a pole have no shadows and no light of the sky unless --shadows on "
-        "and "
-        "--sky-openness on ask for them",
+        "and --sky-openness on ask for them",
         grid.lat.count * static_cast<double>(grid.lon.count));
     add_note(world.notes, note);
     return world;

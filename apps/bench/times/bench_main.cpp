@@ -158,8 +158,7 @@ Result<void> run_bench(const BenchOptions& options) {
     const double open_s = seconds_since(opening);
     ORO_TRY(const std::vector<BenchEye> eyes, eyes_of(options, region));
     ORO_TRY(Scene scene, scene_of(*gpu, options, region));
-    const GridScene& grid = scene.grids()[0];
-    if (asks_for_means(options.style) && !grid.pages().knows_means())
+    if (asks_for_means(options.style) && !scene.grids()[0].pages().knows_means())
         std::fputs("orograph-bench: note: the region has too many posts for means of the ground\n", stderr);
     ordered_json json = asked_json(options, gpu->report());
     json["open_ms"] = 1e3 * open_s;
@@ -180,6 +179,8 @@ Result<void> run_bench(const BenchOptions& options) {
         json["pipeline"] = name_of(path);
         for (auto& [key, value] : one.items()) json[key] = std::move(value);
     }
+    // Asked now: houses that were put into the scene have moved its grids.
+    const GridScene& grid = scene.grids()[0];
     json["page_bytes"] = grid.store().bytes_a_page();
     json["bytes_a_post"] = grid.store().bytes_a_post();
     json["means_bytes_a_post"] = grid.store().means_bytes_a_post();
