@@ -115,6 +115,7 @@ set_tests_properties(
   FilesFarApart.AreMeasured
   FilesFarApart.AreOneRegionWhereTheGapIsSmall
   Film.EachFrameTellsItsOwnPlaceAndTime
+  Film.FramesHaveNamesAsShotPutsThem
   Film.FramesHaveTheirOwnSun
   Film.FramesHaveTheirPosesBesideThem
   Film.GoesOnWhereItStopped
@@ -231,7 +232,9 @@ set_tests_properties(
   MeshBakeBrokenOff.TakesMeshesThatAreDone
   MeshCheckByGrammar.ChangedMeshesAreRefusedOrTrue
   MeshClusters.AreDrawnAgainFromAPicture
+  MeshClusters.ArePicturesWithinTauOfTheWholeMesh
   MeshClusters.AreShownByTheirLevels
+  MeshClusters.AreShownInColoursOfTheirOwn
   MeshColoursSeen.AreMixedAsLight
   MeshColoursSeen.AreThoseOfTheFileInThePlainStyle
   MeshColoursSeen.AreThoseOfTheFileInTheStyleNatural
@@ -272,6 +275,8 @@ set_tests_properties(
   PagesOfPicture.DrawTheNodesOfPagesForAnyAfterOtherPictures
   PagesOfPicture.DrawTheNodesOfPagesForAnyInEachOfSeveralPictures
   Panorama.GoesRoundPolesAndTheAntimeridian
+  Panorama.HasAnOverlayForGlobes
+  Panorama.HasGrassNearTheEye
   Panorama.HasLinesOverTheGround
   Panorama.HasTreesWhereTheyAreAskedFor
   Panorama.IsNoPictureOfAnotherCommand
@@ -416,6 +421,7 @@ set_tests_properties(
   Unseen.TheTileThatIsMissingIsNamedWithItsBound
   Untold.WantOfMemoryIsNotSaidToBeDamage
   VectorFormats.GiveTheSameLine
+  VectorFormats.GiveTheSameName
   Vectors.AFieldThatNoPointHasIsTold
   Vectors.AreInTheViewWhichDrawsThemAgain
   Vectors.LeavePicturesWithoutThemAsTheyWere
@@ -654,6 +660,7 @@ set_tests_properties(
   LayersOfPictures.OfMadeTerrainAreTheOracles
   LayersOfPictures.OfRealTerrainAreTheOracles
   Markers.AreWhereTheMeasureSaysTheyAre
+  MaterialPictures.AreSampledFinelyEnough
   MaterialPictures.HaveRockReliefThatMakesNoLight
   MaterialPictures.HaveTheTablesMeanColour
   MaterialPictures.StayWhereTheyAre
@@ -750,6 +757,7 @@ set_tests_properties(
   Paths/OccludedClusters.WindowsAreThoseWithout/mesh
   Paths/OccludedScene.GridsWithSeamsAreThoseWithout/compute
   Paths/OccludedScene.GridsWithSeamsAreThoseWithout/mesh
+  Paths/OccludedScene.MeshesAreThoseWithout/mesh
   Paths/OccludedScene.TheAlpsAreThoseWithout/compute
   Paths/OccludedScene.TheAlpsAreThoseWithout/mesh
   Paths/SeveralGrids.AreDrawnAsOneOfAllTheirPosts/compute
@@ -798,6 +806,7 @@ set_tests_properties(
   SurroundingsTest.HatchHasLines
   SurroundingsTest.LakesAreWaterAndSmallFlatFieldsAreNot
   SurroundingsTest.LowGroundIsTheSeaOnDemand
+  SurroundingsTest.ShoresAreSmoothBetweenPosts
   SurroundingsTest.SkirtIsNoGround
   SurroundingsTest.SmallVoidsShowALine
   SurroundingsTest.VoidsAreHatchedUpToTheRimOfTheRegion
@@ -817,6 +826,7 @@ set_tests_properties(
   TreePictures.AreTheSameInTiles
   TreePictures.AreTheSameWhereHiddenOnesAreDrawn
   TreePictures.ChangeLittleAsTheEyeDrawsNearer
+  TreePictures.ShowTreesOnForest
   TreePictures.StandInNoWater
   Triangles/FullLists.PicturesAreThoseOfListsWithRoom/blocks
   Triangles/FullLists.PicturesAreThoseOfListsWithRoom/clusters
@@ -970,6 +980,7 @@ set_tests_properties(
   NoiseBounds.AreProvenByIntervals
   Observer.TenThousandPairsAreTheMarchedLines
   Oracle.TenThousandRaysOntoASphere
+  OracleOverTiles.EveryPixelOfAPictureOverNineTiles
   OwnPosts.OfSeveralLatticesAreResampled
   OwnPosts.OfTilesAreThoseOfOneFile
   PackedRegion.OfEveryKindComesBack
