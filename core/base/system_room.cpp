@@ -1,6 +1,7 @@
 #include "core/base/system_room.h"
 
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <thread>
@@ -24,6 +25,12 @@ bool address_space_to_be_had(std::size_t bytes) {
     if (room == MAP_FAILED) return false;
     munmap(room, bytes);
     return true;
+}
+
+std::optional<std::uint64_t> machine_memory_bytes() {
+    const long pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGESIZE);
+    if (pages <= 0 || page_bytes <= 0) return std::nullopt;
+    return static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_bytes);
 }
 
 }  // namespace oro

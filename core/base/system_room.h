@@ -19,6 +19,9 @@ namespace oro {
 // How many bytes of addresses this process may have (ulimit -v); nothing where it may have all.
 [[nodiscard]] std::optional<std::uint64_t> memory_limit_bytes();
 
+// The main memory of this machine, all of it; nothing where the system does not say.
+[[nodiscard]] std::optional<std::uint64_t> machine_memory_bytes();
+
 // Whether a byte of mapped memory is there: the system reads it, and gives an error number where the program
 // itself would end by SIGBUS. True, too, where the system cannot be asked.
 [[nodiscard]] bool is_memory_there(const std::byte* byte);

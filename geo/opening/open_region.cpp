@@ -1,7 +1,5 @@
 #include "geo/opening/open_region.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
@@ -14,6 +12,7 @@
 
 #include "core/base/files_of_job.h"
 #include "core/base/files_read.h"
+#include "core/base/system_room.h"
 #include "geo/files/library_faults.h"
 #include "geo/files/raster_library.h"
 #include "geo/meshes/mesh_in_box.h"
@@ -245,11 +244,9 @@ std::uint64_t bytes_of(const Region& region) {
 }
 
 void keep(const RegionRequest& request, const Region& region) {
-    const long pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGESIZE);
     keeping().last.reset();
-    if (pages > 0 && page_bytes > 0 &&
-        bytes_of(region) > static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_bytes) / 4)
-        return;
+    const auto memory_bytes = machine_memory_bytes();
+    if (memory_bytes && bytes_of(region) > *memory_bytes / 4) return;
     keeping().last = KeptRegion{request, region, files_read_so_far()};
 }
 

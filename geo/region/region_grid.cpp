@@ -1,12 +1,11 @@
 #include "geo/region/region_grid.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
+#include "core/base/system_room.h"
 #include "core/earth/ellipsoid.h"
 
 namespace oro {
@@ -161,8 +160,10 @@ Result<void> check_size(double rows, double columns, const BoundingBox& box,
                         std::span<const Source> sources) {
     // Heights, what is known of each post, and the pages built from them.
     constexpr double bytes_a_post = 12.0;
+    const auto memory_bytes = machine_memory_bytes();
+    // A machine that does not say it may have any.
     const double memory =
-        static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+        memory_bytes ? static_cast<double>(*memory_bytes) : std::numeric_limits<double>::infinity();
     const double posts = rows * columns;
     const double most = std::min(0.75 * memory / bytes_a_post, 1e6 * std::numeric_limits<int>::max());
     if (posts <= most && std::max(rows, columns) < std::numeric_limits<int>::max()) return {};

@@ -1,20 +1,10 @@
 #include "geo/together/graph_memory.h"
 
-#include <unistd.h>
-
 #include <cstdio>
 
+#include "core/base/system_room.h"
+
 namespace oro {
-namespace {
-
-std::uint64_t machine_bytes() {
-    const long pages = sysconf(_SC_PHYS_PAGES), page_bytes = sysconf(_SC_PAGESIZE);
-    return pages > 0 && page_bytes > 0
-               ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(page_bytes)
-               : 0;
-}
-
-}  // namespace
 
 std::uint64_t graph_bytes(std::uint64_t triangles) {
     constexpr std::uint64_t bytes_a_triangle = 1200, bytes_besides = 100'000'000;
@@ -23,7 +13,7 @@ std::uint64_t graph_bytes(std::uint64_t triangles) {
 
 Result<void> check_graph_memory(const std::string& path, std::uint64_t triangles,
                                 std::uint64_t memory_bytes) {
-    const std::uint64_t there = memory_bytes > 0 ? memory_bytes : machine_bytes();
+    const std::uint64_t there = memory_bytes > 0 ? memory_bytes : machine_memory_bytes().value_or(0);
     const std::uint64_t needed = graph_bytes(triangles);
     if (there == 0 || needed <= there / 4 * 3) return {};
     const double gb = 1.0e9, most = 0.75 * static_cast<double>(there);
