@@ -91,7 +91,7 @@ TEST(PagesOfPicture, DrawTheNodesOfPagesForAnyPicture) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> share(0.0, 1.0);
     std::size_t nodes = 0, pages = 0, pages_of_any = 0, coarse = 0;
-    for (int eye = 0; eye < 3; ++eye) {
+    for (int eye = 0; eye < 5; ++eye) {
         Camera camera;
         camera.eye = {46.1 + 1.5 * share(random), 8.1 + 1.5 * share(random),
                       3000.0 + 20'000.0 * share(random)};
@@ -116,7 +116,7 @@ TEST(PagesOfPicture, DrawTheNodesOfPagesForAnyPicture) {
         pages_of_any += expected.pages;
     }
     std::printf(
-        "3 eyes: %zu nodes seen, %zu of them by coarser posts; %zu pages, %zu of pages for any picture\n",
+        "5 eyes: %zu nodes seen, %zu of them by coarser posts; %zu pages, %zu of pages for any picture\n",
         nodes, coarse, pages, pages_of_any);
     EXPECT_GT(nodes, 1000U);
     EXPECT_GT(coarse, 50U);
