@@ -45,9 +45,9 @@ class MeshDetail {
 
     // What a view draws: of each mesh as few triangles as keep all within tau_px of where the mesh is seen,
     // or those of one level from everywhere: 0 are all triangles. Its triangles' features are those of the
-    // triangles that they began as. camera: of the whole picture. parts: what
-    // they have the colours of. before: a cut of these meshes; where the
-    // same clusters are drawn in the same colours now, its meshes are given once more.
+    // triangles that they began as. camera: of the whole picture. parts: what they have the colours of.
+    // before: a cut of these meshes; where the same clusters are drawn in the same colours now, its meshes
+    // are given once more.
     [[nodiscard]] MeshCut cut(const Camera& camera, double tau_px, const Air& air,
                               const std::optional<std::uint32_t>& level, const MeshCut* before = nullptr,
                               MeshParts parts = MeshParts::none) const;
@@ -86,8 +86,9 @@ class MeshDetail {
     std::size_t built_{};
 };
 
-// The levels of the graphs of a region's meshes, and level 0: as they are stored; of one that is not baked,
-// as many as halve its triangles to a cluster's two thirds at a time.
+// How many levels the graphs of a region's meshes have at most, level 0 among them. Of a mesh that is not
+// baked it is an estimate: each level has two thirds of the triangles of the one before, down to one cluster.
+// The region has meshes.
 std::size_t mesh_levels(const Region& region);
 
 }  // namespace oro
