@@ -117,12 +117,13 @@ Result<void> run_compare(const CompareOptions& options) {
             make_grid_pages(
                 region, cuts, view.exaggeration, [&](double share) { bar.show(share, "measuring levels"); },
                 {}, known_pictures(view, style, std::span(&view.camera, 1))));
-    ORO_TRY(const std::optional<DrawnMeshes> meshes, drawn_meshes(region, view));
+    const MemoryOptions memory = memory_of_pages(view, options.memory);
+    ORO_TRY(const std::optional<DrawnMeshes> meshes, drawn_meshes(region, view, memory));
     ORO_TRY(const bool clusters, meshes ? Result<bool>(false) : draws_clusters(region, view));
-    ORO_TRY(RegionScene whole, scene_of_region(*gpu, region, cuts, std::move(pages),
-                                               {view.exaggeration, memory_of_pages(view, options.memory),
-                                                view.heights, asks_for_means(style.frame), clusters,
-                                                view.mesh_level, meshes ? meshes->cut.meshes : nullptr}));
+    ORO_TRY(RegionScene whole,
+            scene_of_region(*gpu, region, cuts, std::move(pages),
+                            {view.exaggeration, memory, view.heights, asks_for_means(style.frame), clusters,
+                             view.mesh_level, meshes ? meshes->cut.meshes : nullptr}));
     Scene& scene = whole.scene;
     ORO_TRY(const auto ground, RegionGround::of(region, cuts, view.exaggeration));
     if (const std::string note = note_of_missing_footprints(style.frame, scene.pages()); !note.empty())

@@ -199,7 +199,7 @@ Result<void> run_plan(const PlanOptions& options) {
             choose_accuracy(view, region, truth->ground(), of_grids, tolerance_px));
     ORO_TRY(const UnseenGround unseen, unseen_in(view, region, ceiling_m, truth.get()));
     ORO_TRY(const std::optional<MeshForecasts> meshes, mesh_forecasts(view, region, *pages.front()));
-    ORO_TRY(const std::optional<DrawnMeshes> standing, drawn_meshes(region, view));
+    ORO_TRY(const std::optional<DrawnMeshes> standing, drawn_meshes(region, view, {}));
     if (options.json) {
         ordered_json json = plan_json(budget, view, choice, unseen, meshes);
         if (standing) json["meshes_on_ground"] = drawn_meshes_json(*standing);

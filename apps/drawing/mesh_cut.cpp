@@ -1,5 +1,6 @@
 #include "apps/drawing/mesh_cut.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -44,25 +45,38 @@ static MeshParts shown_parts(const std::optional<Show>& show) {
     return show == Show::levels ? MeshParts::levels : MeshParts::none;
 }
 
-MeshAsked mesh_asked_by(const View& view) {
+MeshAsked mesh_asked_by(const View& view, const MemoryOptions& memory) {
+    // Of a triangle on the GPU: what it is drawn from (core/seam/mesh_pages.h), at most so many of houses,
+    // and what casts its shadow (core/seam/mesh_casters.h).
+    constexpr std::uint64_t bytes_a_triangle = 100;
     MeshAsked asked{view.tau_px, view.model.air, {}, shown_parts(view.show)};
+    if (memory.gpu_memory_mb)
+        asked.most_triangles =
+            static_cast<std::uint64_t>(*memory.gpu_memory_mb) * 1'000'000 / 2 / bytes_a_triangle;
     if (view.mesh_level) asked.level = static_cast<std::uint32_t>(*view.mesh_level);
     return asked;
 }
 
 MeshCut mesh_cut_of(const MeshDetail& detail, const MeshAsked& asked, std::span<const Camera> cameras,
                     const MeshCut* before) {
-    return detail.cut(cameras, asked.tau_px, asked.air, asked.level, before, asked.parts);
+    constexpr double least_px = 0.05, largest_px = 1.0e6;
+    for (double tau_px = asked.tau_px;; tau_px = std::max(1.5 * tau_px, least_px)) {
+        MeshCut cut = detail.cut(cameras, tau_px, asked.air, asked.level, before, asked.parts);
+        const bool fits = asked.most_triangles == 0 || cut.triangles <= asked.most_triangles;
+        if (fits || asked.level || tau_px > largest_px) return cut;
+    }
 }
 
-Result<std::optional<DrawnMeshes>> drawn_meshes(const Region& region, const View& view) {
+Result<std::optional<DrawnMeshes>> drawn_meshes(const Region& region, const View& view,
+                                                const MemoryOptions& memory) {
     const auto start = Clock::now();
     ORO_TRY(const std::shared_ptr<const MeshDetail> detail, mesh_detail_of(region, view));
     if (!detail) return std::optional<DrawnMeshes>();
     DrawnMeshes drawn;
     drawn.graph_s = seconds_since(start);
     drawn.built = detail->built();
-    drawn.cut = mesh_cut_of(*detail, mesh_asked_by(view), std::span(&view.camera, 1));
+    drawn.cut = mesh_cut_of(*detail, mesh_asked_by(view, memory), std::span(&view.camera, 1));
+    drawn.is_coarser = !view.mesh_level && drawn.cut.error_px > view.tau_px;
     return std::optional(std::move(drawn));
 }
 
@@ -76,6 +90,7 @@ std::string words_of(const DrawnMeshes& meshes) {
         std::snprintf(text, sizeof text, " (%.3g px)", meshes.cut.error_px);
         words += text;
     }
+    if (meshes.is_coarser) words += "; coarser than --tau asks, as half of --gpu-memory holds no more";
     if (meshes.built == 0) return words + "; graph of the file";
     std::snprintf(text, sizeof text, "; graph built in %.1f s", meshes.graph_s);
     return words + text;

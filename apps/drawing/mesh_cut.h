@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "apps/options/options.h"
 #include "apps/view/view.h"
 #include "geo/region/region.h"
 #include "geo/together/mesh_detail.h"
@@ -18,6 +19,7 @@ struct DrawnMeshes {
     MeshCut cut;
     double graph_s{};     // building the graphs
     std::size_t built{};  // of them; the others lie in a baked file
+    bool is_coarser{};    // than the view asks: more would not fit into --gpu-memory
 };
 
 // True where meshes lie on the region and the view asks for clusters of them; the terrain is then drawn by
@@ -37,15 +39,19 @@ struct MeshAsked {
     Air air{};
     std::optional<std::uint32_t> level{};  // --mesh-level
     MeshParts parts{};                     // --show
+    std::uint64_t most_triangles{};        // that half of --gpu-memory holds; 0: any number
 };
-MeshAsked mesh_asked_by(const View& view);
-// What a view with that camera, or several, shows of them. before: as MeshDetail::cut().
+MeshAsked mesh_asked_by(const View& view, const MemoryOptions& memory);
+// What a view with that camera, or several, shows of them. Where it needs more triangles than there is memory
+// for, its tau is half as large again until they fit, unless it asks for a level. before: as
+// MeshDetail::cut().
 MeshCut mesh_cut_of(const MeshDetail& detail, const MeshAsked& asked, std::span<const Camera> cameras,
                     const MeshCut* before = nullptr);
 
 // Builds the graphs of the region's meshes and chooses from them, on all threads of the machine; nothing
 // where draws_mesh_clusters() says no. Errors: as it.
-Result<std::optional<DrawnMeshes>> drawn_meshes(const Region& region, const View& view);
+Result<std::optional<DrawnMeshes>> drawn_meshes(const Region& region, const View& view,
+                                                const MemoryOptions& memory);
 
 // "meshes: 5,140 of 174,899 triangles, within 0.31 m (0.98 px); graph built in 3.2 s".
 std::string words_of(const DrawnMeshes& meshes);

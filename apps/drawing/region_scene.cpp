@@ -14,7 +14,7 @@
 #include "core/lod/data_means.h"
 #include "core/lod/ground_means.h"
 #include "core/made_pages/made_pages.h"
-#include "core/seam/seam_pages.h"
+#include "core/seam/mesh_pages.h"
 #include "core/terrain/drawn_heights.h"
 #include "geo/refined/refined_region.h"
 
@@ -146,20 +146,27 @@ Result<void> add_clusters(const Gpu& gpu, const RegionGrid& grid, std::uint64_t 
 
 }  // namespace
 
-Result<std::unique_ptr<RegionPages>> pages_between(const Region& region, const RegionCuts& cuts,
-                                                   double exaggeration,
-                                                   const std::vector<PlacedMesh>* meshes) {
+Result<GridPages> pages_between(const Region& region, const RegionCuts& cuts, double exaggeration,
+                                const std::vector<PlacedMesh>* meshes) {
     const Seam seam = seam_between(region, cuts, exaggeration, meshes);
-    if (seam.empty()) return std::unique_ptr<RegionPages>();
     const HeightField& field = region.grids.front().field;
-    return seam_pages(seam, field.undulation, region_shape(field, exaggeration));
+    return pages_beside(seam, field.undulation, region_shape(field, exaggeration));
 }
 
-Result<std::optional<Scene>> scene_between(const Gpu& gpu, std::unique_ptr<RegionPages> pages) {
-    if (!pages) return std::optional<Scene>();
-    // Small beside the rest, which it takes nothing from.
-    ORO_TRY(Scene between, Scene::create(gpu, std::move(pages)));
-    return std::optional(std::move(between));
+Result<std::optional<Scene>> scene_between(const Gpu& gpu, GridPages pages,
+                                           const std::shared_ptr<MemoryBudget>& shared) {
+    std::optional<Scene> between;
+    for (std::unique_ptr<RegionPages>& one : pages) {
+        // What is between grids is small beside the rest, which it takes nothing from.
+        SceneMemory memory;
+        if (one->is_mesh()) memory.shared = shared;
+        ORO_TRY(Scene made, Scene::create(gpu, std::move(one), memory));
+        if (between)
+            between->add(std::move(made));
+        else
+            between.emplace(std::move(made));
+    }
+    return between;
 }
 
 Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
@@ -184,11 +191,10 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
     if (request.clusters)
         ORO_CHECK(add_clusters(gpu, region.grids.front(), bytes, memory.main, request.mesh_level, *scene));
     if (pages.size() > 1 || region.meshes) {
-        ORO_TRY(std::unique_ptr<RegionPages> pages_beside,
-                pages_between(region, cuts, request.exaggeration, request.meshes.get()));
-        ORO_TRY(std::optional<Scene> between, scene_between(gpu, std::move(pages_beside)));
+        ORO_TRY(GridPages beside, pages_between(region, cuts, request.exaggeration, request.meshes.get()));
+        ORO_TRY(std::optional<Scene> between, scene_between(gpu, std::move(beside), memory.shared));
         if (between) {
-            triangles += between->grids().front().pages().facts().triangles;
+            for (const GridScene& grid : between->grids()) triangles += grid.pages().facts().triangles;
             scene->add(std::move(*between));
         }
     }
@@ -197,8 +203,9 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
 
 Result<void> redraw_meshes(const Gpu& gpu, const Region& region, const RegionCuts& cuts, double exaggeration,
                            const std::vector<PlacedMesh>& meshes, Scene& scene) {
-    ORO_TRY(std::unique_ptr<RegionPages> pages, pages_between(region, cuts, exaggeration, &meshes));
-    ORO_TRY(std::optional<Scene> between, scene_between(gpu, std::move(pages)));
+    ORO_TRY(GridPages pages, pages_between(region, cuts, exaggeration, &meshes));
+    ORO_TRY(std::optional<Scene> between,
+            scene_between(gpu, std::move(pages), scene.grids().front().shared_memory()));
     scene.replace_between(std::move(between));
     return {};
 }

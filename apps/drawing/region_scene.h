@@ -51,15 +51,15 @@ struct SceneRequest {
 Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const RegionCuts& cuts,
                                     GridPages pages, const SceneRequest& request);
 
-// What is drawn beside the grids of a region, as pages: what is between them, and its meshes; null where
+// What is drawn beside the grids of a region, as pages: what is between them, then its meshes; none where
 // there is nothing. meshes: what is drawn in the place of the region's, as many; null: themselves. For any
-// thread. Errors: as seam_pages().
-Result<std::unique_ptr<RegionPages>> pages_between(const Region& region, const RegionCuts& cuts,
-                                                   double exaggeration,
-                                                   const std::vector<PlacedMesh>* meshes);
-// These as a scene, for Scene::add() and Scene::replace_between(); nothing of null. Errors: out of device
-// memory.
-Result<std::optional<Scene>> scene_between(const Gpu& gpu, std::unique_ptr<RegionPages> pages);
+// thread. Errors: as pages_beside().
+Result<GridPages> pages_between(const Region& region, const RegionCuts& cuts, double exaggeration,
+                                const std::vector<PlacedMesh>* meshes);
+// These as a scene, for Scene::add() and Scene::replace_between(); nothing of none. Meshes count in
+// `shared`, where it is not null. Errors: out of device memory.
+Result<std::optional<Scene>> scene_between(const Gpu& gpu, GridPages pages,
+                                           const std::shared_ptr<MemoryBudget>& shared);
 
 // Draws other meshes in the place of a region's, in a scene of scene_of_region() of which no frame is under
 // way. meshes: as many as the region has. Errors: out of device memory.

@@ -130,8 +130,8 @@ std::vector<OptionRow<MemoryOptions>> made_memory_table() {
     rows.push_back(option_row<MemoryOptions>(
         option_headings::detail, {"--gpu-memory MB", no_trait, "half of it, at most 2147", "", memory_mb},
         &MemoryOptions::gpu_memory_mb,
-        "How much of the GPU's memory terrain may take, in megabytes, {}. Images over the ground take half "
-        "of what is given."));
+        "How much of the GPU's memory terrain and meshes may take, in megabytes, {}. Images over the ground "
+        "take half of what is given."));
     rows.push_back(option_row<MemoryOptions>(
         option_headings::detail, {"--memory MB", no_trait, "64", "", memory_mb}, &MemoryOptions::memory_mb,
         "How much main memory terrain may take on its way to the GPU, in megabytes, {}. Clusters have half "

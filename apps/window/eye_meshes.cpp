@@ -4,14 +4,13 @@
 
 #include "apps/drawing/drape.h"
 #include "apps/drawing/mesh_cut.h"
-#include "apps/drawing/region_scene.h"
 #include "apps/navigation/view_history.h"
 
 namespace oro {
 namespace {
 
 bool is_of(const Camera& chosen, double tau_px, MeshParts parts, const View& view, const Camera& camera) {
-    return parts == mesh_asked_by(view).parts && is_same_view(chosen, camera) &&
+    return parts == mesh_asked_by(view, {}).parts && is_same_view(chosen, camera) &&
            chosen.width_px == camera.width_px && chosen.height_px == camera.height_px &&
            tau_px == view.tau_px;
 }
@@ -27,7 +26,8 @@ void begin_choice(EyeMeshes& meshes, const MeshTarget& target, const Camera& cam
     meshes.begun = Clock::now();
     meshes.work = std::make_unique<BackgroundWork<ChosenMeshes>>(
         [detail = meshes.detail, before = meshes.cut, &region = target.region, &cuts = target.cuts, camera,
-         tau_px = target.view.tau_px, asked = mesh_asked_by(target.view),
+         tau_px = target.view.tau_px,
+         asked = mesh_asked_by(target.view, memory_of_pages(target.view, target.memory)),
          exaggeration = target.view.exaggeration](const auto&,
                                                   const std::stop_token& stop) -> Result<ChosenMeshes> {
             ChosenMeshes chosen{mesh_cut_of(*detail, asked, std::span(&camera, 1), &before), camera, tau_px};
@@ -49,7 +49,8 @@ Result<void> take_choice(EyeMeshes& meshes, const MeshTarget& target) {
         meshes.camera = chosen.camera, meshes.tau_px = chosen.tau_px;
         return {};
     }
-    ORO_TRY(meshes.coming_scene, scene_between(target.gpu, std::move(chosen.pages)));
+    ORO_TRY(meshes.coming_scene,
+            scene_between(target.gpu, std::move(chosen.pages), target.scene.grids().front().shared_memory()));
     meshes.coming = std::move(chosen);
     if (!meshes.coming_scene) return {};
     return lay_images(target.view, target.memory, target.gpu, *meshes.coming_scene, true, nullptr,
@@ -90,10 +91,11 @@ void forget_drawn(EyeMeshes& meshes) {
     meshes.tau_px = 0.0;
 }
 
-bool choose_cut(EyeMeshes& meshes, const View& view, const Camera& camera) {
+bool choose_cut(EyeMeshes& meshes, const View& view, const MemoryOptions& memory, const Camera& camera) {
     if (!meshes.detail || are_chosen_for(meshes, view, camera)) return false;
     give_up(meshes);
-    MeshCut cut = mesh_cut_of(*meshes.detail, mesh_asked_by(view), std::span(&camera, 1), &meshes.cut);
+    MeshCut cut =
+        mesh_cut_of(*meshes.detail, mesh_asked_by(view, memory), std::span(&camera, 1), &meshes.cut);
     const bool is_drawn = cut.meshes == meshes.cut.meshes;
     meshes.cut = std::move(cut);
     meshes.camera = camera, meshes.tau_px = view.tau_px;
@@ -102,7 +104,7 @@ bool choose_cut(EyeMeshes& meshes, const View& view, const Camera& camera) {
 
 Result<void> draw_cut_of(EyeMeshes& meshes, const MeshTarget& target, const Camera& camera,
                          const std::function<Result<void>()>& before) {
-    if (!choose_cut(meshes, target.view, camera)) return {};
+    if (!choose_cut(meshes, target.view, memory_of_pages(target.view, target.memory), camera)) return {};
     ORO_CHECK(before());
     ORO_CHECK(redraw_meshes(target.gpu, target.region, target.cuts, target.view.exaggeration,
                             *meshes.cut.meshes, target.scene));

@@ -5,12 +5,12 @@
 #include <memory>
 #include <optional>
 
+#include "apps/drawing/region_scene.h"
 #include "apps/options/options.h"
 #include "apps/view/view.h"
 #include "apps/window/background_work.h"
 #include "core/base/elapsed.h"
 #include "core/earth/camera.h"
-#include "core/frame/region_pages.h"
 #include "geo/together/cut_regions.h"
 #include "geo/together/mesh_detail.h"
 #include "render/scene/scene.h"
@@ -22,8 +22,8 @@ struct ChosenMeshes {
     MeshCut cut;
     Camera camera;  // for which it was chosen,
     double tau_px{};
-    bool is_new{};                         // it is not what was drawn before: `pages` have it
-    std::unique_ptr<RegionPages> pages{};  // null: nothing is drawn beside the grids
+    bool is_new{};      // it is not what was drawn before: `pages` have it
+    GridPages pages{};  // none: nothing is drawn beside the grids
 };
 
 // Where a view asks for that (--mesh clusters, --mesh-level). Ends before the region that its work reads.
@@ -64,7 +64,7 @@ void forget_drawn(EyeMeshes& meshes);
 
 // Chooses what a camera with the view's tau needs of the meshes, here and now; what was coming is given up.
 // True: that is not what is drawn, and the scene is to take it.
-bool choose_cut(EyeMeshes& meshes, const View& view, const Camera& camera);
+bool choose_cut(EyeMeshes& meshes, const View& view, const MemoryOptions& memory, const Camera& camera);
 // choose_cut(), drawn. before: waits until no frame of the scene is under way. Errors: the device.
 Result<void> draw_cut_of(EyeMeshes& meshes, const MeshTarget& target, const Camera& camera,
                          const std::function<Result<void>()>& before);

@@ -14,6 +14,7 @@
 #include "core/terrain/drawn_heights.h"
 #include "core/terrain/page_on_net.h"
 #include "shaders/shared_heights.h"
+#include "shaders/shared_mesh_pages.h"
 
 namespace oro {
 namespace {
@@ -426,7 +427,7 @@ gpu::FrameConstants frame_constants(const RegionPages& pages, const Camera& came
     constants.undulation = undulation_table(region.grid, region.undulation);
     constants.eye_post = eye_post(region.grid, camera.eye, model.earth);
     if (region.grid.net) constants.net = net_map(*region.grid.net, lon);
-    constants.is_seam = pages.is_seam() ? 1U : 0U;
+    constants.is_seam = pages.is_mesh() ? gpu::seam_of_meshes : pages.is_seam() ? 1U : 0U;
     set_ground_noise(model_eye_ecef(model.earth, camera.eye), constants);
     return constants;
 }

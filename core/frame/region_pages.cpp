@@ -76,6 +76,10 @@ Result<void> RegionPages::load_means(const PageIndex&, gpu::PageMeans&) const {
     return Error{ErrorKind::failed, "pages", "no means are known of these"};
 }
 
+Result<void> RegionPages::load_words(const PageIndex&, std::vector<std::uint32_t>&) const {
+    return Error{ErrorKind::failed, "pages", "these have no words of their own"};
+}
+
 Result<void> RegionPages::load_places(const PageIndex& page, const gpu::PageBlock& block,
                                       gpu::PagePlaces& places) const {
     ORO_TRY(const PageRecord whole, record(page));

@@ -71,6 +71,10 @@ class RegionPages {
     // Whether these are what lies between grids (core/seam), and whether a page of them closes gaps.
     [[nodiscard]] virtual bool is_seam() const { return false; }
     [[nodiscard]] virtual bool is_skirt(const PageIndex&) const { return false; }
+    // Whether these are triangles of meshes (core/seam/mesh_pages.h), which lie in words of their own in the
+    // place of a block's heights; and those words of a page.
+    [[nodiscard]] virtual bool is_mesh() const { return false; }
+    virtual Result<void> load_words(const PageIndex& page, std::vector<std::uint32_t>& words) const;
     // Triangles of meshes among these, which cast shadows on all grids of a frame; null: there are none.
     [[nodiscard]] virtual const MeshCasters* mesh_casters() const { return nullptr; }
     // Height above the ellipsoid that nothing of them is above, as drawn, where it is known without records

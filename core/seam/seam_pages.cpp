@@ -12,8 +12,7 @@
 #include <vector>
 
 #include "core/base/parallel.h"
-#include "core/net/lattice_georeference.h"
-#include "core/seam/mesh_casters.h"
+#include "core/seam/middle_plane.h"
 #include "core/terrain/drawn_heights.h"
 #include "core/terrain/node_box.h"
 #include "core/terrain/page_on_net.h"
@@ -57,13 +56,6 @@ struct SeamQuad {
     std::array<glm::dvec3, 5> vectors{};  // seam.glsl
 };
 
-// So many steps of a page's places as a colour's 24 bits count; exact.
-double steps_of_colour(VertexColour colour) {
-    const std::uint32_t code =
-        colour.red | std::uint32_t{colour.green} << 8U | std::uint32_t{colour.blue} << 16U;
-    return static_cast<double>(code) / static_cast<double>(gpu::seam_unit);
-}
-
 SeamQuad quad_of(const SeamPiece& piece) {
     SeamQuad quad;
     quad.count = 3;
@@ -71,14 +63,9 @@ SeamQuad quad_of(const SeamPiece& piece) {
         quad.corners[i] = piece.corners[i];
         quad.vectors[i] = piece.corners[i].normal;
     }
-    if (piece.two_sided)
-        quad.vectors[3] = {1.0, static_cast<double>(piece.look) / gpu::mesh_looks,
-                           static_cast<double>(piece.tone)};
-    if (piece.look == gpu::mesh_look_coloured)
-        for (std::size_t i = 0; i < 3; ++i)
-            quad.vectors[4][static_cast<int>(i)] = steps_of_colour(piece.colours[i]);
     return quad;
 }
+
 // A skirt's upright part, whose top reaches upwards, and what reaches down and to both sides from its foot:
 // seen along the upright part, its top is its foot, and the higher ground's edge is beside it.
 constexpr std::size_t quads_a_skirt = 3;
@@ -96,78 +83,16 @@ std::array<SeamQuad, quads_a_skirt> quads_of(const SeamSkirt& skirt) {
              from_foot(-0.5 * skirt.side - skirt.up)}};
 }
 
-// The plane that touches the Earth's normals in the middle of a seam.
-struct MiddlePlane {
-    glm::dvec3 middle, east, north;
-    glm::dvec2 low{1.0e30}, high{-1.0e30};
-
-    [[nodiscard]] glm::dvec2 at(const glm::dvec3& normal) const {
-        return glm::dvec2(glm::dot(normal, east), glm::dot(normal, north)) / glm::dot(normal, middle);
-    }
-    [[nodiscard]] glm::dvec3 normal(const glm::dvec2& point) const {
-        return glm::normalize(middle + point.x * east + point.y * north);
-    }
-};
-
-glm::dvec3 up_at(const SeamCorner& corner) {
-    // Heights are small beside the Earth: what is missing is made up for by the slack around.
-    return glm::normalize(corner.at.m / glm::dvec3(1.0, 1.0, 1.0 - wgs84_e2));
-}
-
 template <class Visit>
 void for_each_corner(const std::vector<SeamQuad>& quads, const Visit& visit) {
     for (const SeamQuad& quad : quads)
         for (int i = 0; i < quad.count; ++i) visit(quad.corners[static_cast<std::size_t>(i)]);
 }
 
-Result<MiddlePlane> plane_of(const std::vector<SeamQuad>& quads) {
-    MiddlePlane plane;
-    glm::dvec3 sum(0.0);
-    for_each_corner(quads, [&](const SeamCorner& corner) { sum += up_at(corner); });
-    plane.middle = glm::normalize(sum);
-    const glm::dvec3 pole =
-        std::abs(plane.middle.z) < 0.9 ? glm::dvec3(0.0, 0.0, 1.0) : glm::dvec3(1.0, 0.0, 0.0);
-    plane.east = glm::normalize(glm::cross(pole, plane.middle));
-    plane.north = glm::cross(plane.middle, plane.east);
-    bool near = glm::length(sum) > 0.0;
-    for_each_corner(quads, [&](const SeamCorner& corner) {
-        near = near && glm::dot(up_at(corner), plane.middle) > 0.86;
-        const glm::dvec2 point = plane.at(up_at(corner));
-        plane.low = glm::min(plane.low, point);
-        plane.high = glm::max(plane.high, point);
-    });
-    if (!near)
-        return Error{ErrorKind::failed, "grids drawn together",
-                     "their seam reaches over more than 60 degrees"};
-    constexpr double slack = 1.0e-5;  // 60 m
-    plane.low -= slack;
-    plane.high += slack;
-    return plane;
-}
-
-// A net over the seam, whose posts stand for nothing: it says where in the region a place is.
-Result<PostGrid> grid_over(const MiddlePlane& plane, int pages) {
-    const int columns = pages * static_cast<int>(gpu::page_quads) + 1;
-    ORO_TRY(std::shared_ptr<const LatticeGeoreference> net,
-            LatticeGeoreference::fit(
-                posts, columns,
-                [&](std::span<const PostNumber> asked, std::span<PostPlace> places) -> Result<void> {
-                    for (std::size_t i = 0; i < asked.size(); ++i) {
-                        const glm::dvec2 share(asked[i].column / (columns - 1.0),
-                                               1.0 - asked[i].row / (posts - 1.0));
-                        places[i] =
-                            place_of_normal(plane.normal(plane.low + share * (plane.high - plane.low)));
-                    }
-                    return {};
-                }));
-    return grid_on_net(std::move(net));
-}
-
 class SeamPages : public RegionPages {
   public:
-    SeamPages(RegionFacts facts, std::vector<SeamQuad> quads, std::size_t pieces, MeshCasters casters)
+    SeamPages(RegionFacts facts, std::vector<SeamQuad> quads, std::size_t pieces)
         : RegionPages(std::move(facts), 1),
-          casters_(std::move(casters)),
           quads_(std::move(quads)),
           piece_pages_(pages_for(pieces)),
           pieces_(pieces) {
@@ -185,9 +110,6 @@ class SeamPages : public RegionPages {
     Result<void> load_places(const PageIndex& page, const gpu::PageBlock& block,
                              gpu::PagePlaces& places) const override;
     [[nodiscard]] bool is_seam() const override { return true; }
-    [[nodiscard]] const MeshCasters* mesh_casters() const override {
-        return casters_.nodes.empty() ? nullptr : &casters_;
-    }
     [[nodiscard]] bool is_skirt(const PageIndex& page) const override {
         return static_cast<std::size_t>(page.column) >= piece_pages_;
     }
@@ -203,23 +125,9 @@ class SeamPages : public RegionPages {
     }
     [[nodiscard]] PageRecord record_of(int page) const;
 
-    MeshCasters casters_;
     std::vector<SeamQuad> quads_;
     std::size_t piece_pages_, pieces_;
     std::vector<PageRecord> records_;
-};
-
-// A sphere around points, with slack for their rounding.
-struct Around {
-    glm::dvec3 low{std::numeric_limits<double>::max()}, high{-std::numeric_limits<double>::max()};
-    void hold(const glm::dvec3& point) {
-        low = glm::min(low, point);
-        high = glm::max(high, point);
-    }
-    [[nodiscard]] glm::dvec3 centre() const { return 0.5 * (low + high); }
-    [[nodiscard]] double radius() const {
-        return 0.5 * glm::length(high - low) + 1.0e-2 + 1.0e-6 * glm::length(high);
-    }
 };
 
 PageRecord SeamPages::record_of(int page) const {
@@ -227,7 +135,7 @@ PageRecord SeamPages::record_of(int page) const {
     PageSummary& summary = record.summary;
     summary.index = {0, page, 0};
     const std::span<const SeamQuad> quads = quads_on(page);
-    Around around;
+    PointsAround around;
     summary.lowest_h_m = std::numeric_limits<double>::max();
     summary.highest_h_m = -summary.lowest_h_m;
     for (const SeamQuad& quad : quads) {
@@ -239,14 +147,9 @@ PageRecord SeamPages::record_of(int page) const {
         }
         summary.triangles += static_cast<std::uint32_t>(quad.count - 2);
     }
-    const PostPlace middle = place_of_normal(up_at({Ecef{around.centre()}, 0.0, {}}));
-    summary.origin = {middle.lat_deg, middle.lon_deg, 0.5 * (summary.lowest_h_m + summary.highest_h_m)};
-    set_page_frame(summary);
-    summary.centre_m = glm::dvec3(
-        glm::vec3(glm::transpose(summary.ecef_from_page) * (around.centre() - summary.origin_ecef.m)));
-    summary.radius_m = summary.lod_radius_m = record.reach_m = around.radius();
-    // Never behind the horizon: closers reach out of what bounds them.
-    summary.horizon = record.horizon = {glm::normalize(around.centre()), 4.0};
+    set_page_around(around, summary);
+    record.reach_m = summary.radius_m;
+    record.horizon = summary.horizon;
     summary.meshlets = gpu::meshlets_per_page;
     for (PageQuarter& quarter : record.quarters) quarter = {summary.centre_m, summary.radius_m, 0.0F};
     return record;
@@ -272,19 +175,10 @@ Result<void> SeamPages::load(const PageIndex& page, gpu::PageBlock& block) const
         }
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
-        Around around;
-        for (const glm::dvec3& point : points[i]) around.hold(point);
-        const bool there = !points[i].empty();
-        const auto radius = there ? static_cast<float>(around.radius()) : -1.0F;
         gpu::MeshletBounds& bounds = block.meshlets[i];
-        bounds = {there ? gpu::vec3(around.centre()) : gpu::vec3(0.0F),
-                  radius,
-                  gpu::vec3(0.0F),
-                  4.0F,
-                  0.0F,
-                  radius};
+        bounds = bounds_around(points[i]);
         // Asked of pieces alone: skirts reach out of it.
-        if (there) block.boxes[i] = node_box(points[i], bounds, summary.origin.lat_deg);
+        if (!points[i].empty()) block.boxes[i] = node_box(points[i], bounds, summary.origin.lat_deg);
     }
     set_spacing(facts().grid, summary, block);
     return {};
@@ -321,24 +215,12 @@ Result<void> SeamPages::load_places(const PageIndex& page, const gpu::PageBlock&
     return {};
 }
 
-// Neighbours on the ground near each other in the list, so that pages and meshlets are small.
-template <class Item, class Place>
-void sort_by_place(std::vector<Item>& items, const Place& place) {
-    std::vector<std::pair<std::uint64_t, std::size_t>> order;
-    for (std::size_t i = 0; i < items.size(); ++i) {
-        const glm::dvec2 share = glm::clamp(place(items[i]), 0.0, 1.0);
-        const auto x = static_cast<std::uint64_t>(share.x * 65535.0),
-                   y = static_cast<std::uint64_t>(share.y * 65535.0);
-        std::uint64_t key = 0;  // bits of both in turn
-        for (unsigned bit = 0; bit < 16; ++bit)
-            key |= (x >> bit & 1U) << (2 * bit) | (y >> bit & 1U) << (2 * bit + 1);
-        order.emplace_back(key, i);
-    }
-    std::sort(order.begin(), order.end());
-    std::vector<Item> sorted;
-    sorted.reserve(items.size());
-    for (const auto& [key, i] : order) sorted.push_back(items[i]);
-    items = std::move(sorted);
+std::vector<SeamQuad> sorted(const std::vector<SeamQuad>& quads, const MiddlePlane& plane) {
+    std::vector<glm::dvec2> shares;
+    for (const SeamQuad& quad : quads) shares.push_back(plane.share(quad.corners[0]));
+    std::vector<SeamQuad> in_order;
+    for (const std::uint32_t number : order_of_places(shares)) in_order.push_back(quads[number]);
+    return in_order;
 }
 
 }  // namespace
@@ -346,20 +228,19 @@ void sort_by_place(std::vector<Item>& items, const Place& place) {
 Result<std::unique_ptr<RegionPages>> seam_pages(const Seam& seam, const UndulationField& undulation,
                                                 const RegionShape& shape) {
     std::vector<SeamQuad> pieces, skirts;
-    for (const SeamPiece& piece : seam.pieces) pieces.push_back(quad_of(piece));
+    for (const SeamPiece& piece : seam.pieces)
+        if (!piece.two_sided) pieces.push_back(quad_of(piece));
     for (const SeamSkirt& skirt : seam.skirts) std::ranges::copy(quads_of(skirt), std::back_inserter(skirts));
-    std::vector<SeamQuad> all = pieces;
-    all.insert(all.end(), skirts.begin(), skirts.end());
-    ORO_TRY(const MiddlePlane plane, plane_of(all));
-    const auto place = [&](const SeamQuad& quad) {
-        return (plane.at(up_at(quad.corners[0])) - plane.low) / (plane.high - plane.low);
-    };
-    sort_by_place(pieces, place);
-    sort_by_place(skirts, place);
-    const std::size_t first_skirt = pieces.size();
+    if (pieces.empty() && skirts.empty()) return std::unique_ptr<RegionPages>();
+    std::vector<const SeamCorner*> corners;
+    const auto add = [&](const SeamCorner& corner) { corners.push_back(&corner); };
+    for_each_corner(pieces, add);
+    for_each_corner(skirts, add);
+    ORO_TRY(const MiddlePlane plane, middle_plane_of(corners, "grids drawn together"));
+    std::vector<SeamQuad> all = sorted(pieces, plane);
+    const std::size_t first_skirt = all.size();
+    std::ranges::copy(sorted(skirts, plane), std::back_inserter(all));
     const std::size_t pages = SeamPages::pages_for(first_skirt) + SeamPages::pages_for(skirts.size());
-    all = std::move(pieces);
-    all.insert(all.end(), skirts.begin(), skirts.end());
     ORO_TRY(PostGrid grid, grid_over(plane, static_cast<int>(pages)));
     HeightField field;
     field.grid = grid;
@@ -368,8 +249,8 @@ Result<std::unique_ptr<RegionPages>> seam_pages(const Seam& seam, const Undulati
     std::uint64_t triangles = 0;
     for (const SeamQuad& quad : all) triangles += static_cast<std::uint64_t>(quad.count - 2);
     RegionFacts facts{std::move(grid), drawn_undulation(field), shape, triangles};
-    return std::unique_ptr<RegionPages>(std::make_unique<SeamPages>(
-        std::move(facts), std::move(all), first_skirt, mesh_casters_of(seam.pieces)));
+    return std::unique_ptr<RegionPages>(
+        std::make_unique<SeamPages>(std::move(facts), std::move(all), first_skirt));
 }
 
 }  // namespace oro

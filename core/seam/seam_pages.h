@@ -10,6 +10,7 @@
 namespace oro {
 
 // Pages of one level, a row of them, all of which a frame draws that sees them: pieces first, then closers.
+// Pieces of meshes are not among them (core/seam/mesh_pages.h); null where nothing else is there.
 // Each piece or skirt is one quad of a page, with an empty row and an empty column after it; these hold what
 // its four posts have beside a place (shaders/place/seam.glsl). 480 KB a page of 1,849 of them. N is that of
 // `undulation`. shape: of the grids. Errors: a seam that reaches over more than 60 degrees.

@@ -9,6 +9,7 @@
 
 #include "render/frame/frame_layout.h"
 #include "shaders/shared_heights.h"
+#include "shaders/shared_mesh_pages.h"
 
 namespace oro {
 namespace {
@@ -55,7 +56,7 @@ Result<void> number_pages(FramePlan& plan, bool draws_growth) {
     return {};
 }
 
-PipelineWants wants_of(const FrameRendererOptions& options, bool packed_heights) {
+PipelineWants wants_of(const FrameRendererOptions& options, bool packed_heights, bool meshes) {
     return {options.record_positions,
             options.keep_triangles,
             options.show != gpu::show_colours,
@@ -63,12 +64,17 @@ PipelineWants wants_of(const FrameRendererOptions& options, bool packed_heights)
             options.show == gpu::show_overdraw,
             options.shares_triangles,
             packed_heights,
+            meshes,
             options.list_room,
             options.split};
 }
 
+bool has_meshes(const GridPlan& grid) {
+    return grid.constants.is_seam == gpu::seam_of_meshes;
+}
+
 bool has_packed_heights(const GridPlan& grid) {
-    return grid.constants.height_bits == gpu::height_bits_packed;
+    return grid.constants.height_bits == gpu::height_bits_packed && !has_meshes(grid);
 }
 
 }  // namespace
@@ -84,7 +90,7 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
             ErrorKind::failed, gpu.report().name,
             "cannot count triangles by mesh shaders (fragmentStoresAndAtomics is missing); --pipeline "
             "compute can"};
-    ORO_TRY(renderer.pipelines_, shared_pipelines(gpu, options.path, wants_of(options, false)));
+    ORO_TRY(renderer.pipelines_, shared_pipelines(gpu, options.path, wants_of(options, false, false)));
     ORO_CHECK(renderer.create_slot(renderer.slots_.front()));
     constexpr VkBufferUsageFlags counted =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
@@ -150,12 +156,13 @@ Result<void> FrameRenderer::create_sets() {
     return {};
 }
 
-// Those for the way in which the frame's heights are kept.
+// Those for the way in which the frame's heights are kept, and for meshes where it has any.
 Result<void> FrameRenderer::choose_pipelines(const FramePlan& plan) {
     const bool packed = std::ranges::any_of(plan.grids, has_packed_heights);
-    if (packed == pipelines_->packed_heights) return {};
+    const bool meshes = std::ranges::any_of(plan.grids, has_meshes);
+    if (packed == pipelines_->packed_heights && meshes == pipelines_->meshes) return {};
     if (!under_way_.empty()) ORO_VK(vkQueueWaitIdle(gpu_->queue()));
-    ORO_TRY(pipelines_, shared_pipelines(*gpu_, options_.path, wants_of(options_, packed)));
+    ORO_TRY(pipelines_, shared_pipelines(*gpu_, options_.path, wants_of(options_, packed, meshes)));
     return create_sets();
 }
 

@@ -77,8 +77,9 @@ AllConstants::AllConstants(const VkSpecializationInfo* own, const Pipelines& pip
     }
     constexpr std::uint32_t heights_packed = 100;
     const ListRoom& room = pipelines.list_room;
-    const std::array<std::uint32_t, 5> common{pipelines.packed_heights ? VK_TRUE : VK_FALSE, room.boxes,
-                                              room.large, room.tasks, room.clips};
+    const std::array<std::uint32_t, 6> common{
+        pipelines.packed_heights ? VK_TRUE : VK_FALSE, room.boxes, room.large, room.tasks, room.clips,
+        pipelines.meshes ? VK_TRUE : VK_FALSE};
     for (std::uint32_t id = heights_packed; const std::uint32_t& value : common) {
         entries_.push_back({id++, static_cast<std::uint32_t>(values_.size()), sizeof(value)});
         const auto* const bytes = reinterpret_cast<const std::byte*>(&value);

@@ -33,7 +33,8 @@ Result<OwnedPipeline> create_plain_compute(const Gpu& gpu, VkPipelineLayout layo
                                            std::span<const std::uint32_t> words, const char* name);
 
 // A program's own constants, and those that many programs have: all that read heights
-// (shaders/place/heights.glsl), and all that list triangles (shaders/choose/lists.glsl).
+// (shaders/place/heights.glsl), all that list triangles (shaders/choose/lists.glsl), and all that place those
+// of meshes (shaders/place/mesh.glsl).
 class AllConstants {
   public:
     // own: may be null.

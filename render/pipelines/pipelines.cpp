@@ -31,6 +31,7 @@ struct PipelinesKey {
     bool leave_out_small{};
     bool overdraw{};
     bool packed_heights{};
+    bool meshes{};
     bool shares_triangles{};
     MeshletSplit split{MeshletSplit::whole};
     ListRoom list_room{};
@@ -127,6 +128,7 @@ Result<void> create_choice(const Gpu& gpu, Pipelines& pipelines) {
 Result<Pipelines> create_pipelines(const Gpu& gpu, RasterPath path, const PipelineWants& wants) {
     Pipelines pipelines;
     pipelines.packed_heights = wants.packed_heights;
+    pipelines.meshes = wants.meshes;
     pipelines.list_room = wants.list_room;
     ORO_CHECK(create_layouts(gpu, path, pipelines));
     ORO_CHECK(path == RasterPath::mesh ? add_mesh_pipelines(gpu, wants, pipelines)
@@ -198,7 +200,7 @@ Result<std::shared_ptr<Pipelines>> shared_pipelines(const Gpu& gpu, RasterPath p
         path == RasterPath::mesh ? meshlet_split_for(wants.split, gpu.report()) : MeshletSplit::whole;
     std::shared_ptr<Pipelines>& kept =
         kept_pipelines(gpu)[{path, wants.record_positions, small, wants.overdraw, wants.packed_heights,
-                             shares, split, wants.list_room}];
+                             wants.meshes, shares, split, wants.list_room}];
     if (!kept) {
         ORO_TRY(Pipelines pipelines, create_pipelines(gpu, path, wants));
         kept = std::make_shared<Pipelines>(std::move(pipelines));

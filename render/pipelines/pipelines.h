@@ -57,6 +57,7 @@ struct ShadingKind {
 
 struct Pipelines {
     bool packed_heights{};  // as PipelineWants
+    bool meshes{};          // likewise
     ListRoom list_room;
     // 0 ids, 1 sum, 2 picture: storage images of the shading pass; 3 FrameConstants; depth_binding: the mesh
     // path's depth, sampled
@@ -85,8 +86,8 @@ struct Pipelines {
     std::array<std::array<OwnedPipeline, 5>, 2> joined_shares;
     OwnedPipeline join_shares;
     OwnedPipeline mesh_shares;  // past meshes, 8 x 8
-    OwnedPipeline triangles;  // what each pixel shows, compute, 8 x 8
-    OwnedPipeline show;       // colours by what draws a pixel, compute, 8 x 8
+    OwnedPipeline triangles;    // what each pixel shows, compute, 8 x 8
+    OwnedPipeline show;         // colours by what draws a pixel, compute, 8 x 8
     // Of frames that draw clusters: see add_cluster_pipelines().
     OwnedPipeline choose_clusters, choose_clusters_second_pass;  // in the first round, in the others
     OwnedPipeline cluster_terrain, cluster_ties;                 // mesh path: mesh, fragment; as terrain_ties
@@ -113,6 +114,7 @@ struct PipelineWants {
     // Compute path: invocations share triangles as on a GPU, also where a processor draws (tests only).
     bool shares_triangles{false};
     bool packed_heights{false};  // pages may have packed heights: their code would cost others registers
+    bool meshes{false};          // likewise: pages may be those of meshes (core/seam/mesh_pages.h)
     ListRoom list_room{};        // compute path: fewer in tests only
     MeshletSplit split{MeshletSplit::by_device};  // mesh path: what a workgroup draws at a time
 };

@@ -18,7 +18,11 @@ std::unique_ptr<PageLoader> page_loader(const RegionPages& pages, int threads, s
             loaded.places = std::make_unique<gpu::PagePlaces>();
             ORO_CHECK(pages.load_places(page, *loaded.block, *loaded.places));
         }
-        if (packs) loaded.heights = packed_heights(loaded.block->heights, pages.facts().shape.exaggeration);
+        if (pages.is_mesh()) {
+            ORO_CHECK(pages.load_words(page, loaded.heights));
+        } else if (packs) {
+            loaded.heights = packed_heights(loaded.block->heights, pages.facts().shape.exaggeration);
+        }
         return loaded;
     };
     return std::make_unique<PageLoader>(load, threads, capacity);

@@ -34,7 +34,7 @@ struct LoadedPage {
     std::unique_ptr<gpu::PageMeans> means;    // where the store keeps them
     std::unique_ptr<gpu::PagePlaces> places;  // likewise
     bool is_hidden{};                         // other ground hides it, as far as is known
-    std::vector<std::uint32_t> heights{};     // packed, where the store keeps them so
+    std::vector<std::uint32_t> heights{};     // packed, where the store keeps them so; words of meshes
 };
 
 // What a store keeps of pages beside their blocks.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
+#include <cstddef>
 #include <cstring>
 #include <iterator>
 
@@ -50,6 +51,18 @@ Result<Buffer> create_mesh_casters(const Gpu& gpu, const MeshCasters& casters) {
     return buffer;
 }
 
+// What buffers of a mesh's pages take, with what is left free at the ends of buffers.
+Result<std::uint64_t> bytes_of_meshes(const RegionPages& pages) {
+    std::uint64_t bytes = std::uint64_t{2} << 20U;
+    std::vector<std::uint32_t> words;
+    for (int column = 0; column < pages.layout(0).columns; ++column) {
+        ORO_CHECK(pages.load_words({0, column, 0}, words));
+        const std::uint64_t page = offsetof(gpu::PageBlock, heights) + words.size() * sizeof(words[0]) + 16;
+        bytes += page + page / 8;
+    }
+    return bytes;
+}
+
 // Device address of what lies so far before a page's block.
 gpu::uvec2 before(const gpu::FramePage& page, std::uint64_t bytes) {
     return address_words((std::uint64_t{page.block.y} << 32U | page.block.x) - bytes);
@@ -84,10 +97,19 @@ std::shared_ptr<MemoryBudget> page_budget(const Gpu& gpu, std::uint64_t bytes) {
 
 Result<GridScene> GridScene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages,
                                     const SceneMemory& memory, HeightStorage heights, bool means) {
-    const PageParts parts{means && pages->knows_means(), pages->facts().grid.net != nullptr};
-    ORO_TRY(const HeightQuantization coding, height_quantization(*pages, heights));
-    PageStore store(gpu, memory.shared ? memory.shared : page_budget(gpu, memory.gpu), coding, parts);
+    const PageParts parts{means && pages->knows_means(),
+                          pages->facts().grid.net != nullptr && !pages->is_mesh()};
+    ORO_TRY(HeightQuantization coding, height_quantization(*pages, heights));
+    // Their words take the place of packed heights.
+    if (pages->is_mesh()) coding = {.packed = true};
+    std::shared_ptr<MemoryBudget> budget = memory.shared ? memory.shared : page_budget(gpu, memory.gpu);
+    if (pages->is_mesh()) {
+        ORO_TRY(const std::uint64_t bytes, bytes_of_meshes(*pages));
+        budget = std::make_shared<MemoryBudget>(bytes);
+    }
+    PageStore store(gpu, budget, coding, parts);
     GridScene scene(std::move(pages), std::move(store));
+    scene.shared_memory_ = memory.shared;
     static std::atomic<std::uint64_t> scenes{0};
     scene.number_ = ++scenes;
     const std::uint64_t under_way = main_bytes(memory.main) / memory.shares;
@@ -101,6 +123,8 @@ Result<GridScene> GridScene::create(const Gpu& gpu, std::unique_ptr<RegionPages>
         ORO_TRY(scene.mesh_casters_, create_mesh_casters(gpu, *casters));
         scene.cleared_ = std::make_shared<ClearedGround>(gpu, *casters);
     }
+    if (scene.pages_->is_mesh() && memory.shared)
+        scene.of_meshes_ = MemoryBudget::take(memory.shared, budget->bytes() + scene.mesh_casters_.size);
     return scene;
 }
 
@@ -417,10 +441,13 @@ void Scene::add(Scene other) {
     for (GridScene& grid : grids_) grid.cleared_ = with_meshes->cleared_;
 }
 
+// What others hold that no frame uses makes room for them.
 void Scene::replace_between(std::optional<Scene> other) {
     while (grids_.size() > 1 && grids_.back().pages_->is_seam()) grids_.pop_back();
     for (GridScene& grid : grids_) grid.cleared_.reset();
     if (other) add(std::move(*other));
+    const std::shared_ptr<MemoryBudget>& shared = grids_.front().shared_memory();
+    if (shared && shared->left() == 0) evict_unused();
 }
 
 void Scene::set_fallback_to_blocks(bool on) {

@@ -30,7 +30,8 @@ struct SceneMemory {
     std::uint64_t gpu{};   // pages on the GPU; 0: half of what the device has, at most 2 GiB
     std::uint64_t main{};  // pages on their way there; 0: 64 MB
     unsigned shares{1};    // scenes that share `main`
-    // Memory on the GPU that others take from, too, in place of `gpu`; null: none do.
+    // Memory on the GPU that others take from, too, in place of `gpu`; null: none do. Meshes take all that
+    // they need of it.
     std::shared_ptr<MemoryBudget> shared{};
 };
 // What `gpu` stands for on a device, bytes, where 0 is as much as is reasonable there;
@@ -78,6 +79,8 @@ class GridScene {
     [[nodiscard]] const PageStore& store() const { return store_; }
     // Images over its ground; null: none.
     [[nodiscard]] DrapeStore* drape() const { return drape_.get(); }
+    // Memory on the GPU that it shares with others; null: with none.
+    [[nodiscard]] const std::shared_ptr<MemoryBudget>& shared_memory() const { return shared_memory_; }
     // What draws its ground in place of its pages' nodes.
     [[nodiscard]] const std::optional<ClusterScene>& clusters() const { return clusters_; }
 
@@ -130,6 +133,8 @@ class GridScene {
     std::shared_ptr<ClearedGround> cleared_;  // near the meshes of the scene; null: there are none
     bool wants_cleared_{false};               // the style tells materials of the ground
     Buffer mesh_casters_;                     // nodes, then triangles; of a seam with meshes
+    std::shared_ptr<MemoryBudget> shared_memory_;
+    MemoryBudget::Share of_meshes_;  // what meshes take of it: all of them are there, or none is drawn
     Buffer plan_sources_;
     std::uint64_t number_{};  // GridPlan::heights
     PlanMemory memory_;

@@ -98,10 +98,3 @@ bool is_cut(uint frame_page, uint a, uint b, uint c) {
     uvec3 columns = min(page.first_column + ((uvec3(a, b, c) & 255u) << page.level), uvec3(FRAME.last_column));
     return min(columns.x, min(columns.y, columns.z)) <= FRAME.cut_column && FRAME.cut_column < max(columns.x, max(columns.y, columns.z));
 }
-
-// Posts as row << 8 | column: do they span a triangle? Stitching lets posts fall together or into one line.
-bool has_area(uint a, uint b, uint c) {
-    ivec2 to_b = ivec2(int(b >> 8) - int(a >> 8), int(b & 255u) - int(a & 255u));
-    ivec2 to_c = ivec2(int(c >> 8) - int(a >> 8), int(c & 255u) - int(a & 255u));
-    return to_b.x * to_c.y != to_b.y * to_c.x;
-}

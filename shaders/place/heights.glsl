@@ -1,5 +1,6 @@
 // Heights of a page's posts, however they are kept (FrameConstants.height_bits). Needs frame.glsl.
 #include "shaders/shared_heights.h"
+#include "shaders/place/mesh.glsl"
 
 // A page whose heights are packed: what lies in the place of PageBlock.heights.
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer PackedPages {
@@ -35,6 +36,7 @@ int packed_height(PackedPages page, uvec2 place) {
 
 // A height of a page by its row and column among its 131 x 131, in steps of height_step_m; void_height where there is none.
 int stored_height(PageBlocks block, uvec2 place) {
+    if (draws_meshes()) return void_height;  // its words are no heights
     if (heights_packed && FRAME.height_bits == height_bits_packed) return packed_height(PackedPages(block), place);
     uint number = place.x * height_stride + place.y;
     if (FRAME.height_bits == 32u) return block.at[0].heights[number];
@@ -43,4 +45,7 @@ int stored_height(PageBlocks block, uvec2 place) {
     return (code << FRAME.height_shift) + FRAME.height_offset;
 }
 
-int post_height(PageBlocks block, uvec2 post) { return stored_height(block, post + 1u); }
+int post_height(PageBlocks block, uvec2 post) {
+    if (draws_meshes()) return mesh_height(MeshWords(block), post);
+    return stored_height(block, post + 1u);
+}

@@ -38,9 +38,15 @@ uvec2 places_begin(FramePage page, PlacesOfPages places, uvec2 post, uint axis) 
 // The same for a grid whose posts lie on a net (PagePlaces): along the axes of ECEF. The difference of post and eye is exact until it is
 // rounded to a float.
 vec3 place_on_net(FramePage page, uvec2 post) {
+    precise vec3 position;
+    if (draws_meshes()) {
+        ivec3 steps = mesh_steps(MeshWords(page.block), post);
+        for (uint axis = 0u; axis < 3u; ++axis)
+            position[axis] = lattice_m(page.from_eye_low[axis], page.from_eye_high[axis], steps[axis]) - FRAME.eye_remainder[axis];
+        return position;
+    }
     PlacesOfPages places = PlacesOfPages(page.places);
     uint first = 3u * (post.x * page_posts + post.y);
-    precise vec3 position;
     for (uint axis = 0u; axis < 3u; ++axis) {
         uvec2 begin = places_begin(page, places, post, axis);
         position[axis] = lattice_m(begin.x, begin.y, places.at[0].steps[first + axis]) - FRAME.eye_remainder[axis];
@@ -120,6 +126,7 @@ uvec2 quads_of(FramePage page, uint meshlet) {
 
 // The post of a meshlet's vertex (row, column within the meshlet) in its page, after stitching.
 uvec2 vertex_post(FramePage page, uint meshlet, uvec2 vertex, uint edges) {
+    if (draws_meshes()) return uvec2(vertex.x * meshlet_posts + vertex.y, meshlet);
     uvec2 corner = first_post(meshlet);
     if (edges == 0u) return corner + vertex;
     return corner + stitched_post(vertex, quads_of(page, meshlet), edges);
@@ -127,9 +134,24 @@ uvec2 vertex_post(FramePage page, uint meshlet, uvec2 vertex, uint edges) {
 
 // The three posts of a drawn meshlet's triangle as (row, column) within the meshlet, before stitching.
 void triangle_posts(FramePage page, uint meshlet, uint triangle, uint edges, out uvec2 a, out uvec2 b, out uvec2 c) {
+    if (draws_meshes()) {
+        uvec3 at = mesh_triangle_vertices(MeshWords(page.block), meshlet, triangle);
+        a = uvec2(at.x / meshlet_posts, at.x % meshlet_posts);
+        b = uvec2(at.y / meshlet_posts, at.y % meshlet_posts);
+        c = uvec2(at.z / meshlet_posts, at.z % meshlet_posts);
+        return;
+    }
     uint cell = triangle >> 1u;
     uvec2 nw = uvec2(cell / meshlet_quads, cell % meshlet_quads);
     bool sw_ne = sw_ne_in_meshlet(PageBlocks(page.block), meshlet, cell);
     if (sw_ne && edges != 0u) sw_ne = drawn_sw_ne(sw_ne, nw, quads_of(page, meshlet), edges);
     quad_posts(nw, sw_ne, triangle & 1u, a, b, c);
+}
+
+// Posts as row << 8 | column: do they span a triangle? Stitching lets posts fall together or into one line.
+bool has_area(uint a, uint b, uint c) {
+    if (draws_meshes()) return a != b && b != c && c != a;
+    ivec2 to_b = ivec2(int(b >> 8) - int(a >> 8), int(b & 255u) - int(a & 255u));
+    ivec2 to_c = ivec2(int(c >> 8) - int(a >> 8), int(c & 255u) - int(a & 255u));
+    return to_b.x * to_c.y != to_b.y * to_c.x;
 }

@@ -27,22 +27,3 @@ vec3 seam_normal(FramePage page, uvec2 post) {
     if ((page.cull & is_skirt) == 0u && in_quad == uvec2(1u, 1u)) return vector_of_quad(page, quad + uvec2(2u, 0u));
     return vector_of_quad(page, quad + uvec2(second ? 1u : 0u, 2u));
 }
-
-// Of a mesh's piece: mesh_look_..., and the tone of its feature, 0 to 1.
-vec2 mesh_look(FramePage page, uvec2 post) {
-    vec3 stored = vector_of_quad(page, quad_of_post(post) + uvec2(2u, 1u));
-    return vec2(round(stored.y * float(mesh_looks)), stored.z);
-}
-
-// The colour of a piece's corner where its look is mesh_look_coloured: codes of sRGB, 0 to 1.
-vec3 mesh_corner_codes(FramePage page, uvec2 post) {
-    uvec2 quad = quad_of_post(post), in_quad = post - quad, at = quad + uvec2(2u, 2u);
-    PlacesOfPages places = PlacesOfPages(page.places);
-    uint code = uint(places.at[0].steps[3u * (at.x * page_posts + at.y) + in_quad.x + in_quad.y]);
-    return vec3(code & 255u, (code >> 8) & 255u, (code >> 16) & 255u) / 255.0;
-}
-
-// Whether a piece is of a mesh: its light is then that of the eye's side.
-bool is_two_sided(FramePage page, uvec2 post) {
-    return (page.cull & is_skirt) == 0u && vector_of_quad(page, quad_of_post(post) + uvec2(2u, 1u)).x > 0.5;
-}

@@ -135,9 +135,15 @@ bool finds_rim(uint id, vec2 middle, vec2 towards, out Rim rim) {
         int edge = i < 0 ? edge_at_middle(corners) : edge_out(corners, side, towards);
         if (edge < 0) return false;
         vec2 at = corners[edge], along = side * (corners[(edge + 1) % 3] - at);
-        triangle = beyond(page, triangle, edge);
-        state = corners_of_grid_px(page, triangle, middle, corners);
-        area = doubled_area_px(corners);
+        // Beside a mesh's triangle there is none of its page's grid.
+        if (draws_meshes()) {
+            state = corners_none;
+            area = 0.0;
+        } else {
+            triangle = beyond(page, triangle, edge);
+            state = corners_of_grid_px(page, triangle, middle, corners);
+            area = doubled_area_px(corners);
+        }
         if (i >= 0 && (state == corners_none || (state == corners_here && area * side < 0.0))) {
             rim = Rim(at, vec2(-along.y, along.x) / length(along));
             return true;

@@ -241,9 +241,30 @@ vec2 region_place(FramePage page, vec2 post, vec3 view) {
     if (HAS_NET && FRAME.is_seam != 0u) return post_on_net(net_uv(angles_from_eye(view)));
     return region_post(page, post);
 }
-vec2 pixel_look = vec2(0.0);  // mesh_look() of a pixel that shows a mesh
+vec2 pixel_look = vec2(0.0);  // of a pixel that shows a mesh: mesh_look_..., and the tone of its feature
 vec3 pixel_file_colour = vec3(0.0);  // ... and the colour there of one whose file states colours: linear light
-vec3 normal_of_seam(FramePage page, uvec2 posts[3], vec3 shares, float heights_m[3], vec3 at[3]) {
+// Of a mesh's triangle: the light is that of the eye's side.
+vec3 normal_of_mesh(FramePage page, uint id, vec3 shares, vec3 at[3]) {
+    MeshSurface surface = mesh_surface(MeshWords(page.block), id / meshlet_triangles % meshlets_per_page, id % meshlet_triangles);
+    vec3 normal = shares.x * surface.normals[0] + shares.y * surface.normals[1] + shares.z * surface.normals[2];
+    vec3 view = shares.x * at[0] + shares.y * at[1] + shares.z * at[2];
+    normal = FRAME.view_from_ecef * normal;
+    pixel_look = vec2(surface.look, surface.tone);
+#ifdef FILE_COLOURS
+    if (surface.look == mesh_look_coloured)
+        for (int i = 0; i < 3; ++i) {
+            uvec3 codes = uvec3(surface.codes[i], surface.codes[i] >> 8, surface.codes[i] >> 16) & 255u;
+            pixel_file_colour += shares[i] * linear_from_srgb(vec3(codes) / 255.0);
+        }
+#endif
+    vec3 facing = cross(at[1] - at[0], at[2] - at[0]);
+    facing = dot(facing, view) > 0.0 ? -facing : facing;
+    normal = dot(normal, facing) < 0.0 ? -normal : normal;
+    vec3 on_ground = normalize(normal) * axes_at(view);
+    return normalize(vec3(on_ground.xy, max(on_ground.z, 1.0e-3)));
+}
+vec3 normal_of_seam(FramePage page, uint id, uvec2 posts[3], vec3 shares, float heights_m[3], vec3 at[3]) {
+    if (draws_meshes()) return normal_of_mesh(page, id, shares, at);
     vec3 normal = shares.x * seam_normal(page, posts[0]) + shares.y * seam_normal(page, posts[1]) + shares.z * seam_normal(page, posts[2]);
     vec3 view = shares.x * at[0] + shares.y * at[1] + shares.z * at[2];
     normal = FRAME.view_from_ecef * normal;
@@ -253,16 +274,6 @@ vec3 normal_of_seam(FramePage page, uvec2 posts[3], vec3 shares, float heights_m
     if ((page.cull & is_skirt) != 0u && step_m > 2.0 * reach_m) {
         vec3 upright = cross(at[1] - at[0], at[2] - at[0]);
         normal = dot(upright, view) > 0.0 ? -upright : upright;
-    }
-    if (is_two_sided(page, posts[0])) {
-        pixel_look = mesh_look(page, posts[0]);
-#ifdef FILE_COLOURS
-        if (pixel_look.x == float(mesh_look_coloured))
-            for (int i = 0; i < 3; ++i) pixel_file_colour += shares[i] * linear_from_srgb(mesh_corner_codes(page, posts[i]));
-#endif
-        vec3 facing = cross(at[1] - at[0], at[2] - at[0]);
-        facing = dot(facing, view) > 0.0 ? -facing : facing;
-        normal = dot(normal, facing) < 0.0 ? -normal : normal;
     }
     vec3 on_ground = normalize(normal) * axes_at(view);
     return normalize(vec3(on_ground.xy, max(on_ground.z, 1.0e-3)));
@@ -333,7 +344,7 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     if (draped || (!by_means && !shows_angle)) point.smooth_normal = normal_at(PageBlocks(page.block), page, post);
     if (!by_means && shows_angle) point.normal = horn_normal_at(PageBlocks(page.block), page, post);
     else if (!by_means) point.normal = point.smooth_normal;
-    if (HAS_NET && FRAME.is_seam != 0u) point.normal = point.smooth_normal = normal_of_seam(page, posts, vec3(share_a, share_b, share_c), heights_m, at);
+    if (HAS_NET && FRAME.is_seam != 0u) point.normal = point.smooth_normal = normal_of_seam(page, id, posts, vec3(share_a, share_b, share_c), heights_m, at);
     point.lat_deg = point.snow_line_m = point.hollow_m = 0.0;
     point.wide_level = 1.0;
     if ((as_map || in_air) && FRAME.style.colour_by == colour_by_cover) {

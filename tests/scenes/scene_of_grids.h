@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/seam/seam_pages.h"
+#include "core/seam/mesh_pages.h"
 #include "geo/together/cut_regions.h"
 #include "render/scene/scene.h"
 #include "tests/support/gpu_fixture.h"
@@ -34,9 +34,9 @@ inline Scene scene_of_grids(const Gpu& gpu, const Region& region, const RegionCu
         scenes.push_back(
             scene_of_pages(gpu, pages_in_memory(rest_of(region.grids[i].field, cuts.grids[i]), 1.0, 2)));
     if (!seam.empty()) {
-        auto pages = seam_pages(seam, {}, region_shape(region.grids[0].field, 1.0));
+        auto pages = pages_beside(seam, {}, region_shape(region.grids[0].field, 1.0));
         EXPECT_TRUE(pages.ok()) << pages.error().line();
-        scenes.push_back(scene_of_pages(gpu, std::move(pages).value()));
+        for (auto& one : *pages) scenes.push_back(scene_of_pages(gpu, std::move(one)));
     }
     for (std::size_t i = 1; i < scenes.size(); ++i) scenes[0].add(std::move(scenes[i]));
     return std::move(scenes[0]);

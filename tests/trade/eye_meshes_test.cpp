@@ -31,7 +31,7 @@ class EyesMeshes : public test::GpuTest {
         view_.tau_px = 1.0;
         view_.mesh = "clusters";
         meshes_.detail = std::make_shared<const MeshDetail>(MeshDetail::of(region_, 1.0, 2));
-        EXPECT_TRUE(choose_cut(meshes_, view_, view_.camera));
+        EXPECT_TRUE(choose_cut(meshes_, view_, {}, view_.camera));
         SceneRequest request;
         request.meshes = meshes_.cut.meshes;
         auto scene = test::create_scene(*gpu_, region_, request);
@@ -65,7 +65,7 @@ class EyesMeshes : public test::GpuTest {
         return false;
     }
     [[nodiscard]] std::vector<std::vector<std::uint32_t>> expected(const Camera& camera) const {
-        return mesh_cut_of(*meshes_.detail, mesh_asked_by(view_), std::span(&camera, 1)).clusters;
+        return mesh_cut_of(*meshes_.detail, mesh_asked_by(view_, {}), std::span(&camera, 1)).clusters;
     }
     // A frame by the scene as it is lacks nothing of the mesh, and draws as many of its triangles.
     void expect_whole(const Camera& camera) {

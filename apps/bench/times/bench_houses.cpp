@@ -11,7 +11,7 @@
 
 #include "apps/bench/times/bench_ground.h"
 #include "apps/bench/times/bench_times.h"
-#include "core/seam/seam_pages.h"
+#include "core/seam/mesh_pages.h"
 
 namespace oro {
 namespace {
@@ -70,10 +70,31 @@ Result<void> put_houses(const Gpu& gpu, const Seam& seam, Scene& scene) {
         return {};
     }
     const RegionShape shape = scene.grids().front().pages().facts().shape;
-    ORO_TRY(std::unique_ptr<RegionPages> pages, seam_pages(seam, {}, shape));
+    ORO_TRY(std::unique_ptr<RegionPages> pages, mesh_pages(seam.pieces, {}, shape));
     ORO_TRY(Scene between, Scene::create(gpu, std::move(pages)));
     scene.replace_between(std::move(between));
     return {};
+}
+
+// What the meshes of a scene take on the GPU, but for what casts their shadows: all of their pages are there.
+ordered_json mesh_json(const Scene& scene) {
+    std::uint64_t triangles = 0, clusters = 0, pages = 0, bytes = 0;
+    for (const GridScene& grid : scene.grids()) {
+        if (!grid.pages().is_mesh()) continue;
+        for (int column = 0; column < grid.pages().layout(0).columns; ++column) {
+            const auto record = grid.pages().record({0, column, 0});
+            if (!record.ok()) continue;
+            triangles += record->summary.triangles;
+            clusters += record->summary.meshlets;
+            bytes += grid.store().block_bytes({0, column, 0});
+            pages += grid.store().has({0, column, 0}) ? 1 : 0;
+        }
+    }
+    return {{"mesh_triangles", triangles},
+            {"mesh_clusters", clusters},
+            {"mesh_pages_here", pages},
+            {"mesh_bytes_here", bytes},
+            {"mesh_buffer_bytes", scene.grids().back().store().bytes()}};
 }
 
 void print_eye(const std::string& name, const ordered_json& json) {
@@ -137,6 +158,7 @@ Result<ordered_json> time_houses(const Gpu& gpu, Scene& scene, FrameRenderer& re
             ORO_CHECK(put_houses(gpu, seam, scene));
             ORO_TRY(const BenchTimes times, time_frames(scene, renderer, eye.camera, options));
             one[name] = times_json(times);
+            if (!seam.empty()) one[name].update(mesh_json(scene));
         }
         ORO_CHECK(put_houses(gpu, {}, scene));
         if (!options.json) print_eye(eye.name, one);

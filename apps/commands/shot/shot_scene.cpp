@@ -101,7 +101,7 @@ Result<ShotScene> scene_of_shot(const ShotOptions& options, double ceiling_m, co
     if (!shot.view.map) {
         ORO_TRY(shot.unseen, unseen_in(shot.view, shot.region, ceiling_m));
     }
-    ORO_TRY(shot.meshes, drawn_meshes(shot.region, shot.view));
+    ORO_TRY(shot.meshes, drawn_meshes(shot.region, shot.view, memory_of_pages(shot.view, options.memory)));
     bool clusters = false;
     if (shot.meshes)
         say(options.quiet, words_of(*shot.meshes));
