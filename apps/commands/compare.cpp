@@ -96,6 +96,13 @@ Result<std::optional<PictureDifference>> check_pixels(const CompareOptions& opti
     return std::optional(found);
 }
 
+Result<GridPages> pages_of_view(const Region& region, const RegionCuts& cuts, const View& view,
+                                const Style& style, ProgressBar& bar) {
+    return make_grid_pages(
+        region, cuts, view.exaggeration, [&](double share) { bar.show(share, "measuring levels"); }, {},
+        known_pictures(view, style, std::span(&view.camera, 1)));
+}
+
 }  // namespace
 
 Result<void> run_compare(const CompareOptions& options) {
@@ -113,10 +120,7 @@ Result<void> run_compare(const CompareOptions& options) {
     ORO_TRY(const Style style, load_style(view, region.grids.front().field, WorldLight::drawn));
     ORO_TRY(const std::shared_ptr<const Gpu> gpu, gpu_to_draw_with());
     ORO_TRY(const RegionCuts cuts, cut_regions(region));
-    ORO_TRY(GridPages pages,
-            make_grid_pages(
-                region, cuts, view.exaggeration, [&](double share) { bar.show(share, "measuring levels"); },
-                {}, known_pictures(view, style, std::span(&view.camera, 1))));
+    ORO_TRY(GridPages pages, pages_of_view(region, cuts, view, style, bar));
     const MemoryOptions memory = memory_of_pages(view, options.memory);
     ORO_TRY(const std::optional<DrawnMeshes> meshes, drawn_meshes(region, view, memory));
     ORO_TRY(const bool clusters, meshes ? Result<bool>(false) : draws_clusters(region, view));

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <span>
 #include <thread>
 #include <utility>
@@ -74,7 +75,7 @@ class EyesMeshes : public test::GpuTest {
         const auto plan = scene_->plan({camera, {0, 0, 400, 300, {0.5, 0.5}}, view_.tau_px});
         ASSERT_TRUE(plan.ok()) << plan.error().line();
         EXPECT_TRUE(plan->grids[1].missing.empty());
-        EXPECT_EQ(plan->grids[1].pages.size(), (meshes_.cut.triangles + 1848) / 1849);
+        EXPECT_EQ(plan->grids[1].pages.size(), scene_->grids()[1].pages().layout(0).count());
     }
 
     Region region_;
@@ -126,6 +127,33 @@ TEST_F(EyesMeshes, AreChosenHereWhereAPictureIsTaken) {
     EXPECT_EQ(meshes_.cut.clusters, expected(camera));
     ASSERT_EQ(scene_->grids().size(), 2U);
     EXPECT_EQ(scene_->grids()[1].pages().facts().triangles, meshes_.cut.triangles);
+}
+
+// 16 MB: half of them, 100 bytes a triangle.
+TEST_F(EyesMeshes, AreCoarserWhereMemoryHoldsNoMore) {
+    memory_.gpu_memory_mb = 16;
+    EXPECT_EQ(mesh_asked_by(view_, memory_).most_triangles, 80'000U);
+    MeshAsked asked = mesh_asked_by(view_, {});
+    EXPECT_EQ(asked.most_triangles, 0U);
+    const Camera camera = eye_at(90.0);
+    const MeshCut fine = mesh_cut_of(*meshes_.detail, asked, std::span(&camera, 1));
+    asked.most_triangles = fine.triangles / 2;
+    const MeshCut coarse = mesh_cut_of(*meshes_.detail, asked, std::span(&camera, 1));
+    EXPECT_LE(coarse.triangles, asked.most_triangles);
+    EXPECT_GT(coarse.triangles, 0U);
+    EXPECT_GT(coarse.error_px, view_.tau_px);
+    asked.level = 0;
+    EXPECT_EQ(mesh_cut_of(*meshes_.detail, asked, std::span(&camera, 1)).triangles, fine.of_triangles);
+}
+
+// 12 bytes a triangle at least, until other meshes take their place.
+TEST_F(EyesMeshes, CountInTheMemoryOfTheScene) {
+    const auto& shared = scene_->grids()[0].shared_memory();
+    ASSERT_TRUE(shared);
+    const std::uint64_t left = shared->left();
+    scene_->replace_between(std::nullopt);
+    EXPECT_GE(shared->left(), left + 12 * meshes_.cut.triangles);
+    EXPECT_EQ(shared->left(), shared->bytes());
 }
 
 // A choice that took ten seconds is not begun again at once while the eye moves.
