@@ -34,6 +34,9 @@ struct GrowthTile {
     vec2 corners[4];
 };
 
+// How many pixels a forest without drawn trees rises above its ground at most; no more are looked through.
+ORO_CONST uint canopy_search_px = 32u;
+
 // The trees of a grid in a frame.
 struct GrowthTable {
     uvec2 tiles;  // device address of GrowthTile[tile_count]
@@ -48,6 +51,7 @@ struct GrowthTable {
     uvec2 lists;  // ... of CrownLists
     // uint[sites_per_tile * tile_count]: sites where a tree, or its shadow, may be in the picture; as many as CrownLists has asked for.
     uvec2 asked;
+    uvec2 canopy;  // uvec2 for each pixel, row by row: what it shows (growth/pixels_kept.glsl)
 };
 
 // Work that is spread over more invocations than one a tree: pieces of crowns that cover many pixels, of 32 x 32 or more, and trees whose

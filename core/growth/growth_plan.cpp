@@ -246,4 +246,11 @@ GrowthPlan plan_growth(const PostGrid& grid, std::span<const PageIndex> page_ind
     return plan;
 }
 
+int canopy_rise_px(const Camera& camera, double tau_px) {
+    // Twice: a metre covers more pixels towards the corners of a wide picture.
+    const auto per_tangent = static_cast<float>(0.5 * camera.height_px / camera.half_fov_tangent().y);
+    const float reach_m = gpu::tree_reach_m(per_tangent, static_cast<float>(tau_px));
+    return static_cast<int>(gpu::canopy_most_px(2.0F * per_tangent, reach_m));
+}
+
 }  // namespace oro

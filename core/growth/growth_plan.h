@@ -40,4 +40,8 @@ using GroundRangeOf = std::function<GroundRange(std::size_t page)>;
 GrowthPlan plan_growth(const PostGrid& grid, std::span<const PageIndex> page_indices,
                        const GroundRangeOf& ground, const GrowthView& view);
 
+// How many pixels a forest without drawn trees rises above its ground at most, of ground that is not
+// exaggerated.
+int canopy_rise_px(const Camera& camera, double tau_px);
+
 }  // namespace oro

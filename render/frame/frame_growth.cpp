@@ -20,7 +20,15 @@ bool FrameRenderer::has_growth(const FramePlan& plan) const {
 }
 
 Result<void> FrameRenderer::reserve_growth(const FramePlan& plan) {
-    if (compute_ || !has_growth(plan)) return {};
+    if (!has_growth(plan)) return {};
+    const VkDeviceSize canopy = VkDeviceSize{8} * options_.extent.width * options_.extent.height;
+    if (canopy_.size < canopy) {
+        ORO_CHECK(replace_buffer(*gpu_, canopy_, canopy,
+                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                     VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                                 MemoryKind::device, "forests beyond their trees"));
+    }
+    if (compute_) return {};
     ORO_CHECK(add_visibility_copies(*gpu_, *pipelines_));
     const VkDeviceSize bytes = VkDeviceSize{8} * options_.extent.width * options_.extent.height;
     if (visibility_.size >= bytes) return {};
@@ -31,8 +39,8 @@ Result<void> FrameRenderer::reserve_growth(const FramePlan& plan) {
 
 Result<void> FrameRenderer::choose_growth(GridFrame& grid, const GridPlan& plan) {
     const gpu::FrameConstants& constants = plan.constants;
-    const GrowthKind kind{grid.casters.has_shadows(), grid.casters.opens(), grid.drape.is_on(),
-                          constants.has_means != 0, options_.smooth_edges};
+    const GrowthKind kind{grid.casters.has_shadows(), grid.casters.opens(),  grid.drape.is_on(),
+                          constants.has_means != 0,   options_.smooth_edges, canopy_.address};
     const VkExtent2D culled = options_.occlusion == OcclusionUse::off ? VkExtent2D{} : options_.extent;
     ORO_CHECK(grid.growth.prepare(*gpu_, *pipelines_, plan.growth, kind, culled, slot_));
     return grid.meadow.prepare(*gpu_, *pipelines_, plan.meadow, kind, grid.growth, slot_);
@@ -45,6 +53,12 @@ void FrameRenderer::record_growth(VkCommandBuffer commands, const FramePlan& pla
                        VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                        VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
     };
+    // An earlier frame, or sample, may still read it.
+    memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, 0, VK_PIPELINE_STAGE_2_CLEAR_BIT,
+                   VK_ACCESS_2_TRANSFER_WRITE_BIT);
+    vkCmdFillBuffer(commands, canopy_.handle.get(), 0, VK_WHOLE_SIZE, 0);
+    memory_barrier(commands, VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                   VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
     const auto copy = [&](const OwnedPipeline& pipeline) {
         wait();
         grids_.front().bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
@@ -85,6 +99,15 @@ void FrameRenderer::record_growth_pixels(VkCommandBuffer commands, const FramePl
         grid.bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
         (growth.*pixels)(commands, *pipelines_, plan.view.width_px(), plan.view.height_px());
     };
+    if (pass == GrowthPass::raise || pass == GrowthPass::mirror) {
+        const auto grid = std::ranges::find_if(
+            grids_.begin(), grids_.begin() + static_cast<std::ptrdiff_t>(plan.grids.size()),
+            [](const GridFrame& one) { return one.growth.is_on(); });
+        if (grid - grids_.begin() < static_cast<std::ptrdiff_t>(plan.grids.size()))
+            record(*grid, grid->growth,
+                   pass == GrowthPass::raise ? &GrowthFrame::record_raise : &GrowthFrame::record_mirror);
+        return;
+    }
     const bool shades = pass == GrowthPass::shade;
     for (std::size_t i = 0; i < plan.grids.size(); ++i) {
         const GridFrame& grid = grids_[i];

@@ -204,7 +204,7 @@ class FrameRenderer {
     Result<void> reserve_growth(const FramePlan& plan);
     Result<void> choose_growth(GridFrame& grid, const GridPlan& plan);
     void record_growth(VkCommandBuffer commands, const FramePlan& plan) const;
-    enum class GrowthPass { shade, smooth };
+    enum class GrowthPass { raise, shade, mirror, smooth };
     void record_growth_pixels(VkCommandBuffer commands, const FramePlan& plan, GrowthPass pass) const;
     void record_show(VkCommandBuffer commands, const FramePlan& plan) const;
     void dispatch_pixels(VkCommandBuffer commands, const FramePlan& plan) const;
@@ -233,6 +233,7 @@ class FrameRenderer {
     Buffer depths_;
     Buffer tiles_in_parts_;
     Buffer visibility_;  // mesh path: FrameConstants::visibility of frames with trees
+    Buffer canopy_;      // GrowthTable::canopy
     Buffer overdraw_;    // FrameConstants::overdraw, where it is shown
     Buffer triangles_;
     Buffer counts_;  // on the device

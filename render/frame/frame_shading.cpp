@@ -116,7 +116,9 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
         pass(grids_[i], grids_[i].shade);
         pass(grids_[i], grids_[i].shade_parts);
     }
+    record_growth_pixels(commands, plan, GrowthPass::raise);
     record_growth_pixels(commands, plan, GrowthPass::shade);
+    record_growth_pixels(commands, plan, GrowthPass::mirror);
     for (std::size_t i = 0; options_.smooth_edges && i < plan.grids.size(); ++i) pass(grids_[i], edges_);
     record_growth_pixels(commands, plan, GrowthPass::smooth);
     if (options_.show != gpu::show_colours) record_show(commands, plan);
@@ -130,11 +132,13 @@ void FrameRenderer::dispatch_pixels(VkCommandBuffer commands, const FramePlan& p
         vkCmdDispatch(commands, columns, rows, 1);
         return;
     }
-    const auto first = [](std::int32_t px) {
-        return std::max(static_cast<std::uint32_t>(px) / tile_px, 1U) - 1U;
+    // Far forests reach up into pixels above them.
+    const std::uint32_t beside = has_growth(plan) ? gpu::canopy_search_px / tile_px : 1U;
+    const auto first = [&](std::int32_t px) {
+        return std::max(static_cast<std::uint32_t>(px) / tile_px, beside) - beside;
     };
-    const auto last = [](std::int32_t px, std::uint32_t count_px, std::uint32_t most) {
-        return std::min(tiles_of(static_cast<std::uint32_t>(px) + count_px) + 1U, most);
+    const auto last = [&](std::int32_t px, std::uint32_t count_px, std::uint32_t most) {
+        return std::min(tiles_of(static_cast<std::uint32_t>(px) + count_px) + beside, most);
     };
     const std::uint32_t left = first(part_->offset.x), top = first(part_->offset.y),
                         right = last(part_->offset.x, part_->extent.width, columns),

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/growth/growth_plan.h"
 #include "render/frame/settled_frame.h"
 
 namespace oro {
@@ -13,10 +14,14 @@ constexpr int preferred_tile_px = 4096;
 // Around a tile of a picture of one sample: an edge depends on the next pixel (shaders/shade/edges.comp).
 // Light depends on the shadows in the next pixel (shaders/cast/cast_on.glsl), and those on shadows 3 px away
 // (shaders/cast/shares.comp). Multiples of 4, so that shadows are looked for in the same pixels first.
-int margin_of(const gpu::FrameStyle& style) {
+// Far forests reach up into pixels above them (shaders/growth/raise_canopy.comp).
+int margin_of(const gpu::FrameStyle& style, const Camera& camera, const PictureOptions& options) {
     constexpr int edges_px = 4, shadows_px = 8;
-    if (style.shadows != 0) return shadows_px;
-    return style.smooth_edges != 0 ? edges_px : 0;
+    int margin_px = 0;
+    if (options.samples == 1)
+        margin_px = style.shadows != 0 ? shadows_px : style.smooth_edges != 0 ? edges_px : 0;
+    if ((style.materials.on & gpu::materials_with_trees) == 0) return margin_px;
+    return std::max(margin_px, (canopy_rise_px(camera, options.tau_px) + 3) / 4 * 4);
 }
 
 // What a tile draws: counted once, not for each sample.
@@ -233,7 +238,7 @@ Result<PictureReport> PictureRenderer::draw_part(Scene& scene, const Camera& cam
                                                  const RenderProgress& progress) {
     int tile_width = static_cast<int>(renderer_.extent().width);
     int tile_height = static_cast<int>(renderer_.extent().height);
-    const int margin_px = options_.samples == 1 ? margin_of(style) : 0;
+    const int margin_px = margin_of(style, camera, options_);
     if (tile_width < camera.width_px) tile_width -= 2 * margin_px;
     if (tile_height < camera.height_px) tile_height -= 2 * margin_px;
     assert(tile_width > 0 && tile_height > 0);

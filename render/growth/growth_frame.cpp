@@ -10,6 +10,8 @@
 #include "spirv/grow_sites_comp.h"
 #include "spirv/keep_ids_comp.h"
 #include "spirv/list_sites_comp.h"
+#include "spirv/mirror_in_water_comp.h"
+#include "spirv/raise_canopy_comp.h"
 #include "spirv/seed_visibility_comp.h"
 #include "spirv/shade_growth_comp.h"
 #include "spirv/smooth_crowns_comp.h"
@@ -112,6 +114,7 @@ Result<void> GrowthFrame::choose_pipelines(const Gpu& gpu, Pipelines& pipelines,
         ORO_TRY(kept[1],
                 create_growth_pipeline(gpu, pipelines, shade_growth_comp_spirv, "shade trees", kind));
     }
+    ORO_CHECK(choose_changes(gpu, pipelines, kind));
     map_ = kind.casts ? pipelines.draw_shade_map.get() : VK_NULL_HANDLE;
     smooth_ = kind.edges_follow ? pipelines.smooth_crowns.get() : VK_NULL_HANDLE;
     grow_ = kept[0].get();
@@ -119,10 +122,26 @@ Result<void> GrowthFrame::choose_pipelines(const Gpu& gpu, Pipelines& pipelines,
     return {};
 }
 
+// What changes pixels once they are coloured.
+Result<void> GrowthFrame::choose_changes(const Gpu& gpu, Pipelines& pipelines, const GrowthKind& kind) {
+    OwnedPipeline& raise = pipelines.raise_canopy[kind.edges_follow ? 1 : 0];
+    OwnedPipeline& mirror = pipelines.mirror_in_water[kind.edges_follow ? 1 : 0];
+    if (!raise) {
+        ORO_TRY(raise, create_growth_pipeline(gpu, pipelines, raise_canopy_comp_spirv, "far forests", kind));
+    }
+    if (!mirror) {
+        ORO_TRY(mirror, create_growth_pipeline(gpu, pipelines, mirror_in_water_comp_spirv, "mirrors", kind));
+    }
+    raise_ = raise.get();
+    mirror_ = mirror.get();
+    return {};
+}
+
 void GrowthFrame::write_table(const GrowthPlan& plan, const GrowthKind& kind) {
     gpu::GrowthTable table{};
     if (kind.casts) table.shade_map = address_words(shade_map_.address);
     if (culls_) table.farthest = address_words(farthest_.address);
+    table.canopy = address_words(kind.canopy);
     table.lists = address_words(lists_.address);
     table.tiles = address_words(tables_[slot_].address + tiles_at);
     table.sites = address_words(sites_.address);

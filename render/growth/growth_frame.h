@@ -13,11 +13,12 @@ namespace oro {
 
 // What of a frame decides which programs it takes.
 struct GrowthKind {
-    bool casts{};         // terrain casts shadows
-    bool opens{};         // the sky's light is that of the part of the sky that is seen
-    bool draped{};        // land cover lies over the ground
-    bool by_means{};      // pages have means
-    bool edges_follow{};  // the picture is left to `edges`
+    bool casts{};              // terrain casts shadows
+    bool opens{};              // the sky's light is that of the part of the sky that is seen
+    bool draped{};             // land cover lies over the ground
+    bool by_means{};           // pages have means
+    bool edges_follow{};       // the picture is left to `edges`
+    VkDeviceAddress canopy{};  // GrowthTable::canopy
 };
 
 class GrowthFrame {
@@ -45,6 +46,17 @@ class GrowthFrame {
                       gpu::uint height_px) const {
         record_pixels(commands, pipelines, shade_, width_px, height_px);
     }
+    // Raises forests that are farther than their trees by their canopy, in a picture whose ground is
+    // coloured; mirrors in water what stands beyond it, once trees are coloured, too. Once for all grids of a
+    // frame, by one of them.
+    void record_mirror(VkCommandBuffer commands, const Pipelines& pipelines, gpu::uint width_px,
+                       gpu::uint height_px) const {
+        record_pixels(commands, pipelines, mirror_, width_px, height_px);
+    }
+    void record_raise(VkCommandBuffer commands, const Pipelines& pipelines, gpu::uint width_px,
+                      gpu::uint height_px) const {
+        record_pixels(commands, pipelines, raise_, width_px, height_px);
+    }
     void record_smooth(VkCommandBuffer commands, const Pipelines& pipelines, gpu::uint width_px,
                        gpu::uint height_px) const {
         if (smooth_ != VK_NULL_HANDLE) record_pixels(commands, pipelines, smooth_, width_px, height_px);
@@ -53,6 +65,7 @@ class GrowthFrame {
   private:
     Result<void> reserve(const Gpu& gpu, const GrowthKind& kind, VkExtent2D culled);
     Result<void> choose_pipelines(const Gpu& gpu, Pipelines& pipelines, const GrowthKind& kind);
+    Result<void> choose_changes(const Gpu& gpu, Pipelines& pipelines, const GrowthKind& kind);
     void write_table(const GrowthPlan& plan, const GrowthKind& kind);
     void record_pixels(VkCommandBuffer commands, const Pipelines& pipelines, VkPipeline pipeline,
                        gpu::uint width_px, gpu::uint height_px) const;
@@ -65,7 +78,8 @@ class GrowthFrame {
     bool culls_{};
     std::size_t slot_{};
     gpu::uint tiles_{};
-    VkPipeline grow_{VK_NULL_HANDLE}, map_{VK_NULL_HANDLE}, shade_{VK_NULL_HANDLE}, smooth_{VK_NULL_HANDLE};
+    VkPipeline grow_{VK_NULL_HANDLE}, map_{VK_NULL_HANDLE}, shade_{VK_NULL_HANDLE}, smooth_{VK_NULL_HANDLE},
+        raise_{VK_NULL_HANDLE}, mirror_{VK_NULL_HANDLE};
 };
 
 // Mesh path: its images into a visibility buffer, and the ids back, around what draws trees. The images are

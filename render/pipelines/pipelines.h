@@ -98,6 +98,8 @@ struct Pipelines {
     std::map<std::size_t, std::array<OwnedPipeline, 2>> growth;
     OwnedPipeline list_sites, draw_crowns, draw_large_crowns, draw_shade_map, farthest_depths, smooth_crowns;
     OwnedPipeline seed_visibility, keep_ids;
+    // Forests farther than their trees, and what water mirrors; by edges_follow.
+    std::array<OwnedPipeline, 2> raise_canopy, mirror_in_water;
     // Of frames with grass, likewise; shade_meadow by edges_follow.
     std::map<std::size_t, OwnedPipeline> grow_meadow;
     OwnedPipeline draw_meadow, smooth_meadow;

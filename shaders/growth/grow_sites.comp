@@ -78,10 +78,9 @@ float sun_on_canopy(SurfacePoint point) {
 // Of single trees, that have leaves: as the rule has forests.
 float broad_share(SurfacePoint point) { return patched((1.9 * FRAME.style.cover.forest_m - above_snow_line_m(point)) / 220.0, 1.0); }
 
-// Lower towards where trees end, and where they are few.
+// Lower where they are few.
 float size_at(SurfacePoint point, bool in_open, uint hash) {
-    float above_m = above_snow_line_m(point), below_limit_m = FRAME.style.cover.forest_m - above_m;
-    float size = mix(0.35, 1.0, smoothstep(-200.0, 350.0, below_limit_m));
+    float size = size_of_trees(point);
     return in_open ? size * (0.3 + 0.5 * site_number(hash, 10u)) : size;
 }
 

@@ -18,6 +18,17 @@ ORO_FUNCTION float trees_at(float distance_m, float reach_m) {
     x = x < 0.0f ? 0.0f : x > 1.0f ? 1.0f : x;
     return x * x * (3.0f - 2.0f * x);
 }
+// What a forest that is not drawn as trees rises above its ground, metres: its mean top as it is seen along the ground, how much that differs
+// by the noise of its crowns, and the most.
+ORO_CONST float canopy_top_m = 20.0f;
+ORO_CONST float canopy_varies_m = 8.0f;
+ORO_CONST float canopy_most_m = 26.0f;
+// How many pixels that is at most, where a metre at a distance of one is so many. Needs shared_growth.h.
+ORO_FUNCTION uint canopy_most_px(float pixels_per_m, float reach_m) {
+    // 1.05: towards the reach, trees being fewer, it rises faster than it draws away.
+    float most_px = 1.05f * canopy_most_m * pixels_per_m / reach_m;
+    return most_px < float(canopy_search_px) ? uint(most_px) + 1u : canopy_search_px;
+}
 // Ranks (tree_rule.glsl) over which a tree goes from nothing to its height: the more, the less changes at once.
 ORO_CONST float trees_grow_in = 0.32f;
 #endif

@@ -37,6 +37,7 @@ const bool of_materials = true;
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 5) const bool edges_follow = false;  // edges.comp mixes what is in `sum`
 layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Depths { float at[]; };
+#include "shaders/growth/pixels_kept.glsl"
 layout(binding = 1, rgba32f) uniform image2D sum;
 layout(binding = 2, rgba8) uniform writeonly image2D picture;
 
@@ -44,6 +45,7 @@ layout(binding = 2, rgba8) uniform writeonly image2D picture;
 void keep_depth(ivec2 pixel, float depth) {
     if (FRAME.depths != uvec2(0u)) Depths(FRAME.depths).at[uint(pixel.y) * FRAME.width_px + uint(pixel.x)] = -depth;
 }
+void keep_pixel(ivec2 pixel, vec3 colour) { KeptPixels(GROWTH.canopy).at[number_of(pixel)] = kept_pixel(colour, 0.0, 0.0); }
 void keep_colour(ivec2 pixel, vec3 colour) {
     float ground = 1.0;
     if (edges_follow) imageStore(sum, pixel, vec4(colour, ground));
@@ -132,7 +134,9 @@ void shade(ivec2 pixel) {
     light.lit *= site_sun * (0.25 + 0.75 * light_past_trees(view, 1.5 + crown.radius_m));
     LitPlace lit = LitPlace(light, view, place.h_m + hit.at.z, sun, 0.0);
     keep_depth(pixel, FRAME.near_m / hit.depth_m);
-    keep_colour(pixel, shown(through_air(sent_by(lit), view)));
+    vec3 colour = shown(through_air(sent_by(lit), view));
+    keep_pixel(pixel, colour);
+    keep_colour(pixel, colour);
 }
 
 void main() { shade(ivec2(gl_GlobalInvocationID.xy)); }

@@ -50,7 +50,9 @@ void cover_tap(SurfacePoint point, DrapeFootprint footprint, int tap, ivec2 leve
 }
 
 #ifdef IN_AIR
-// Of a ground's mean colour, its materials and limits (DrapeStore): what that place of it has (materials.glsl).
+// Of a ground's mean colour, its materials and limits (DrapeStore): what that place of it has, and how much of that is forest (materials.glsl).
+float forest_share;  // of the place that was coloured last
+vec2 map_forest;     // over a pixel: the sum of its forest's shares, and of all that the map knows
 vec3 textured(vec3 colour, uint materials, uint limits);
 #endif
 
@@ -65,7 +67,11 @@ vec4 cover_of_texel(uint texel) {
 #ifdef IN_AIR
         if (of_materials) colour = textured(colour, entry.texels.x, entry.texels.y);
 #endif
-        sum += float((texel >> 4u) & 15u) / 15.0 * vec4(colour, 1.0);
+        float share = float((texel >> 4u) & 15u) / 15.0;
+#ifdef IN_AIR
+        if (of_materials) map_forest += share * vec2(forest_share, 1.0);
+#endif
+        sum += share * vec4(colour, 1.0);
     }
     return sum;
 }

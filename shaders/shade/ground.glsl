@@ -132,12 +132,19 @@ vec3 imaged_tint(Images images, inout SurfacePoint point) {
 #ifdef IN_AIR
     rock_colour = sky_colour = vec3(0.0);
 #endif
+#ifdef IN_AIR
+    forest_share = 0.0;
+#endif
     if (!draped || images.cover.a < 1.0) {
         vec3 by_rule = as_map || in_air ? ground_tint(point) : tint(point.mean_H_m);
         colour = draped ? mix(by_rule, colour, images.cover.a) : by_rule;
     }
 #ifdef IN_AIR
+    if (draped) forest_share = mix(forest_share, map_forest.x / max(map_forest.y, 1.0e-4), images.cover.a);
+#endif
+#ifdef IN_AIR
     if (HAS_NET && of_materials && pixel_look.x > 0.0) {
+        forest_share = 0.0;
         colour = mesh_colour(point);
         rock_colour = sky_colour = vec3(0.0);
     }
@@ -163,6 +170,7 @@ void add_place(inout GroundLight sum, Images images, SurfacePoint point, vec3 su
     sum.lit += albedo * cosine;
     sum.open += albedo * (0.5 + 0.5 * normal.z);
     if (of_materials) {
+        seen_forest += share * vec2(forest_share, 1.0);
         vec3 rock = share * rock_colour, sky = share * sky_colour;
         sum.colour += sky;
         sum.open += sky * (0.5 + 0.5 * normal.z);
@@ -259,7 +267,11 @@ vec3 sent_by(LitPlace place) {
 
 LitPlace ground_place(SurfacePoint point) {
     vec3 sun = sun_at(point.view);
-    return LitPlace(pixel_light(point, sun), point.view, point.h_m, sun, point.water);
+    LitPlace place = LitPlace(pixel_light(point, sun), point.view, point.h_m, sun, point.water);
+#ifdef IN_AIR
+    if (of_materials) find_canopy(point);
+#endif
+    return place;
 }
 
 // What the sky sends where a line of sight meets nothing; else false, and the place that it meets, unless that is left to the other of two

@@ -7,6 +7,7 @@ struct GroundNoise {
     float patches_sharp;
     float grain;
     float crowns;         // of a forest: most of it of the size of crowns
+    float tops;           // likewise, which has nothing in common with it: how high they are is not how light
 };
 
 #include "shaders/shade/lattice_noise.glsl"
@@ -18,7 +19,7 @@ const float crown_m = 6.0;
 GroundNoise ground_noise(vec3 view, float foot_m, float least) {
     if (FRAME.refraction_per_m != 0.0) view -= (0.5 * FRAME.refraction_per_m * squared_across(view)) * FRAME.up_view;
     vec3 at = (view * FRAME.view_from_ecef) / FRAME.noise[0].cell_m;
-    GroundNoise noise = GroundNoise(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+    GroundNoise noise = GroundNoise(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     vec2 left = vec2(1.0);  // variance
     for (uint i = 0u; i < noise_octaves; ++i) {
         // From two to three pixels long it fades in.
@@ -33,7 +34,9 @@ GroundNoise ground_noise(vec3 view, float foot_m, float least) {
         left -= 0.1603 * kept * kept * vec2(border * border, patches * patches);
         // Of the one kind where it moves no border much, so that grain and borders have nothing in common.
         noise.grain += FRAME.noise[i].grain * both.y;
-        noise.crowns += both.y * min(inversesqrt(FRAME.noise[i].cell_m / crown_m), 1.0);
+        vec2 crowns = both * min(inversesqrt(FRAME.noise[i].cell_m / crown_m), 1.0);
+        noise.crowns += crowns.y;
+        noise.tops += crowns.x;
         at = noise_lacunarity / 3.0 * vec3(2.0 * at.x - 2.0 * at.y + at.z, at.x + 2.0 * at.y + 2.0 * at.z, 2.0 * at.x + at.y - 2.0 * at.z);
     }
     vec2 sharp = inversesqrt(max(left, 0.0) + least);

@@ -5,8 +5,8 @@
 #include "shaders/shade/parcels.glsl"
 #include "shaders/shade/rock_relief.glsl"
 #include "shaders/shared_meadow.h"
-#include "shaders/growth/reach.glsl"
 #include "shaders/shared_growth.h"
+#include "shaders/growth/reach.glsl"
 #include "shaders/shade/forest_light.glsl"
 #include "shaders/growth/meadow_reach.glsl"
 
@@ -25,6 +25,8 @@ Parcel pixel_parcel;
 vec3 pixel_forest_sky[2];  // what forests send back of the sky's light more than of the sun's: needles, leaves
 vec3 sky_colour;           // ... of the place that was coloured last
 vec3 rock_colour;  // of the place that was coloured last: what its rock has of the colour
+vec2 seen_forest;   // of the places of a pixel: the sum of their forest's shares, and of theirs
+float pixel_canopy_m = 0.0;  // what the pixel's forest rises above its ground where no trees are drawn
 
 // The share of ground on the one side of a border: x from it, in units in which noise moves the border by `spread` (root mean square). Of noise
 // that a pixel is too large for the mean: shares of large areas are those of small ones.
@@ -69,6 +71,8 @@ ForestLight forest_light(vec3 to_eye, vec3 sun, vec3 normal) {
     return ForestLight(drawn * on_crowns * crowns_lit(at), drawn * crowns_open(at) / (0.5 + 0.5 * steep.z));
 }
 
+bool is_forest(uint material) { return material == material_needle_forest || material == material_broad_forest; }
+
 // How much rock rises and falls, for what its colour does.
 const float relief_of_grain = 2.7;
 
@@ -100,7 +104,19 @@ void light_far_forest(SurfacePoint point, vec3 sun, vec3 to_eye) {
     pixel_materials[material_broad_forest] *= lit.y;
 }
 
+// Trees are lower towards where forests end.
+float size_of_trees(SurfacePoint point) { return mix(0.35, 1.0, smoothstep(-200.0, 350.0, FRAME.style.cover.forest_m - above_snow_line_m(point))); }
+
+void find_canopy(SurfacePoint point) {
+    float forest = seen_forest.x / max(seen_forest.y, 1.0e-4);
+    if ((FRAME.style.materials.on & materials_with_trees) == 0u || forest < 0.02) return;
+    float away = 1.0 - trees_at(length(point.view), tree_reach_m(FRAME.pixels_per_tangent, FRAME.tau_px));
+    float top_m = min(canopy_top_m + canopy_varies_m * max(pixel_noise.tops, -1.0), canopy_most_m);
+    pixel_canopy_m = forest * away * (1.0 - point.water) * size_of_trees(point) * top_m;
+}
+
 void find_pixel_materials(SurfacePoint point, vec3 sun) {
+    map_forest = seen_forest = vec2(0.0);
     vec3 to_eye = normalize(-point.view) * axes_at(point.view);
     // A square of as much ground as the pixel's: where that is seen at a grazing angle its longer side alone would leave nothing.
     float facing_eye = max(dot(point.normal, to_eye), 0.15);
@@ -119,8 +135,7 @@ void find_pixel_materials(SurfacePoint point, vec3 sun) {
     float meadow_grain = pixel_noise.grain * mix(0.65, 1.0, smoothstep(1.0, 12.0, finest_m));
     for (uint i = 0u; i < material_count; ++i) {
         vec3 colour = FRAME.style.materials.of[i].colour + patches * FRAME.style.materials.of[i].patches;
-        bool is_forest = i == material_needle_forest || i == material_broad_forest;
-        pixel_materials[i] = colour * max(1.0 + FRAME.style.materials.of[i].grain * (is_forest ? crowns : i == material_meadow ? meadow_grain : pixel_noise.grain), 0.1);
+        pixel_materials[i] = colour * max(1.0 + FRAME.style.materials.of[i].grain * (is_forest(i) ? crowns : i == material_meadow ? meadow_grain : pixel_noise.grain), 0.1);
     }
     // Where it is dry grass is straw, and where it is wet it is green.
     pixel_materials[material_meadow] *= max(1.0 + 0.7 * FRAME.style.materials.of[material_meadow].grain * meadow_grain * vec3(1.0, 0.2, -0.4), vec3(0.1));
@@ -160,16 +175,20 @@ float share_within(uint limits) {
 // scree is other ground beyond its limits.
 vec3 textured(vec3 colour, uint materials, uint limits) {
     uint first = materials & 255u, second = (materials >> 8u) & 255u;
+    forest_share = mix(is_forest(first) ? 1.0 : 0.0, is_forest(second) ? 1.0 : 0.0, pixel_second);
     vec3 mean = 0.5 * (FRAME.style.materials.of[first].colour + FRAME.style.materials.of[second].colour);
     vec3 own = colour * mix(pixel_materials[first], pixel_materials[second], pixel_second) / max(mean, vec3(0.001));
     vec3 rock = pixel_materials[material_rock];
     if (first == material_bare) return mix(own, rock, pixel_rock);
-    return mix(mix(pixel_materials[material_scree], rock, pixel_rock), own, share_within(limits));
+    float within = share_within(limits);
+    forest_share *= within;
+    return mix(mix(pixel_materials[material_scree], rock, pixel_rock), own, within);
 }
 
 vec3 colour_of_shares(MaterialShares shares) {
     vec3 colour = vec3(0.0);
     for (uint i = 0u; i < material_count; ++i) colour += shares.of[i] * pixel_materials[i];
+    forest_share = shares.of[material_needle_forest] + shares.of[material_broad_forest];
     sky_colour = shares.of[material_needle_forest] * pixel_forest_sky[0] + shares.of[material_broad_forest] * pixel_forest_sky[1];
     rock_colour = shares.of[material_rock] * pixel_materials[material_rock] + 0.5 * shares.of[material_scree] * pixel_materials[material_scree];
     return colour;

@@ -63,6 +63,11 @@ uint id_in(ivec2 pixel) {
 #ifdef IN_AIR
 #include "shaders/growth/growth_table.glsl"
 #include "shaders/growth/shade_map.glsl"
+#include "shaders/growth/pixels_kept.glsl"
+void keep_pixel(ivec2 pixel, vec3 colour, float water) {
+    if (!of_materials || (FRAME.style.materials.on & materials_with_trees) == 0u) return;
+    KeptPixels(GROWTH.canopy).at[number_of(pixel)] = kept_pixel(colour, pixel_canopy_m, water);
+}
 #endif
 
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer TilesInParts { uint at[]; };
@@ -115,6 +120,7 @@ bool shade(ivec2 pixel) {
     }
     if (!is_sky) colour = through_air(sent_by(place), place.view);
     colour = shown(colour);
+    keep_pixel(pixel, colour, is_sky || id == 0u ? 0.0 : place.water);
 #else
         colour = colour_of_surface(point);
     }
