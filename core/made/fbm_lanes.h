@@ -1,8 +1,8 @@
 // Octaves of made terrain at many places at once, by the instructions of one kind of processor: the same bits
-// as made_fbm_octave() of shaders/made/made_heights.glsl, of which each function here is that of the same
-// name. Included once for each kind of processor, in a namespace of its own and under the options of its
-// kind, with the types Ints and Uints (signed and unsigned whole numbers of 32 bits, as many as fit) and
-// made_high() and made_corner() of them.
+// as made_fbm_octave() and made_ridged_octave() of shaders/made/made_heights.glsl, of which each function
+// here is that of the same name. Included once for each kind of processor, in a namespace of its own and
+// under the options of its kind, with the types Ints and Uints (signed and unsigned whole numbers of 32 bits,
+// as many as fit) and made_high() and made_corner() of them.
 
 constexpr std::uint32_t hash_x = 0x9e3779b1U, hash_y = 0x85ebca77U, hash_z = 0xc2b2ae3dU;
 
@@ -67,5 +67,29 @@ inline void add_octave(const gpu::MadeOctave& octave, const std::int32_t* x, con
         std::memcpy(&sum, sums + i, sizeof sum);
         sum += made_high(made_octave_noise(octave, at_x, at_y, at_z), amplitude);
         std::memcpy(sums + i, &sum, sizeof sum);
+    }
+}
+
+// The same of `ridged`. weights: 2^-28, of each place, which becomes that of the next octave.
+inline void add_ridged_octave(const gpu::MadeOctave& octave, const std::int32_t* x, const std::int32_t* y,
+                              const std::int32_t* z, std::int32_t* sums, std::int32_t* weights,
+                              std::size_t count) {
+    constexpr std::size_t lanes = sizeof(Ints) / sizeof(std::int32_t);
+    const Ints amplitude = octave.amplitude - Ints{}, share = 697932186 - Ints{};
+    for (std::size_t i = 0; i < count; i += lanes) {
+        Ints at_x, at_y, at_z, sum, weight;
+        std::memcpy(&at_x, x + i, sizeof at_x);
+        std::memcpy(&at_y, y + i, sizeof at_y);
+        std::memcpy(&at_z, z + i, sizeof at_z);
+        std::memcpy(&sum, sums + i, sizeof sum);
+        std::memcpy(&weight, weights + i, sizeof weight);
+        const Ints noise = made_octave_noise(octave, at_x, at_y, at_z), sign = noise >> 31;
+        Ints crest = (1 << 28) - ((noise ^ sign) - sign);
+        crest &= ~(crest >> 31);
+        const Ints square = made_high(crest << 2, crest << 2);
+        sum += made_high(made_high(square - 177167401, amplitude), weight) << 4;
+        weight = 93952410 + made_high(square << 2, share);
+        std::memcpy(sums + i, &sum, sizeof sum);
+        std::memcpy(weights + i, &weight, sizeof weight);
     }
 }

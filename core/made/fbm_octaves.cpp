@@ -115,4 +115,18 @@ AddOctave octaves_by_sixteen() {
     return nullptr;
 }
 
+AddRidgedOctave ridged_octaves_by_eight() {
+#ifdef ORO_HAS_LANES
+    if (__builtin_cpu_supports("avx2")) return eight::add_ridged_octave;
+#endif
+    return nullptr;
+}
+
+AddRidgedOctave ridged_octaves_by_sixteen() {
+#ifdef ORO_HAS_LANES
+    if (__builtin_cpu_supports("avx512f")) return sixteen::add_ridged_octave;
+#endif
+    return nullptr;
+}
+
 }  // namespace oro

@@ -18,4 +18,11 @@ using AddOctave = void (*)(const gpu::MadeOctave& octave, const std::int32_t* x,
 AddOctave octaves_by_eight();
 AddOctave octaves_by_sixteen();
 
+// The same of ridged. weights: of each place, 2^-28, 1 before the first octave.
+using AddRidgedOctave = void (*)(const gpu::MadeOctave& octave, const std::int32_t* x, const std::int32_t* y,
+                                 const std::int32_t* z, std::int32_t* sums, std::int32_t* weights,
+                                 std::size_t count);
+AddRidgedOctave ridged_octaves_by_eight();
+AddRidgedOctave ridged_octaves_by_sixteen();
+
 }  // namespace oro

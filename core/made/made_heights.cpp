@@ -58,9 +58,26 @@ void add_fbm(const gpu::MadeOctave& octave, MadeRun& run, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i)
         run.sum[i] += gpu::made_fbm_octave(octave, run.x[i], run.y[i], run.z[i]);
 }
-ORO_WIDE_16 void add_ridged(const gpu::MadeOctave& octave, MadeRun& run, std::size_t count) {
+void add_ridged(const gpu::MadeOctave& octave, MadeRun& run, std::size_t count) {
+    static const AddRidgedOctave lanes =
+        ridged_octaves_by_sixteen() != nullptr ? ridged_octaves_by_sixteen() : ridged_octaves_by_eight();
+    if (lanes != nullptr)
+        return lanes(octave, run.x.data(), run.y.data(), run.z.data(), run.sum.data(), run.weight.data(),
+                     count);
     for (std::size_t i = 0; i < count; ++i)
         run.sum[i] += gpu::made_ridged_octave(octave, run.x[i], run.y[i], run.z[i], run.weight[i]);
+}
+
+void begin_sums(MadeRun& run) {
+    run.sum.fill(0);
+    run.weight.fill(1 << 28);
+}
+// Of a rule that has octaves. count: a multiple of 16.
+void add_octave(const gpu::MadeRule& rule, std::uint32_t number, MadeRun& run, std::size_t count) {
+    if (rule.kind == gpu::made_fbm)
+        add_fbm(rule.octave[number], run, count);
+    else
+        add_ridged(rule.octave[number], run, count);
 }
 
 ORO_WIDE void add_noise_run(const gpu::MadeOctave& octave, float factor, const std::int32_t* x,
@@ -99,12 +116,12 @@ void made_row_coarse_heights(const MadeTerrain& terrain, const gpu::MadeRule& ru
         const std::size_t count = std::min(run_posts, steps.size() - first);
         const std::size_t whole = (count + 15) / 16 * 16;
         place_run(placed, columns.subspan(first, count), run);
-        run.sum.fill(0);
+        begin_sums(run);
         for (std::uint32_t k = 0; k <= rule.octaves; ++k) {
             if (k == coarse_octaves)
                 for (std::size_t i = 0; i < count; ++i)
                     coarse_steps[first + i] = middle + ((run.sum[i] + 2) >> 2);
-            if (k < rule.octaves) add_fbm(rule.octave[k], run, whole);
+            if (k < rule.octaves) add_octave(rule, k, run, whole);
         }
         for (std::size_t i = 0; i < count; ++i) steps[first + i] = gpu::made_octaves_height(rule, run.sum[i]);
     }
@@ -119,8 +136,8 @@ void made_row_of_octaves(const MadeTerrain& terrain, const gpu::MadeRule& rule, 
     for (std::size_t first = 0; first < steps.size(); first += run_posts) {
         const std::size_t count = std::min(run_posts, steps.size() - first);
         place_run(placed, columns.subspan(first, count), run);
-        run.sum.fill(0);
-        for (std::uint32_t k = 0; k < octaves; ++k) add_fbm(rule.octave[k], run, (count + 15) / 16 * 16);
+        begin_sums(run);
+        for (std::uint32_t k = 0; k < octaves; ++k) add_octave(rule, k, run, (count + 15) / 16 * 16);
         for (std::size_t i = 0; i < count; ++i) steps[first + i] = middle + ((run.sum[i] + 2) >> 2);
     }
 }
@@ -142,11 +159,8 @@ void made_row_heights(const MadeTerrain& terrain, const gpu::MadeRule& rule, int
             continue;
         }
         const std::size_t whole = (count + 15) / 16 * 16;
-        run.sum.fill(0);
-        run.weight.fill(1 << 28);
-        for (std::uint32_t k = 0; k < rule.octaves; ++k)
-            rule.kind == gpu::made_fbm ? add_fbm(rule.octave[k], run, whole)
-                                       : add_ridged(rule.octave[k], run, whole);
+        begin_sums(run);
+        for (std::uint32_t k = 0; k < rule.octaves; ++k) add_octave(rule, k, run, whole);
         for (std::size_t i = 0; i < count; ++i) steps[first + i] = gpu::made_octaves_height(rule, run.sum[i]);
     }
 }

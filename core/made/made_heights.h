@@ -18,8 +18,8 @@ std::vector<MadeColumn> made_columns(const MadeTerrain& terrain, int first, int 
 void made_row_heights(const MadeTerrain& terrain, const gpu::MadeRule& rule, int row, int first_column,
                       std::span<const MadeColumn> columns, std::span<std::int32_t> steps);
 
-// The same of fbm, and beside each height what its first `coarse_octaves` octaves give alone, which is not
-// cut off at the lowest and the highest height. coarse_octaves: at most the rule's.
+// The same of fbm and ridged, and beside each height what its first `coarse_octaves` octaves give alone,
+// which is not cut off at the lowest and the highest height. coarse_octaves: at most the rule's.
 void made_row_coarse_heights(const MadeTerrain& terrain, const gpu::MadeRule& rule, int row,
                              std::span<const MadeColumn> columns, std::uint32_t coarse_octaves,
                              std::span<std::int32_t> steps, std::span<std::int32_t> coarse_steps);

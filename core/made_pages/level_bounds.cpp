@@ -12,8 +12,27 @@ namespace {
 
 // Smallest and largest radii of curvature of WGS84, the latter with the highest heights on it.
 constexpr double least_radius_m = 6'335'000.0, most_radius_m = 6'412'000.0;
-// Whole numbers in place of real ones: places are right to 2^-5 m, heights of the sum to a centimetre.
-constexpr double place_m = 0.03125, rounding_m = 0.01;
+// Whole numbers in place of real ones: places are right to 2^-5 m.
+constexpr double place_m = 0.03125;
+
+// What the term of an octave is at most, per metre of its amplitude and in cells of its lattice.
+struct OctaveBounds {
+    double reach;   // of itself, up or down
+    double spread;  // between two of its values
+    double slope;
+    bool bends;  // it is smooth: how far it is from linear falls as the square of a triangle's size
+    double rounding_m;
+};
+// ridged: the term is w (s - 0.66), where s = (1 - |noise|)^2 is 0 to 1 and no steeper than twice the noise,
+// and w = 0.35 + 0.65 s of the octave before, whose cells are twice as wide. At crests s is not smooth. Each
+// octave is rounded down to 2^-9 m.
+OctaveBounds octave_bounds(const MadeTerrain& terrain) {
+    constexpr double rounding_m = 0.01, ridged_step_m = 0.0025;
+    if (terrain.kind == MadeKind::fbm)
+        return {noise_most, 2.0 * noise_most, noise_slope_most, true, rounding_m};
+    return {ridged_reach_most, ridged_spread_most, ridged_slope_most, false,
+            rounding_m + ridged_step_m * terrain.octaves};
+}
 
 // A triangle's edges in quads of its level, along the longer and the shorter of its two ways.
 struct TriangleShape {
@@ -52,11 +71,12 @@ class Bounds {
   public:
     Bounds(const MadeTerrain& terrain, const UndulationField& undulation)
         : rule_(made_rule(terrain)),
+          octave_(octave_bounds(terrain)),
           spacing_deg_(1.0 / static_cast<double>(terrain.posts_per_deg)),
           range_m_(made_step_m * (terrain.high - terrain.low)),
           undulation_(steps_of(undulation)) {
         for (std::uint32_t i = 0; i < rule_.octaves; ++i)
-            steepest_ += amplitude_m(i) * noise_slope_most / cell_m(i);
+            steepest_ += amplitude_m(i) * octave_.slope / cell_m(i);
     }
 
     // Ground no nearer to the equator than so many degrees from now on.
@@ -71,12 +91,12 @@ class Bounds {
         MadeLevelBound::Of of;
         for (std::uint32_t i = 0; i < rule_.octaves; ++i) {
             // Both are between the octave's heights at posts.
-            const double cell = cell_m(i), most = 2.0 * noise_most;
+            const double cell = cell_m(i), most = octave_.spread;
             const double also = from_finest ? 1.0 : 0.0;
-            of.free += amplitude_m(i) * std::min(most, curved(triangle, cell) + also * curved(finest, cell));
+            of.free += amplitude_m(i) * std::min(most, off(triangle, cell) + also * off(finest, cell));
             of.cut += amplitude_m(i) * std::min(most, sloped(triangle, cell) + also * sloped(finest, cell));
         }
-        const double rest_m = (from_finest ? 2.0 : 1.0) * (steepest_ * place_m + rounding_m) +
+        const double rest_m = (from_finest ? 2.0 : 1.0) * (steepest_ * place_m + octave_.rounding_m) +
                               undulation_m(level, shape) + (from_finest ? undulation_m(0, plain_shape) : 0.0);
         of.free += rest_m;
         of.cut = std::min(of.cut, range_m_) + rest_m;
@@ -89,7 +109,7 @@ class Bounds {
         const Triangle triangle = triangle_of(level, plain_shape), finest = triangle_of(0, plain_shape);
         std::uint32_t octave = 0;
         while (octave < rule_.octaves &&
-               curved(triangle, cell_m(octave)) + curved(finest, cell_m(octave)) < noise_most)
+               off(triangle, cell_m(octave)) + off(finest, cell_m(octave)) < octave_.reach)
             ++octave;
         return octave;
     }
@@ -100,10 +120,10 @@ class Bounds {
         for (std::uint32_t i = 0; i < rule_.octaves; ++i) {
             const double cell = cell_m(i);
             most_m += amplitude_m(i) *
-                      (i < octaves ? std::min(2.0 * noise_most, curved(triangle, cell) + curved(finest, cell))
-                                   : noise_most);
+                      (i < octaves ? std::min(octave_.spread, off(triangle, cell) + off(finest, cell))
+                                   : octave_.reach);
         }
-        return most_m + 2.0 * (steepest_ * place_m + rounding_m) + undulation_m(level, plain_shape) +
+        return most_m + 2.0 * (steepest_ * place_m + octave_.rounding_m) + undulation_m(level, plain_shape) +
                undulation_m(0, plain_shape);
     }
 
@@ -133,14 +153,17 @@ class Bounds {
         return {step_m * std::hypot(shape.longer, shape.shorter * narrowing_),
                 1.03 * both * both * step_m * step_m / least_radius_m};
     }
-    // Of noise in cells: how far it is from linear over a triangle, where it is smooth and by its slope
+    // Of an octave in cells: how far it is from linear over a triangle; where it is smooth; and by its slope
     // alone.
+    [[nodiscard]] double off(const Triangle& over, double cell) const {
+        return octave_.bends ? curved(over, cell) : sloped(over, cell);
+    }
     [[nodiscard]] static double curved(const Triangle& over, double cell) {
         return noise_bend_most * over.hypotenuse_m * over.hypotenuse_m / (8.0 * cell * cell) +
                noise_slope_most * over.bend_m / (8.0 * cell);
     }
-    [[nodiscard]] static double sloped(const Triangle& over, double cell) {
-        return noise_slope_most * 0.5 * (over.hypotenuse_m + over.bend_m) / cell;
+    [[nodiscard]] double sloped(const Triangle& over, double cell) const {
+        return octave_.slope * 0.5 * (over.hypotenuse_m + over.bend_m) / cell;
     }
     [[nodiscard]] double amplitude_m(std::uint32_t octave) const {
         return std::ldexp(rule_.octave[octave].amplitude, -17);
@@ -158,6 +181,7 @@ class Bounds {
     }
 
     gpu::MadeRule rule_;
+    OctaveBounds octave_;
     double spacing_deg_;
     double range_m_;
     double narrowing_{1.0};  // of the distance between meridians

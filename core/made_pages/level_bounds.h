@@ -15,6 +15,12 @@ namespace oro {
 inline constexpr double noise_most = 1.06;
 inline constexpr double noise_slope_most = 4.3;
 inline constexpr double noise_bend_most = 19.0;
+// The same of a term of `ridged`, per metre of its octave's amplitude: w (s - 0.66), with the square s of 1
+// less the noise, 0 to 1, and w = 0.35 + 0.65 s of the octave before, whose cells are twice as wide. The
+// slope is most at a crest below a crest: 2 x 4.3 of s, and 0.65 x 4.3 x 0.34 of w.
+inline constexpr double ridged_reach_most = 0.66001;
+inline constexpr double ridged_spread_most = 1.00001;
+inline constexpr double ridged_slope_most = 9.56;
 
 // Of one level, metres. Each of the two holds where no height is cut off at the terrain's lowest or highest
 // one (`free`), and where some may be (`cut`).
@@ -39,11 +45,11 @@ struct MadeLevelBound {
     double flat{};  // what is between flat triangles of this level and those linear in latitude and longitude
 };
 
-// Bounds of the levels of an fbm terrain on a grid of latitudes and longitudes, finest first, for ground from
-// each whole degree from the equator on polewards: number 0 holds everywhere, and none is smaller than the
-// next. Levels share their coarse octaves. The grid has the terrain's spacing. Source: the error of linear
-// interpolation over a triangle is at most a half of the bound of second derivatives times the mean square
-// distance to its corners (S. Waldron, SIAM J. Numer. Anal. 35, 1998).
+// Bounds of the levels of an fbm or ridged terrain on a grid of latitudes and longitudes, finest first, for
+// ground from each whole degree from the equator on polewards: number 0 holds everywhere, and none is smaller
+// than the next. Levels share their coarse octaves. The grid has the terrain's spacing. Source: the error of
+// linear interpolation over a triangle is at most a half of the bound of second derivatives times the mean
+// square distance to its corners (S. Waldron, SIAM J. Numer. Anal. 35, 1998).
 std::vector<std::vector<MadeLevelBound>> made_level_bounds(const MadeTerrain& terrain, const PostGrid& grid,
                                                            const UndulationField& undulation);
 

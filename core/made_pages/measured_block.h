@@ -17,7 +17,7 @@ namespace oro {
 
 // Made terrain as its pages need it: its rule, its grid and what holds for each of its levels.
 struct MadeRegion {
-    MadeTerrain terrain;  // fbm; its outermost posts are the grid's
+    MadeTerrain terrain;  // fbm or ridged; its outermost posts are the grid's
     gpu::MadeRule rule;
     PostGrid grid;
     UndulationField undulation;

@@ -33,26 +33,38 @@ TEST(MadeTerrain, ABadWordIsOneLineAndExitCode2) {
         for (const char* command : {"info", "plan"})
             expect_refusal(run_orograph({command, text}), oro::test::usage, {text});
     // More posts than there is memory for, as of files.
-    for (const char* text : {"made:fbm?box=-180,-90,180,90&spacing=0.1s", "made:ridged?box=-180,-90,180,90"})
+    for (const char* text :
+         {"made:fbm?box=-180,-90,180,90&spacing=0.1s", "made:ridged?box=-180,-90,180,90&spacing=0.1s",
+          "made:plane?box=-180,-90,180,90"})
         expect_refusal(run_orograph({"info", text}), oro::test::failed, {"region too large"});
+    // Of a world as of a region.
+    for (const char* text :
+         {"made:ridged?octaves=25&box=-180,-90,180,90", "made:ridged?gain=inf&box=-180,-90,180,90",
+          "made:ridged?H=9:-9&box=-180,-90,180,90", "made:ridged?feature=-1&box=-180,-90,180,90",
+          "made:ridged?radius=9&box=-180,-90,180,90", "made:ridged?box=-180,-91,180,90",
+          "made:ridged?seed=4294967296&box=-180,-90,180,90"})
+        expect_refusal(run_orograph({"info", text}), oro::test::usage, {text});
 }
 
 // Nearly the whole Earth, a second apart: 432,001 x 1,288,801 posts, of which those are made that are asked
 // for.
 const std::string world = "made:fbm?seed=7&octaves=12&H=-200:4000&spacing=1s&box=-179,-60,179,60";
+const std::string ridged_world = "made:ridged?seed=12&octaves=12&H=-200:4000&spacing=1s&box=-179,-60,179,60";
 
 TEST(MadeTerrain, OfAWholeWorldIsThereWhereOneLooks) {
     const auto info = run_orograph({"info", world});
     EXPECT_EQ(info.exit_code, 0) << info.err;
     EXPECT_NE(info.out.find("1288801 x 432001"), std::string::npos) << info.out;
     // The same ground as of a small box with the same posts.
-    const std::string part = "made:fbm?seed=7&octaves=12&H=-200:4000&spacing=1s&box=8.4,46.4,8.6,46.6";
     const auto along = [](const std::string& text) {
         return object_said_by({"profile", text, "--along", "46.45,8.45;46.55,8.52", "--json"});
     };
-    const auto whole = along(world), small = along(part);
-    EXPECT_NEAR(whole["ascent_m"].get<double>(), small["ascent_m"].get<double>(), 1e-6) << whole.dump();
-    EXPECT_NEAR(whole["descent_m"].get<double>(), small["descent_m"].get<double>(), 1e-6);
+    for (const std::string& all : {world, ridged_world}) {
+        const auto whole = along(all),
+                   small = along(all.substr(0, all.find("box=")) + "box=8.4,46.4,8.6,46.6");
+        EXPECT_NEAR(whole["ascent_m"].get<double>(), small["ascent_m"].get<double>(), 1e-6) << whole.dump();
+        EXPECT_NEAR(whole["descent_m"].get<double>(), small["descent_m"].get<double>(), 1e-6);
+    }
     const fs::path folder = oro::test::scratch_folder();
     expect_refusal(run_orograph({"bake", world, "--out", folder / "w.oro"}), oro::test::usage,
                    {"bake", "--bbox"});
@@ -63,11 +75,13 @@ TEST(MadeTerrain, OfAWholeWorldIsThereWhereOneLooks) {
 // pixel.
 TEST(MadeTerrain, OfAWholeWorldIsDrawnWithinItsCertificate) {
     const fs::path folder = oro::test::scratch_folder();
-    for (const auto& [at, heading, name] :
-         {std::array{"46.5,8.3", "80", "inside.png"}, std::array{"0.01,178.999", "280", "edge.png"}}) {
+    for (const auto& [of, at, heading, name] :
+         {std::array{world.c_str(), "46.5,8.3", "80", "inside.png"},
+          std::array{world.c_str(), "0.01,178.999", "280", "edge.png"},
+          std::array{ridged_world.c_str(), "46.5,8.3", "80", "ridged.png"}}) {
         const auto shot =
-            object_said_by({"shot", world, "--at", at, "--above", "1500", "--heading", heading, "--pitch",
-                            "-25", "--size", "120x80", "--verify", "--out", folder / name, "--json"});
+            object_said_by({"shot", of, "--at", at, "--above", "1500", "--heading", heading, "--pitch", "-25",
+                            "--size", "120x80", "--verify", "--out", folder / name, "--json"});
         const auto& error = shot["error"];
         EXPECT_LE(error["largest_px"].get<double>(), 1.0 + error["slack_px"].get<double>()) << error.dump();
         EXPECT_GT(error["largest_px"].get<double>(), 0.0);

@@ -85,6 +85,35 @@ std::size_t unequal(AddOctave by_lanes) {
     return wrong;
 }
 
+std::size_t unequal_ridged(AddRidgedOctave by_lanes) {
+    const Places places = some_places();
+    std::mt19937 random(fbm_seed + 2);
+    std::size_t wrong = 0;
+    std::vector<std::int32_t> weights(places_count, 1 << 28), expected_weights = weights;
+    for (std::uint32_t number = 0; number < 24; ++number) {
+        gpu::MadeOctave octave = made_octave(static_cast<std::uint32_t>(random()), number, 28 - number);
+        octave.amplitude = static_cast<std::int32_t>(random() >> 3U);
+        std::vector<std::int32_t> sums(places_count), expected(places_count);
+        for (std::size_t i = 0; i < places_count; ++i) {
+            sums[i] = static_cast<std::int32_t>(random() >> 4U);
+            expected[i] = sums[i] + gpu::made_ridged_octave(octave, places.x[i], places.y[i], places.z[i],
+                                                            expected_weights[i]);
+        }
+        by_lanes(octave, places.x.data(), places.y.data(), places.z.data(), sums.data(), weights.data(),
+                 places_count);
+        for (std::size_t i = 0; i < places_count; ++i)
+            wrong += sums[i] == expected[i] && weights[i] == expected_weights[i] ? 0 : 1;
+    }
+    return wrong;
+}
+
+TEST(RidgedOctaves, ByLanesHaveTheBitsOfTheRule) {
+    if (ridged_octaves_by_eight() == nullptr) GTEST_SKIP() << "this processor has no AVX2";
+    EXPECT_EQ(unequal_ridged(ridged_octaves_by_eight()), 0U) << "seed " << fbm_seed;
+    if (ridged_octaves_by_sixteen() == nullptr) GTEST_SKIP() << "this processor has no AVX-512";
+    EXPECT_EQ(unequal_ridged(ridged_octaves_by_sixteen()), 0U) << "seed " << fbm_seed;
+}
+
 TEST(FbmOctaves, ByEightHaveTheBitsOfTheRule) {
     if (octaves_by_eight() == nullptr) GTEST_SKIP() << "this processor has no AVX2";
     EXPECT_EQ(unequal(octaves_by_eight()), 0U) << "seed " << fbm_seed;

@@ -28,8 +28,9 @@ struct MadePart {
     std::vector<std::int32_t> steps, coarse_steps;
 
     MadePart(std::uint32_t seed, int lat_deg, std::uint32_t octaves, std::uint32_t gain,
-             std::uint32_t cell_shift, int base, int side)
+             std::uint32_t cell_shift, int base, int side, MadeKind kind = MadeKind::fbm)
         : posts(side) {
+        terrain.kind = kind;
         terrain.seed = seed;
         terrain.octaves = octaves;
         terrain.gain = gain;
@@ -85,21 +86,23 @@ double most_between(const MadePart& part, int base) {
 }
 
 // Of a base level, with first cells of 2^shift / 192 m: `runs` parts, each with its own seed.
-double largest_share(int base, std::uint32_t octaves, std::uint32_t shift, int runs) {
+double largest_share(int base, std::uint32_t octaves, std::uint32_t shift, int runs,
+                     MadeKind kind = MadeKind::fbm) {
     std::mt19937 random(53);
     double largest = 0.0;
     for (int i = 0; i < runs; ++i) {
         const int lat_deg = std::array{0, 30, 46, 60, 75, 88}[static_cast<std::size_t>(i) % 6];
         const auto gain = 400 + static_cast<std::uint32_t>(random() % 300);
-        const MadePart part(static_cast<std::uint32_t>(random()), lat_deg, octaves, gain, shift, base, 129);
+        const MadePart part(static_cast<std::uint32_t>(random()), lat_deg, octaves, gain, shift, base, 129,
+                            kind);
         const auto from_deg = static_cast<std::size_t>(std::max(0, lat_deg - 1));
         const double bound_m = part.region.bounds_from_deg[from_deg][static_cast<std::size_t>(base)].coarse;
         const double measured_m = most_between(part, base);
         EXPECT_LE(measured_m, bound_m) << "seed 53, number " << i << ", " << octaves << " octaves";
         largest = std::max(largest, measured_m / bound_m);
     }
-    std::printf("base %d, %u octaves from 2^%u: largest of %d (seed 53) is %.2f of the bound\n", base,
-                octaves, shift, runs, largest);
+    std::printf("%s, base %d, %u octaves from 2^%u: largest of %d (seed 53) is %.2f of the bound\n",
+                kind == MadeKind::fbm ? "fbm" : "ridged", base, octaves, shift, runs, largest);
     return largest;
 }
 
@@ -110,6 +113,15 @@ TEST(CoarseBound, IsNotBelowWhatIsMeasuredAndNotFarAbove) {
         for (const std::uint32_t octaves : {3U, 9U, 14U}) largest_share(base, octaves, 22, 6);
     EXPECT_GT(largest_share(2, 1, 14, 12), 0.6);
     EXPECT_GT(largest_share(2, 1, 17, 12), 0.5);
+}
+
+// Crests are not smooth, so what is between posts falls as their distance, not as its square.
+TEST(CoarseBound, OfRidgedIsNotBelowWhatIsMeasuredAndNotFarAbove) {
+    for (const int base : {1, 2, 4})
+        for (const std::uint32_t octaves : {3U, 9U, 14U})
+            largest_share(base, octaves, 22, 6, MadeKind::ridged);
+    EXPECT_GT(largest_share(2, 1, 14, 12, MadeKind::ridged), 0.9);
+    EXPECT_GT(largest_share(2, 1, 20, 12, MadeKind::ridged), 0.1);
 }
 
 TEST(CoarseBound, IsSmallerTowardsThePoles) {

@@ -6,8 +6,9 @@
 namespace oro {
 
 // Levels 1 to 3 are measured against all posts, 4 to 6 against coarse octaves at every fourth.
-inline MadeTerrain made_terrain_of_tests() {
+inline MadeTerrain made_terrain_of_tests(MadeKind kind = MadeKind::fbm) {
     MadeTerrain terrain;
+    terrain.kind = kind;
     terrain.seed = 3;
     terrain.octaves = 10;
     terrain.low = -200 * 2048;
@@ -28,14 +29,19 @@ inline PostGrid grid_of(const MadeTerrain& terrain) {
     return grid;
 }
 
-inline HeightField made_ground() {
-    const MadeTerrain terrain = made_terrain_of_tests();
+inline HeightField made_ground(MadeKind kind = MadeKind::fbm) {
+    const MadeTerrain terrain = made_terrain_of_tests(kind);
     return made_field(terrain, grid_of(terrain), {});
 }
 
 // What is measured whole takes longest, and is the same for all tests.
 inline const RegionPages& pages_for_any() {
     static const HeightField field = made_ground();
+    static const std::unique_ptr<RegionPages> any = made_posts_of(field)->pages(field);
+    return *any;
+}
+inline const RegionPages& ridged_pages_for_any() {
+    static const HeightField field = made_ground(MadeKind::ridged);
     static const std::unique_ptr<RegionPages> any = made_posts_of(field)->pages(field);
     return *any;
 }

@@ -159,5 +159,29 @@ TEST(NoiseBounds, AreNearWhatThereIs) {
     EXPECT_FALSE(is_bound(1, 3.7, 300'000, boxes));
 }
 
+// Terms of `ridged` by the noise of their own octave and of the one before, each anything that it can be:
+// what is most is found within a thousandth.
+TEST(NoiseBounds, OfRidgedFollowFromThoseOfNoise) {
+    double lowest = 0.0, highest = 0.0, steepest = 0.0;
+    constexpr int steps = 1000;
+    for (int i = 0; i <= steps; ++i)
+        for (int j = 0; j <= steps; ++j) {
+            const double crest = std::max(0.0, 1.0 - noise_most * i / steps),
+                         before = std::max(0.0, 1.0 - noise_most * j / steps);
+            const double square = crest * crest, weight = 0.35 + 0.65 * before * before;
+            lowest = std::min(lowest, weight * (square - 0.66));
+            highest = std::max(highest, weight * (square - 0.66));
+            steepest = std::max(steepest,
+                                weight * 2.0 * crest * noise_slope_most +
+                                    0.65 * 2.0 * before * 0.5 * noise_slope_most * std::abs(square - 0.66));
+        }
+    EXPECT_LE(std::max(-lowest, highest), ridged_reach_most);
+    EXPECT_GT(std::max(-lowest, highest), 0.999 * ridged_reach_most);
+    EXPECT_LE(highest - lowest, ridged_spread_most);
+    EXPECT_GT(highest - lowest, 0.999 * ridged_spread_most);
+    EXPECT_LE(steepest, ridged_slope_most);
+    EXPECT_GT(steepest, 0.998 * ridged_slope_most);
+}
+
 }  // namespace
 }  // namespace oro
