@@ -462,6 +462,7 @@ set_tests_properties(
   WindowTour.LooksAsItDid
   WindowTwoViews.ShowMeshesByTheSameClusters
   WindowTwoViews.ThatAreTheSameShowTheSame
+  WindowWorld.ShowsAFirstPictureBeforeAnythingIsMeasuredAndTheSameAsShotAtRest
   WorldGrids.GiveOnePictureWhereverTheyBegin
   PROPERTIES LABELS "cli;long")
 set_tests_properties(

@@ -76,7 +76,8 @@ bool has_ground(const FramePlan& plan) {
 bool lacks_ground(Viewer& viewer, const FramePlan& plan) {
     constexpr double longest_s = 2.0;
     const auto lacks = [](const GridPlan& grid) { return grid.pages_wanted > 0 && grid.page_room() == 0; };
-    if (std::ranges::none_of(plan.grids, lacks)) return false;
+    const bool is_first_too_coarse = !viewer.is_shown && is_too_coarse(viewer, plan);
+    if (std::ranges::none_of(plan.grids, lacks) && !is_first_too_coarse) return false;
     if (!viewer.waits_for_ground) viewer.waiting_since = Clock::now();
     return !has_ground(plan) || seconds_since(viewer.waiting_since) < longest_s;
 }
@@ -142,7 +143,7 @@ Result<FramePlan> plan_now(Viewer& viewer, const Camera& camera, const Submitted
     Scene& scene = *viewer.scene;
     require_fields(scene, viewer.style.frame, frame.step);
     scene.set_fallback_to_blocks(!is_of_clusters(viewer.view.show));
-    const double tau_px = viewer.view.tau_px * frame.step.tau_factor;
+    const double tau_px = viewer.view.tau_px * frame.step.tau_factor * viewer.world.tau_factor();
     scene.leave_choice(frame.is_of_moving_eye && viewer.is_shown && wants_gpu_pages(viewer) &&
                        scene.has_coarsest_pages());
     ORO_TRY(FramePlan plan, scene.plan({camera, whole_tile(camera), tau_px, viewer.view.model}));
@@ -212,7 +213,8 @@ Result<void> draw_planned(Viewer& viewer, FramePlan plan, const SubmittedFrame& 
         ORO_CHECK(draw_second_at_rest(viewer, frame.step));
     }
     if (frame.step.scale < 1.0) return {};
-    const int every = is_coarse(viewer) ? coarse_step(viewer.region.grids.front().field) : 1;
+    const int every =
+        is_coarse(viewer) && !viewer.world.on ? coarse_step(viewer.region.grids.front().field) : 1;
     if (viewer.view.show) viewer.legend = colour_key(viewer.view, viewer.region, viewer.style, every);
     return {};
 }
@@ -271,6 +273,7 @@ Result<bool> draw_frame(Viewer& viewer, bool& changed) {
     ORO_TRY(const bool other_meshes, follow_with_meshes(viewer));
     ORO_TRY(const bool other_second, follow_with_second_meshes(viewer));
     changed = changed || other_meshes || other_second;
+    ORO_CHECK(follow_with_levels(viewer, changed));
     if (!changed) {
         ORO_CHECK(prepare_gpu_pages(viewer));
         return false;
@@ -282,11 +285,13 @@ Result<bool> draw_frame(Viewer& viewer, bool& changed) {
     follow_sun(viewer);
     frame.lines = lines_over_next(viewer);
     frame.step = step_now(viewer);
+    // Light asks for casters that are more exact than bounds.
+    if (viewer.world.shows_bounds()) frame.step.shadows = frame.step.means = false;
     const Camera camera = scaled_camera(viewer.view.camera, frame.step.scale);
     ORO_TRY(FramePlan plan, plan_now(viewer, camera, frame));
     if (viewer.waits_for_ground) {
         // Asked again with the next page, or soon where some ground is there.
-        changed = has_ground(plan);
+        changed = has_ground(plan) && !viewer.world.shows_bounds();
         return false;
     }
     frame.is_settled = plan.is_settled() && are_chosen_for(viewer.meshes, viewer.view, viewer.view.camera);

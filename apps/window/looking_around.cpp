@@ -87,7 +87,8 @@ Result<void> lay_over_ground(Viewer& viewer, Scene& scene) {
 
 Result<void> lay_over_ground(Viewer& viewer) {
     ORO_CHECK(finish_frames(viewer));
-    for (Scene* const scene : {viewer.scene.get(), viewer.coming.get()})
+    for (Scene* const scene :
+         {viewer.scene.get(), viewer.coming.get(), viewer.world.measured.get(), viewer.world.by_bounds.get()})
         if (scene != nullptr) ORO_CHECK(lay_over_ground(viewer, *scene));
     return {};
 }

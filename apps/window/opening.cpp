@@ -126,6 +126,7 @@ Result<void> add_images(Viewer& viewer, const std::vector<std::string>& images) 
 void forget_region(Viewer& viewer) {
     viewer.coming.reset();
     viewer.finer.reset();
+    viewer.world = {};
     viewer.meshes = {};
     viewer.certificates.forget();
     viewer.scene.reset();

@@ -39,12 +39,12 @@ View pictured(View view, const PictureChoice& choice) {
 // Draws a picture, and gives it and the files beside it their names together.
 Result<PictureReport> write_with_poses(Viewer& viewer, const PictureFiles& files, const View& view,
                                        const RegionGround& ground, const std::optional<SeenPlace>& middle,
-                                       std::span<const std::uint8_t> strip, PoseChoice poses) {
+                                       std::span<const std::uint8_t> strip, PoseChoice poses, Scene& scene) {
     ORO_TRY(const std::vector<PoseText> texts,
             pose_texts(files.picture, poses, view, pose_facts(view, viewer.region)));
     ORO_TRY(std::vector<WholeFile> written, pose_files(texts, false));
     ORO_TRY(DrawnPicture picture, draw_picture(files, false, view, viewer.region, ground, middle, viewer.gpu,
-                                               *viewer.scene, viewer.style, strip, {}));
+                                               scene, viewer.style, strip, {}));
     written.push_back(std::move(picture.file));
     std::vector<WholeFile*> all;
     for (WholeFile& file : written) all.push_back(&file);
@@ -69,7 +69,9 @@ Result<void> write_picture_of(Viewer& viewer, const PictureChoice& choice) {
     ORO_TRY(const auto middle, place_in_middle(view, *ground));
     ORO_CHECK(fit_to_view(viewer.style, view, viewer.region.grids.front().field));
     ORO_TRY(const auto strip, strip_of(view, viewer.region, viewer.style, middle));
-    const auto written = write_with_poses(viewer, files, view, *ground, middle, strip, choice.poses);
+    ORO_TRY(const std::unique_ptr<Scene> measured, scene_of_picture(viewer, view));
+    const auto written = write_with_poses(viewer, files, view, *ground, middle, strip, choice.poses,
+                                          measured ? *measured : *viewer.scene);
     const std::string hidden = written.ok() ? near_trees_note(*written, view.camera) : "";
     tell(viewer,
          written.ok() ? written_words(files.picture) + (hidden.empty() ? "" : "; " + hidden)
@@ -98,6 +100,8 @@ void follow_sun(Viewer& viewer) {
 void take_scene(Viewer& viewer, OpenedScene opened) {
     viewer.coming.reset();
     viewer.certificates.forget();
+    viewer.world = {};
+    viewer.world.on = opened.is_of_bounds;
     viewer.scene = std::make_unique<Scene>(std::move(opened.scene));
     viewer.meshes = std::move(opened.meshes);
     viewer.finer = opened.is_coarse ? std::make_unique<BackgroundPyramidBuild>(

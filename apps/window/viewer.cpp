@@ -10,6 +10,7 @@
 
 #include "apps/eye/standpoint.h"
 #include "apps/report/progress_bar.h"
+#include "core/made_pages/made_pages.h"
 #include "geo/posts/source_at.h"
 
 namespace oro {
@@ -131,7 +132,7 @@ bool is_moving(const Viewer& viewer) {
 }
 
 bool is_coarse(const Viewer& viewer) {
-    return viewer.finer || viewer.coming;
+    return viewer.finer || viewer.coming || viewer.world.shows_bounds();
 }
 
 std::string progress_words(const Viewer& viewer) {
@@ -141,6 +142,13 @@ std::string progress_words(const Viewer& viewer) {
         char text[60];
         std::snprintf(text, sizeof text, "preparing full detail, %.0f %%",
                       std::floor(100.0 * viewer.finer->share()));
+        return text;
+    }
+    if (viewer.world.shows_bounds() && viewer.is_missing) return "loading";
+    if (viewer.world.shows_bounds()) {
+        char text[80];
+        std::snprintf(text, sizeof text, "loading full detail, within %.3g px so far",
+                      viewer.world.tau_factor() * viewer.view.tau_px);
         return text;
     }
     if (is_coarse(viewer)) return "loading full detail";
@@ -207,6 +215,9 @@ void trace_frame(const SubmittedFrame& frame) {
                  "frame: input %.4f begun %.4f planned %.4f drawn %.4f shown %.4f scale %.2f tau %.1f %s\n",
                  at_s(times.input), at_s(times.begun), at_s(times.planned), at_s(times.drawn),
                  at_s(Clock::now()), frame.step.scale, frame.step.tau_factor, eye);
+    if (const std::uint64_t blocks = blocks_measured_here(); blocks > 0)
+        std::fprintf(stderr, "levels: %llu blocks measured by the thread that draws\n",
+                     static_cast<unsigned long long>(blocks));
 }
 
 }  // namespace oro

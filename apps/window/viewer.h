@@ -37,6 +37,7 @@
 #include "apps/window/region_opening.h"
 #include "apps/window/second_view.h"
 #include "apps/window/window_start.h"
+#include "apps/window/world_levels.h"
 #include "core/base/elapsed.h"
 #include "render/frame/frame_renderer.h"
 #include "render/window.h"
@@ -227,6 +228,7 @@ struct Viewer {
     std::optional<SubmittedFrame> to_trace{};  // that was drawn and not shown yet
     std::string traced{};                      // the line that trace_state() printed last
     EyeMeshes meshes{};                        // that the scene draws
+    WorldLevels world{};                       // of a world that nobody stores
     bool keeps_means{};         // the scene has means of the ground, whatever the style asks for now
     bool wants_picture{false};  // something has changed that pictures show
     bool leaves{false};         // the user wants to
@@ -272,7 +274,8 @@ void tell_written(Viewer& viewer, const std::string& file, const Result<void>& w
 // the eye is. For programs that play a user.
 void trace_state(Viewer& viewer);
 // Likewise "frame: ..." of a frame that is shown now: when its input was asked for, when it was begun,
-// planned, drawn and shown, in seconds of the steady clock, then its detail and whether its eye moved.
+// planned, drawn and shown, in seconds of the steady clock, then its detail and whether its eye moved. Where
+// this thread has measured levels of made terrain, which it should not, "levels: ..." says how many blocks.
 void trace_frame(const SubmittedFrame& frame);
 
 }  // namespace oro

@@ -10,10 +10,12 @@
 #include "apps/eye/standpoint.h"
 #include "apps/navigation/flight_step.h"
 #include "apps/report/json_text.h"
+#include "apps/window/world_levels.h"
 #include "core/base/files_read.h"
 #include "core/base/parallel.h"
 #include "core/lod/ground_means.h"
 #include "core/lod/pyramid.h"
+#include "core/made_pages/made_pages.h"
 
 namespace oro {
 
@@ -48,6 +50,12 @@ std::string free_picture_name(std::int64_t time_utc_s, const std::string& ending
 
 Result<GridPages> first_pages(const Region& region, const RegionCuts& cuts, const View& view,
                               const RenderProgress& progress) {
+    if (is_drawn_by_bounds(region, view)) {
+        const HeightField& field = region.grids.front().field;
+        GridPages pages;
+        pages.push_back(made_posts_of(field)->pages_by_bounds(field));
+        return pages;
+    }
     if (!measures_long(region)) return make_grid_pages(region, cuts, view.exaggeration, progress);
     GridPages coarse;
     coarse.push_back(
@@ -81,8 +89,10 @@ Result<OpenedScene> first_scene(const Gpu& gpu, const Region& region, const Regi
     const bool lacks_means = keeps_means && measures_means_long(region);
     choice.keeps_means = keeps_means && !lacks_means;
     ORO_TRY(Scene scene, scene_with_images(gpu, region, cuts, std::move(pages), view, choice));
-    return OpenedScene{std::move(scene), measures_long(region) || lacks_means, keeps_means,
-                       std::move(meshes)};
+    const bool is_of_bounds = is_drawn_by_bounds(region, view);
+    scene.wait_for_records(!is_of_bounds);
+    return OpenedScene{std::move(scene), measures_long(region) || lacks_means, keeps_means, std::move(meshes),
+                       is_of_bounds};
 }
 
 Result<OpenedScene> open_scene(const Gpu& gpu, const Region& region, const RegionCuts& cuts, View& view,

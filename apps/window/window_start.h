@@ -19,7 +19,8 @@ namespace oro {
 // The data, and the view that the flight begins with. Errors: those of open_view().
 Result<void> open_flight(const WindowOptions& options, const Progress& progress, View& view, Region& region);
 
-// All levels of a region, or where measuring them takes long, those of every n-th post. cuts: of all grids.
+// All levels of a region, or where measuring them takes long, those of every n-th post, or by proven bounds
+// (is_drawn_by_bounds()). cuts: of all grids.
 Result<GridPages> first_pages(const Region& region, const RegionCuts& cuts, const View& view,
                               const RenderProgress& progress);
 
@@ -42,6 +43,7 @@ struct OpenedScene {
     bool is_coarse{};    // every n-th post, or without means of the ground: a finer one is to come
     bool keeps_means{};  // the finer one has them
     EyeMeshes meshes{};
+    bool is_of_bounds{};  // WorldLevels
 };
 // A scene of first_pages() as scene_with_images() makes it, but without means that take long. Clusters are
 // chosen here, as the view asks for. Errors: as scene_with_images() and draws_clusters().

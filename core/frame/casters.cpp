@@ -65,7 +65,8 @@ Result<void> CasterChoice::want_around(const GridPlan& plan) {
                  column <= std::min(layout.columns - 1, page.column + 1); ++column) {
                 ORO_TRY(KeptPage* const neighbour,
                         memory_.around(*kept, row - page.row, column - page.column));
-                if (!stamp(neighbour->asked_by) || neighbour->reach_m < 0.0) continue;
+                if (!stamp(neighbour->asked_by)) continue;
+                if (neighbour->has_record && neighbour->reach_m < 0.0) continue;
                 wanted_.push_back({neighbour, address_of(*neighbour)});
             }
     }
@@ -75,6 +76,10 @@ Result<void> CasterChoice::want_around(const GridPlan& plan) {
 Result<void> CasterChoice::want(const CastMap& map, KeptPage& page) {
     stamp(page.asked_by);
     const PageRecord& record = page.record;
+    if (!page.has_record) {
+        wanted_.push_back({&page, 0});  // missing, and so is what it may need below it
+        return {};
+    }
     if (page.reach_m < 0.0) return {};
     const PageIndex& index = page.index();
     wanted_.push_back({&page, address_of(page)});

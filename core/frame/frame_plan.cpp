@@ -78,6 +78,7 @@ class PageChoice {
     bool hidden(const HorizonCone& cone, const ViewSphere& seen);
     bool hidden_by_bound(const PageIndex& index);
     void want(KeptPage& page);
+    void want_unknown(KeptPage& page);
     Result<void> descend(KeptPage& page);
     void open_level(int number);
     [[nodiscard]] gpu::uint number_of(KeptPage* page) const {
@@ -124,7 +125,19 @@ bool PageChoice::hidden_by_bound(const PageIndex& index) {
     return bound && hidden(bound->horizon, model_.seen_at(bound->centre.m, bound->radius_m).sphere);
 }
 
+// A page of which its place alone is known: it is missing. Who asks for it has culled it by its bound.
+void PageChoice::want_unknown(KeptPage& page) {
+    double distance_m = 0.0;
+    if (const std::optional<PageBound> bound = pages_.bound(page.index()); bound && model_.culls_nodes()) {
+        const ViewSphere seen = model_.seen_at(bound->centre.m, bound->radius_m).sphere;
+        distance_m = std::max(0.0, glm::length(seen.centre_m) - seen.radius_m);
+    }
+    page.wanted = {.turn = turn_, .distance_m = distance_m};
+    level(page.index().level).push_back(&page);
+}
+
 void PageChoice::want(KeptPage& page) {
+    if (!page.has_record) return want_unknown(page);
     const PageRecord& record = page.record;
     if (page.reach_m < 0.0) return;
     ViewSphere seen = model_.culls_nodes() ? model_.seen_at(page.centre_ecef_m, page.reach_m).sphere
@@ -140,6 +153,7 @@ void PageChoice::want(KeptPage& page) {
 
 // What of a page must be drawn finer.
 Result<void> PageChoice::descend(KeptPage& page) {
+    if (!page.has_record) return {};
     const PageSummary& summary = page.record.summary;
     const bool may_stand = model_.may_stand(page.record);
     for (std::size_t i = 0; i < 4; ++i) {

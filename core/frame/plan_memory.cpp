@@ -54,7 +54,12 @@ void PlanMemory::link(KeptPage& page) const {
     };
     page.centre_ecef_m = ecef_m(summary.centre_m);
     for (std::size_t i = 0; i < 4; ++i) page.quarter_ecef_m[i] = ecef_m(page.record.quarters[i].centre_m);
-    const PageIndex& index = summary.index;
+    find_ways(page);
+}
+
+// Which pages there are below it and beside the one above it.
+void PlanMemory::find_ways(KeptPage& page) const {
+    const PageIndex& index = page.index();
     for (std::size_t side = 0; side < 4; ++side)
         if (beyond_rim(index, layout(index.level), pages_->wraps_longitude(), side))
             page.has_beside |= 1U << side;
@@ -66,11 +71,24 @@ void PlanMemory::link(KeptPage& page) const {
 }
 
 Result<KeptPage*> PlanMemory::page(const PageIndex& index) {
-    if (KeptPage* const known = find(index)) return known;
-    ORO_TRY(PageRecord record, pages_->record(index));
+    KeptPage* const known = find(index);
+    const bool has_record = can_have_record(index);
+    if (known != nullptr) {
+        if (known->has_record || !has_record) return known;
+        ORO_TRY(known->record, pages_->record(index));
+        known->has_record = true;
+        link(*known);
+        return known;
+    }
     auto page = std::make_unique<KeptPage>();
-    page->record = std::move(record);
-    link(*page);
+    page->has_record = has_record;
+    if (has_record) {
+        ORO_TRY(page->record, pages_->record(index));
+        link(*page);
+    } else {
+        page->place = index;
+        find_ways(*page);
+    }
     Level& level = levels_[static_cast<std::size_t>(index.level)];
     level.pages.push_back(std::move(page));
     level.numbers.insert(index.row, index.column, static_cast<std::uint32_t>(level.pages.size() - 1));

@@ -44,6 +44,7 @@ struct alignas(64) KeptPage {
     // south-east. Which of them there are is a bit each.
     std::array<KeptPage*, 4> children{};
     std::uint32_t has_child{};
+    bool has_record{true};  // false: it is missing, and of it its place alone is known
     // The page of the level above that this one lies in, and those that hold what lies beyond its rims:
     // north, east, south, west; null: nobody has found them. Which of these there may be is a bit each.
     KeptPage* parent{};
@@ -67,6 +68,9 @@ class PlanMemory {
 
     // What pages were pointed to may be gone from here on. The number of the choice that begins, from 1 on.
     std::uint64_t begin_frame();
+    // Whether plans wait for records that take long (RegionPages::knows_record()), as they do at first. Where
+    // they do not, a page without one is missing, and so is all below it.
+    void wait_for_records(bool on) { waits_ = on; }
     // Of the choice that began last.
     [[nodiscard]] std::uint64_t turn() const { return turn_; }
     // The number of the choice of casters that begins, from 1 on.
@@ -89,14 +93,15 @@ class PlanMemory {
         const int place = 3 * (down + 1) + right + 1;
         if (place == 4) return &page;
         KeptPage*& known = page.around[static_cast<std::size_t>(place < 4 ? place : place - 1)];
-        if (known != nullptr) return known;
+        if (known != nullptr && known->has_record) return known;
         const PageIndex& index = page.index();
         ORO_TRY(known, this->page({index.row + down, index.column + right, index.level}));
         return known;
     }
     // One of the finer pages of a page that has it. Errors: as RegionPages::record().
     Result<KeptPage*> child(KeptPage& page, std::size_t quarter) {
-        if (page.children[quarter] != nullptr) return page.children[quarter];
+        KeptPage* const known = page.children[quarter];
+        if (known != nullptr && known->has_record) return known;
         return find_child(page, quarter);
     }
 
@@ -131,11 +136,16 @@ class PlanMemory {
         std::vector<std::unique_ptr<KeptPage>> pages;
     };
     void link(KeptPage& page) const;
+    void find_ways(KeptPage& page) const;
+    [[nodiscard]] bool can_have_record(const PageIndex& index) const {
+        return waits_ || pages_->knows_record(index);
+    }
     KeptPage* find_parent(KeptPage& page);
     KeptPage* find_beside(KeptPage& page, std::size_t side);
     Result<KeptPage*> find_child(KeptPage& page, std::size_t quarter);
 
     const RegionPages* pages_;
+    bool waits_{true};
     KeptAngles angles_;
     std::optional<CastCells> cast_cells_;
     std::optional<PlanSources> sources_;

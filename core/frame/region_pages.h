@@ -55,6 +55,9 @@ class RegionPages {
     // What the choice of pages needs; cheap. The page is one of the layout. Errors: a file that cannot be
     // read.
     [[nodiscard]] virtual Result<PageRecord> record(const PageIndex& page) const = 0;
+    // Whether record() takes little time by now. Where it does not, who must not wait asks for the page
+    // first, of threads that load it: load() makes the record, too.
+    [[nodiscard]] virtual bool knows_record(const PageIndex&) const { return true; }
     // Where the page lies at most, by its place alone. Given where record() takes long, so that who culls
     // need not ask it; WGS84 as it is. One of the layout.
     [[nodiscard]] virtual std::optional<PageBound> bound(const PageIndex&) const { return std::nullopt; }

@@ -24,6 +24,8 @@
 namespace oro {
 namespace {
 
+thread_local std::uint64_t blocks_measured = 0;
+
 constexpr int page_side = static_cast<int>(gpu::meshlets_per_side);
 constexpr int stride = static_cast<int>(gpu::height_stride);
 constexpr int page_quads = static_cast<int>(gpu::page_quads);
@@ -47,6 +49,12 @@ RegionShape shape_of(const MadeRegion& region) {
         radians_from_deg(region.grid.lat.spacing_deg()).rad * 1.01 * wgs84_a_m * std::numbers::sqrt2;
     return {occluder_below(std::min(0.0, made_step_m * region.terrain.low + lowest_N_m - 0.01), spacing_m),
             1.0};
+}
+
+RegionFacts facts_of(const HeightField& field, const MadeRegion& region) {
+    const auto quads = [](int posts) { return static_cast<std::uint64_t>(posts - 1); };
+    return {field.grid, field.undulation, shape_of(region),
+            2 * quads(field.grid.rows()) * quads(field.grid.columns())};
 }
 
 // Blocks by the numbers of their pages: those of a region's pages that were for other pictures. Safe to ask
@@ -78,14 +86,15 @@ class BlocksOfRegion {
 
 class MadePages : public RegionPages {
   public:
+    // measured_to: a level; of coarser ones nothing is measured.
     MadePages(RegionFacts facts, MadeRegion region, const KnownPictures& pictures,
-              std::shared_ptr<BlocksOfRegion> known)
+              std::shared_ptr<BlocksOfRegion> known, int measured_to)
         : RegionPages(std::move(facts)),
           region_(std::move(region)),
           coarse_ground_(region_),
           has_coarse_ground_(CoarseGround::level < static_cast<int>(region_.bounds().size())),
           known_(std::move(known)),
-          measured_to_(highest_measured_level(region_)) {
+          measured_to_(measured_to) {
         double lowest_N_m = 0.0, highest_N_m = 0.0;
         for (const float N_m : region_.undulation.N_m) {
             lowest_N_m = std::min(lowest_N_m, static_cast<double>(N_m));
@@ -99,7 +108,7 @@ class MadePages : public RegionPages {
         if (views.size() <= most_pictures_looked_into)
             for (std::size_t i = 0; i < views.size(); ++i)
                 pictures_[i].ground = VisibleGround::of(coarse_ground_, views[i], pictures_[i].culling,
-                                                     lowest_h_m_, highest_h_m_, thread_count());
+                                                        lowest_h_m_, highest_h_m_, thread_count());
         if (pictures.light.sun_enu) map_casters(views, *pictures.light.sun_enu);
     }
 
@@ -115,21 +124,16 @@ class MadePages : public RegionPages {
             const auto found = records_.find(number);
             if (found != records_.end()) return found->second;
         }
-        auto block = std::make_unique<gpu::PageBlock>();
-        const auto whole = std::make_unique<PyramidPage>();
-        whole->summary = make_block(page, thread_count(), *block);
-        std::copy(std::begin(block->meshlets), std::end(block->meshlets), whole->nodes.begin());
-        sum_up_nodes(*whole);
-        hold_pages_below(*whole);
+        return make_record(page, thread_count());
+    }
+
+    [[nodiscard]] bool knows_record(const PageIndex& page) const override {
         const std::scoped_lock lock(mutex_);
-        if (records_.size() >= records_kept) records_.clear();
-        records_.emplace(number, static_cast<const PageRecord&>(*whole));
-        if (unloaded_.size() >= unloaded_kept) unloaded_.clear();
-        unloaded_.emplace(number, std::move(block));
-        return PageRecord(*whole);
+        return records_.contains(number_of(page));
     }
 
     Result<void> load(const PageIndex& page, gpu::PageBlock& block) const override {
+        if (!knows_record(page)) make_record(page, 1);
         if (const auto made = take_unloaded(page))
             block = *made;
         else
@@ -149,6 +153,7 @@ class MadePages : public RegionPages {
         return static_cast<std::uint64_t>(page.level) << 48U | static_cast<std::uint64_t>(page.row) << 24U |
                static_cast<std::uint64_t>(page.column);
     }
+    PageRecord make_record(const PageIndex& page, int threads) const;
     PageSummary make_block(const PageIndex& page, int threads, gpu::PageBlock& block) const;
     [[nodiscard]] std::unique_ptr<gpu::PageBlock> take_unloaded(const PageIndex& page) const;
     [[nodiscard]] PageElevations elevations(const PageIndex& page, int threads) const;
@@ -226,6 +231,23 @@ class MadePages : public RegionPages {
     mutable std::unordered_map<std::uint64_t, std::unique_ptr<gpu::PageBlock>> unloaded_;
 };
 
+// The page's record and its block, both kept.
+PageRecord MadePages::make_record(const PageIndex& page, int threads) const {
+    auto block = std::make_unique<gpu::PageBlock>();
+    const auto whole = std::make_unique<PyramidPage>();
+    whole->summary = make_block(page, threads, *block);
+    std::copy(std::begin(block->meshlets), std::end(block->meshlets), whole->nodes.begin());
+    sum_up_nodes(*whole);
+    hold_pages_below(*whole);
+    const std::uint64_t number = number_of(page);
+    const std::scoped_lock lock(mutex_);
+    if (records_.size() >= records_kept) records_.clear();
+    records_.emplace(number, static_cast<const PageRecord&>(*whole));
+    if (unloaded_.size() >= unloaded_kept) unloaded_.clear();
+    unloaded_.emplace(number, std::move(block));
+    return PageRecord(*whole);
+}
+
 std::unique_ptr<gpu::PageBlock> MadePages::take_unloaded(const PageIndex& page) const {
     const std::scoped_lock lock(mutex_);
     auto found = unloaded_.extract(number_of(page));
@@ -280,6 +302,7 @@ std::shared_ptr<const MeasuredBlock> MadePages::measured_block(const PageIndex& 
         },
         {}};
     if (cast_map_) picture.may_cast = [&](int row, int column) { return may_cast_node(top, row, column); };
+    ++blocks_measured;
     const bool is_for_any = pictures_.empty() || pictures.size() > most_pictures_asked;
     const auto before = known_->find(number);
     auto made = std::make_shared<const MeasuredBlock>(region_, of_top, std::max(threads, thread_count()),
@@ -563,8 +586,12 @@ bool MadePages::is_good_node(const SomePictures& pictures, int level, int row, i
 
 }  // namespace
 
+std::uint64_t blocks_measured_here() {
+    return blocks_measured;
+}
+
 bool makes_pages(const MadeTerrain& terrain) {
-    return terrain.kind == MadeKind::fbm;
+    return terrain.kind == MadeKind::fbm || terrain.kind == MadeKind::ridged;
 }
 
 // Tiles of posts, each in the place that its number gives it.
@@ -676,11 +703,17 @@ std::optional<PostSource::Range> MadePostSource::range_of_page(int page_row, int
 std::unique_ptr<RegionPages> MadePostSource::pages(const HeightField& field,
                                                    const KnownPictures& pictures) const {
     MadeRegion region = made_region(terrain_, field.grid, field.undulation);
-    const auto quads = [](int posts) { return static_cast<std::uint64_t>(posts - 1); };
-    RegionFacts facts{field.grid, field.undulation, shape_of(region),
-                      2 * quads(field.grid.rows()) * quads(field.grid.columns())};
+    RegionFacts facts = facts_of(field, region);
+    const int measured_to = highest_measured_level(region);
     return std::make_unique<MadePages>(std::move(facts), std::move(region), pictures,
-                                       tiles_->blocks_of(field.undulation));
+                                       tiles_->blocks_of(field.undulation), measured_to);
+}
+
+std::unique_ptr<RegionPages> MadePostSource::pages_by_bounds(const HeightField& field) const {
+    MadeRegion region = made_region(terrain_, field.grid, field.undulation);
+    RegionFacts facts = facts_of(field, region);
+    return std::make_unique<MadePages>(std::move(facts), std::move(region), KnownPictures{},
+                                       tiles_->blocks_of(field.undulation), 0);
 }
 
 HeightField made_field(const MadeTerrain& terrain, const PostGrid& grid, const UndulationField& undulation) {

@@ -538,6 +538,10 @@ Result<bool> Scene::read_records(std::uint64_t& next, double longest_s, std::uin
     return true;
 }
 
+void Scene::wait_for_records(bool on) {
+    for (GridScene& grid : grids_) grid.memory_.wait_for_records(on);
+}
+
 void Scene::leave_choice(bool on) {
     for (GridScene& grid : grids_) grid.leaves_choice_ = on;
 }

@@ -237,6 +237,9 @@ class Scene {
     // What a frame of this scene has shown (FrameReport::feedback): from the next plan on ground that is
     // hidden comes last, and where the GPU is full gives way to what shows. True where that is news.
     bool apply_feedback(std::span<const FrameFeedback> feedback);
+    // Whether plans wait for records of pages that take long, as they do at first (PlanMemory). Where they do
+    // not, such pages are missing until they are loaded.
+    void wait_for_records(bool on);
     // The next frame is as the first one: what frames have shown is forgotten, and what they left on the GPU
     // is let go of where it could take the room of what comes. Not between a plan and the frame that draws
     // it.

@@ -218,7 +218,8 @@ double wait_s(const Session& session) {
     const bool lacks_second = viewer.two.second && viewer.two.second->is_missing;
     const bool lacks_meshes =
         !are_chosen_for(viewer.meshes, viewer.view, viewer.view.camera) || lacks_second_meshes(viewer);
-    return viewer.is_missing || lacks_second || lacks_meshes || viewer.coming ? 0.005 : 0.05;
+    return viewer.is_missing || lacks_second || lacks_meshes || viewer.coming || viewer.world.measured ? 0.005
+                                                                                                       : 0.05;
 }
 
 Result<void> show(Session& session, bool is_new) {

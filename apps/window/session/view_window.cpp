@@ -131,6 +131,7 @@ void keep(Viewer& viewer, ViewerState& state) {
     viewer.comparing = {};
     viewer.coming.reset();
     viewer.finer.reset();
+    viewer.world = {};
     viewer.scene.reset();
     forget_ground(viewer);
     state.options = viewer.options;

@@ -38,6 +38,7 @@ struct MadeCase {
     int rows, columns;
     std::uint32_t octaves, gain, cell_shift;
     int low_m, high_m;
+    MadeKind kind{MadeKind::fbm};
 };
 
 struct MadeGround {
@@ -47,6 +48,7 @@ struct MadeGround {
 MadeGround ground_of(const MadeCase& of) {
     MadeGround ground;
     MadeTerrain& terrain = ground.terrain;
+    terrain.kind = of.kind;
     terrain.seed = 11;
     terrain.posts_per_deg = of.posts_per_deg;
     terrain.octaves = of.octaves;
@@ -184,11 +186,36 @@ TEST_P(MadePagesTest, AreThoseInMemoryWithErrorsThatAreNoSmallerAndNested) {
     }
 }
 
+// Pages by bounds alone, over which a window draws at first.
+TEST(PagesByBounds, HaveErrorsThatAreNoSmallerAndNested) {
+    for (const MadeKind kind : {MadeKind::fbm, MadeKind::ridged}) {
+        const MadeGround ground = ground_of({"", 3600, 600, 701, 9, 536, 22, 0, 3000, kind});
+        const std::uint64_t before = blocks_measured_here();
+        const auto bounds = made_posts_of(ground.made)->pages_by_bounds(ground.made);
+        const auto truth = pages_in_memory(ground.in_memory, 1.0, 2);
+        NodesOfLevel below;
+        for (int level = 0; level < bounds->levels(); ++level) {
+            const NodesOfLevel here = nodes_of(*bounds, level), measured = nodes_of(*truth, level);
+            int smaller = 0;
+            for (std::size_t i = 0; i < here.nodes.size(); ++i)
+                smaller += here.nodes[i].there && here.nodes[i].error_m < measured.nodes[i].error_m ? 1 : 0;
+            EXPECT_EQ(smaller, 0) << "level " << level;
+            EXPECT_EQ(level > 0 ? not_nested(here, below) : 0, 0) << "level " << level;
+            below = here;
+        }
+        EXPECT_EQ(blocks_measured_here(), before);
+    }
+}
+
 // Rough to the posts; smooth at the posts; cut off at its highest and lowest heights; with ends within quads.
 INSTANTIATE_TEST_SUITE_P(Made, MadePagesTest,
                          ::testing::Values(MadeCase{"rough", 1200, 1409, 1537, 14, 536, 22, -200, 4000},
                                            MadeCase{"smooth", 3600, 600, 701, 9, 536, 22, 0, 3000},
-                                           MadeCase{"often cut off", 1200, 1201, 1201, 12, 850, 18, 0, 900}),
+                                           MadeCase{"often cut off", 1200, 1201, 1201, 12, 850, 18, 0, 900},
+                                           MadeCase{"ridged", 1200, 1409, 1537, 14, 536, 22, -200, 4000,
+                                                    MadeKind::ridged},
+                                           MadeCase{"ridged, often cut off", 1200, 1201, 1201, 12, 850, 18, 0,
+                                                    900, MadeKind::ridged}),
                          [](const auto& one) { return std::string("Number") + std::to_string(one.index); });
 
 }  // namespace
