@@ -16,6 +16,7 @@
 #include "core/made_pages/made_pages.h"
 #include "core/seam/mesh_pages.h"
 #include "core/terrain/drawn_heights.h"
+#include "geo/opening/made_world.h"
 #include "geo/refined/refined_region.h"
 
 namespace oro {
@@ -81,6 +82,7 @@ Result<std::unique_ptr<RegionPages>> pages_of_grid(const RegionGrid& grid, const
             is_cut ? pages_of_rest(grid, cut, exaggeration, means, progress, stop)
                    : pages_of(grid, exaggeration, means, progress, stop, pictures));
     if (!pages) return Error{ErrorKind::failed, "levels", "nobody waits for them any more"};
+    if (!is_cut && pages->made_ground() == nullptr) pages->set_made_ground(made_ground_of(grid));
     if (!is_cut && pages->facts().triangles == 0)
         return Error{ErrorKind::no_data, "region", "no triangle has a height at each corner"};
     return pages;

@@ -8,6 +8,7 @@
 
 #include "core/base/parallel.h"
 #include "core/lod/ground_means.h"
+#include "core/terrain/page_diagonals.h"
 #include "core/terrain/page_on_net.h"
 
 namespace oro {
@@ -27,13 +28,15 @@ class PagesInMemory : public RegionPages {
     }
 
     Result<void> load(const PageIndex& page, gpu::PageBlock& block) const override {
-        const PyramidPage& built = at(page);
         const PageHeights heights = page_heights(facts().grid, heights_, page);
-        std::copy(built.nodes.begin(), built.nodes.end(), std::begin(block.meshlets));
-        std::copy(built.boxes.begin(), built.boxes.end(), std::begin(block.boxes));
         std::ranges::copy(heights.sw_ne, std::begin(block.sw_ne));
         std::copy(heights.steps.begin(), heights.steps.end(), std::begin(block.heights));
-        set_spacing(facts().grid, built.summary, block);
+        put_nodes(page, block);
+        return {};
+    }
+    Result<void> load_without_heights(const PageIndex& page, gpu::PageBlock& block) const override {
+        std::ranges::copy(page_diagonals(heights_, page), std::begin(block.sw_ne));
+        put_nodes(page, block);
         return {};
     }
 
@@ -53,6 +56,13 @@ class PagesInMemory : public RegionPages {
   private:
     [[nodiscard]] const PyramidPage& at(const PageIndex& page) const {
         return pyramid_.levels[static_cast<std::size_t>(page.level)].page(page.row, page.column);
+    }
+
+    void put_nodes(const PageIndex& page, gpu::PageBlock& block) const {
+        const PyramidPage& built = at(page);
+        std::copy(built.nodes.begin(), built.nodes.end(), std::begin(block.meshlets));
+        std::copy(built.boxes.begin(), built.boxes.end(), std::begin(block.boxes));
+        set_spacing(facts().grid, built.summary, block);
     }
 
     LevelPyramid pyramid_;

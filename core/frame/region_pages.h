@@ -28,6 +28,7 @@ struct RegionFacts {
 
 class CastMap;       // core/frame/cast_map.h
 struct MeshCasters;  // core/seam/mesh_casters.h
+struct MadeGround;   // core/made/made_ground.h
 
 // What all triangles of a page and of all pages below it lie in: a sphere and a cone (core/earth/culling.h).
 struct PageBound {
@@ -63,6 +64,15 @@ class RegionPages {
     [[nodiscard]] virtual std::optional<PageBound> bound(const PageIndex&) const { return std::nullopt; }
     // Fills the page's block. Errors: as record().
     virtual Result<void> load(const PageIndex& page, gpu::PageBlock& block) const = 0;
+    // The rule that the heights of all pages follow from, where they do: who has it may make them and ask for
+    // the rest of a block. Null: load() alone has them.
+    [[nodiscard]] const MadeGround* made_ground() const { return made_ground_.get(); }
+    // The rule is the grid's; to be given before pages are loaded.
+    void set_made_ground(std::shared_ptr<const MadeGround> ground) { made_ground_ = std::move(ground); }
+    // As load(), but for the block's heights, which are anything. Where it takes no less it is load().
+    virtual Result<void> load_without_heights(const PageIndex& page, gpu::PageBlock& block) const {
+        return load(page, block);
+    }
     // Loads what pixels that cover many posts are coloured from (core/lod/ground_means.h), where it is
     // known. The first call takes all posts.
     [[nodiscard]] virtual bool knows_means() const { return false; }
@@ -91,6 +101,7 @@ class RegionPages {
     RegionFacts facts_;
     int levels_;
     bool wraps_longitude_;
+    std::shared_ptr<const MadeGround> made_ground_;
 };
 
 // The pages of each grid of a ground, numbered as it numbers them (core/truth/true_ground.h). Pages by

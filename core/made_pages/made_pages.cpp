@@ -15,9 +15,11 @@
 #include "core/frame/cast_map.h"
 #include "core/frame/picture_culling.h"
 #include "core/lod/page_sums.h"
+#include "core/made/made_ground.h"
 #include "core/made/made_heights.h"
 #include "core/made_pages/coarse_ground.h"
 #include "core/made_pages/measured_block.h"
+#include "core/made_pages/steps_of_maker.h"
 #include "core/made_pages/visible_ground.h"
 #include "core/terrain/page_posts.h"
 
@@ -112,6 +114,7 @@ class MadePages : public RegionPages {
         if (pictures.light.sun_enu) map_casters(views, *pictures.light.sun_enu);
     }
 
+    void make_posts_by(std::shared_ptr<MadePostMaker> maker) { region_.maker = std::move(maker); }
     [[nodiscard]] std::optional<PageBound> bound(const PageIndex& page) const override;
     // By the rule: to ask the records would be to measure all of a world.
     [[nodiscard]] std::optional<double> known_top_m() const override { return highest_h_m_; }
@@ -267,14 +270,23 @@ PageElevations MadePages::elevations(const PageIndex& page, int threads) const {
         columns.push_back(
             made_column(region_.terrain.west + std::max(0, column), region_.terrain.posts_per_deg));
     PageElevations elevations;
-    in_parallel(stride, threads, [&](int i) {
+    std::array<int, gpu::height_stride> rows{};
+    for (int i = 0; i < stride; ++i) rows[static_cast<std::size_t>(i)] = std::max(0, posts.region_row(i - 1));
+    const std::optional<MadeSteps> by_maker = steps_of_maker(region_, rows, columns, no_coarse_octaves);
+    in_parallel(stride, by_maker ? 1 : threads, [&](int i) {
         const std::span<float> H_m =
             std::span(elevations.H_m).subspan(static_cast<std::size_t>(i * stride), gpu::height_stride);
         const int row = posts.region_row(i - 1);
         std::ranges::fill(H_m, void_height_m);
         if (row < 0) return;
         std::array<float, gpu::height_stride> made{};
-        made_posts_of_row(region_, row, columns, made);
+        if (by_maker)
+            std::ranges::transform(by_maker->all.subspan(static_cast<std::size_t>(i * stride), made.size()),
+                                   made.begin(), [](std::int32_t step) {
+                                       return static_cast<float>(static_cast<double>(step) * made_step_m);
+                                   });
+        else
+            made_posts_of_row(region_, row, columns, made);
         for (std::size_t j = 0; j < H_m.size(); ++j)
             if (of_region[j] >= 0) H_m[j] = made[j];
     });
@@ -584,6 +596,18 @@ bool MadePages::is_good_node(const SomePictures& pictures, int level, int row, i
     });
 }
 
+std::unique_ptr<RegionPages> pages_measured_to(int level, const HeightField& field, MadeRegion region,
+                                               const KnownPictures& pictures,
+                                               std::shared_ptr<BlocksOfRegion> known) {
+    RegionFacts facts = facts_of(field, region);
+    auto ground = std::make_shared<const MadeGround>(
+        MadeGround{region.rule, region.terrain.posts_per_deg, region.terrain.north, region.terrain.west});
+    auto pages = std::make_unique<MadePages>(std::move(facts), std::move(region), pictures, std::move(known),
+                                             level);
+    pages->set_made_ground(std::move(ground));
+    return pages;
+}
+
 }  // namespace
 
 std::uint64_t blocks_measured_here() {
@@ -703,17 +727,18 @@ std::optional<PostSource::Range> MadePostSource::range_of_page(int page_row, int
 std::unique_ptr<RegionPages> MadePostSource::pages(const HeightField& field,
                                                    const KnownPictures& pictures) const {
     MadeRegion region = made_region(terrain_, field.grid, field.undulation);
-    RegionFacts facts = facts_of(field, region);
     const int measured_to = highest_measured_level(region);
-    return std::make_unique<MadePages>(std::move(facts), std::move(region), pictures,
-                                       tiles_->blocks_of(field.undulation), measured_to);
+    return pages_measured_to(measured_to, field, std::move(region), pictures,
+                             tiles_->blocks_of(field.undulation));
 }
 
 std::unique_ptr<RegionPages> MadePostSource::pages_by_bounds(const HeightField& field) const {
-    MadeRegion region = made_region(terrain_, field.grid, field.undulation);
-    RegionFacts facts = facts_of(field, region);
-    return std::make_unique<MadePages>(std::move(facts), std::move(region), KnownPictures{},
-                                       tiles_->blocks_of(field.undulation), 0);
+    return pages_measured_to(0, field, made_region(terrain_, field.grid, field.undulation), {},
+                             tiles_->blocks_of(field.undulation));
+}
+
+void make_posts_by(RegionPages& pages, std::shared_ptr<MadePostMaker> maker) {
+    if (auto* const made = dynamic_cast<MadePages*>(&pages)) made->make_posts_by(std::move(maker));
 }
 
 HeightField made_field(const MadeTerrain& terrain, const PostGrid& grid, const UndulationField& undulation) {

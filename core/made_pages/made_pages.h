@@ -9,6 +9,7 @@
 #include "core/frame/known_pictures.h"
 #include "core/frame/region_pages.h"
 #include "core/made/made_terrain.h"
+#include "core/made/post_maker.h"
 #include "core/terrain/post_grid.h"
 
 namespace oro {
@@ -53,6 +54,10 @@ class MadePostSource : public PostSource {
 
 // How many blocks of levels were measured so far by pages that the calling thread asked: each takes long.
 std::uint64_t blocks_measured_here();
+
+// From here on posts are asked from a maker first, where the pages are a MadePostSource's; it does nothing
+// to others. Not while any are asked for.
+void make_posts_by(RegionPages& pages, std::shared_ptr<MadePostMaker> maker);
 
 // A field whose posts are those of a made terrain, made when they are asked for.
 HeightField made_field(const MadeTerrain& terrain, const PostGrid& grid, const UndulationField& undulation);

@@ -14,6 +14,7 @@
 #include "core/lod/page_sums.h"
 #include "core/made/made_heights.h"
 #include "core/made_pages/coarse_deviations.h"
+#include "core/made_pages/steps_of_maker.h"
 #include "core/terrain/drawn_heights.h"
 
 namespace oro {
@@ -323,20 +324,29 @@ void PartMeasurement::make_posts() {
     part_.H_m.resize(static_cast<std::size_t>(down_.count) * columns.size());
     if (base_ > 0) coarse_steps_.resize(part_.H_m.size());
     const std::size_t base = std::min(static_cast<std::size_t>(base_), region_.bounds().size() - 1);
+    const std::uint32_t coarse_octaves =
+        base_ > 0 ? region_.bounds()[base].coarse_octaves : no_coarse_octaves;
+    std::vector<int> rows;
+    for (int row = 0; row < down_.count; ++row) rows.push_back(down_.region_post(row));
+    const auto by_maker = steps_of_maker(region_, rows, columns, coarse_octaves);
     in_parallel(down_.count, threads_, [&](int row) {
         const MadeSpan made = made_span(row);
         const std::size_t first = static_cast<std::size_t>(row) * columns.size() + made.first;
         const std::span<float> H_m = std::span(part_.H_m).subspan(first, made.count);
         const auto places = std::span<const MadeColumn>(columns).subspan(made.first, made.count);
-        if (base_ == 0) return made_posts_of_row(region_, down_.region_post(row), places, H_m);
-        // Until heights are drawn: how much higher the coarse octaves are than all.
-        const std::span<std::int32_t> coarse = std::span(coarse_steps_).subspan(first, made.count);
-        std::vector<std::int32_t> steps(made.count);
-        made_row_coarse_heights(region_.terrain, region_.rule, down_.region_post(row), places,
-                                region_.bounds()[base].coarse_octaves, steps, coarse);
+        if (base_ == 0 && !by_maker) return made_posts_of_row(region_, down_.region_post(row), places, H_m);
+        std::vector<std::int32_t> steps(made.count), coarse(base_ > 0 ? made.count : 0);
+        if (by_maker) {
+            std::ranges::copy(by_maker->all.subspan(first, steps.size()), steps.begin());
+            if (base_ > 0) std::ranges::copy(by_maker->coarse.subspan(first, coarse.size()), coarse.begin());
+        } else {
+            made_row_coarse_heights(region_.terrain, region_.rule, down_.region_post(row), places,
+                                    coarse_octaves, steps, coarse);
+        }
         for (std::size_t i = 0; i < steps.size(); ++i) {
             H_m[i] = static_cast<float>(static_cast<double>(steps[i]) * made_step_m);
-            coarse[i] -= steps[i];
+            // Until heights are drawn: how much higher the coarse octaves are than all.
+            if (base_ > 0) coarse_steps_[first + i] = coarse[i] - steps[i];
         }
     });
 }

@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/made/made_rule.h"
+#include "core/made/post_maker.h"
 #include "core/made_pages/level_bounds.h"
 #include "core/terrain/level_grid.h"
 #include "core/terrain/page.h"
@@ -23,7 +25,8 @@ struct MadeRegion {
     UndulationField undulation;
     std::vector<std::vector<MadeLevelBound>> bounds_from_deg;  // made_level_bounds()
     double undulation_range_m{};
-    std::int32_t highest_steps{};  // no drawn height is above it
+    std::int32_t highest_steps{};            // no drawn height is above it
+    std::shared_ptr<MadePostMaker> maker{};  // asked for posts first; null: threads make them
     // Of levels, wherever they are.
     [[nodiscard]] const std::vector<MadeLevelBound>& bounds() const { return bounds_from_deg.front(); }
 };

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <span>
 
+#include "core/terrain/page_diagonals.h"
 #include "core/terrain/page_posts.h"
 
 namespace oro {
@@ -135,8 +136,13 @@ PageHeights page_heights(const PostGrid& grid, const DrawnHeights& heights, Page
         columns.copy(region_row < 0 ? nullptr : heights.row(region_row), void_height_steps,
                      &page.steps[static_cast<std::size_t>((row + 1) * stride)]);
     }
-    if (heights.diagonals) page.sw_ne = diagonals_of(*heights.diagonals, index);
+    page.sw_ne = page_diagonals(heights, index);
     return page;
+}
+
+std::array<std::uint32_t, gpu::page_diagonal_words> page_diagonals(const DrawnHeights& heights,
+                                                                   PageIndex index) {
+    return heights.diagonals ? diagonals_of(*heights.diagonals, index) : PageDiagonals{};
 }
 
 PageElevations page_elevations(const HeightField& field, PageIndex index) {

@@ -1,9 +1,12 @@
 #include "geo/opening/made_world.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
+#include <vector>
 
 #include "core/base/checksum.h"
+#include "core/made/made_heights.h"
 #include "core/made/made_rule.h"
 #include "core/made_pages/made_pages.h"
 #include "geo/datum/vertical_datum.h"
@@ -67,6 +70,54 @@ Result<RegionGrid> made_world(const ChosenGrid& chosen, const RegionRequest& req
         grid.lat.count * static_cast<double>(grid.lon.count));
     add_note(world.notes, note);
     return world;
+}
+
+namespace {
+
+// Whether a grid's posts are some of a terrain's, by their places.
+bool lies_on(const PostGrid& grid, const MadeTerrain& made) {
+    const GridAxis &lat = grid.lat, &lon = grid.lon;
+    const auto per_deg = static_cast<double>(made.posts_per_deg);
+    if (grid.net || lat.phase_deg != 0.0 || lon.phase_deg != 0.0 || lat.posts_per_deg != per_deg ||
+        lon.posts_per_deg != per_deg)
+        return false;
+    if (lat.first > made.north || lat.first - (lat.count - 1) < made.south) return false;
+    const std::int64_t turn = 360 * made.posts_per_deg;
+    const std::int64_t from_west = ((lon.first - made.west) % turn + turn) % turn;
+    return made.is_full_circle() || from_west + lon.count - 1 <= made.east - made.west;
+}
+
+// Whether a row of a grid has the heights of its rule: what was done to posts on their way shows.
+bool is_row_of(const HeightField& field, const MadeTerrain& made, const MadeGround& ground, int row) {
+    MadeTerrain part = made;
+    part.north = ground.north;
+    part.west = ground.west;
+    const auto count = static_cast<std::size_t>(field.grid.columns());
+    std::vector<MadeColumn> columns;
+    for (std::size_t i = 0; i < count; ++i)
+        columns.push_back(made_column(ground.west + static_cast<std::int64_t>(i), ground.posts_per_deg));
+    std::vector<std::int32_t> steps(count);
+    made_row_heights(part, ground.rule, row, 0, columns, steps);
+    const float* const H_m = field.H_m.data() + static_cast<std::size_t>(row) * count;
+    return std::equal(steps.begin(), steps.end(), H_m, [](std::int32_t step, float post_m) {
+        return static_cast<float>(step * made_step_m) == post_m;
+    });
+}
+
+}  // namespace
+
+std::shared_ptr<const MadeGround> made_ground_of(const RegionGrid& grid) {
+    if (grid.file || grid.field.posts || grid.field.H_m.empty() || grid.sources.size() != 1 ||
+        grid.voids + grid.filled != 0 || grid.feathered || grid.canopy || grid.detail ||
+        !is_made(grid.sources.front().path))
+        return nullptr;
+    const Result<MadeTerrain> made = made_terrain_of(grid.sources.front().path);
+    if (!made.ok() || !lies_on(grid.field.grid, *made)) return nullptr;
+    const PostGrid& posts = grid.field.grid;
+    const MadeGround ground{made_rule(*made), made->posts_per_deg, posts.lat.first, posts.lon.first};
+    for (const int row : {0, posts.rows() / 2, posts.rows() - 1})
+        if (!is_row_of(grid.field, *made, ground, row)) return nullptr;
+    return std::make_shared<const MadeGround>(ground);
 }
 
 Result<void> check_not_made_world(const RegionGrid& grid, const std::string& what) {

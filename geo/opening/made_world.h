@@ -1,12 +1,14 @@
 // Made terrain that is too large to hold: its posts are made when they are asked for.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/made/made_ground.h"
 #include "geo/opening/grid_choice.h"
 #include "geo/region/region.h"
 #include "geo/sources/region_request.h"
@@ -27,6 +29,9 @@ bool is_made_world(std::span<const Source> sources, const RegionExtent& extent);
 // Errors: those of GeoidOfRegion.
 Result<RegionGrid> made_world(const ChosenGrid& chosen, const RegionRequest& request,
                               std::vector<std::string> notes);
+
+// The rule of a grid in memory whose posts are all made by one, as that has them; null for any other grid.
+std::shared_ptr<const MadeGround> made_ground_of(const RegionGrid& grid);
 
 // The refusal where all posts of a grid would be needed that are made when they are asked for; success for
 // any other grid. what: what needs them, as the place of the error.

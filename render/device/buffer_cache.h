@@ -5,7 +5,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +16,13 @@
 #include "render/device/resources.h"
 
 namespace oro {
+
+// An item whose rest the device writes: where it lies, and what that is made from.
+struct ItemInPart {
+    VkDeviceAddress item{}, source{};
+};
+// Records the writing of the rest of items, by compute shaders.
+using WriteItems = std::function<void(VkCommandBuffer, std::span<const ItemInPart>)>;
 
 // How the buffers of a cache are made.
 struct CacheLayout {
@@ -24,6 +33,7 @@ struct CacheLayout {
     std::size_t first_buffer{}, largest_buffer{}, smallest_buffer{};
     // What is on its way at a time: at least one item of any size.
     std::size_t staging_bytes{};
+    WriteItems write_items{};  // empty: all bytes of items are sent
 };
 
 // A cache (core/cache/gpu_cache.h) that owns its buffers. They are made as items come, and so is what
@@ -55,6 +65,12 @@ class BufferCache {
         return buffers_[slot.bin].address + slot.offset;
     }
     [[nodiscard]] VkDeviceAddress address(Handle handle) const { return address(items_.at(handle)); }
+    // Records the copying of an item's bytes to a buffer.
+    void record_reading(VkCommandBuffer commands, const typename Items::Slot& slot, const Buffer& to,
+                        VkDeviceSize at) const {
+        const VkBufferCopy copy{slot.offset, at, slot.bytes};
+        vkCmdCopyBuffer(commands, buffers_[slot.bin].handle.get(), to.handle.get(), 1, &copy);
+    }
 
     // Whether an item of so many bytes finds memory without an eviction, and how many find some by evictions
     // of what no frame uses; 1 at least where there is none yet.
@@ -67,6 +83,16 @@ class BufferCache {
 
     // As `spared`: nothing is evicted.
     static constexpr std::uint64_t evicts_nothing = ~std::uint64_t{0};
+    // Of an item in part: bytes that are sent to its beginning, and bytes of what the rest is made from
+    // (CacheLayout::write_items); these are staged at source_at().
+    struct SentPart {
+        std::size_t sent{}, source{};
+        [[nodiscard]] std::size_t source_at() const { return multiple_of_16(sent); }
+        [[nodiscard]] std::size_t staged() const {
+            return source > 0 ? source_at() + multiple_of_16(source) : sent;
+        }
+        static std::size_t multiple_of_16(std::size_t bytes) { return (bytes + 15) / 16 * 16; }
+    };
     // An item that is not in the cache, and where its bytes are to be written before anything else is added;
     // upload() sends them. Items::none: too few bytes may be evicted (GpuCache::evict). Waits for the upload
     // before the last one. Errors: the device; it has no memory for any item at all. What was added before is
@@ -76,7 +102,10 @@ class BufferCache {
         std::byte* bytes{nullptr};
     };
     Result<Added> add(const Key& key, std::size_t bytes, std::uint64_t spared = 0) {
-        if (staged_bytes_ + bytes > layout_.staging_bytes) ORO_CHECK(upload());
+        return add(key, bytes, spared, {bytes, 0});
+    }
+    Result<Added> add(const Key& key, std::size_t bytes, std::uint64_t spared, const SentPart& part) {
+        if (staged_bytes_ + part.staged() > layout_.staging_bytes) ORO_CHECK(upload());
         if (staged_.empty()) ORO_CHECK(begin_staging());
         Added added{items_.insert(key, bytes)};
         if (added.handle == Items::none) {
@@ -88,8 +117,9 @@ class BufferCache {
         if (added.handle == Items::none && spared != evicts_nothing)
             added.handle = items_.evict(key, bytes, spared);
         if (added.handle == Items::none) return added;
-        added.bytes = staging_[turn_].buffer.mapped + std::exchange(staged_bytes_, staged_bytes_ + bytes);
-        staged_.push_back(added.handle);
+        added.bytes =
+            staging_[turn_].buffer.mapped + std::exchange(staged_bytes_, staged_bytes_ + part.staged());
+        staged_.push_back({added.handle, part});
         return added;
     }
     // Uploads what was added: it is there for all that is submitted afterwards. What lay there is overwritten
@@ -100,7 +130,7 @@ class BufferCache {
         const Result<void> copied = staging_[turn_].commands.submit(
             *gpu_, [&](VkCommandBuffer commands) { record_copies(commands); });
         for (std::size_t i = 0; !copied.ok() && i < staged_.size(); ++i)
-            items_.erase(items_.at(staged_[i]).key);
+            items_.erase(items_.at(staged_[i].item).key);
         if (copied.ok()) bytes_uploaded_ += staged_bytes_;
         staged_.clear();
         staged_bytes_ = 0;
@@ -128,17 +158,21 @@ class BufferCache {
         Staging& staging = staging_[turn_];
         if (staging.buffer.handle) return staging.commands.wait();
         ORO_TRY(staging.commands, Commands::create(*gpu_, layout_.name + " upload"));
-        ORO_TRY(staging.buffer, create_buffer(*gpu_, layout_.staging_bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                                              MemoryKind::upload, layout_.name + " staging"));
+        const VkBufferUsageFlags read_by_shaders =
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+        const VkBufferUsageFlags usage =
+            VK_BUFFER_USAGE_TRANSFER_SRC_BIT | (layout_.write_items ? read_by_shaders : 0);
+        ORO_TRY(staging.buffer, create_buffer(*gpu_, layout_.staging_bytes, usage, MemoryKind::upload,
+                                              layout_.name + " staging"));
         return {};
     }
     // One more buffer, with room for `least_bytes` in one piece, where the budget and the device have memory.
     // The budget is what the device may be asked for; where it has less, fewer items are enough. The first
     // buffer is made whatever the budget says.
     Result<bool> add_buffer(std::size_t least_bytes) {
-        constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT |
-                                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                             VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+        constexpr VkBufferUsageFlags usage =
+            VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
         const bool is_first = buffers_.empty();
         if (!is_first && growth(least_bytes) == 0) return false;
         const auto left = static_cast<std::size_t>(budget_->left());
@@ -170,14 +204,21 @@ class BufferCache {
     void record_copies(VkCommandBuffer commands) const {
         wait_for_earlier(commands);
         std::size_t staged = 0;
-        for (const Handle handle : staged_) {
+        std::vector<ItemInPart> in_part;
+        const Buffer& staging = staging_[turn_].buffer;
+        for (const auto& [handle, part] : staged_) {
             const auto& slot = items_.at(handle);
-            const VkBufferCopy copy{staged, slot.offset, slot.bytes};
-            vkCmdCopyBuffer(commands, staging_[turn_].buffer.handle.get(), buffers_[slot.bin].handle.get(), 1,
-                            &copy);
-            staged += slot.bytes;
+            const VkBufferCopy copy{staged, slot.offset, part.sent};
+            vkCmdCopyBuffer(commands, staging.handle.get(), buffers_[slot.bin].handle.get(), 1, &copy);
+            if (part.source > 0)
+                in_part.push_back({address(slot), staging.address + staged + part.source_at()});
+            staged += part.staged();
         }
         memory_barrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                       VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+        if (in_part.empty()) return;
+        layout_.write_items(commands, in_part);
+        memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
     }
 
@@ -192,7 +233,11 @@ class BufferCache {
     };
     std::array<Staging, 2> staging_;  // by turns; after the buffers: its commands end before these
     std::size_t turn_{};
-    std::vector<Handle> staged_;  // items that are not uploaded yet
+    struct StagedItem {
+        Handle item{};
+        SentPart part;
+    };
+    std::vector<StagedItem> staged_;  // that are not uploaded yet
     std::size_t staged_bytes_{};
     std::uint64_t bytes_uploaded_{};
     std::size_t capacity_{};

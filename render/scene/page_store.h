@@ -11,8 +11,10 @@
 #include "core/cache/loader.h"
 #include "core/frame/height_quantization.h"
 #include "core/frame/region_pages.h"
+#include "core/made_pages/page_source.h"
 #include "core/terrain/page.h"
 #include "render/device/buffer_cache.h"
+#include "render/made/page_heights.h"
 
 template <>
 struct std::hash<oro::PageIndex> {
@@ -35,6 +37,8 @@ struct LoadedPage {
     std::unique_ptr<gpu::PagePlaces> places;  // likewise
     bool is_hidden{};                         // other ground hides it, as far as is known
     std::vector<std::uint32_t> heights{};     // packed, where the store keeps them so; words of meshes
+    // Where the GPU makes the block's heights: what from; the block has none then.
+    std::unique_ptr<gpu::MadePageSource> source{};
 };
 
 // What a store keeps of pages beside their blocks.
@@ -52,8 +56,9 @@ class PageStore {
   public:
     // As many pages as fit into a budget beside what others take of it, and at least 1; fewer where the
     // device has too little memory. Their heights lie there as `coding` says, with `parts` before them.
+    // heights: makes those of pages that come with a source; null: none do.
     PageStore(const Gpu& gpu, std::shared_ptr<MemoryBudget> budget, const HeightQuantization& coding = {},
-              const PageParts& parts = {});
+              const PageParts& parts = {}, std::shared_ptr<const MadePageHeights> heights = nullptr);
 
     // Device address of a page's block, 0 where it is not here. Asking counts as use in the current frame,
     // and as being shown by it.
@@ -96,6 +101,13 @@ class PageStore {
     // where there were any. No frame is being drawn.
     bool release_unused() { return cache_.release_unused(); }
 
+    // Bytes of a page's block as they lie on the GPU.
+    struct KeptBlock {
+        PageIndex index;
+        std::vector<std::byte> bytes;
+    };
+    // Of all pages that are here, in no order; waits for the device. For measuring. Errors: the device.
+    Result<std::vector<KeptBlock>> read_blocks(const Gpu& gpu) const;
     // Of each page that is here its block's address. Asking does not count as use.
     template <class Visit>
     void for_each(const Visit& visit) const {
@@ -108,6 +120,9 @@ class PageStore {
     [[nodiscard]] std::size_t capacity() const { return cache_.capacity(); }
     [[nodiscard]] std::uint64_t bytes() const { return cache_.bytes(); }  // of the buffers
     [[nodiscard]] std::uint64_t bytes_sent() const { return cache_.bytes_uploaded(); }
+    // Pages that were sent, and those of them whose heights the GPU made.
+    [[nodiscard]] std::uint64_t pages_sent() const { return sent_pages_; }
+    [[nodiscard]] std::uint64_t pages_made() const { return made_pages_; }
     // In the mean over the pages that were sent, without means and places: bytes of a page;
     [[nodiscard]] double bytes_a_page() const;
     // ... of heights for each of its 128 x 128 posts, bounds of nodes apart.
@@ -124,6 +139,7 @@ class PageStore {
     void stage(const LoadedPage& page, std::byte* to) const;
     [[nodiscard]] std::size_t height_bytes(const LoadedPage& page) const;
     [[nodiscard]] std::size_t bytes_of(const LoadedPage& page) const;
+    [[nodiscard]] BufferCache<PageIndex, ShownBefore>::SentPart sent_of(const LoadedPage& page) const;
 
     HeightQuantization coding_;
     PageParts parts_;
@@ -131,7 +147,8 @@ class PageStore {
     std::size_t places_before_;  // from its places to its block
     std::size_t most_bytes_;     // of a page so far, at least page_bytes()
     BufferCache<PageIndex, ShownBefore> cache_;
-    std::uint64_t sent_pages_{};
+    std::uint64_t sent_pages_{}, made_pages_{};
+    std::uint64_t stored_bytes_{};  // of all pages that were sent
     std::uint64_t sent_height_bytes_{};
 };
 
@@ -139,8 +156,10 @@ using PageLoader = Loader<PageIndex, LoadedPage>;
 
 // `capacity`: pages that may be under way or ready at a time, at least 1; 80 KB each. `pages` outlives the
 // loader. parts: pages come with these, too; means are 222 KB more, places 200 KB. packs: they come with
-// packed heights. Errors of take(): a page that could not be read.
+// packed heights. with_sources: they come with what the GPU makes their heights from, and without these;
+// the pages have a made_ground(). Errors of take(): a page that could not be read.
 std::unique_ptr<PageLoader> page_loader(const RegionPages& pages, int threads, std::size_t capacity,
-                                        const PageParts& parts = {}, bool packs = false);
+                                        const PageParts& parts = {}, bool packs = false,
+                                        bool with_sources = false);
 
 }  // namespace oro

@@ -11,6 +11,8 @@
 #include "core/base/parallel.h"
 #include "core/frame/casters.h"
 #include "core/lod/ground_means.h"
+#include "core/made_pages/made_pages.h"
+#include "render/made/gpu_post_maker.h"
 #include "render/pipelines/plan_pass.h"
 
 namespace oro {
@@ -96,7 +98,8 @@ std::shared_ptr<MemoryBudget> page_budget(const Gpu& gpu, std::uint64_t bytes) {
 }
 
 Result<GridScene> GridScene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages,
-                                    const SceneMemory& memory, HeightStorage heights, bool means) {
+                                    const SceneMemory& memory, HeightStorage heights, bool means,
+                                    HeightMaker maker) {
     const PageParts parts{means && pages->knows_means(),
                           pages->facts().grid.net != nullptr && !pages->is_mesh()};
     ORO_TRY(HeightQuantization coding, height_quantization(*pages, heights));
@@ -107,14 +110,22 @@ Result<GridScene> GridScene::create(const Gpu& gpu, std::unique_ptr<RegionPages>
         ORO_TRY(const std::uint64_t bytes, bytes_of_meshes(*pages));
         budget = std::make_shared<MemoryBudget>(bytes);
     }
-    PageStore store(gpu, budget, coding, parts);
+    std::shared_ptr<const MadePageHeights> made;
+    if (pages->made_ground() != nullptr && MadePageHeights::is_wanted(gpu, maker, coding)) {
+        const RegionFacts& facts = pages->facts();
+        ORO_TRY(made, MadePageHeights::create(gpu, *pages->made_ground(), facts.undulation,
+                                              facts.shape.exaggeration, coding));
+        make_posts_by(*pages, gpu_post_maker(gpu));
+    }
+    PageStore store(gpu, budget, coding, parts, made);
     GridScene scene(std::move(pages), std::move(store));
     scene.shared_memory_ = memory.shared;
     static std::atomic<std::uint64_t> scenes{0};
     scene.number_ = ++scenes;
     const std::uint64_t under_way = main_bytes(memory.main) / memory.shares;
     const std::size_t page_size = page_bytes({}, parts);
-    scene.loader_ = page_loader(*scene.pages_, thread_count(), under_way / page_size, parts, coding.packed);
+    scene.loader_ = page_loader(*scene.pages_, thread_count(), under_way / page_size, parts, coding.packed,
+                                made != nullptr);
     const UndulationField& undulation = scene.pages_->facts().undulation;
     if (!undulation.N_m.empty()) {
         ORO_TRY(scene.undulation_, create_undulation(gpu, undulation));
@@ -425,8 +436,8 @@ Result<GridPlan> GridScene::settled_plan(const FrameView& view) {
 }
 
 Result<Scene> Scene::create(const Gpu& gpu, std::unique_ptr<RegionPages> pages, const SceneMemory& memory,
-                            HeightStorage heights, bool means) {
-    ORO_TRY(GridScene grid, GridScene::create(gpu, std::move(pages), memory, heights, means));
+                            HeightStorage heights, bool means, HeightMaker maker) {
+    ORO_TRY(GridScene grid, GridScene::create(gpu, std::move(pages), memory, heights, means, maker));
     Scene scene;
     scene.grids_.push_back(std::move(grid));
     return scene;

@@ -72,7 +72,8 @@ class GridScene {
   public:
     // As Scene::create().
     static Result<GridScene> create(const Gpu& gpu, std::unique_ptr<RegionPages> pages,
-                                    const SceneMemory& memory, HeightStorage heights, bool means);
+                                    const SceneMemory& memory, HeightStorage heights, bool means,
+                                    HeightMaker maker);
 
     [[nodiscard]] const RegionPages& pages() const { return *pages_; }
     [[nodiscard]] PageStore& store() { return store_; }
@@ -165,10 +166,11 @@ class GridScene {
 class Scene {
   public:
     // A scene of one grid. heights: how they are kept on the GPU. means: for styles whose pixels are means of
-    // the ground. Errors: out of memory; a file that cannot be read.
+    // the ground. maker: of heights where the pages have a made_ground(). Errors: out of memory; a file that
+    // cannot be read.
     static Result<Scene> create(const Gpu& gpu, std::unique_ptr<RegionPages> pages,
                                 const SceneMemory& memory = {}, HeightStorage heights = HeightStorage::f32,
-                                bool means = false);
+                                bool means = false, HeightMaker maker = HeightMaker::fastest);
     // Puts the grids of another scene behind its own, each with its own pages, memory and streaming.
     void add(Scene other);
     // Puts grids in the place of what is drawn between those of posts (RegionPages::is_seam()), or nothing.

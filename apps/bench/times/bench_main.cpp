@@ -9,6 +9,7 @@
 #include "apps/bench/times/bench_grass.h"
 #include "apps/bench/times/bench_houses.h"
 #include "apps/bench/times/bench_made.h"
+#include "apps/bench/times/bench_made_pages.h"
 #include "apps/bench/times/bench_moving.h"
 #include "apps/bench/times/bench_patches.h"
 #include "apps/bench/times/bench_random.h"
@@ -341,6 +342,34 @@ Result<void> run_made(const BenchOptions& options, int side) {
     return print_made(*gpu, {side, options.frames, options.json});
 }
 
+void add_made_pages(CLI::App& app, int& side) {
+    app.add_option(
+           "--made-pages", side,
+           "Time pages of made terrain in frames, made by the GPU where it keeps them and made by the "
+           "processor and sent: all pages of so many by so many posts, and the first picture of a world of "
+           "5.6e11 posts, 640x360 pixels unless --size says otherwise. Takes --frames, --size, --tau, "
+           "--pipeline and --json, too")
+        ->check(CLI::Range(300, 16000));
+}
+
+Result<void> run_made_pages(const CLI::App& app, const BenchOptions& options, int side) {
+    const auto start = Clock::now();
+    ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
+    const double device_s = seconds_since(start);
+    MadePagesBenchOptions made;
+    made.side = side;
+    made.frames = options.frames;
+    made.tau_px = options.tau_px;
+    made.json = options.json;
+    if (app.count("--size") > 0) {
+        made.width_px = options.width_px;
+        made.height_px = options.height_px;
+    }
+    ORO_TRY(const std::vector<RasterPath> paths, raster_paths_of(options, gpu->report()));
+    made.path = paths.front();
+    return print_made_pages(*gpu, device_s, made);
+}
+
 Result<void> run_patches(const CLI::App& app, BenchOptions options, int most) {
     if (app.count("--warm-up") == 0) options.warm_up_s = 0.1;
     ORO_TRY(const std::unique_ptr<Gpu> gpu, Gpu::create(gpu_options_from_environment()));
@@ -381,6 +410,8 @@ int main(int argc, char** argv) {
            "Make so many by so many posts of each kind of made terrain on the GPU, 3163 for some 10^7, "
            "hold them to the processor's bits, and time a page. Takes --frames and --json, too")
         ->check(CLI::Range(1100, 16000));
+    int made_pages_side = 0;
+    oro::add_made_pages(app, made_pages_side);
     int patches = 0;
     app.add_option(
            "--fixed-patches", patches,
@@ -410,10 +441,11 @@ int main(int argc, char** argv) {
     oro::Result<void> done = oro::set_size(words.size, options);
     if (done.ok()) done = oro::read_style(options);
     if (done.ok())
-        done = grass.grass     ? oro::run_grass(app, options, grass.options)
-               : made_side > 0 ? oro::run_made(options, made_side)
-               : patches > 0   ? oro::run_patches(app, options, patches)
-                               : oro::run_bench(options);
+        done = grass.grass           ? oro::run_grass(app, options, grass.options)
+               : made_side > 0       ? oro::run_made(options, made_side)
+               : made_pages_side > 0 ? oro::run_made_pages(app, options, made_pages_side)
+               : patches > 0         ? oro::run_patches(app, options, patches)
+                                     : oro::run_bench(options);
     if (done.ok()) return 0;
     std::fprintf(stderr, "orograph-bench: %s\n", done.error().line().c_str());
     return static_cast<int>(done.error().kind);
