@@ -602,8 +602,8 @@ std::unique_ptr<RegionPages> pages_measured_to(int level, const HeightField& fie
     RegionFacts facts = facts_of(field, region);
     auto ground = std::make_shared<const MadeGround>(
         MadeGround{region.rule, region.terrain.posts_per_deg, region.terrain.north, region.terrain.west});
-    auto pages = std::make_unique<MadePages>(std::move(facts), std::move(region), pictures, std::move(known),
-                                             level);
+    auto pages =
+        std::make_unique<MadePages>(std::move(facts), std::move(region), pictures, std::move(known), level);
     pages->set_made_ground(std::move(ground));
     return pages;
 }

@@ -19,8 +19,8 @@ class VisibleGround {
     // Null where too much ground may show for it to be worth while, or where places are not those of WGS84.
     // culling: of the same picture. lowest_h_m, highest_h_m: of any ground. ground outlives it.
     static std::unique_ptr<VisibleGround> of(const CoarseGround& ground, const FrameView& view,
-                                          const PictureCulling& culling, double lowest_h_m,
-                                          double highest_h_m, int threads);
+                                             const PictureCulling& culling, double lowest_h_m,
+                                             double highest_h_m, int threads);
 
     // Whether anything over a node may show, whichever of its levels is drawn there. node_level: 3 or more;
     // true for what is wider than 6.

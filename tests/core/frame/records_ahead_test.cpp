@@ -128,7 +128,9 @@ TEST(RecordsAhead, AreAllThatAPictureAsksFor) {
         PlanMemory memory(slow);
         auto plan = plan_grid(memory, all_here, view);
         ASSERT_TRUE(plan.ok());
-        if (is_lit) ASSERT_TRUE(plan_casters(memory, all_here, view, light, 2600.0, *plan).ok());
+        if (is_lit) {
+            ASSERT_TRUE(plan_casters(memory, all_here, view, light, 2600.0, *plan).ok());
+        }
         EXPECT_EQ(slow.waited_for, before) << (is_lit ? "lit" : "not lit");
         EXPECT_TRUE(plan->missing.empty());
     }

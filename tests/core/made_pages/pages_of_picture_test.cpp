@@ -132,7 +132,9 @@ TEST_P(PagesOfPictureOf, DrawTheNodesOfPagesForAnyPicture) {
         nodes, coarse, pages, pages_of_any);
     EXPECT_GT(nodes, 1000U);
     // Bounds of crests decide nothing from so near.
-    if (!is_ridged) EXPECT_GT(coarse, 50U);
+    if (!is_ridged) {
+        EXPECT_GT(coarse, 50U);
+    }
 }
 INSTANTIATE_TEST_SUITE_P(Made, PagesOfPictureOf, ::testing::Values(MadeKind::fbm, MadeKind::ridged));
 

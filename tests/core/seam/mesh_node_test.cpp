@@ -81,12 +81,12 @@ struct ReadNode {
 };
 
 // What a piece is to give, places from an origin.
-ReadTriangle expected_of(const SeamPiece& piece, const std::array<std::int64_t, 3>& origin) {
+ReadTriangle expected_of(const SeamPiece& piece, const std::array<std::int64_t, 3>& from_steps) {
     ReadTriangle expected{};
     for (std::size_t i = 0; i < 3; ++i) {
         const LatticePoint place = lattice_point(piece.corners[i].at.m);
         for (std::size_t k = 0; k < 3; ++k) {
-            expected[8 * i + k] = place.steps[k] - origin[k];
+            expected[8 * i + k] = place.steps[k] - from_steps[k];
             expected[8 * i + 4 + k] = std::llround(piece.corners[i].normal[static_cast<int>(k)] * 1048576.0);
         }
         expected[8 * i + 3] = height_steps(piece.corners[i].h_m);
@@ -149,14 +149,14 @@ std::vector<SeamPiece> soup(int count, unsigned seed) {
 
 // All triangles of all nodes, each as often as it was given. Bytes of the words.
 std::size_t expect_pieces(const std::vector<SeamPiece>& pieces) {
-    const std::array<std::int64_t, 3> origin{lattice_point({4324000.0, 566000.0, 4640000.0}).steps};
+    const std::array<std::int64_t, 3> from_steps{lattice_point({4324000.0, 566000.0, 4640000.0}).steps};
     Result<std::vector<MeshNode>> nodes = mesh_nodes(pieces);
     EXPECT_TRUE(nodes.ok()) << nodes.error().line();
     std::map<ReadTriangle, int> left;
-    for (const SeamPiece& piece : pieces) ++left[expected_of(piece, origin)];
+    for (const SeamPiece& piece : pieces) ++left[expected_of(piece, from_steps)];
     std::size_t words = 0;
     for (MeshNode& node : *nodes) {
-        EXPECT_TRUE(from_origin(origin, node).ok());
+        EXPECT_TRUE(from_origin(from_steps, node).ok());
         const ReadNode read(node);
         EXPECT_LE(read.triangles[0], 64U);
         EXPECT_LE(read.triangles[1], 64U);
