@@ -148,7 +148,8 @@ Result<FramePlan> plan_now(Viewer& viewer, const Camera& camera, const Submitted
                        scene.has_coarsest_pages());
     ORO_TRY(FramePlan plan, scene.plan({camera, whole_tile(camera), tau_px, viewer.view.model}));
     scene.leave_choice(false);
-    viewer.is_missing = !plan.is_settled();
+    viewer.is_missing = lacks_what_may_come(plan, viewer.lacks_memory);
+    viewer.shows_all = plan.shows_all();
     viewer.waits_for_ground = lacks_ground(viewer, plan);
     if (viewer.is_shown || plan.wants_pages()) return plan;
     // A view of another place: told where messages are.
@@ -219,6 +220,11 @@ Result<void> draw_planned(Viewer& viewer, FramePlan plan, const SubmittedFrame& 
     return {};
 }
 
+void forget_lack_of_memory(Viewer& viewer) {
+    viewer.lacks_memory = false;
+    if (viewer.two.second) viewer.two.second->lacks_memory = false;
+}
+
 }  // namespace
 
 Tile whole_tile(const Camera& camera) {
@@ -258,14 +264,24 @@ Result<void> refine(Viewer& viewer, bool& changed) {
     return {};
 }
 
+bool lacks_what_may_come(const FramePlan& plan, bool lacks_memory) {
+    const auto lacks_clusters = [](const GridPlan& grid) { return grid.clusters.missing > 0; };
+    return lacks_memory ? std::ranges::any_of(plan.grids, lacks_clusters) : !plan.is_settled();
+}
+
+bool lacks_memory_now(const Scene& scene, bool& known) {
+    return scene.lacks_memory() && !std::exchange(known, true);
+}
+
 Result<bool> draw_frame(Viewer& viewer, bool& changed) {
+    if (changed) forget_lack_of_memory(viewer);
     const VkExtent2D extent = viewer.window.extent();
     if (extent.width == 0 || extent.height == 0) return false;
     ORO_CHECK(take_size(viewer, extent, changed));
     ORO_CHECK(take_reports(viewer, frames_in_flight - 1));
     if (viewer.is_missing) {
         ORO_TRY(const bool better, viewer.scene->advance(changed ? NextPlan::anyway : NextPlan::if_better));
-        changed = changed || better;
+        changed = changed || better || lacks_memory_now(*viewer.scene, viewer.lacks_memory);
     }
     ORO_TRY(const bool better_second, advance_second(viewer));
     changed = changed || better_second;
@@ -294,7 +310,8 @@ Result<bool> draw_frame(Viewer& viewer, bool& changed) {
         changed = has_ground(plan) && !viewer.world.shows_bounds();
         return false;
     }
-    frame.is_settled = plan.is_settled() && are_chosen_for(viewer.meshes, viewer.view, viewer.view.camera);
+    frame.is_settled = (plan.is_settled() || (viewer.lacks_memory && viewer.shows_all)) &&
+                       are_chosen_for(viewer.meshes, viewer.view, viewer.view.camera);
     frame.is_chosen_by_gpu = plan.grids.front().device.chooses;
     frame.times.planned = Clock::now();
     viewer.is_settled = false;

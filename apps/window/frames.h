@@ -11,6 +11,10 @@ Result<void> refine(Viewer& viewer, bool& changed);
 // where a picture was drawn, or while the eye moves, is being drawn: what it tells is taken one frame later.
 // `changed`: whether one is wanted, and afterwards, whether another one is.
 Result<bool> draw_frame(Viewer& viewer, bool& changed);
+// Whether a plan lacks what advance() may yet bring; lacks_memory: pages that it lacks do not fit on the GPU.
+bool lacks_what_may_come(const FramePlan& plan, bool lacks_memory);
+// Whether it was found just now that nothing more fits on the GPU; known: whether it was before, and is now.
+bool lacks_memory_now(const Scene& scene, bool& known);
 // Waits for frames that are under way and takes what they tell, until so many are left.
 Result<void> take_reports(Viewer& viewer, std::size_t left);
 // Waits for all of them, and until nothing at all is under way: before what they use is given up, and before

@@ -220,7 +220,8 @@ Result<FramePlan> plan_second(Viewer& viewer, const DetailStep& step) {
     second.scene->set_fallback_to_blocks(!is_of_clusters(second.view.show));
     ORO_TRY(FramePlan plan, second.scene->plan({camera, whole_tile(camera),
                                                 second.view.tau_px * step.tau_factor, second.view.model}));
-    second.is_missing = !plan.is_settled();
+    second.is_missing = lacks_what_may_come(plan, second.lacks_memory);
+    second.shows_all = plan.shows_all();
     second.part = {static_cast<std::uint32_t>(camera.width_px), static_cast<std::uint32_t>(camera.height_px)};
     second.has_picture = true;
     return plan;
@@ -370,7 +371,9 @@ Result<void> take_second_size(Viewer& viewer, const VkExtent2D& window, bool& ch
 
 Result<bool> advance_second(Viewer& viewer) {
     if (!viewer.two.second || !viewer.two.second->is_missing) return false;
-    return viewer.two.second->scene->advance();
+    SecondView& second = *viewer.two.second;
+    ORO_TRY(const bool better, second.scene->advance());
+    return better || lacks_memory_now(*second.scene, second.lacks_memory);
 }
 
 Result<bool> follow_with_second_meshes(Viewer& viewer) {

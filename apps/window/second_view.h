@@ -50,7 +50,8 @@ struct SecondView {
     EyeMeshes meshes;   // by clusters where the first view's are, and the data are the same
     VkExtent2D part{};  // of the picture that is drawn
     bool has_picture{};
-    bool is_missing{};  // something that the last frame should have had
+    bool is_missing{};                 // something that the last frame should have had
+    bool lacks_memory{}, shows_all{};  // as those of Viewer
     bool images_settled{true};
 };
 

@@ -155,6 +155,10 @@ std::string progress_words(const Viewer& viewer) {
     if (viewer.two.work) return "preparing the second view";
     const bool lacks_second = viewer.two.second && viewer.two.second->is_missing;
     if (viewer.is_missing || lacks_second) return "loading";
+    const bool is_coarser = viewer.lacks_memory && !viewer.shows_all;
+    const bool is_second_coarser =
+        viewer.two.second && viewer.two.second->lacks_memory && !viewer.two.second->shows_all;
+    if (is_coarser || is_second_coarser) return "GPU memory is full: coarser than asked for";
     return viewer.is_outdated ? "drawing" : "";
 }
 

@@ -200,6 +200,8 @@ struct Viewer {
     bool is_exposed{};        // what the window shows was lost
     bool is_settled{};        // the picture that is shown is as fine as the view asks
     bool is_outdated{};       // ... and is not what the user asks for now: another is about to be drawn
+    bool lacks_memory{};      // what it lacks does not fit on the GPU, since something was asked for last
+    bool shows_all{};         // what it lacks is hidden, as far as is known
     bool waits_for_ground{};  // what is in view is not on the GPU yet
     Clock::time_point waiting_since{};
     bool has_picture{};  // the renderer's picture is drawn

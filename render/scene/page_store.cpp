@@ -152,7 +152,7 @@ void PageStore::stage(const LoadedPage& page, std::byte* to) const {
 Result<std::size_t> PageStore::send(std::span<const LoadedPage> pages, Evictions evictions) {
     const auto spared = [&](const LoadedPage& page) -> std::uint64_t {
         if (evictions == Evictions::none) return decltype(cache_)::evicts_nothing;
-        return page.is_hidden ? shown_lately : 0;
+        return page.is_hidden && evictions == Evictions::of_unused ? shown_lately : 0;
     };
     auto& items = cache_.items();
     std::size_t sent = 0;

@@ -81,10 +81,10 @@ class PageStore {
     [[nodiscard]] std::uint64_t frame() const { return cache_.items().frame(); }
 
     // Uploads pages, in their order, until one finds no capacity that the current frame does not use; number
-    // of those uploaded. A hidden one evicts no page that was shown in the last `shown_lately` frames.
-    // evictions: none: it ends where a page finds no memory that is free. Errors: the device; it has no
-    // memory for any page at all.
-    enum class Evictions { of_unused, none };
+    // of those uploaded. A hidden one evicts no page that was shown in the last `shown_lately` frames, unless
+    // all that the current frame does not use may be evicted. evictions: none: it ends where a page finds no
+    // memory that is free. Errors: the device; it has no memory for any page at all.
+    enum class Evictions { none, of_unused, of_all_unused };
     Result<std::size_t> send(std::span<const LoadedPage> pages, Evictions evictions = Evictions::of_unused);
     static constexpr std::uint64_t shown_lately = 64;
     // Whether some more find capacity without an eviction;

@@ -173,6 +173,10 @@ bool GridScene::lacks_pages() const {
     return !missed_.empty() || needs_plan_;
 }
 
+bool GridScene::lacks_memory() const {
+    return !missed_.empty() && ((full_ && !can_evict_hidden_) || full_for_all_hidden_);
+}
+
 // Where the last frame's pages filled the GPU and more of them show, those that do not show are planned
 // without: what comes next may take their place.
 Result<GridPlan> GridScene::plan_of_pages(const FrameView& view) {
@@ -305,7 +309,7 @@ Result<void> GridScene::end_plan(const FrameView& view, GridPlan& plan) {
     start = Clock::now();
     ORO_CHECK(add_growth(view, plan));
     times_.growth_s = seconds_since(start);
-    full_for_hidden_ = false;
+    full_for_hidden_ = full_for_all_hidden_ = false;
     set_missed(plan.missing, plan.missing_hidden);
     plan.request_feedback = !plan.missing.empty() || !store_.has_capacity() || plan.clusters.missing > 0 ||
                             (plan.clusters.on && !clusters_->has_capacity());
@@ -331,7 +335,7 @@ Result<void> GridScene::end_plan(const FrameView& view, GridPlan& plan) {
     return {};
 }
 
-Result<GridScene::Sent> GridScene::send_ready(bool wait) {
+Result<GridScene::Sent> GridScene::send_ready(bool wait, PageStore::Evictions evictions) {
     ORO_TRY(std::vector<LoadedPage> ready, loader_->take(wait));
     for (LoadedPage& page : ready) page.is_hidden = is_hidden(page.index);
     std::ranges::stable_partition(ready, [](const LoadedPage& page) { return !page.is_hidden; });
@@ -342,7 +346,7 @@ Result<GridScene::Sent> GridScene::send_ready(bool wait) {
         needs_plan_ = needs_plan_ || sent.count < ready.size();
         return sent;
     }
-    ORO_TRY(sent.count, store_.send(ready));
+    ORO_TRY(sent.count, store_.send(ready, evictions));
     if (sent.count < ready.size()) (ready[sent.count].is_hidden ? sent.hidden_left : sent.shown_left) = true;
     return sent;
 }
@@ -359,16 +363,18 @@ Result<bool> GridScene::advance(NextPlan next) {
     if (clusters_) {
         ORO_TRY(better, clusters_->advance(next));
     }
-    if (full_) return better;
-    if (full_for_hidden_)
-        loader_->request(shown_of(missed_));
-    else
-        loader_->request(missed_);
+    if (full_ || full_for_all_hidden_) return better;
+    const std::vector<PageIndex> shown = full_for_hidden_ ? shown_of(missed_) : missed_;
+    // An eye that moves has another plan by now. One that rests needs what was shown lately no more.
+    const bool lacks_hidden_alone = shown.empty() && !missed_.empty();
+    loader_->request(lacks_hidden_alone ? missed_ : shown);
     if (left_choice_ && !missed_.empty() && !store_.has_capacity()) {
         needs_plan_ = true;
         return true;
     }
-    ORO_TRY(const Sent sent, send_ready(false));
+    using enum PageStore::Evictions;
+    ORO_TRY(const Sent sent, send_ready(false, lacks_hidden_alone ? of_all_unused : of_unused));
+    full_for_all_hidden_ = lacks_hidden_alone && sent.hidden_left;
     full_for_hidden_ = full_for_hidden_ || sent.hidden_left;
     full_ = sent.shown_left;
     if (full_) loader_->cancel();
@@ -380,7 +386,7 @@ void GridScene::forget_frames(bool gives_back) {
     hidden_.clear();
     missed_.clear();
     receivers_.clear();
-    full_ = full_for_hidden_ = can_evict_hidden_ = left_choice_ = needs_plan_ = false;
+    full_ = full_for_hidden_ = full_for_all_hidden_ = can_evict_hidden_ = left_choice_ = needs_plan_ = false;
     means_spacing_px_ = asked_means_px_;
     loader_->cancel();
     if (gives_back) {
@@ -603,6 +609,11 @@ Result<bool> Scene::advance_coarsest_pages() {
 
 bool Scene::lacks_pages() const {
     return std::ranges::any_of(grids_, &GridScene::lacks_pages);
+}
+
+bool Scene::lacks_memory() const {
+    const auto waits = [](const GridScene& grid) { return grid.lacks_pages() && !grid.lacks_memory(); };
+    return lacks_pages() && std::ranges::none_of(grids_, waits);
 }
 
 bool Scene::may_leave_choice() const {

@@ -95,7 +95,8 @@ class GridScene {
         std::size_t count{};
         bool hidden_left{}, shown_left{};
     };
-    Result<Sent> send_ready(bool wait);
+    Result<Sent> send_ready(bool wait,
+                            PageStore::Evictions evictions = PageStore::Evictions::of_unused);
     // Waits for all of them: false where there was no room.
     Result<bool> load_pages(std::span<const PageIndex> pages);
     Result<GridPlan> plan_of_pages(const FrameView& view);
@@ -119,6 +120,7 @@ class GridScene {
     Result<bool> advance_coarsest_pages();
     void set_missed(std::vector<PageIndex> missing, std::size_t hidden);
     [[nodiscard]] bool lacks_pages() const;
+    [[nodiscard]] bool lacks_memory() const;
     Result<GridPlan> plan(const FrameView& view, Clusters clusters);
     Result<GridPlan> settled_plan(const FrameView& view);
     Result<bool> advance(NextPlan next);
@@ -144,7 +146,8 @@ class GridScene {
     std::vector<PageIndex> missed_;  // by the last plan
     std::set<PageIndex> hidden_;     // of those
     bool full_{false};               // of the last frame's pages
-    bool full_for_hidden_{false};    // at least for those
+    bool full_for_hidden_{false};    // at least for those, if they spare what was shown lately,
+    bool full_for_all_hidden_{false};  // ... and if they spare nothing but the frame's own
     bool has_trees_{false};          // whether plans have sites of trees,
     bool has_grass_{false};          // ... and of grass
     bool can_evict_hidden_{false};   // hidden pages of the last plan could, for missing ones
@@ -227,14 +230,18 @@ class Scene {
     // Whether the last plan lacks pages, as far as is known: where the device chose them the frame tells
     // (apply_feedback()).
     [[nodiscard]] bool lacks_pages() const;
+    // Whether nothing of what the last plan lacks will come, for the frame's own pages fill the GPU. advance()
+    // finds it out, and until then it is false. What is missing of clusters is not asked about.
+    [[nodiscard]] bool lacks_memory() const;
     // What a frame draws with the pages and clusters that are on the GPU now.
     Result<FramePlan> plan(const FrameView& view);
     // Of the last plan, all grids together.
     [[nodiscard]] PlanTimes times_of_plan() const;
     // Lets the background read what the last plan misses, and sends what is ready: true when the next plan
     // may be better. Does not wait for what is not ready; asks for no pages of a grid once the frame's own
-    // fill the GPU. next: anyway: another plan is made whatever this tells (ClusterScene::advance()). Errors:
-    // what cannot be read, the device.
+    // fill the GPU. Where it was false it is to be asked again for the same frame: hidden pages then evict all
+    // that this frame does not use. next: anyway: another plan is made whatever this gives
+    // (ClusterScene::advance()). Errors: what cannot be read, the device.
     Result<bool> advance(NextPlan next = NextPlan::if_better);
     // What a frame of this scene has shown (FrameReport::feedback): from the next plan on ground that is
     // hidden comes last, and where the GPU is full gives way to what shows. True where that is news.

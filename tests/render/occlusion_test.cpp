@@ -1,7 +1,11 @@
 // What other ground hides is left out, and nothing that shows: from eyes in motion the ids in every pixel are
 // those of frames that draw all, on both paths.
+#include <chrono>
+#include <thread>
+
 #include "core/terrain/ground.h"
 #include "render/frame/picture_renderer.h"
+#include "tests/support/drawn/drawn_scene.h"
 #include "tests/support/drawn/occlusion_pairs.h"
 #include "tests/support/rough_terrain.h"
 
@@ -233,6 +237,97 @@ TEST_P(Occluded, HiddenPagesNeedNoRoom) {
         std::printf("\n");
     }
     EXPECT_GE(with_fewer, 5) << "or hidden pages took room";
+}
+
+gpu::FrameStyle relief_style() {
+    gpu::FrameStyle style{};
+    style.tint_count = 1;
+    style.tints[0].colour = gpu::vec3(0.5F);
+    style.sun_enu = gpu::vec3(0.0F, 0.6F, 0.8F);
+    style.relief = 1.0F;
+    style.haze_distance_m = 1e5F;
+    style.sky_scale_height_m = 8000.0F;
+    return style;
+}
+
+// A window's frames of one eye: another one is planned where there may be something new alone.
+struct RestingFrames {
+    bool is_settled{}, lacks_memory{}, shows_all{};
+    int frames{};
+    std::vector<std::uint8_t> rgba;
+};
+RestingFrames rest(Scene& scene, FrameRenderer& renderer, const Camera& camera) {
+    RestingFrames resting;
+    const auto is_done = [&] { return resting.is_settled || resting.lacks_memory; };
+    bool better = true;
+    for (int turn = 0; turn < 20000 && !is_done(); ++turn) {
+        if (std::exchange(better, false)) {
+            auto plan = scene.plan({camera, test::whole_picture(camera), 1.0});
+            EXPECT_TRUE(plan.ok()) << plan.error().line();
+            resting.is_settled = plan->is_settled();
+            resting.shows_all = plan->shows_all();
+            const auto report = renderer.draw(std::move(*plan), relief_style());
+            EXPECT_TRUE(report.ok()) << report.error().line();
+            scene.apply_feedback(report->feedback);
+            ++resting.frames;
+            continue;
+        }
+        const auto advanced = scene.advance();
+        EXPECT_TRUE(advanced.ok()) << advanced.error().line();
+        better = *advanced;
+        resting.lacks_memory = !better && scene.lacks_memory();
+        if (!better) std::this_thread::sleep_for(std::chrono::microseconds(200));
+    }
+    auto rgba = renderer.read_picture(static_cast<std::uint32_t>(camera.width_px),
+                                      static_cast<std::uint32_t>(camera.height_px));
+    EXPECT_TRUE(rgba.ok()) << rgba.error().line();
+    resting.rgba = std::move(*rgba);
+    return resting;
+}
+
+// Whatever an eye saw that moved before, once it rests it comes to an end: all is there, or it is said that
+// no more fits. With room for what shows the picture is that with room for all.
+TEST_P(Occluded, AnEyeThatRestsHasAllThatFits) {
+    const HeightField field = test::rough_field(47.0, 8.0, 900, 900);
+    FrameRendererOptions options;
+    options.extent = {width_px, height_px};
+    options.path = GetParam();
+    FrameRenderer renderer = test::made_renderer(*gpu_, options);
+    int settled = 0, hidden_left = 0, coarser = 0;
+    for (int i = 0; i < 6; ++i) {
+        Camera camera;
+        camera.width_px = width_px;
+        camera.height_px = height_px;
+        camera.eye = {46.45 + 0.03 * i, 8.42 + 0.04 * i, 0.0};
+        camera.eye.h_m = *ground_h_m(field, camera.eye.lat_deg, camera.eye.lon_deg) + 2.0;
+        camera.attitude = {60.0 * i, 0.0, 0.0};
+        Scene all = scene_of(field);
+        const RestingFrames whole = rest(all, renderer, camera);
+        ASSERT_TRUE(whole.is_settled);
+        const std::size_t pages = all.grids()[0].store().size();
+        for (const std::size_t eighths : {8U, 7U, 6U, 5U, 3U, 1U}) {
+            const std::size_t room = std::max<std::size_t>(1, pages * eighths / 8);
+            SCOPED_TRACE(testing::Message() << "eye " << i << ", room for " << room << " of " << pages);
+            Scene few = scene_of(field, 1.0, room * page_bytes({}));
+            for (const double turned_deg : {-70.0, 50.0, -20.0, 10.0, 0.0}) {
+                Camera turned = camera;
+                turned.attitude.heading_deg += turned_deg;
+                const RestingFrames last = rest(few, renderer, turned);
+                ASSERT_TRUE(last.is_settled || last.lacks_memory) << "turned by " << turned_deg;
+                if (turned_deg != 0.0) continue;
+                settled += last.is_settled ? 1 : 0;
+                hidden_left += !last.is_settled && last.shows_all ? 1 : 0;
+                coarser += last.shows_all ? 0 : 1;
+                if (last.shows_all) {
+                    EXPECT_TRUE(last.rgba == whole.rgba);
+                }
+            }
+        }
+    }
+    std::printf("%d with all pages, %d without hidden ones, %d coarser\n", settled, hidden_left, coarser);
+    EXPECT_GT(settled, 0);
+    EXPECT_GT(hidden_left, 0);
+    EXPECT_GT(coarser, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths, Occluded, ::testing::Values(RasterPath::mesh, RasterPath::compute),

@@ -153,7 +153,9 @@ void certificate(const Viewer& viewer) {
                   certificate_there(viewer).c_str(), figure(viewer.view.tau_px * step.tau_factor).c_str(),
                   figure(viewer.view.tau_px).c_str(), 100.0 / step.scale,
                   viewer.is_settled ? "The picture is all that the view asks for."
-                                    : "It is not yet all that the view asks for.");
+                  : viewer.lacks_memory
+                      ? "It is not all that the view asks for: the GPU's memory is full (--gpu-memory)."
+                      : "It is not yet all that the view asks for.");
     tip(text);
 }
 
