@@ -147,9 +147,9 @@ TEST_F(FarForestPictures, IsTheSameByBothWaysOfDrawing) {
     const Camera eye = camera(800.0, 1260.0, -4.0);
     const gpu::FrameStyle style = natural(region, true);
     const auto bare = picture(region, eye, natural(region, false), {.tau_px = 8.0});
-    for (const int samples : {1, 3}) {
-        const auto one = picture(region, eye, style, {RasterPath::mesh, samples, 8.0}),
-                   other = picture(region, eye, style, {RasterPath::compute, samples, 8.0});
+    for (const int rays : {1, 3}) {
+        const auto one = picture(region, eye, style, {RasterPath::mesh, rays, 8.0}),
+                   other = picture(region, eye, style, {RasterPath::compute, rays, 8.0});
         // A pixel whose middle lies on an edge of two triangles stands in the six above it, too.
         EXPECT_LE(unlike_px(one, other), 7U * (8U + width_px * height_px / 5000U));
         EXPECT_GT(unlike_px(other, bare), width_px * height_px / 10U);
@@ -161,9 +161,9 @@ TEST_F(FarForestPictures, IsTheSameInTiles) {
     const Region region = ridge();
     const Camera eye = camera(800.0, 1260.0, -4.0);
     const gpu::FrameStyle style = natural(region, true);
-    for (const int samples : {1, 3})
-        EXPECT_LE(unlike_px(picture(region, eye, style, {RasterPath::compute, samples, 8.0, 96}),
-                            picture(region, eye, style, {RasterPath::compute, samples, 8.0})),
+    for (const int rays : {1, 3})
+        EXPECT_LE(unlike_px(picture(region, eye, style, {RasterPath::compute, rays, 8.0, 96}),
+                            picture(region, eye, style, {RasterPath::compute, rays, 8.0})),
                   width_px * height_px / 200U);
 }
 
