@@ -222,6 +222,7 @@ set_tests_properties(
   LibraryCalls.AThousandBadOnesEndWithErrors
   Made/MadePagesTest.AreThoseInMemoryWithErrorsThatAreNoSmallerAndNested/Number0
   Made/MadePagesTest.AreThoseInMemoryWithErrorsThatAreNoSmallerAndNested/Number2
+  Made/MadePagesTest.AreThoseInMemoryWithErrorsThatAreNoSmallerAndNested/Number4
   MadeHeights.NoiseHasNoGrainAndTheSpectrumOfItsGain
   MadeTerrain.OfAWholeWorldIsDrawnWithinItsCertificate
   MadeTerrain.OfAWholeWorldHasTheLightOfItsStyleFromNearTheGround
@@ -272,6 +273,8 @@ set_tests_properties(
   OwnPostsOfShots.BesideOtherFilesAreKeptByWhatPredicts
   OwnPostsOfShots.OfTheSwissTileHaveItsSummit
   OwnPostsOfShots.ViewsThatSayNothingOfThemAreDrawnResampled
+  PageHeightsOnGpu.OfAWholeWorldAreThoseThatWouldBeSent
+  PageHeightsOnGpu.OfPagesOnDemandAreThoseThatWouldBeSent
   PagesOfPicture.DrawTheNodesOfPagesForAnyAfterOtherPictures
   PagesOfPicture.DrawTheNodesOfPagesForAnyInEachOfSeveralPictures
   Panorama.GoesRoundPolesAndTheAntimeridian
@@ -288,6 +291,18 @@ set_tests_properties(
   Paths/DrawnChoiceLong.HasTheTrianglesOfTheProcessorsPlanAt150Eyes/mesh
   Paths/PlanOnDeviceLong.HasTheIdsOfTheProcessorsAt700Eyes/compute
   Paths/PlanOnDeviceLong.HasTheIdsOfTheProcessorsAt700Eyes/mesh
+  Ways/MovingChoiceLong.HasTheFramesOfTheProcessorAt500Eyes/compute_f32_1
+  Ways/MovingChoiceLong.HasTheFramesOfTheProcessorAt500Eyes/compute_f32_2
+  Ways/MovingChoiceLong.HasTheFramesOfTheProcessorAt500Eyes/compute_i16_1
+  Ways/MovingChoiceLong.HasTheFramesOfTheProcessorAt500Eyes/compute_i16_2
+  Ways/MovingChoiceLong.HasTheFramesOfTheProcessorAt500Eyes/compute_packed_1
+  Ways/MovingChoiceLong.HasTheFramesOfTheProcessorAt500Eyes/compute_packed_2
+  Ways/MovingChoiceLong.HasTheFramesOfTheProcessorAt500Eyes/mesh_f32_1
+  Ways/MovingChoiceLong.HasTheFramesOfTheProcessorAt500Eyes/mesh_f32_2
+  Ways/MovingChoiceLong.HasTheFramesOfTheProcessorAt500Eyes/mesh_i16_1
+  Ways/MovingChoiceLong.HasTheFramesOfTheProcessorAt500Eyes/mesh_i16_2
+  Ways/MovingChoiceLong.HasTheFramesOfTheProcessorAt500Eyes/mesh_packed_1
+  Ways/MovingChoiceLong.HasTheFramesOfTheProcessorAt500Eyes/mesh_packed_2
   Pipeline.APictureMeasuresNothingWhereAProcessorDraws
   Pipeline.IsMeasuredOnceAndRemembered
   Pipeline.NeedsNoCache
@@ -633,6 +648,8 @@ set_tests_properties(
   ExtremeSize.HundredMillionPosts
   ExtremeSurfaces.TwoSurfacesAMetreApart
   ExtremeSurfaces.WallEdgeOn
+  FarForestPictures.IsAsHighAsItsTrees
+  FarForestPictures.IsTheSameByBothWaysOfDrawing
   Footprint.HoldsForMaps
   Footprint.HoldsForRandomViews
   Footprint.HoldsOnTurnedRows

@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <optional>
 #include <random>
+#include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -115,7 +117,7 @@ class MovingChoice : public test::GpuTest {
             const double west_deg = 8.0 + grid * (columns - 6) / 1200.0;
             auto scene = Scene::create(
                 *gpu_, pages_in_memory(test::rough_field(47.0, west_deg, rows, columns), 1.0, 2),
-                {pages * page_bytes({}), 0}, test::asked_heights());
+                {pages * page_bytes({}), 0}, heights_);
             EXPECT_TRUE(scene.ok()) << scene.error().line();
             return std::move(scene).value();
         };
@@ -126,7 +128,7 @@ class MovingChoice : public test::GpuTest {
     [[nodiscard]] FrameRenderer renderer() const {
         FrameRendererOptions options;
         options.extent = {widest_px, highest_px};
-        options.path = RasterPath::compute;
+        options.path = path_;
         return test::made_renderer(*gpu_, options);
     }
     static FramePlan processors(Scene& scene, const FramePlan& like) {
@@ -175,6 +177,8 @@ class MovingChoice : public test::GpuTest {
         int by_device{}, by_processor{}, not_whole{};
         std::size_t triangles{};
     };
+    RasterPath path_{RasterPath::compute};
+    HeightStorage heights_{test::asked_heights()};
     // Flies, and compares each frame whose pages the device has chosen.
     void fly(Scene& scene, int eyes, std::uint64_t seed, Seen& seen);
     // Then rests, until nothing is missing: false where that is never so.
@@ -277,6 +281,39 @@ TEST_F(MovingChoice, HasTheFramesOfTheProcessorOfSeveralGrids) {
     print("two grids", 60, 92, seen.by_device, seen.by_processor, seen.not_whole);
     EXPECT_GT(seen.by_device, 40);
 }
+
+// By both ways of drawing, with heights of each kind, of one grid and of two, in less than 32 MB.
+class MovingChoiceLong : public MovingChoice,
+                         public ::testing::WithParamInterface<std::tuple<RasterPath, HeightStorage, int>> {};
+TEST_P(MovingChoiceLong, HasTheFramesOfTheProcessorAt500Eyes) {
+    int grids = 0;
+    std::tie(path_, heights_, grids) = GetParam();
+    constexpr std::size_t pages = 380;
+    ASSERT_LT(pages * page_bytes({}), 32'000'000U);
+    Scene scene = grids == 1 ? scene_of(1, 500, 600, pages) : scene_of(2, 400, 300, pages);
+    ASSERT_TRUE(*scene.choose_on_device(*gpu_));
+    Seen seen;
+    ASSERT_NO_FATAL_FAILURE(fly(scene, 500, 94, seen));
+    print(path_ == RasterPath::mesh ? "mesh shaders" : "compute", 500, 94, seen.by_device, seen.by_processor,
+          seen.not_whole);
+    EXPECT_GT(seen.by_device, 350);
+    EXPECT_GT(seen.not_whole, 2);
+    EXPECT_GT(seen.triangles, 2000U) << "or the eyes see nothing";
+}
+std::string name_of(const ::testing::TestParamInfo<MovingChoiceLong::ParamType>& info) {
+    const auto [path, heights, grids] = info.param;
+    const char* const kept = heights == HeightStorage::f32   ? "f32"
+                             : heights == HeightStorage::i16 ? "i16"
+                                                             : "packed";
+    return std::string(path == RasterPath::mesh ? "mesh" : "compute") + "_" + kept + "_" +
+           std::to_string(grids);
+}
+INSTANTIATE_TEST_SUITE_P(Ways, MovingChoiceLong,
+                         ::testing::Combine(::testing::Values(RasterPath::compute, RasterPath::mesh),
+                                            ::testing::Values(HeightStorage::f32, HeightStorage::i16,
+                                                              HeightStorage::packed),
+                                            ::testing::Values(1, 2)),
+                         name_of);
 
 // In memory that is full the device chooses again where the eye stays over ground that is there.
 TEST_F(MovingChoice, GoesOnInFullMemoryWhereNothingIsMissing) {

@@ -294,7 +294,7 @@ TEST_P(Occluded, AnEyeThatRestsHasAllThatFits) {
     options.path = GetParam();
     FrameRenderer renderer = test::made_renderer(*gpu_, options);
     int settled = 0, hidden_left = 0, coarser = 0;
-    for (int i = 0; i < 6; ++i) {
+    for (const int i : {1, 2}) {
         Camera camera;
         camera.width_px = width_px;
         camera.height_px = height_px;
@@ -305,7 +305,7 @@ TEST_P(Occluded, AnEyeThatRestsHasAllThatFits) {
         const RestingFrames whole = rest(all, renderer, camera);
         ASSERT_TRUE(whole.is_settled);
         const std::size_t pages = all.grids()[0].store().size();
-        for (const std::size_t eighths : {8U, 7U, 6U, 5U, 3U, 1U}) {
+        for (const std::size_t eighths : {8U, 7U, 5U, 2U}) {
             const std::size_t room = std::max<std::size_t>(1, pages * eighths / 8);
             SCOPED_TRACE(testing::Message() << "eye " << i << ", room for " << room << " of " << pages);
             Scene few = scene_of(field, 1.0, room * page_bytes({}));
