@@ -472,6 +472,7 @@ set_tests_properties(
   WindowFlight.MinutesOverPoland
   WindowMesh.ShowsTheClustersThatShotDraws
   WindowPages.AreChosenByTheGpuWhileTheEyeMoves
+  WindowPages.SayThatMemoryIsFull
   WindowProjects.AreSavedAndOpenedAgain
   WindowProjects.HoldLandCoverThatWasOpened
   WindowTour.LooksAsItDid

@@ -66,4 +66,26 @@ TEST(WindowPages, AreChosenByTheGpuWhileTheEyeMoves) {
     EXPECT_EQ(pictures, 1);
 }
 
+// A view that takes more than the GPU's memory may hold: it says so, and does not load for ever.
+TEST(WindowPages, SayThatMemoryIsFull) {
+    if (oro::test::run_program({"Xvfb", "-help"}).exit_code == 127 ||
+        oro::test::run_program({"xdotool", "version"}).exit_code == 127)
+        GTEST_SKIP() << "needs Xvfb and xdotool";
+    oro::test::Circumstances there;
+    there.folder = oro::test::scratch_folder();
+    there.environment = {"SCREEN_SIZE=640x400", "WAYLAND_DISPLAY"};
+    const fs::path script = fs::path(OROGRAPH_ON_DISPLAY).parent_path() / "window_memory.sh";
+    const Outcome seen = oro::test::run_program(
+        {OROGRAPH_ON_DISPLAY, script.string(), OROGRAPH_PROGRAM,
+         "made:fbm?seed=7&octaves=9&H=-200:4000&spacing=2s&box=8,46,9,47", "--at", "46.1,8.5", "--above",
+         "3000", "--pitch", "-20", "--style", "relief", "--tau", "0", "--gpu-memory", "16"},
+        there);
+    ASSERT_EQ(seen.exit_code, 0) << seen.out << seen.err;
+    std::ifstream trace(there.folder / "states.txt");
+    std::string last;
+    for (std::string line; std::getline(trace, line);)
+        if (line.starts_with("state: ")) last = line;
+    EXPECT_TRUE(last.starts_with("state: GPU memory is full: coarser than asked for  |")) << last;
+}
+
 }  // namespace
