@@ -845,6 +845,7 @@ set_tests_properties(
   TreePictures.AreTheSameInTiles
   TreePictures.AreTheSameWhereHiddenOnesAreDrawn
   TreePictures.ChangeLittleAsTheEyeDrawsNearer
+  TreePictures.HideAsMuchOfClearingsWhereTheyEnd
   TreePictures.ShowTreesOnForest
   TreePictures.StandInNoWater
   Triangles/FullLists.PicturesAreThoseOfListsWithRoom/blocks

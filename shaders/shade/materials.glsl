@@ -55,10 +55,11 @@ vec2 strata(float H_m, float foot_m) {
 float half_rock_deg() { return 0.5 * (FRAME.style.cover.rock_from_deg + FRAME.style.cover.rock_to_deg); }
 
 // How much lighter drawn trees are, where they end, than those of the reference (forest_reference.h), which have neither relief nor shadows:
-// needles, leaves. Fitted to 228 pictures of slopes of 22 to 39 degrees by 15 suns (TreePictures.AreAsLightWhereTheyEnd).
+// needles, leaves. Fitted to the light of forest alone, all other ground being black, in 196 pairs of pictures of slopes of 22 to 39 degrees, to the
+// eye and across, by 13 suns, where forest has its height: docs/notes/2026-11-30-light-of-forests-alone.md.
 vec2 as_drawn(ForestAngles at) {
     float h = at.agree;
-    return vec2(0.964 + 0.29 * h * (h - 1.0) - 0.025 * at.eye_over, clamp(1.25 + 0.028 * h - 0.649 * at.eye_over + 0.555 * at.eye_up - 0.114 * at.sun_up, 0.6, 1.3));
+    return vec2(0.826 + h * (0.314 * h - 0.244) - 0.122 * at.eye_over + 0.162 * at.eye_up + 0.22 * at.sun_up, 0.92 - 0.049 * h + 0.041 * at.eye_over);
 }
 
 // What a pixel's far forest has of the sun's light and of the sky's, over ground of its colour; by kinds.

@@ -104,6 +104,43 @@ class TreePictures : public test::StyleTest {
         return most;
     }
 
+    // A slope of forest, seen from the south, so far away that its crowns have no leaves.
+    struct SlopeView {
+        double middle_H_m, rise, above_m;
+        SunDirection sun;
+        bool across{false};  // the slope falls towards the west
+    };
+    static Region slope_of(const SlopeView& view) {
+        if (!view.across) return slope(view.middle_H_m, view.rise);
+        Region region{std::vector<RegionGrid>(1)};
+        region.grids[0].field = test::square_field(46.5, 8.0, 30.0, 129, [&](int, int column) {
+            return view.middle_H_m + view.rise * 30.0 * (column - 64);
+        });
+        return region;
+    }
+    // Of one colour: forests have lighter and darker parts.
+    static gpu::FrameStyle of_one_colour(const Region& region, const SunDirection& sun) {
+        gpu::FrameStyle style = natural(region, true, sun);
+        for (auto& material : style.materials.of) material.patches = {};
+        return style;
+    }
+    std::vector<std::uint8_t> picture_of(const SlopeView& view, const Region& region,
+                                         const gpu::FrameStyle& style, double tau_px) {
+        constexpr double away_m = 1400.0;
+        Camera from_south = camera(view.middle_H_m);
+        from_south.eye = {46.5 - away_m / 111'000.0, 8.0, view.middle_H_m + view.above_m};
+        from_south.attitude = {0.0, -std::atan(view.above_m / away_m) * 180.0 / std::numbers::pi, 0.0};
+        from_south.vertical_fov_deg = 8.0;
+        return picture(region, from_south, style, RasterPath::compute, 1, OcclusionUse::if_it_pays, tau_px);
+    }
+    // The mean over a picture of what is made of each code of green.
+    template <typename OfCode>
+    static double mean_green(const std::vector<std::uint8_t>& rgb, const OfCode& of_code) {
+        double sum = 0.0;
+        for (std::size_t i = 1; i < rgb.size(); i += 3) sum += of_code(static_cast<double>(rgb[i]));
+        return 3.0 * sum / static_cast<double>(rgb.size());
+    }
+
     static std::size_t unlike_px(const std::vector<std::uint8_t>& one,
                                  const std::vector<std::uint8_t>& other) {
         EXPECT_EQ(one.size(), other.size());
@@ -165,39 +202,53 @@ TEST_F(TreePictures, AreAsLightAsTheirForestFromFar) {
 
 // Where crowns have no leaves any more, and so where trees end, far forest is as light as they are: by kind,
 // slope and sun. Found: lighter by up to 20 codes of 255, in the median by 9, with patches of colour that
-// trees had not.
+// trees had not; later, where ground falls across the line of sight, by up to 24.
 TEST_F(TreePictures, AreAsLightWhereTheyEnd) {
-    struct Case {
-        double middle_H_m, rise, above_m;
-        SunDirection sun;
-    };
-    const std::vector<Case> cases{{1580.0, 0.4, 280.0, {180.0, 15.0}}, {1580.0, 0.6, 280.0, {225.0, 35.0}},
-                                  {1580.0, 0.8, 700.0, {180.0, 60.0}}, {1580.0, 0.4, 280.0, {0.0, 35.0}},
-                                  {700.0, 0.4, 280.0, {180.0, 35.0}},  {700.0, 0.6, 70.0, {225.0, 15.0}},
-                                  {700.0, 0.8, 700.0, {180.0, 60.0}},  {700.0, 0.4, 280.0, {0.0, 35.0}}};
-    for (const Case& one : cases) {
-        const Region region = slope(one.middle_H_m, one.rise);
-        constexpr double away_m = 1400.0;
-        Camera from_south = camera(one.middle_H_m);
-        from_south.eye = {46.5 - away_m / 111'000.0, 8.0, one.middle_H_m + one.above_m};
-        from_south.attitude = {0.0, -std::atan(one.above_m / away_m) * 180.0 / std::numbers::pi, 0.0};
-        from_south.vertical_fov_deg = 8.0;
-        gpu::FrameStyle style = natural(region, true, one.sun);
-        // Of one colour: forests have lighter and darker parts.
-        for (auto& material : style.materials.of) material.patches = {};
-        const auto mean_code = [&](double tau_px) {
-            const auto rgb =
-                picture(region, from_south, style, RasterPath::compute, 1, OcclusionUse::if_it_pays, tau_px);
-            double sum = 0.0;
-            for (std::size_t i = 1; i < rgb.size(); i += 3) sum += rgb[i];
-            return 3.0 * sum / static_cast<double>(rgb.size());
+    const std::vector<SlopeView> views{
+        {1580.0, 0.4, 280.0, {180.0, 15.0}},       {1580.0, 0.6, 280.0, {225.0, 35.0}},
+        {1580.0, 0.8, 700.0, {180.0, 60.0}},       {1580.0, 0.4, 280.0, {0.0, 35.0}},
+        {700.0, 0.4, 280.0, {180.0, 35.0}},        {700.0, 0.6, 70.0, {225.0, 15.0}},
+        {700.0, 0.8, 700.0, {180.0, 60.0}},        {700.0, 0.4, 280.0, {0.0, 35.0}},
+        {1580.0, 0.6, 700.0, {180.0, 60.0}, true}, {700.0, 0.6, 280.0, {180.0, 15.0}, true}};
+    for (const SlopeView& view : views) {
+        const Region region = slope_of(view);
+        const gpu::FrameStyle style = of_one_colour(region, view.sun);
+        const auto code = [&](double tau_px) {
+            return mean_green(picture_of(view, region, style, tau_px),
+                              [](double of_pixel) { return of_pixel; });
         };
-        const double near = mean_code(1.0), far = mean_code(200.0);
-        std::printf("H %.0f m, rise %.1f, eye %.0f m up, sun %.0f,%.0f: trees %.1f, forest %.1f\n",
-                    one.middle_H_m, one.rise, one.above_m, one.sun.azimuth_deg, one.sun.elevation_deg, near,
+        const double near = code(1.0), far = code(200.0);
+        std::printf("H %.0f m, rise %.1f%s, eye %.0f m up, sun %.0f,%.0f: trees %.1f, forest %.1f\n",
+                    view.middle_H_m, view.rise, view.across ? " across" : "", view.above_m,
+                    view.sun.azimuth_deg, view.sun.elevation_deg, near, far);
+        EXPECT_NEAR(near, far, 5.0);
+    }
+}
+
+// What is not forest, its forest being black: far forest leaves as much of clearings and rock to be seen as
+// trees do.
+TEST_F(TreePictures, HideAsMuchOfClearingsWhereTheyEnd) {
+    for (const SlopeView& view :
+         {SlopeView{700.0, 0.4, 280.0, {180.0, 35.0}}, SlopeView{700.0, 0.8, 700.0, {180.0, 60.0}}}) {
+        const Region region = slope_of(view);
+        gpu::FrameStyle clearings = of_one_colour(region, view.sun), nothing = clearings;
+        for (const gpu::uint forest : {gpu::material_needle_forest, gpu::material_broad_forest})
+            clearings.materials.of[forest].colour = gpu::vec3(0.0F);
+        for (auto& material : nothing.materials.of) material.colour = gpu::vec3(0.0F);
+        const auto light = [&](double tau_px) {
+            const auto of = [&](const gpu::FrameStyle& style) {
+                return mean_green(picture_of(view, region, style, tau_px), [](double of_pixel) {
+                    const double shown = of_pixel / 255.0;
+                    return shown <= 0.04045 ? shown / 12.92 : std::pow((shown + 0.055) / 1.055, 2.4);
+                });
+            };
+            return of(clearings) - of(nothing);
+        };
+        const double near = light(1.0), far = light(200.0);
+        std::printf("rise %.1f: light of clearings %.4f beside trees, %.4f beside forest\n", view.rise, near,
                     far);
-        // By this tau its canopy is some 10 px high and hides clearings and rock, as trees do with gaps.
-        EXPECT_NEAR(near, far, 6.5);
+        EXPECT_NEAR(far / near, 1.0, 0.06);
+        EXPECT_GT(near, 0.02) << "or there are none";
     }
 }
 
