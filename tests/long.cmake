@@ -286,6 +286,7 @@ set_tests_properties(
   Panorama.IsTheSameTwiceAndByItsView
   Panorama.RefusesWhatCannotBe
   Panorama.SaysTheSameInAllFormats
+  PanoramaForests.MirrorWithoutSeams
   PanoramaPeaks.AreWhereGeographicLibHasThemAndNamedWhereTheyAreSeen
   Paths/DrawnChoiceLong.HasTheTrianglesOfTheProcessorsPlanAt150Eyes/compute
   Paths/DrawnChoiceLong.HasTheTrianglesOfTheProcessorsPlanAt150Eyes/mesh

@@ -19,6 +19,7 @@
 #include "geo/pictures/picture.h"
 #include "geo/pixels/picture_difference.h"
 #include "geo/refined/refined_region.h"
+#include "shaders/shared_growth.h"
 
 namespace oro {
 namespace {
@@ -26,7 +27,6 @@ namespace {
 constexpr double smallest_em_px = 11.0;
 constexpr double lines_in_scene = 26.0, ems_in_width = 150.0;
 constexpr SheetColour paper{251, 250, 246};
-constexpr CylinderCut usual_cut{};
 
 std::string angle_words(double deg, int decimals, char positive, char negative) {
     char text[60];
@@ -78,7 +78,7 @@ Result<void> draw_overlay(const View& view, const TrueGround& ground, const Cyli
     View of_tile = view;
     of_tile.camera = tile.camera;
     OverlayInView overlay = overlay_in_view(of_tile, ground, PointsInView(ground, tile.camera, view.model),
-                                            usual_cut.oversampling);
+                                            CylinderCut{}.oversampling);
     std::vector<std::uint8_t> written;
     written.reserve(rgb.size());
     InkedRows rows(tile.camera.width_px, tile.camera.height_px, std::move(overlay.inked),
@@ -137,6 +137,12 @@ Cylinder cylinder_of(const View& view) {
                            view.camera.width_px);
 }
 
+CylinderCut cut_of(const Style& style) {
+    CylinderCut cut;
+    cut.with_forests = (style.frame.materials.on & gpu::materials_with_trees) != 0;
+    return cut;
+}
+
 double panorama_em_px(const Cylinder& around) {
     return std::max(smallest_em_px,
                     std::min(around.height_px() / lines_in_scene, around.width_px / ems_in_width));
@@ -187,7 +193,7 @@ Result<CylinderPicture> draw_scene(const View& view, const Region& region, const
             return has_overlay ? draw_overlay(view, ground, tile, rgb) : Result<void>();
         };
     ORO_TRY(CylinderPicture picture,
-            render_cylinder(gpu, scene, view.camera.eye, around, usual_cut, style.frame,
+            render_cylinder(gpu, scene, view.camera.eye, around, cut_of(style), style.frame,
                             picture_options(view, path), extras, progress));
     if (!gpu.validation_messages().empty())
         return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};

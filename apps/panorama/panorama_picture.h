@@ -21,6 +21,8 @@ namespace oro {
 
 // The cylinder of a view that is a panorama: its scene, without what stands around it.
 Cylinder cylinder_of(const View& view);
+// How it is cut into pictures of a pinhole eye: higher and wider ones for a style with trees.
+CylinderCut cut_of(const Style& style);
 
 // How large figures and names are: the em, of a scene's size.
 double panorama_em_px(const Cylinder& around);

@@ -18,6 +18,10 @@ namespace {
 constexpr double rad_per_deg = std::numbers::pi / 180.0;
 constexpr int margin_px = 4;  // around what a tile is for: its pixels' means reach over its borders
 constexpr int parts = 3;      // of a pixel, along each side
+// ... with forests: as far as raise_canopy.comp looks down, and, of the picture's height to either side,
+// where mirror_in_water.comp fades and lines that are upright in space lean.
+constexpr int canopy_margin_px = 32;
+constexpr double mirrored_share = 0.1;
 
 std::array<float, 256> lights() {
     std::array<float, 256> all{};
@@ -71,7 +75,7 @@ void aim(const Cylinder& around, const Geodetic& eye, CylinderTile& tile) {
 
 // unroll() looks within the tile, so what it reads ends where the tile's borders are seen. Around that: half
 // a pixel to either side between pixels, one that a ridge line looks at, and one for the way between corners.
-Tile part_of(const Cylinder& around, const CylinderTile& tile) {
+Tile part_of(const Cylinder& around, const CylinderTile& tile, int mirrored_px) {
     constexpr int beside_px = 3;
     const Camera& camera = tile.camera;
     const glm::dmat3 turn = view_from_enu(camera);
@@ -96,10 +100,33 @@ Tile part_of(const Cylinder& around, const CylinderTile& tile) {
     const auto end = [&](double px, int last) {
         return std::min(last, static_cast<int>(px) + 1 + beside_px);
     };
-    Tile part{begin(low.x), begin(low.y)};
-    part.width_px = end(high.x, camera.width_px) - part.x_px;
+    Tile part{begin(low.x - mirrored_px), begin(low.y)};
+    part.width_px = end(high.x + mirrored_px, camera.width_px) - part.x_px;
     part.height_px = end(high.y, camera.height_px) - part.y_px;
     return part;
+}
+
+// How many pixels a radian a tile's picture has in its middle: the cylinder has more the farther from level.
+double scale_px(const Cylinder& around, const CylinderTile& tile, const CylinderCut& cut) {
+    const double top_rad = around.elevation_deg_at(tile.y_px) * rad_per_deg,
+                 bottom_rad = around.elevation_deg_at(tile.y_px + tile.height_px) * rad_per_deg;
+    const double finest = cut.oversampling * around.px_per_rad();
+    if (!cut.with_forests) {
+        const double cosine = std::cos(std::max(std::abs(top_rad), std::abs(bottom_rad)));
+        return finest / (cosine * cosine);
+    }
+    // So has a picture, from its own middle.
+    const auto times = [&](double at_rad) {
+        const double own = std::cos(at_rad - 0.5 * (top_rad + bottom_rad)) / std::cos(at_rad);
+        return own * own;
+    };
+    return finest * std::max({1.0, times(top_rad), times(bottom_rad)});
+}
+
+// How many of the cylinder's rows a tile has at most.
+double most_rows_px(const Cylinder& around, const CylinderCut& cut, double side_px) {
+    if (!cut.with_forests) return side_px;
+    return std::min(1.5 * cut.largest_side_px / (1.2 * cut.oversampling), 2.0 * around.px_per_rad());
 }
 
 }  // namespace
@@ -110,7 +137,7 @@ std::vector<CylinderTile> cylinder_tiles(const Cylinder& around, const Geodetic&
     const double side_px = std::min(cut.largest_side_px / (1.2 * cut.oversampling),
                                     cut.widest_deg * rad_per_deg * around.px_per_rad());
     const std::vector<int> columns = borders(around.width_px, side_px, cut.shift_px),
-                           rows = borders(around.height_px(), side_px, 0.0);
+                           rows = borders(around.height_px(), most_rows_px(around, cut, side_px), 0.0);
     std::vector<CylinderTile> tiles;
     std::vector<double> scales_px;
     glm::dvec2 largest_px(0.0);
@@ -120,21 +147,22 @@ std::vector<CylinderTile> cylinder_tiles(const Cylinder& around, const Geodetic&
                               rows[row + 1] - rows[row], {},        {}};
             aim(around, eye, tile);
             // Rows lie closer together, in angle, the farther they are from the level line.
-            const double top_deg = std::abs(around.elevation_deg_at(tile.y_px)),
-                         bottom_deg = std::abs(around.elevation_deg_at(tile.y_px + tile.height_px)),
-                         cosine = std::cos(std::max(top_deg, bottom_deg) * rad_per_deg);
-            scales_px.push_back(cut.oversampling * around.px_per_rad() / (cosine * cosine));
+            scales_px.push_back(scale_px(around, tile, cut));
             largest_px =
                 glm::max(largest_px, scales_px.back() * reach(around, tile, view_from_enu(tile.camera)));
             tiles.push_back(tile);
         }
     }
+    const int above_px = cut.with_forests ? canopy_margin_px : margin_px;
+    const int half_height_px = static_cast<int>(std::ceil(largest_px.y)) + above_px;
+    const int mirrored_px =
+        cut.with_forests ? static_cast<int>(std::ceil(2.0 * mirrored_share * half_height_px)) : 0;
     for (std::size_t i = 0; i < tiles.size(); ++i) {
         Camera& camera = tiles[i].camera;
-        camera.width_px = 2 * (static_cast<int>(std::ceil(largest_px.x)) + margin_px);
-        camera.height_px = 2 * (static_cast<int>(std::ceil(largest_px.y)) + margin_px);
+        camera.width_px = 2 * (static_cast<int>(std::ceil(largest_px.x)) + margin_px + mirrored_px);
+        camera.height_px = 2 * half_height_px;
         camera.vertical_fov_deg = 2.0 * std::atan(0.5 * camera.height_px / scales_px[i]) / rad_per_deg;
-        tiles[i].part = part_of(around, tiles[i]);
+        tiles[i].part = part_of(around, tiles[i], mirrored_px);
     }
     return tiles;
 }

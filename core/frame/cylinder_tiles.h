@@ -27,6 +27,10 @@ struct CylinderCut {
     int largest_side_px{2048};  // of a tile's picture; 1.25 times that 35 degrees off level, more beyond
     double widest_deg{45.0};    // of a tile, across and up
     double shift_px{0.0};       // moves all borders between columns of tiles (tests)
+    // Far forests rise into pixels above them, and water mirrors what stands over it (shaders/growth): tiles
+    // are as high as the cylinder then, where that is no more than 90 degrees and the picture not too large,
+    // and see what lies beside them.
+    bool with_forests{false};
 };
 
 // Tiles that together are the cylinder, each once; all of them have pictures of one size.

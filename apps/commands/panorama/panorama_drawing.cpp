@@ -25,7 +25,7 @@ constexpr double most_scene_pixels = 2.0e8;
 
 // Of the tiles that draw_scene() draws.
 KnownPictures pictures_of_panorama(const View& view, const Style& style, const Cylinder& around) {
-    const CylinderCut cut;
+    const CylinderCut cut = cut_of(style);
     std::vector<Camera> cameras;
     for (const CylinderTile& tile : cylinder_tiles(around, view.camera.eye, cut))
         cameras.push_back(tile.camera);

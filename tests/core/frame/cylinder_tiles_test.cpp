@@ -44,34 +44,50 @@ TEST(CylinderTiles, AreEachPixelOnce) {
     }
 }
 
-// All that belongs to a tile, and two pixels more on each side, is in its eye's picture; and there it is as
-// much finer as was asked for, or more.
-TEST(CylinderTiles, SeeWhatTheyAreForFinely) {
-    for (const Cylinder& around : cylinders()) {
-        for (const CylinderTile& tile : cylinder_tiles(around, cylinder_eye, {2.0, 512, 45.0, 0.0})) {
-            const Camera& camera = tile.camera;
-            const glm::dmat3 turn =
-                camera.view_from_ecef() * ecef_from_enu(cylinder_eye.lat_deg, cylinder_eye.lon_deg);
-            const auto seen_px = [&](double x, double y) {
-                const glm::dvec3 seen = turn * around.enu_at({x, y});
-                EXPECT_LT(seen.z, 0.0);
-                return 0.5 * glm::dvec2(camera.width_px, camera.height_px) *
-                       (1.0 + glm::dvec2(seen.x, -seen.y) / -seen.z / camera.half_fov_tangent());
-            };
-            for (int i = 0; i <= 8; ++i) {
-                for (int j = 0; j <= 8; ++j) {
-                    const double x = tile.x_px + i / 8.0 * tile.width_px,
-                                 y = tile.y_px + j / 8.0 * tile.height_px;
-                    const glm::dvec2 at = seen_px(x, y);
-                    EXPECT_GE(std::min(at.x, at.y), 2.0);
-                    EXPECT_LE(at.x, camera.width_px - 2.0);
-                    EXPECT_LE(at.y, camera.height_px - 2.0);
-                    EXPECT_GE(glm::length(seen_px(x + 0.01, y) - at), 0.01 * 1.9) << x << " " << y;
-                    EXPECT_GE(glm::length(seen_px(x, y + 0.01) - at), 0.01 * 1.9) << x << " " << y;
-                }
-            }
+// All that belongs to a tile, and so many pixels more on each side, is in its eye's picture; and there it is
+// as much finer as was asked for, or more.
+void see_finely(const Cylinder& around, const CylinderTile& tile, const glm::dvec2& beside_px) {
+    const Camera& camera = tile.camera;
+    const glm::dmat3 turn =
+        camera.view_from_ecef() * ecef_from_enu(cylinder_eye.lat_deg, cylinder_eye.lon_deg);
+    const auto seen_px = [&](double x, double y) {
+        const glm::dvec3 seen = turn * around.enu_at({x, y});
+        EXPECT_LT(seen.z, 0.0);
+        return 0.5 * glm::dvec2(camera.width_px, camera.height_px) *
+               (1.0 + glm::dvec2(seen.x, -seen.y) / -seen.z / camera.half_fov_tangent());
+    };
+    for (int i = 0; i <= 8; ++i) {
+        for (int j = 0; j <= 8; ++j) {
+            const double x = tile.x_px + i / 8.0 * tile.width_px, y = tile.y_px + j / 8.0 * tile.height_px;
+            const glm::dvec2 at = seen_px(x, y);
+            EXPECT_GE(at.x, beside_px.x);
+            EXPECT_GE(at.y, beside_px.y);
+            EXPECT_LE(at.x, camera.width_px - beside_px.x);
+            EXPECT_LE(at.y, camera.height_px - beside_px.y);
+            EXPECT_GE(glm::length(seen_px(x + 0.01, y) - at), 0.01 * 1.9) << x << " " << y;
+            EXPECT_GE(glm::length(seen_px(x, y + 0.01) - at), 0.01 * 1.9) << x << " " << y;
         }
     }
+}
+TEST(CylinderTiles, SeeWhatTheyAreForFinely) {
+    for (const Cylinder& around : cylinders())
+        for (const CylinderTile& tile : cylinder_tiles(around, cylinder_eye, {2.0, 512, 45.0, 0.0}))
+            see_finely(around, tile, glm::dvec2(2.0));
+}
+
+// Where forests rise 32 px at most and water mirrors, which fades over 0.06 of a picture's height.
+TEST(CylinderTiles, SeeWhatIsBesideThemOverForests) {
+    for (const Cylinder& around : cylinders())
+        for (const CylinderTile& tile : cylinder_tiles(around, cylinder_eye, {2.0, 512, 45.0, 0.0, true})) {
+            see_finely(around, tile, {0.1 * tile.camera.height_px, 32.0});
+            const Tile& part = tile.part;
+            EXPECT_GE(part.x_px, 0);
+            EXPECT_LE(part.x_px + part.width_px, tile.camera.width_px);
+        }
+    // Up to 90 degrees from top to bottom they have no border across, where trees would be seen to end.
+    const Cylinder high = cylinder_around(300.0, 120.0, -45.0, 30.0, 300);
+    for (const CylinderTile& tile : cylinder_tiles(high, cylinder_eye, {2.0, 2048, 45.0, 0.0, true}))
+        EXPECT_EQ(tile.height_px, high.height_px());
 }
 
 // Of a tile's picture unroll() reads its part alone, and of the part's rim nothing: ridge lines there lack a
