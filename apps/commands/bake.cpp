@@ -332,7 +332,8 @@ Result<void> end_reading(const BakingOptions& options, const Region& region, con
 // options.out is on this machine, and place.path().
 Result<void> bake_at(const BakePlace& place, const BakePartOptions& options) {
     ORO_TRY(const Shard shard, parse_shard(options.shard));
-    ORO_TRY(const RegionRequest request, region_request(options.region));
+    ORO_TRY(RegionRequest request, region_request(options.region));
+    request.meshes.most_triangles = most_baked_triangles;
     ORO_CHECK(check_out(options));
     ProgressBar bar(options.quiet);
     BakeResult baked;

@@ -31,9 +31,23 @@ Result<bool> draws_terrain_clusters(const Region& region, View& view) {
     return false;
 }
 
+// One that was baked may have more triangles than are drawn at once.
+static Result<void> check_drawn_whole(const PlacedMesh& mesh) {
+    const std::size_t most = MeshRequest().most_triangles;
+    if (mesh.triangles.size() <= most) return {};
+    return Error{ErrorKind::usage, mesh.path,
+                 "has " + counted(mesh.triangles.size(), "triangle", "triangles") + ", and " +
+                     counted(most, "triangle", "triangles") +
+                     " are drawn at once: --mesh clusters draws as many as the picture needs"};
+}
+
 Result<std::shared_ptr<const MeshDetail>> mesh_detail_of(const Region& region, const View& view) {
     ORO_TRY(const bool draws, draws_mesh_clusters(region, view));
-    if (!draws) return std::shared_ptr<const MeshDetail>();
+    if (!draws) {
+        if (region.meshes)
+            for (const PlacedMesh& mesh : *region.meshes) ORO_CHECK(check_drawn_whole(mesh));
+        return std::shared_ptr<const MeshDetail>();
+    }
     for (const PlacedMesh& mesh : *region.meshes)
         if (!mesh.stored) ORO_CHECK(check_graph_memory(mesh.path, mesh.triangles.size()));
     return std::make_shared<const MeshDetail>(MeshDetail::of(region, view.exaggeration, thread_count()));

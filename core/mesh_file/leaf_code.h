@@ -34,6 +34,10 @@ class LeafCode {
     bool code(Coder& coder, std::uint32_t count, const LeafSource& source,
               std::span<const LatticeSteps> source_places, std::vector<Triangle>& triangles,
               StoredMesh& mesh);
+    // There will be no leaves of more triangles: room for the sides of so many.
+    void expect(std::size_t triangles) { sides_of_all_.expect(triangles); }
+    // There are no more leaves: gives memory back.
+    void end() { sides_of_all_ = {}; }
     // Of what an encoder was given: the number in the source of each triangle told of the last leaf.
     [[nodiscard]] std::span<const std::uint32_t> recorded() const { return recorded_; }
     // Of an encoder: by the source's numbers of vertices those of the file.

@@ -45,7 +45,7 @@ std::string implausible(const MeshNumbers& numbers) {
         for (const std::int64_t step : at)
             if (step < -2 * most_steps || step > most_steps) return "lies outside of the Earth";
     if (numbers.triangles == 0 || numbers.triangles > most_stored_triangles)
-        return "has " + std::to_string(numbers.triangles) + " triangles, expected 1 to 5,000,000";
+        return "has " + std::to_string(numbers.triangles) + " triangles, expected 1 to 20,000,000";
     if (numbers.vertices < 3 || numbers.vertices > 3 * numbers.triangles)
         return "has " + std::to_string(numbers.vertices) + " vertices, which its triangles do not have";
     if (numbers.levels == 0 || numbers.levels > most_levels)
@@ -76,7 +76,12 @@ class MeshBytesCode {
 
     // "" where all is well.
     std::string code() {
+        if constexpr (Coder::writes) {
+            leaf_.expect(numbers_.triangles);
+            given_original_.reserve(numbers_.triangles), turn_.reserve(numbers_.triangles);
+        }
         if (std::string wrong = leaves(); !wrong.empty()) return wrong;
+        vertices_m_.reserve(mesh_.places.size());
         for (std::uint32_t i = 0; i < mesh_.places.size(); ++i) vertices_m_.push_back(mesh_.from_origin_m(i));
         if (has_flat(0)) return "has a triangle without an area";
         for (std::uint32_t i = 0; i < numbers_.levels; ++i)
@@ -217,6 +222,7 @@ std::string MeshBytesCode<Coder>::leaves() {
         if (std::string wrong = leaf(i); !wrong.empty()) return wrong;
         if (is_cut_off()) return "is cut off in its leaves";
     }
+    leaf_.end();
     if (graph().triangles.size() != numbers_.triangles || mesh_.places.size() != numbers_.vertices)
         return "has " + std::to_string(graph().triangles.size()) + " triangles and " +
                std::to_string(mesh_.places.size()) + " vertices, expected " +
@@ -427,6 +433,11 @@ Result<std::vector<std::byte>> mesh_to_bytes(const MeshToStore& mesh) {
     RangeEncoder coder;
     StoredMesh stored;
     stored.origin = mesh.origin, stored.label_count = mesh.label_count;
+    // Vectors that grow to these would take twice as much for a moment.
+    stored.places.reserve(numbers.vertices);
+    stored.graph.clusters.triangles.reserve(numbers.graph_triangles);
+    stored.graph.clusters.clusters.reserve(numbers.clusters);
+    stored.graph.original_of.reserve(numbers.graph_triangles);
     MeshBytesCode<RangeEncoder> code(coder, numbers, groups, &mesh, stored);
     if (const std::string wrong = code.code(); !wrong.empty())
         return Error{ErrorKind::failed, "", "the mesh " + wrong};

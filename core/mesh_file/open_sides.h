@@ -13,6 +13,8 @@ class OpenSides {
   public:
     static constexpr std::size_t most_sides = 48;
 
+    // Room for the sides of so many triangles. Of it, only what is used takes memory.
+    void expect(std::size_t triangles) { sides_.reserve(6 * triangles); }
     void add(const std::array<std::uint32_t, 3>& triangle);
     // Adds the far ends of open sides of `vertex` to `ends`, those that are there already but once.
     void ends_at(std::uint32_t vertex, std::vector<std::uint32_t>& ends) const;

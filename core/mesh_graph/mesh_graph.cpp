@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <memory_resource>
+#include <numeric>
 #include <optional>
 #include <utility>
 
 #include "core/base/parallel.h"
 #include "core/mesh_graph/distance_cover.h"
 #include "core/mesh_graph/group_sphere.h"
+#include "core/mesh_graph/level_pieces.h"
+#include "core/mesh_graph/level_triangles.h"
 #include "core/mesh_graph/mesh_groups.h"
 #include "core/mesh_graph/nearest_triangles.h"
 #include "core/mesh_graph/original_pieces.h"
@@ -22,6 +25,8 @@ constexpr int most_levels = 80, most_idle_levels = 6, most_idle_in_parts = 2;
 // Of the error below a group that the next collapse may cost, or at first of the mesh's spacing; as many
 // times more after each level without progress.
 constexpr double growth = 4.0, first_share = 0.25;
+// Groups of a window: few enough for little memory, and enough for each thread to have several.
+constexpr std::size_t least_window = 64, window_of_thread = 16;
 // What distances in double, and the lattice's own corners, may round: 2 um.
 constexpr double rounding_m = 2.0e-6;
 
@@ -35,8 +40,10 @@ class MeshGraphBuilder {
           all_(triangles),
           origin_m_(origin_ecef_m),
           options_(options),
-          mesh_(corners_of(triangles)) {
-        begin(triangles);
+          memory_(array_memory(options.scratch)),
+          spacing_m_(median_side_m()) {
+        mesh_.emplace(vertices, triangles, options.scratch);
+        begin();
         if (options.ground != nullptr && !options.ground->triangles.empty())
             ground_.emplace(options.ground->triangles);
         if (options.parts != nullptr) begin_parts(std::max(0, options.parts->depth - 1));
@@ -66,39 +73,46 @@ class MeshGraphBuilder {
             end_level(before);
             if (is_last) break;
         }
-        return std::move(graph_);
+        return finished();
     }
 
   private:
-    [[nodiscard]] std::vector<std::array<glm::dvec3, 3>> corners_of(
-        std::span<const std::array<std::uint32_t, 3>> triangles) const {
-        std::vector<std::array<glm::dvec3, 3>> corners;
-        corners.reserve(triangles.size());
-        for (const auto& [a, b, c] : triangles) corners.push_back({vertices_[a], vertices_[b], vertices_[c]});
-        return corners;
+    [[nodiscard]] std::array<glm::dvec3, 3> corners_of(const std::array<std::uint32_t, 3>& triangle) const {
+        return {vertices_[triangle[0]], vertices_[triangle[1]], vertices_[triangle[2]]};
     }
-    [[nodiscard]] std::array<glm::dvec3, 3> corners_of(const LevelTriangle& triangle) const {
-        return {vertices_[triangle.corners[0]], vertices_[triangle.corners[1]],
-                vertices_[triangle.corners[2]]};
+    [[nodiscard]] glm::dvec3 middle_of(std::size_t triangle) const {
+        const auto [a, b, c] = corners_of(live_[triangle].corners);
+        return (a + b + c) / 3.0;
     }
     [[nodiscard]] double ground_off_m() const { return ground_ ? options_.ground->off_m : 0.0; }
-    void begin(std::span<const std::array<std::uint32_t, 3>> triangles);
+    [[nodiscard]] double median_side_m() const;
+    void begin();
     void begin_pieces();
     void begin_parts(int depth);
     bool join_parts(int idle);
-    [[nodiscard]] HalvedParts triangles_of_parts() const;
+    void order_by_part();
     void assign(int level);
+    // Triangles of a group, by their numbers among the level's, rising.
+    [[nodiscard]] std::span<const std::uint32_t> triangles_of(std::size_t group) const {
+        return std::span(by_group_).subspan(first_of_group_[group],
+                                            first_of_group_[group + 1] - first_of_group_[group]);
+    }
     void begin_groups(int level);
     [[nodiscard]] bool is_border(std::uint32_t vertex) const { return seen_[vertex] == shared; }
+    [[nodiscard]] std::size_t window_groups() const;
+    void end_window(std::size_t bytes) const;
     void simplify(double more);
+    std::vector<LevelTriangle> simplified(std::size_t group, double more);
     void measure(bool goes_on);
-    void measure_group(std::size_t number, HandedPieces& handed);
-    void end_chains(const std::vector<HandedPieces>& handed, MeshPlaceChains& chains) const;
-    void hand_over(std::vector<HandedPieces>& handed);
+    void measured(std::size_t group, StoredPieces& handed);
+    double measure_made(std::size_t group, double least_m, double& found_m);
+    void note_chains(std::span<const StoredPieces> handed, bool goes_on) const;
     void add_clusters();
-    void add_clusters_of(std::size_t first, std::size_t last);
+    void add_clusters_of_maker(std::size_t first, std::size_t last);
+    void add_clusters_of(std::span<const std::uint32_t> triangles, std::uint32_t user);
     void add_cluster(std::span<const std::uint32_t> triangles, std::uint32_t used_by);
     void end_level(std::size_t triangles_before);
+    MeshGraph finished();
 
     static constexpr std::uint32_t unseen = ~std::uint32_t{0}, shared = unseen - 1;
 
@@ -106,50 +120,54 @@ class MeshGraphBuilder {
     std::span<const std::array<std::uint32_t, 3>> all_;
     glm::dvec3 origin_m_;
     const MeshGraphOptions& options_;
-    NearestTriangles mesh_;
-    std::optional<NearestTriangles> ground_;
+    std::pmr::memory_resource* memory_;  // for what is of the mesh's size
     double spacing_m_{};
-    int part_depth_{};                  // of the parts that groups keep within
-    std::size_t coarse_{};              // triangles of all of them that are few enough to join them
-    std::vector<LevelTriangle> live_;   // of the level, those of one maker after another
-    std::vector<std::uint32_t> group_;  // that each goes to, from 0
+    std::optional<NearestTriangles> mesh_;
+    std::optional<NearestTriangles> ground_;
+    int part_depth_{};              // of the parts that groups keep within
+    std::size_t coarse_{};          // triangles of all of them that are few enough to join them
+    LevelTriangles live_{memory_};  // of the level, those of one maker after another
+    std::pmr::vector<std::uint32_t> group_{memory_};  // that each goes to, from 0
     std::size_t group_count_{};
-    std::vector<std::uint32_t> seen_;  // by vertex: the group that has it, or shared
-    std::uint32_t first_group_{};      // the level's
+    std::pmr::vector<std::uint32_t> by_group_{memory_};  // triangles, those of one group after another
+    std::vector<std::size_t> first_of_group_;            // in by_group_, and the end
+    std::pmr::vector<std::uint32_t> seen_{memory_};      // by vertex: the group that has it, or shared
+    std::uint32_t first_group_{};                        // the level's
     std::uint32_t level_{};
     std::vector<std::size_t> first_made_;              // of each group of the level, in live_, and the end
     std::vector<double> believed_m_;                   // of each
     std::vector<double> least_error_m_;                // that it is to have, for what it dropped
     std::vector<std::vector<PartBox>> on_the_ground_;  // that it dropped
-    std::vector<OriginalPieces> pieces_;
+    LevelPieces pieces_{options_.scratch};
     std::vector<std::vector<std::uint32_t>> members_;  // clusters that each group of the next level uses
+    // Of the graph, which has its own when it is done.
+    std::pmr::vector<VertexTriangle> graph_triangles_{memory_};
+    std::pmr::vector<std::uint32_t> original_of_{memory_};
     MeshGraph graph_;
 };
 
-void MeshGraphBuilder::begin(std::span<const std::array<std::uint32_t, 3>> triangles) {
-    std::vector<double> sides;
-    sides.reserve(3 * triangles.size());
-    live_.resize(triangles.size());
-    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-        LevelTriangle& triangle = live_[i];
-        triangle.corners = triangles[i], triangle.original = i, triangle.made_by = no_group;
-        triangle.from_original_m = 0.0;
+double MeshGraphBuilder::median_side_m() const {
+    std::pmr::vector<double> sides(memory_);
+    sides.reserve(3 * all_.size());
+    for (const auto& triangle : all_) {
         const auto [a, b, c] = corners_of(triangle);
-        triangle.samples.push_back((a + b + c) / 3.0);
         for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}})
             sides.push_back(glm::distance(from, to));
-        // A side that two triangles have is sampled once where they go round it in opposite ways.
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t from = triangles[i][k], to = triangles[i][(k + 1) % 3];
-            if (from < to) triangle.samples.push_back(0.5 * (vertices_[from] + vertices_[to]));
-        }
     }
     const auto middle = sides.begin() + static_cast<std::ptrdiff_t>(sides.size() / 2);
     std::nth_element(sides.begin(), middle, sides.end());
-    spacing_m_ = *middle;
+    return *middle;
+}
+
+void MeshGraphBuilder::begin() {
+    live_.reserve(all_.size());
+    for (const auto& triangle : all_) live_.add_original(triangle);
+    constexpr std::size_t all_levels = 3;  // have so many times the mesh's triangles, mostly
+    graph_triangles_.reserve(all_levels * all_.size());
+    original_of_.reserve(all_levels * all_.size());
     if (options_.chains == nullptr) return;
-    options_.chains->groups.assign(triangles.size(), {});
-    options_.chains->on_ground.assign(triangles.size(), 0);
+    options_.chains->groups.assign(all_.size(), {});
+    options_.chains->on_ground.assign(all_.size(), 0);
 }
 
 void MeshGraphBuilder::begin_parts(int depth) {
@@ -166,47 +184,78 @@ bool MeshGraphBuilder::join_parts(int idle) {
     return true;
 }
 
-// The triangles of each part that groups keep within.
-HalvedParts MeshGraphBuilder::triangles_of_parts() const {
-    HalvedParts parts(std::size_t{1} << 2 * part_depth_);
-    for (std::uint32_t i = 0; i < live_.size(); ++i) {
-        const NestedPart part =
-            part_depth_ == 0 ? NestedPart{} : options_.parts->smallest(live_[i].original).above(part_depth_);
-        parts[part.number].push_back(i);
-    }
-    return parts;
+std::size_t MeshGraphBuilder::window_groups() const {
+    if (options_.window_groups > 0) return options_.window_groups;
+    return std::max(least_window, window_of_thread * static_cast<std::size_t>(std::max(1, options_.threads)));
+}
+
+// bytes: what was in memory.
+void MeshGraphBuilder::end_window(std::size_t bytes) const {
+    if (options_.most_window_bytes != nullptr)
+        *options_.most_window_bytes = std::max(*options_.most_window_bytes, bytes);
+    if (options_.scratch != nullptr) options_.scratch->drop_pages();
 }
 
 // Each group of the first level answers for its own triangles.
 void MeshGraphBuilder::begin_pieces() {
-    pieces_.resize(group_count_);
-    for (std::uint32_t block = 0; block < mesh_.blocks().size(); ++block) {
-        for (std::uint32_t i = 0; i < mesh_.blocks()[block].count; ++i) {
-            const std::uint32_t number = mesh_.number(4 * block + i);
-            pieces_[group_[number]].whole.push_back(WholePiece::triangle(4 * block + i));
-            if (options_.chains != nullptr) options_.chains->groups[number].push_back(group_[number]);
-        }
+    pieces_ = LevelPieces(options_.scratch);
+    constexpr std::uint32_t blocks_at_a_time = 1U << 16U;
+    const auto blocks = static_cast<std::uint32_t>(mesh_->blocks().size());
+    for (std::uint32_t first = 0; first < blocks; first += blocks_at_a_time) {
+        StoredPieces handed(options_.scratch);
+        for (std::uint32_t block = first; block < std::min(blocks, first + blocks_at_a_time); ++block)
+            for (std::uint32_t i = 0; i < mesh_->blocks()[block].count; ++i) {
+                const std::uint32_t number = mesh_->number(4 * block + i);
+                handed.take_whole(WholePiece::triangle(4 * block + i), static_cast<int>(group_[number]));
+                if (options_.chains != nullptr) options_.chains->groups[number].push_back(group_[number]);
+            }
+        pieces_.take(std::span(&handed, 1));
+        end_window(0);
     }
-    in_parallel(static_cast<int>(pieces_.size()), options_.threads,
-                [&](int i) { join_whole_pieces(mesh_, pieces_[static_cast<std::size_t>(i)].whole); });
+    pieces_.deal(group_count_, *mesh_, options_.threads);
+    end_window(0);
+}
+
+// Triangles of each part that groups keep within, into by_group_, and where each part's begin.
+void MeshGraphBuilder::order_by_part() {
+    const auto part_of = [&](std::size_t triangle) {
+        return part_depth_ == 0
+                   ? std::size_t{0}
+                   : std::size_t{
+                         options_.parts->smallest(live_[triangle].original).above(part_depth_).number};
+    };
+    std::vector<std::size_t>& first = first_of_group_;
+    first.assign((std::size_t{1} << 2 * part_depth_) + 1, 0);
+    for (std::size_t i = 0; i < live_.size(); ++i) ++first[part_of(i) + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    by_group_.resize(live_.size());
+    std::vector<std::size_t> next(first.begin(), first.end());
+    for (std::size_t i = 0; i < live_.size(); ++i)
+        by_group_[next[part_of(i)]++] = static_cast<std::uint32_t>(i);
 }
 
 void MeshGraphBuilder::assign(int level) {
-    std::vector<glm::dvec3> middles(live_.size());
-    for (std::size_t i = 0; i < live_.size(); ++i) {
-        const auto [a, b, c] = corners_of(live_[i]);
-        middles[i] = (a + b + c) / 3.0;
-    }
+    order_by_part();
+    const std::vector<std::size_t> first_of_part = std::move(first_of_group_);
+    std::pmr::vector<glm::dvec3> middles(memory_);
+    middles.reserve(live_.size());
+    for (std::size_t i = 0; i < live_.size(); ++i) middles.push_back(middle_of(i));
+    end_window(0);
     group_.assign(live_.size(), 0);
     group_count_ = 0;
-    for (std::vector<std::uint32_t>& part : triangles_of_parts())
-        for (const std::vector<std::uint32_t>& group :
-             halved(middles, std::move(part), full_group, level,
-                    [](std::span<const std::uint32_t> some) { return some.size() <= full_group; })) {
-            for (const std::uint32_t triangle : group)
-                group_[triangle] = static_cast<std::uint32_t>(group_count_);
-            ++group_count_;
-        }
+    first_of_group_.assign(1, 0);
+    for (std::size_t part = 0; part + 1 < first_of_part.size(); ++part)
+        halve_in_place(
+            middles,
+            std::span(by_group_).subspan(first_of_part[part], first_of_part[part + 1] - first_of_part[part]),
+            full_group, level, [](std::span<const std::uint32_t> some) { return some.size() <= full_group; },
+            [&](std::span<const std::uint32_t> group) {
+                for (const std::uint32_t triangle : group)
+                    group_[triangle] = static_cast<std::uint32_t>(group_count_);
+                first_of_group_.push_back(first_of_group_.back() + group.size());
+                if (++group_count_ % window_groups() == 0) end_window(0);
+            });
+    end_window(0);
 }
 
 // The groups of a level as the graph has them, and what is on their borders.
@@ -220,7 +269,7 @@ void MeshGraphBuilder::begin_groups(int level) {
         group.first_member = static_cast<std::uint32_t>(graph.members.size());
         group.members = static_cast<std::uint32_t>(members_[i].size());
         graph.members.insert(graph.members.end(), members_[i].begin(), members_[i].end());
-        set_sphere(graph, vertices_, origin_m_, group);
+        set_sphere(graph, graph_triangles_, vertices_, origin_m_, group);
         graph.groups.push_back(group);
         graph.groups.back().error_m = largest_member_error_m(graph, graph.groups.back());
     }
@@ -228,48 +277,67 @@ void MeshGraphBuilder::begin_groups(int level) {
     for (std::size_t i = 0; i < live_.size(); ++i)
         for (const std::uint32_t corner : live_[i].corners)
             seen_[corner] = seen_[corner] == unseen || seen_[corner] == group_[i] ? group_[i] : shared;
+    end_window(0);
+}
+
+// What a group's triangles become.
+std::vector<LevelTriangle> MeshGraphBuilder::simplified(std::size_t group, double more) {
+    std::vector<LevelTriangle> triangles;
+    triangles.reserve(triangles_of(group).size());
+    for (const std::uint32_t triangle : triangles_of(group))
+        triangles.push_back(live_.unpacked(triangle, vertices_));
+    const std::size_t before = triangles.size();
+    const double below_m = graph_.clusters.groups[first_group_ + group].error_m;
+    SimplifierLimits limits{below_m,
+                            more * std::max(growth * below_m, first_share * spacing_m_),
+                            std::min(0.01, 0.05 * spacing_m_),
+                            spacing_m_,
+                            ground_ ? &*ground_ : nullptr,
+                            ground_off_m()};
+    SpaceSimplifier simplifier(vertices_, *mesh_, limits);
+    simplifier.simplify(
+        std::move(triangles), [&](std::uint32_t vertex) { return is_border(vertex); },
+        static_cast<std::size_t>(options_.kept_share * static_cast<double>(before)));
+    believed_m_[group] = simplifier.reached_m(), least_error_m_[group] = simplifier.least_error_m();
+    on_the_ground_[group] = simplifier.on_the_ground();
+    std::vector<LevelTriangle> made = simplifier.take();
+    for (LevelTriangle& triangle : made) triangle.made_by = first_group_ + static_cast<std::uint32_t>(group);
+    return made;
+}
+
+std::size_t bytes_of(std::span<const std::vector<LevelTriangle>> triangles) {
+    std::size_t bytes = 0;
+    for (const std::vector<LevelTriangle>& of_group : triangles)
+        for (const LevelTriangle& triangle : of_group)
+            bytes += sizeof(LevelTriangle) + triangle.samples.size() * sizeof(glm::dvec3);
+    return bytes;
 }
 
 void MeshGraphBuilder::simplify(double more) {
-    std::vector<std::vector<LevelTriangle>> of_group(group_count_);
-    for (std::size_t i = 0; i < live_.size(); ++i) of_group[group_[i]].push_back(std::move(live_[i]));
-    live_.clear();
     believed_m_.assign(group_count_, 0.0), least_error_m_.assign(group_count_, 0.0);
     on_the_ground_.assign(group_count_, {});
     GraphLevel level;
     level.groups = group_count_;
-    std::vector<std::size_t> before(group_count_);
-    for (std::size_t i = 0; i < group_count_; ++i) {
-        before[i] = of_group[i].size();
-        level.largest_group = std::max(level.largest_group, before[i]);
-    }
-    in_parallel(static_cast<int>(group_count_), options_.threads, [&](int number) {
-        const auto i = static_cast<std::size_t>(number);
-        const double below_m = graph_.clusters.groups[first_group_ + i].error_m;
-        SimplifierLimits limits{below_m,
-                                more * std::max(growth * below_m, first_share * spacing_m_),
-                                std::min(0.01, 0.05 * spacing_m_),
-                                spacing_m_,
-                                ground_ ? &*ground_ : nullptr,
-                                ground_off_m()};
-        SpaceSimplifier simplifier(vertices_, mesh_, limits);
-        simplifier.simplify(
-            std::move(of_group[i]), [&](std::uint32_t vertex) { return is_border(vertex); },
-            static_cast<std::size_t>(options_.kept_share * static_cast<double>(before[i])));
-        of_group[i] = simplifier.take();
-        believed_m_[i] = simplifier.reached_m(), least_error_m_[i] = simplifier.least_error_m();
-        on_the_ground_[i] = simplifier.on_the_ground();
-    });
+    LevelTriangles made(memory_);
+    made.reserve(live_.size());
     first_made_.assign(1, 0);
-    for (std::uint32_t i = 0; i < group_count_; ++i) {
-        level.stuck_groups +=
-            static_cast<double>(of_group[i].size()) > stuck_share * static_cast<double>(before[i]) ? 1U : 0U;
-        for (LevelTriangle& triangle : of_group[i]) {
-            triangle.made_by = first_group_ + i;
-            live_.push_back(std::move(triangle));
+    for (std::size_t first = 0; first < group_count_; first += window_groups()) {
+        std::vector<std::vector<LevelTriangle>> of_group(std::min(window_groups(), group_count_ - first));
+        in_parallel(static_cast<int>(of_group.size()), options_.threads, [&](int number) {
+            const auto i = static_cast<std::size_t>(number);
+            of_group[i] = simplified(first + i, more);
+        });
+        for (std::size_t i = 0; i < of_group.size(); ++i) {
+            const std::size_t before = triangles_of(first + i).size(), left = of_group[i].size();
+            level.largest_group = std::max(level.largest_group, before);
+            level.stuck_groups +=
+                static_cast<double>(left) > stuck_share * static_cast<double>(before) ? 1U : 0U;
+            first_made_.push_back(first_made_.back() + left);
         }
-        first_made_.push_back(live_.size());
+        made.add(of_group);
+        end_window(bytes_of(of_group));
     }
+    live_ = std::move(made);
     level.triangles_out = live_.size();
     graph_.clusters.levels.push_back(level);
 }
@@ -277,40 +345,52 @@ void MeshGraphBuilder::simplify(double more) {
 // Errors of what a level made, and who answers next for which part of the mesh.
 void MeshGraphBuilder::measure(bool goes_on) {
     const std::size_t groups = first_made_.size() - 1;
-    std::vector<HandedPieces> handed(groups);
-    in_parallel(static_cast<int>(groups), options_.threads, [&](int i) {
-        measure_group(static_cast<std::size_t>(i), handed[static_cast<std::size_t>(i)]);
-    });
-    if (options_.chains != nullptr) end_chains(handed, *options_.chains);
-    if (goes_on) hand_over(handed);
+    LevelPieces next(options_.scratch);
+    for (std::size_t first = 0; first < groups; first += window_groups()) {
+        std::vector<StoredPieces> handed;
+        for (std::size_t i = first; i < std::min(groups, first + window_groups()); ++i)
+            handed.emplace_back(options_.scratch);
+        in_parallel(static_cast<int>(handed.size()), options_.threads, [&](int number) {
+            const auto i = static_cast<std::size_t>(number);
+            measured(first + i, handed[i]);
+        });
+        if (options_.chains != nullptr) note_chains(handed, goes_on);
+        if (goes_on) next.take(handed);
+        end_window(0);
+    }
+    if (!goes_on) return;
+    pieces_ = std::move(next);
+    pieces_.deal(group_count_, *mesh_, options_.threads);
+    end_window(0);
 }
 
-// Places whose pieces lie on the ground from here on.
-void MeshGraphBuilder::end_chains(const std::vector<HandedPieces>& handed, MeshPlaceChains& chains) const {
-    for (const HandedPieces& one : handed) {
-        for (const auto& [piece, user] : one.whole)
-            if (user == on_ground)
-                each_triangle(mesh_, piece,
-                              [&](std::uint32_t place) { chains.on_ground[mesh_.number(place)] = 1; });
-        for (const auto& [part, user] : one.parts)
-            if (user == on_ground && part.has_marked) chains.on_ground[mesh_.number(part.triangle)] = 1;
+// Which groups answer for a place from here on, or that its piece lies on the ground.
+void MeshGraphBuilder::note_chains(std::span<const StoredPieces> handed, bool goes_on) const {
+    MeshPlaceChains& chains = *options_.chains;
+    const auto next_group = static_cast<std::uint32_t>(graph_.clusters.groups.size());
+    const auto note = [&](std::uint32_t place, int user) {
+        const std::uint32_t number = mesh_->number(place);
+        if (user == on_ground)
+            chains.on_ground[number] = 1;
+        else if (goes_on)
+            chains.groups[number].push_back(next_group + static_cast<std::uint32_t>(user));
+    };
+    for (const StoredPieces& one : handed) {
+        for (const auto& [piece, user] : one.whole())
+            each_triangle(*mesh_, piece, [&, to = user](std::uint32_t place) { note(place, to); });
+        for (const StoredPieces::Part& part : one.parts())
+            if (part.has_marked) note(part.triangle, part.user);
     }
 }
 
-void MeshGraphBuilder::measure_group(std::size_t number, HandedPieces& handed) {
-    ClusterGroup& group = graph_.clusters.groups[first_group_ + number];
-    std::vector<std::array<glm::dvec3, 3>> made;
-    std::vector<int> users;
-    for (std::size_t i = first_made_[number]; i < first_made_[number + 1]; ++i) {
-        made.push_back(corners_of(live_[i]));
-        users.push_back(static_cast<int>(group_[i]));
-    }
-    double most_m = group.error_m;
-    DistanceCover to_mesh(mesh_, std::max(most_m, believed_m_[number]));
-    for (std::size_t i = first_made_[number]; i < first_made_[number + 1]; ++i) {
+// The largest distance of what a group made from the mesh, at least least_m. found_m: by its corners.
+double MeshGraphBuilder::measure_made(std::size_t group, double least_m, double& found_m) {
+    double most_m = least_m;
+    DistanceCover to_mesh(*mesh_, std::max(most_m, believed_m_[group]));
+    for (std::size_t i = first_made_[group]; i < first_made_[group + 1]; ++i) {
         if (live_[i].from_original_m < 0.0) {
             OriginalPart polygon;
-            const std::array<glm::dvec3, 3>& corners = made[i - first_made_[number]];
+            const std::array<glm::dvec3, 3> corners = corners_of(live_[i].corners);
             std::copy(corners.begin(), corners.end(), polygon.corners.begin());
             polygon.count = 3;
             to_mesh.begin_bound();
@@ -319,106 +399,106 @@ void MeshGraphBuilder::measure_group(std::size_t number, HandedPieces& handed) {
         }
         most_m = std::max(most_m, live_[i].from_original_m);
     }
+    found_m = to_mesh.found_m();
+    return most_m;
+}
+
+void MeshGraphBuilder::measured(std::size_t number, StoredPieces& handed) {
+    ClusterGroup& group = graph_.clusters.groups[first_group_ + number];
+    std::vector<std::array<glm::dvec3, 3>> made;
+    std::vector<int> users;
+    for (std::size_t i = first_made_[number]; i < first_made_[number + 1]; ++i) {
+        made.push_back(corners_of(live_[i].corners));
+        users.push_back(static_cast<int>(group_[i]));
+    }
+    double found_m = 0.0;
+    const double most_m = measure_made(number, group.error_m, found_m);
     // What was dropped lies on the ground.
-    const double believed_m = std::max(most_m, to_mesh.found_m());
+    const double believed_m = std::max(most_m, found_m);
     if (!on_the_ground_[number].empty())
         add_ground_near(*ground_, on_the_ground_[number], believed_m, made, users);
     const NearestTriangles tree(made);
     DistanceCover from_mesh(tree, believed_m, users);
     if (ground_) from_mesh.put_on_ground_first(*ground_);
-    handed = hand_on(mesh_, pieces_[number], from_mesh,
-                     options_.chains != nullptr ? std::span<const glm::dvec3>(options_.chains->places)
-                                                : std::span<const glm::dvec3>());
-    group.error_m = std::max({most_m, handed.bound_m + ground_off_m(), least_error_m_[number]}) + rounding_m;
-}
-
-void MeshGraphBuilder::hand_over(std::vector<HandedPieces>& handed) {
-    const auto next_group = static_cast<std::uint32_t>(graph_.clusters.groups.size());
-    std::vector<OriginalPieces> next(group_count_);
-    MeshPlaceChains* const chains = options_.chains;
-    for (const HandedPieces& one : handed) {
-        for (const auto& [piece, user] : one.whole) {
-            if (user == on_ground) continue;
-            next[static_cast<std::size_t>(user)].whole.push_back(piece);
-            if (chains == nullptr) continue;
-            const std::uint32_t group = next_group + static_cast<std::uint32_t>(user);
-            each_triangle(mesh_, piece,
-                          [&](std::uint32_t place) { chains->groups[mesh_.number(place)].push_back(group); });
-        }
-        for (const auto& [part, user] : one.parts) {
-            if (user == on_ground) continue;
-            next[static_cast<std::size_t>(user)].parts.push_back(part);
-            if (chains != nullptr && part.has_marked)
-                chains->groups[mesh_.number(part.triangle)].push_back(next_group +
-                                                                      static_cast<std::uint32_t>(user));
-        }
-    }
-    handed.clear();
-    in_parallel(static_cast<int>(next.size()), options_.threads,
-                [&](int i) { join_whole_pieces(mesh_, next[static_cast<std::size_t>(i)].whole); });
-    pieces_ = std::move(next);
+    const double bound_m = hand_on(
+        *mesh_, pieces_.whole_of(number), pieces_.parts_of(number),
+        [&](std::size_t part) { return pieces_.part(number, part); }, from_mesh,
+        options_.chains != nullptr ? std::span<const glm::dvec3>(options_.chains->places)
+                                   : std::span<const glm::dvec3>(),
+        handed);
+    group.error_m = std::max({most_m, bound_m + ground_off_m(), least_error_m_[number]}) + rounding_m;
 }
 
 // What each maker made, as clusters: those of one user after those of another.
 void MeshGraphBuilder::add_clusters() {
     members_.assign(group_count_, {});
-    if (graph_.clusters.groups.empty()) {
-        add_clusters_of(0, live_.size());
+    ClusterGraph& graph = graph_.clusters;
+    if (graph.groups.empty()) {
+        for (std::uint32_t i = 0; i < group_count_; ++i) {
+            add_clusters_of(triangles_of(i), i);
+            if ((i + 1) % window_groups() == 0) end_window(0);
+        }
         return;
     }
     for (std::size_t i = 0; i + 1 < first_made_.size(); ++i) {
-        ClusterGroup& group = graph_.clusters.groups[first_group_ + i];
-        group.first_made = static_cast<std::uint32_t>(graph_.clusters.clusters.size());
-        add_clusters_of(first_made_[i], first_made_[i + 1]);
-        group.made = static_cast<std::uint32_t>(graph_.clusters.clusters.size()) - group.first_made;
+        ClusterGroup& group = graph.groups[first_group_ + i];
+        group.first_made = static_cast<std::uint32_t>(graph.clusters.size());
+        add_clusters_of_maker(first_made_[i], first_made_[i + 1]);
+        group.made = static_cast<std::uint32_t>(graph.clusters.size()) - group.first_made;
+        if ((i + 1) % window_groups() == 0) end_window(0);
     }
 }
 
-void MeshGraphBuilder::add_clusters_of(std::size_t first, std::size_t last) {
-    std::vector<glm::dvec3> middles(last - first);
+void MeshGraphBuilder::add_clusters_of_maker(std::size_t first, std::size_t last) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> by_user;
-    for (std::size_t i = first; i < last; ++i) {
-        const auto [a, b, c] = corners_of(live_[i]);
-        middles[i - first] = (a + b + c) / 3.0;
-        by_user.emplace_back(group_[i], static_cast<std::uint32_t>(i - first));
-    }
+    for (std::size_t i = first; i < last; ++i) by_user.emplace_back(group_[i], static_cast<std::uint32_t>(i));
     std::sort(by_user.begin(), by_user.end());
-    std::vector<std::uint32_t> corners;
-    const auto fits = [&](std::span<const std::uint32_t> triangles) {
-        if (triangles.size() > most_cluster_triangles) return false;
+    std::vector<std::uint32_t> part;
+    for (std::size_t i = 0; i < by_user.size();) {
+        part.clear();
+        const std::uint32_t user = by_user[i].first;
+        for (; i < by_user.size() && by_user[i].first == user; ++i) part.push_back(by_user[i].second);
+        add_clusters_of(part, user);
+    }
+}
+
+// triangles: of the level, rising.
+void MeshGraphBuilder::add_clusters_of(std::span<const std::uint32_t> triangles, std::uint32_t user) {
+    std::vector<glm::dvec3> middles;
+    for (const std::uint32_t triangle : triangles) middles.push_back(middle_of(triangle));
+    std::vector<std::uint32_t> order(triangles.size()), corners;
+    std::iota(order.begin(), order.end(), 0U);
+    const auto fits = [&](std::span<const std::uint32_t> some) {
+        if (some.size() > most_cluster_triangles) return false;
         corners.clear();
-        for (const std::uint32_t triangle : triangles)
-            corners.insert(corners.end(), live_[first + triangle].corners.begin(),
-                           live_[first + triangle].corners.end());
+        for (const std::uint32_t i : some)
+            corners.insert(corners.end(), live_[triangles[i]].corners.begin(),
+                           live_[triangles[i]].corners.end());
         std::sort(corners.begin(), corners.end());
         return std::unique(corners.begin(), corners.end()) - corners.begin() <=
                static_cast<std::ptrdiff_t>(most_cluster_vertices);
     };
-    for (std::size_t i = 0; i < by_user.size();) {
-        std::vector<std::uint32_t> part;
-        const std::uint32_t user = by_user[i].first;
-        for (; i < by_user.size() && by_user[i].first == user; ++i) part.push_back(by_user[i].second);
-        for (std::vector<std::uint32_t>& cluster :
-             halved(middles, std::move(part), most_cluster_triangles, 1, fits)) {
-            for (std::uint32_t& triangle : cluster) triangle += static_cast<std::uint32_t>(first);
-            add_cluster(cluster, user);
-        }
-    }
+    std::vector<std::uint32_t> cluster;
+    halve_in_place(middles, order, most_cluster_triangles, 1, fits, [&](std::span<const std::uint32_t> some) {
+        cluster.clear();
+        for (const std::uint32_t i : some) cluster.push_back(triangles[i]);
+        add_cluster(cluster, user);
+    });
 }
 
 void MeshGraphBuilder::add_cluster(std::span<const std::uint32_t> triangles, std::uint32_t used_by) {
     ClusterGraph& graph = graph_.clusters;
     Cluster cluster{};
-    cluster.first_triangle = static_cast<std::uint32_t>(graph.triangles.size());
+    cluster.first_triangle = static_cast<std::uint32_t>(graph_triangles_.size());
     cluster.triangles = static_cast<std::uint32_t>(triangles.size());
     cluster.made_by = live_[triangles.front()].made_by;
     cluster.used_by =
         group_count_ == 0 ? no_group : static_cast<std::uint32_t>(graph.groups.size()) + used_by;
     std::vector<std::uint32_t> corners;
     for (const std::uint32_t triangle : triangles) {
-        const LevelTriangle& one = live_[triangle];
-        graph.triangles.push_back({one.corners[0], one.corners[1], one.corners[2]});
-        graph_.original_of.push_back(one.original);
+        const StoredTriangle& one = live_[triangle];
+        graph_triangles_.push_back({one.corners[0], one.corners[1], one.corners[2]});
+        original_of_.push_back(one.original);
         corners.insert(corners.end(), one.corners.begin(), one.corners.end());
     }
     std::sort(corners.begin(), corners.end());
@@ -437,6 +517,18 @@ void MeshGraphBuilder::end_level(std::size_t triangles_before) {
         level.largest_error_m = std::max(level.largest_error_m, graph.groups[i].error_m);
     }
     for (const std::uint32_t seen : seen_) level.locked += seen == shared ? 1U : 0U;
+    end_window(0);
+}
+
+// The graph with its triangles, once all else is given back.
+MeshGraph MeshGraphBuilder::finished() {
+    mesh_.reset();
+    pieces_ = LevelPieces(options_.scratch);
+    live_ = LevelTriangles(memory_);
+    graph_.original_of.assign(original_of_.begin(), original_of_.end());
+    original_of_ = std::pmr::vector<std::uint32_t>(memory_);
+    graph_.clusters.triangles.assign(graph_triangles_.begin(), graph_triangles_.end());
+    return std::move(graph_);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/scratch_memory.h"
 #include "core/clusters/cluster_graph.h"
 #include "core/mesh_graph/mesh_ground.h"
 #include "core/mesh_graph/nested_parts.h"
@@ -51,13 +52,21 @@ struct MeshGraphOptions {
     // The ground: parts of the mesh that hang together with nothing may be dropped onto it. Null: it is not
     // known, and each place of the mesh has something of the mesh near it. Outlives the call.
     const MeshGround* ground{};
+    // Where the arrays of the mesh's size lie while the graph grows: in files, so that what is in memory is a
+    // window of groups, and some bytes a group. Null: in memory.
+    ScratchMemory* scratch{};
+    // Groups that are made coarser together, and out of memory then; 0: a good number.
+    std::size_t window_groups{};
+    // What such a window had in memory at most: triangles with their samples. Null: not asked.
+    std::size_t* most_window_bytes{};
 };
 
 // vertices: metres, from a place near the mesh. origin: that place, ECEF; groups' spheres are from the
 // Earth's middle. triangles: at least one, each of three places that are not on a line. The result does not
 // depend on `threads`. A group stops where the next collapse would cost more than four times the error below
 // it; the next level has other groups. What cannot be made coarser stays: there may be several coarsest
-// clusters. Takes 0.5 KB a triangle.
+// clusters. Takes 0.5 KB a triangle; with `scratch` 0.1 KB, and the rest in files. The result depends on
+// neither that nor window_groups.
 [[nodiscard]] MeshGraph build_mesh_graph(std::span<const glm::dvec3> vertices,
                                          std::span<const std::array<std::uint32_t, 3>> triangles,
                                          const glm::dvec3& origin_ecef_m,

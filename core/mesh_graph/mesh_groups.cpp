@@ -12,13 +12,14 @@ namespace {
 class Halving {
   public:
     Halving(std::span<const glm::dvec3> middles, std::size_t full, int level,
-            const std::function<bool(std::span<const std::uint32_t>)>& fits)
-        : middles_(middles), full_(full), level_(level), fits_(fits) {}
+            const std::function<bool(std::span<const std::uint32_t>)>& fits,
+            const std::function<void(std::span<const std::uint32_t>)>& take)
+        : middles_(middles), full_(full), level_(level), fits_(fits), take_(take) {}
 
     void halve(std::span<std::uint32_t> triangles, int depth) {
         if (triangles.size() <= 1 || fits_(triangles)) {
-            parts.emplace_back(triangles.begin(), triangles.end());
-            std::sort(parts.back().begin(), parts.back().end());
+            std::sort(triangles.begin(), triangles.end());
+            take_(triangles);
             return;
         }
         const auto before =
@@ -28,8 +29,6 @@ class Halving {
         halve(triangles.first(half), depth + 1);
         halve(triangles.subspan(half), depth + 1);
     }
-
-    HalvedParts parts;
 
   private:
     // Where borders of one level lie, those of the next do not.
@@ -44,16 +43,25 @@ class Halving {
     std::size_t full_;
     int level_;
     const std::function<bool(std::span<const std::uint32_t>)>& fits_;
+    const std::function<void(std::span<const std::uint32_t>)>& take_;
 };
 
 }  // namespace
 
+void halve_in_place(std::span<const glm::dvec3> middles, std::span<std::uint32_t> triangles, std::size_t full,
+                    int level, const std::function<bool(std::span<const std::uint32_t>)>& fits,
+                    const std::function<void(std::span<const std::uint32_t>)>& take) {
+    if (!triangles.empty()) Halving(middles, full, level, fits, take).halve(triangles, 0);
+}
+
 HalvedParts halved(std::span<const glm::dvec3> middles, std::vector<std::uint32_t> triangles,
                    std::size_t full, int level,
                    const std::function<bool(std::span<const std::uint32_t>)>& fits) {
-    Halving halving(middles, full, level, fits);
-    if (!triangles.empty()) halving.halve(triangles, 0);
-    return std::move(halving.parts);
+    HalvedParts parts;
+    halve_in_place(middles, triangles, full, level, fits, [&](std::span<const std::uint32_t> part) {
+        parts.emplace_back(part.begin(), part.end());
+    });
+    return parts;
 }
 
 }  // namespace oro

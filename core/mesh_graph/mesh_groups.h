@@ -18,4 +18,10 @@ using HalvedParts = std::vector<std::vector<std::uint32_t>>;
                                  std::size_t full, int level,
                                  const std::function<bool(std::span<const std::uint32_t>)>& fits);
 
+// The same lists in the place of the triangles, one after another; each goes to take(list) at once, in that
+// order.
+void halve_in_place(std::span<const glm::dvec3> middles, std::span<std::uint32_t> triangles, std::size_t full,
+                    int level, const std::function<bool(std::span<const std::uint32_t>)>& fits,
+                    const std::function<void(std::span<const std::uint32_t>)>& take);
+
 }  // namespace oro

@@ -9,6 +9,8 @@ namespace oro {
 namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
+// Whose pages are given back once their boxes are made.
+constexpr std::uint32_t many_triangles = 1U << 16U;
 
 struct Corners {
     glm::dvec3 low{endless}, high{-endless};
@@ -22,9 +24,18 @@ int longest_axis(const glm::dvec3& size) {
 }  // namespace
 
 struct NearestTriangles::Making {
-    std::span<const std::array<glm::dvec3, 3>> triangles;
-    std::vector<glm::dvec3> middles;
-    std::vector<std::uint32_t> order;
+    std::span<const std::array<glm::dvec3, 3>> triangles;  // or, where there are none, these:
+    std::span<const glm::dvec3> vertices;
+    std::span<const std::array<std::uint32_t, 3>> by_vertices;
+    std::pmr::vector<glm::dvec3> middles;
+    std::pmr::vector<std::uint32_t> order;
+    ScratchMemory* scratch{};
+
+    [[nodiscard]] std::array<glm::dvec3, 3> triangle(std::uint32_t number) const {
+        if (by_vertices.empty()) return triangles[number];
+        const auto& [a, b, c] = by_vertices[number];
+        return {vertices[a], vertices[b], vertices[c]};
+    }
 
     // Halves what lies between two numbers of the order, at a whole block.
     std::uint32_t halve(std::uint32_t first, std::uint32_t last) {
@@ -42,26 +53,48 @@ struct NearestTriangles::Making {
     [[nodiscard]] Corners corners_of(std::uint32_t first, std::uint32_t last) const {
         Corners corners;
         for (std::uint32_t i = first; i < last; ++i)
-            for (const glm::dvec3& corner : triangles[order[i]]) corners.hold(corner);
+            for (const glm::dvec3& corner : triangle(order[i])) corners.hold(corner);
         return corners;
     }
     [[nodiscard]] double radius_of(std::uint32_t first, std::uint32_t last, const glm::dvec3& middle) const {
         double most2 = 0.0;
         for (std::uint32_t i = first; i < last; ++i)
-            for (const glm::dvec3& corner : triangles[order[i]])
+            for (const glm::dvec3& corner : triangle(order[i]))
                 most2 = std::max(most2, glm::dot(corner - middle, corner - middle));
         return std::sqrt(most2) * (1.0 + 1.0e-12);
     }
 };
 
 NearestTriangles::NearestTriangles(std::span<const std::array<glm::dvec3, 3>> triangles) {
-    Making making{triangles, {}, {}};
-    making.middles.reserve(triangles.size());
-    for (const auto& [a, b, c] : triangles) making.middles.push_back((a + b + c) / 3.0);
+    Making making{triangles, {}, {}, {}, {}, {}};
     making.order.resize(triangles.size());
+    make(making);
+}
+
+NearestTriangles::NearestTriangles(std::span<const glm::dvec3> vertices,
+                                   std::span<const std::array<std::uint32_t, 3>> triangles,
+                                   ScratchMemory* scratch)
+    : nodes_(array_memory(scratch)), blocks_(array_memory(scratch)) {
+    std::pmr::memory_resource* const memory = array_memory(scratch);
+    Making making{{},
+                  vertices,
+                  triangles,
+                  std::pmr::vector<glm::dvec3>(memory),
+                  std::pmr::vector<std::uint32_t>(triangles.size(), memory),
+                  scratch};
+    make(making);
+}
+
+void NearestTriangles::make(Making& making) {
+    const auto count = static_cast<std::uint32_t>(making.order.size());
+    making.middles.reserve(count);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const auto [a, b, c] = making.triangle(i);
+        making.middles.push_back((a + b + c) / 3.0);
+    }
     std::iota(making.order.begin(), making.order.end(), 0U);
-    blocks_.reserve((triangles.size() + 3) / 4);
-    make_node(making, 0, static_cast<std::uint32_t>(triangles.size()), nothing);
+    blocks_.reserve((count + 3) / 4);
+    make_node(making, 0, count, nothing);
 }
 
 std::uint32_t NearestTriangles::make_node(Making& making, std::uint32_t first, std::uint32_t last,
@@ -98,6 +131,7 @@ std::uint32_t NearestTriangles::make_node(Making& making, std::uint32_t first, s
     node.middle = 0.5 * (all.low + all.high);
     node.radius = making.radius_of(first, last, node.middle);
     nodes_[self] = node;
+    if (making.scratch != nullptr && last - first >= many_triangles) making.scratch->drop_pages();
     return self;
 }
 
@@ -109,7 +143,7 @@ std::uint32_t NearestTriangles::make_block(Making& making, std::uint32_t first, 
     std::copy(making.order.begin() + first, making.order.begin() + last, numbers.begin());
     std::array<std::array<glm::dvec3, 3>, 4> triangles{};
     for (int i = 0; i < count; ++i)
-        triangles[static_cast<std::size_t>(i)] = making.triangles[numbers[static_cast<std::size_t>(i)]];
+        triangles[static_cast<std::size_t>(i)] = making.triangle(numbers[static_cast<std::size_t>(i)]);
     Block block{TriangleBlock(triangles.data(), count), numbers, static_cast<std::uint8_t>(count), parent};
     const Corners all = making.corners_of(first, last);
     block.middle = 0.5 * (all.low + all.high);

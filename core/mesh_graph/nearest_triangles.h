@@ -4,9 +4,11 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
+#include "core/base/scratch_memory.h"
 #include "core/base/wide.h"
 #include "core/mesh_graph/triangle_block.h"
 
@@ -42,6 +44,10 @@ class NearestTriangles {
 
     // Of one triangle or more. Takes some 0.5 us a triangle, and 250 bytes.
     explicit NearestTriangles(std::span<const std::array<glm::dvec3, 3>> triangles);
+    // The same tree, of triangles by their vertices. All that takes much lies in `scratch`, which outlives
+    // it; null: in memory.
+    NearestTriangles(std::span<const glm::dvec3> vertices,
+                     std::span<const std::array<std::uint32_t, 3>> triangles, ScratchMemory* scratch);
 
     // A triangle within sqrt(good2) of `at`, or where there is none the nearest within sqrt(reach2); nothing
     // where there is none of these either. hint: a place in the tree to begin with, or nothing.
@@ -58,16 +64,17 @@ class NearestTriangles {
         return blocks_[place / 4].triangles.triangle(static_cast<int>(place % 4));
     }
     // The first node is the root. A node's number is less than those of the nodes below.
-    [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
-    [[nodiscard]] const std::vector<Block>& blocks() const { return blocks_; }
+    [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
+    [[nodiscard]] std::span<const Block> blocks() const { return blocks_; }
 
   private:
     struct Making;
+    void make(Making& making);
     std::uint32_t make_node(Making& making, std::uint32_t first, std::uint32_t last, std::uint32_t parent);
     std::uint32_t make_block(Making& making, std::uint32_t first, std::uint32_t last, std::uint32_t parent);
 
-    std::vector<Node> nodes_;
-    std::vector<Block> blocks_;
+    std::pmr::vector<Node> nodes_;
+    std::pmr::vector<Block> blocks_;
 };
 
 }  // namespace oro

@@ -7,26 +7,25 @@ namespace {
 
 class HandingOn {
   public:
-    HandingOn(const NearestTriangles& mesh, DistanceCover& cover, std::span<const glm::dvec3> places)
-        : mesh_(mesh), cover_(cover), places_(places) {}
+    HandingOn(const NearestTriangles& mesh, DistanceCover& cover, std::span<const glm::dvec3> places,
+              PieceTaker& taker)
+        : mesh_(mesh), cover_(cover), places_(places), taker_(taker) {}
 
     void whole(std::uint32_t piece) {
-        if (const int user = user_of(piece); user >= 0) handed.whole.push_back({piece, user});
+        if (const int user = user_of(piece); user >= 0) taker_.take_whole(piece, user);
     }
     void part(const OriginalPart& part) {
         mark(part.triangle);
-        if (const int user = cover_.cover(part); user >= 0) handed.parts.push_back({part, user});
+        if (const int user = cover_.cover(part); user >= 0) taker_.take_part(part, user);
         take_parts();
     }
-
-    HandedPieces handed;
 
   private:
     void mark(std::uint32_t triangle) {
         if (!places_.empty()) cover_.mark(places_[mesh_.number(triangle)]);
     }
     void take_parts() {
-        handed.parts.insert(handed.parts.end(), cover_.taken().begin(), cover_.taken().end());
+        for (const DistanceCover::Taken& one : cover_.taken()) taker_.take_part(one.part, one.user);
         cover_.taken().clear();
     }
     int user_of_triangle(std::uint32_t place) {
@@ -63,13 +62,21 @@ class HandingOn {
             std::all_of(users.begin(), users.begin() + count, [&](int user) { return user == users[0]; }))
             return users[0];
         for (std::size_t i = 0; i < count; ++i)
-            if (users[i] >= 0) handed.whole.push_back({below[i], users[i]});
+            if (users[i] >= 0) taker_.take_whole(below[i], users[i]);
         return DistanceCover::in_parts;
     }
 
     const NearestTriangles& mesh_;
     DistanceCover& cover_;
     std::span<const glm::dvec3> places_;
+    PieceTaker& taker_;
+};
+
+class IntoMemory final : public PieceTaker {
+  public:
+    void take_whole(std::uint32_t piece, int user) override { handed.whole.push_back({piece, user}); }
+    void take_part(const OriginalPart& part, int user) override { handed.parts.push_back({part, user}); }
+    HandedPieces handed;
 };
 
 }  // namespace
@@ -113,13 +120,22 @@ void join_whole_pieces(const NearestTriangles& mesh, std::vector<std::uint32_t>&
     std::sort(whole.begin(), whole.end());
 }
 
+double hand_on(const NearestTriangles& mesh, std::span<const std::uint32_t> whole, std::size_t parts,
+               const std::function<OriginalPart(std::size_t)>& part, DistanceCover& cover,
+               std::span<const glm::dvec3> places, PieceTaker& taker) {
+    HandingOn handing(mesh, cover, places, taker);
+    for (const std::uint32_t piece : whole) handing.whole(piece);
+    for (std::size_t i = 0; i < parts; ++i) handing.part(part(i));
+    return cover.bound_m();
+}
+
 HandedPieces hand_on(const NearestTriangles& mesh, const OriginalPieces& pieces, DistanceCover& cover,
                      std::span<const glm::dvec3> places) {
-    HandingOn handing(mesh, cover, places);
-    for (const std::uint32_t piece : pieces.whole) handing.whole(piece);
-    for (const OriginalPart& part : pieces.parts) handing.part(part);
-    handing.handed.bound_m = cover.bound_m();
-    return std::move(handing.handed);
+    IntoMemory taker;
+    taker.handed.bound_m = hand_on(
+        mesh, pieces.whole, pieces.parts.size(), [&](std::size_t i) { return pieces.parts[i]; }, cover,
+        places, taker);
+    return std::move(taker.handed);
 }
 
 }  // namespace oro

@@ -1,7 +1,10 @@
 // What of the mesh a group of its graph answers for.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "core/mesh_graph/distance_cover.h"
@@ -40,6 +43,14 @@ struct HandedPieces {
     double bound_m{};  // of the distance of all of them from the set
 };
 
+// Takes pieces one by one as they go to users.
+class PieceTaker {
+  public:
+    virtual ~PieceTaker() = default;
+    virtual void take_whole(std::uint32_t piece, int user) = 0;
+    virtual void take_part(const OriginalPart& part, int user) = 0;
+};
+
 // Joins pieces that are all that a block or a node has.
 void join_whole_pieces(const NearestTriangles& mesh, std::vector<std::uint32_t>& whole);
 
@@ -64,5 +75,10 @@ void each_triangle(const NearestTriangles& mesh, std::uint32_t piece, const Take
 // places: of each triangle of the mesh's tree one that is followed (MeshPlaceChains); empty: none is.
 HandedPieces hand_on(const NearestTriangles& mesh, const OriginalPieces& pieces, DistanceCover& cover,
                      std::span<const glm::dvec3> places);
+// The same of parts that are asked for one by one, part(0) to part(parts - 1), so that neither they nor what
+// becomes of them is in memory. Gives the bound.
+double hand_on(const NearestTriangles& mesh, std::span<const std::uint32_t> whole, std::size_t parts,
+               const std::function<OriginalPart(std::size_t)>& part, DistanceCover& cover,
+               std::span<const glm::dvec3> places, PieceTaker& taker);
 
 }  // namespace oro

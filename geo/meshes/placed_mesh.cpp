@@ -128,8 +128,9 @@ class VertexPlaces {
 // A mesh while it is placed: vertices of the file, and those in the middle of long sides.
 class MeshPlacing {
   public:
-    MeshPlacing(const SourceMesh& source, const VertexPlaces& places, bool with_colours)
-        : source_(source), places_(places) {
+    MeshPlacing(const SourceMesh& source, const VertexPlaces& places, bool with_colours,
+                std::size_t most_triangles)
+        : source_(source), places_(places), most_triangles_(most_triangles) {
         at_.reserve(source.vertices.size());
         for (const glm::dvec3& vertex : source.vertices) add(vertex);
         if (with_colours) colours_ = source.colours;
@@ -137,7 +138,7 @@ class MeshPlacing {
 
     // Cuts what is longer, and leaves out what has no place.
     Result<void> cut(PlacedMesh& mesh) {
-        if (fewest_pieces() > static_cast<double>(most_placed_triangles)) return too_many();
+        if (fewest_pieces() > static_cast<double>(most_triangles_)) return too_many();
         std::uint32_t feature = 0;
         for (std::size_t number = 0; number < source_.triangles.size(); ++number) {
             const SourceTriangle& triangle = source_.triangles[number];
@@ -157,7 +158,7 @@ class MeshPlacing {
                     mesh.triangles.push_back(one);
                     of_.push_back(static_cast<std::uint32_t>(number));
                     if (!source_.features.empty()) mesh.feature_of.push_back(feature);
-                    if (mesh.triangles.size() + open.size() > most_placed_triangles) return too_many();
+                    if (mesh.triangles.size() + open.size() > most_triangles_) return too_many();
                     continue;
                 }
                 const std::uint32_t a = one[*side], b = one[(*side + 1) % 3], c = one[(*side + 2) % 3];
@@ -216,15 +217,28 @@ class MeshPlacing {
                     longest_m =
                         std::max(longest_m, glm::distance(ecef_[triangle[i]], ecef_[triangle[(i + 1) % 3]]));
         if (longest_m <= longest_side_m)
-            return {ErrorKind::failed, source_.path, "has more than 5,000,000 triangles, which is the limit"};
+            return {
+                ErrorKind::failed, source_.path,
+                "has more than " + grouped(most_triangles_) + " triangles, which is the limit" + advice()};
         char text[400];
         std::snprintf(
             text, sizeof text,
             "has %zu triangle%s with sides of up to %.0f m. Sides are cut to 200 m, to be straight on the "
-            "map and in space, and that makes more than 5,000,000 triangles, which is the limit: give a "
+            "map and in space, and that makes more than %s triangles, which is the limit: give a "
             "part of the mesh, or is its unit wrong (--mesh-unit)?",
-            source_.triangles.size(), source_.triangles.size() == 1 ? "" : "s", longest_m);
+            source_.triangles.size(), source_.triangles.size() == 1 ? "" : "s", longest_m,
+            grouped(most_triangles_).c_str());
         return {ErrorKind::failed, source_.path, text};
+    }
+    // "5,000,000".
+    [[nodiscard]] static std::string grouped(std::size_t number) {
+        std::string text = std::to_string(number);
+        for (std::size_t i = text.size(); i > 3; i -= 3) text.insert(i - 3, ",");
+        return text;
+    }
+    [[nodiscard]] std::string advice() const {
+        if (most_triangles_ >= most_baked_triangles) return ": give a part of the mesh";
+        return ": bake it (`orograph bake`), which takes " + grouped(most_baked_triangles);
     }
     std::uint32_t middle_of(std::uint32_t a, std::uint32_t b) {
         const auto [found, is_new] =
@@ -238,6 +252,7 @@ class MeshPlacing {
 
     const SourceMesh& source_;
     const VertexPlaces& places_;
+    std::size_t most_triangles_;
     std::vector<std::uint32_t> of_;
     std::vector<glm::dvec3> at_;  // in the file's numbers
     std::vector<char> placed_;
@@ -443,7 +458,8 @@ Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, 
     mesh.in_file = source.triangles.size() + source.not_finite;
     mesh.not_finite = source.not_finite;
     mesh.fingerprint = fingerprint_of(source, crs, request.unit);
-    MeshPlacing placing(source, *places, request.look.empty() || request.look == "ground");
+    MeshPlacing placing(source, *places, request.look.empty() || request.look == "ground",
+                        request.most_triangles);
     ORO_CHECK(placing.cut(mesh));
     if (mesh.triangles.empty())
         return Error{ErrorKind::failed, source.path,

@@ -84,8 +84,8 @@ std::string note_of_mesh(const PlacedMesh& mesh);
 // Longer sides are cut, those of neighbours alike: a side that is straight in the CRS is then within 1 mm of
 // one that is straight in space.
 inline constexpr double longest_side_m = 200.0;
-// Triangles that may be drawn together, after cutting.
-inline constexpr std::size_t most_placed_triangles = 5000000;
+// Triangles of a mesh that is baked; others have MeshRequest::most_triangles.
+inline constexpr std::size_t most_baked_triangles = 20'000'000;
 
 // Reads and places the meshes that a request names. undulation: N of the region; empty: N is 0. A vertex's
 // place is that of PROJ to within 1 um, its height to within 0.3 mm up to 4 km (heights of another datum are

@@ -1,6 +1,7 @@
 // What a region is asked for: which files, which part of them, and what is told of them.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ struct MeshRequest {
     bool cut_under{false};  // the terrain is cut out under meshes that are ground
     // Where triangles meet at a smaller angle they share their light, 0 to 180; nothing: PlacedMesh's own.
     std::optional<double> crease_deg{};
+    // Triangles that a mesh may have once its long sides are cut.
+    std::size_t most_triangles{5'000'000};
     bool operator==(const MeshRequest&) const = default;
 };
 

@@ -4,20 +4,22 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <new>
 #include <utility>
 
 #include "core/base/checksum.h"
 #include "core/base/compressed_bytes.h"
 #include "core/base/elapsed.h"
 #include "core/base/parallel.h"
+#include "core/base/scratch_memory.h"
 #include "core/mesh_file/mesh_bytes.h"
 #include "core/mesh_file/stored_mesh.h"
+#include "core/mesh_graph/mesh_graph.h"
 #include "core/terrain/page_on_net.h"
 #include "geo/files/whole_file.h"
 #include "geo/meshes/mesh_facts.h"
 #include "geo/together/graph_memory.h"
 #include "geo/together/lattice_mesh.h"
-#include "geo/together/mesh_detail.h"
 #include "geo/together/mesh_ground.h"
 #include "geo/together/mesh_surface.h"
 
@@ -99,6 +101,7 @@ struct MeshOnLattice {
     MeshOnLattice(const PlacedMesh& mesh, const UndulationField& undulation) {
         const std::vector<glm::dvec3> places_m = drawn_places_m(mesh, undulation, 1.0);
         lattice = lattice_mesh(places_m, mesh.triangles);
+        places.reserve(lattice.vertex_of.size());
         for (const std::uint32_t vertex : lattice.vertex_of)
             places.push_back(lattice_point(places_m[vertex]).steps);
     }
@@ -126,6 +129,25 @@ TriangleSum sum_of(const StoredMesh& stored) {
         }
     }
     return sum;
+}
+
+// scratch: where it grows; null: in memory.
+Result<MeshGraph> graph_over(const LatticeMesh& lattice, const MeshGround& ground, int threads,
+                             ScratchMemory* scratch) {
+    if (lattice.triangles.empty()) return MeshGraph();
+    MeshGraphOptions options{threads};
+    options.ground = &ground, options.scratch = scratch;
+    try {
+        return build_mesh_graph(lattice.vertices, lattice.triangles, lattice.origin_m, options);
+    } catch (const std::bad_alloc&) {
+        if (scratch != nullptr && scratch->error()) return *scratch->error();
+        throw;
+    }
+}
+
+std::string folder_of(const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string::npos ? "." : path.substr(0, slash + 1);
 }
 
 Result<PlacedMesh> read_mesh_of(const Container& container, const Chunk& facts_chunk,
@@ -159,29 +181,34 @@ std::string path_of_mesh(const std::string& path, std::size_t number) {
 }
 
 Result<BakedMeshReport> write_baked_mesh(const std::string& path, const PlacedMesh& mesh,
-                                         const UndulationField& undulation, int threads,
-                                         const Region* ground) {
-    ORO_CHECK(check_graph_memory(mesh.path, mesh.triangles.size()));
+                                         const UndulationField& undulation, int threads, const Region* ground,
+                                         std::size_t most_in_memory) {
+    ORO_CHECK(check_bake_memory(mesh.path, mesh.triangles.size()));
     BakedMeshReport report;
     const auto start = Clock::now();
-    const MeshDetail::Graph built = MeshDetail::graph_of(mesh, undulation, 1.0, threads, ground);
+    MeshOnLattice on_lattice(mesh, undulation);
+    LatticeMesh& lattice = on_lattice.lattice;
+    ScratchMemory scratch(folder_of(path));
+    MeshGround below;
+    if (ground != nullptr)
+        below = ground_below_parts(lattice.vertices, lattice.triangles, lattice.origin_m, *ground, 1.0);
+    const bool is_large = lattice.triangles.size() > most_in_memory;
+    ORO_TRY(const MeshGraph graph, graph_over(lattice, below, threads, is_large ? &scratch : nullptr));
     report.build_s = seconds_since(start);
-    const MeshGraph& graph = *built.graph;
-    std::vector<LatticeSteps> places;
-    for (const glm::dvec3& place : built.places_m) places.push_back(lattice_point(place).steps);
+    report.triangles = lattice.triangles.size();
+    lattice.vertices = {}, lattice.triangles = {};
     std::vector<std::uint32_t> labels;
     if (!mesh.features.empty())
-        for (const std::uint32_t triangle : built.triangle_of) labels.push_back(mesh.feature_of[triangle]);
-    Result<std::vector<std::byte>> bytes =
-        mesh_to_bytes({lattice_point(built.origin_m).steps, places, labels,
-                       static_cast<std::uint32_t>(mesh.features.size()), graph, built.ground_fingerprint});
+        for (const std::uint32_t triangle : lattice.triangle_of) labels.push_back(mesh.feature_of[triangle]);
+    Result<std::vector<std::byte>> bytes = mesh_to_bytes(
+        {lattice_point(lattice.origin_m).steps, on_lattice.places, labels,
+         static_cast<std::uint32_t>(mesh.features.size()), graph, fingerprint_of(below, lattice.origin_m)});
     if (!bytes) return Error{bytes.error().kind, mesh.path, bytes.error().what};
     std::vector<VertexColour> colours;
     if (StoredMesh stored; !mesh.colours.empty() && !mesh_from_bytes(*bytes, stored))
-        colours = stored_colours(mesh, built.vertex_of, places, stored);
+        colours = stored_colours(mesh, lattice.vertex_of, on_lattice.places, stored);
     const std::vector<std::byte> facts = compressed(facts_to_bytes(mesh, std::move(colours)));
     ORO_CHECK(write_container(path, facts, *bytes));
-    report.triangles = built.triangle_of.size();
     report.graph_triangles = graph.clusters.triangles.size();
     report.levels = graph.clusters.levels.size();
     report.bytes = bytes->size(), report.fact_bytes = facts.size();

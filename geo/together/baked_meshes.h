@@ -30,12 +30,14 @@ struct BakedMeshReport {
 
 // Builds the graph of a mesh, as it is drawn at no exaggeration, and writes both as a container of their own.
 // undulation: N of the region; empty: 0. ground: the region, where small parts may be dropped onto its
-// ground; null: they may not. The same mesh gives the same bytes by any number of threads. Errors: those of
-// writing; a mesh that no file holds (mesh_to_bytes()), or whose graph needs more memory than there is
-// (check_graph_memory()).
+// ground; null: they may not. The same mesh gives the same bytes by any number of threads. The graph of a
+// mesh of more triangles than most_in_memory grows in scratch files, which lie beside `path` and have no
+// names. Errors: those of writing; no room for these files; a mesh that no file holds (mesh_to_bytes()), or
+// that needs more memory than there is (check_bake_memory()).
 Result<BakedMeshReport> write_baked_mesh(const std::string& path, const PlacedMesh& mesh,
                                          const UndulationField& undulation, int threads,
-                                         const Region* ground = nullptr);
+                                         const Region* ground = nullptr,
+                                         std::size_t most_in_memory = 250'000);
 
 // A mesh that write_baked_mesh() has written there for the same mesh over the same ground, whole; else
 // nothing. Reads all of it; takes some 3 us a triangle.

@@ -8,12 +8,16 @@
 
 namespace oro {
 
-// What building takes at most, all that is in memory then (measured: 1.1 KB a triangle of a scan).
+// What building takes at most where all of it is in memory, all else that is in memory then with it.
 std::uint64_t graph_bytes(std::uint64_t triangles);
+// What baking takes at most, where the graph grows in scratch files (write_baked_mesh()).
+std::uint64_t bake_bytes(std::uint64_t triangles);
 
 // Errors: that is more than three quarters of the machine's memory; it tells both. path: of the mesh.
 // memory_bytes: of the machine; 0: as the system says.
 Result<void> check_graph_memory(const std::string& path, std::uint64_t triangles,
                                 std::uint64_t memory_bytes = 0);
+Result<void> check_bake_memory(const std::string& path, std::uint64_t triangles,
+                               std::uint64_t memory_bytes = 0);
 
 }  // namespace oro

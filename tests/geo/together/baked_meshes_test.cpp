@@ -123,6 +123,21 @@ TEST_F(BakedMeshes, AreTheSameBytesByAnyNumberOfThreads) {
     EXPECT_EQ(one, text_in(path_));
 }
 
+// The graph grows in scratch files beside it, which leave nothing there.
+TEST_F(BakedMeshes, AreTheSameBytesByScratchFiles) {
+    const PlacedMesh mesh = described_ball();
+    ASSERT_TRUE(write_baked_mesh(path_.string(), mesh, geoid_, 2).ok());
+    const std::string in_memory = text_in(path_);
+    fs::remove(path_);
+    ASSERT_TRUE(write_baked_mesh(path_.string(), mesh, geoid_, 2, nullptr, 0).ok());
+    EXPECT_EQ(text_in(path_), in_memory);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+    const auto nowhere = write_baked_mesh("/nowhere/at/all/ball.mesh", mesh, geoid_, 2, nullptr, 0);
+    ASSERT_FALSE(nowhere.ok());
+    EXPECT_TRUE(nowhere.error().line().starts_with("/nowhere/at/all/: no room for a scratch file of "))
+        << nowhere.error().line();
+}
+
 TEST_F(BakedMeshes, GiveTheSameCutsWithoutBuilding) {
     const PlacedMesh mesh = described_ball();
     ASSERT_TRUE(write_baked_mesh(path_.string(), mesh, geoid_, 2).ok());
