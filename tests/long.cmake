@@ -410,6 +410,7 @@ set_tests_properties(
   SightCommand.LightBendsAsItIsAsked
   SightCommand.WhatIsWrongIsSaidInOneLine
   SkyBands.AreBrokenUpByDither
+  StreamedMeshes.AreMeasuredAsTheWholeMeshIs
   SunCommand.NightIsNotHiddenByTerrain
   SunCommand.OverTerrain
   SunOfAShot.AViewTakesAnother

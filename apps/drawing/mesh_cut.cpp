@@ -49,8 +49,10 @@ Result<std::shared_ptr<const MeshDetail>> mesh_detail_of(const Region& region, c
         return std::shared_ptr<const MeshDetail>();
     }
     for (const PlacedMesh& mesh : *region.meshes)
-        if (!mesh.stored) ORO_CHECK(check_graph_memory(mesh.path, mesh.triangles.size()));
-    return std::make_shared<const MeshDetail>(MeshDetail::of(region, view.exaggeration, thread_count()));
+        if (!mesh.stored() && !mesh.streamed())
+            ORO_CHECK(check_graph_memory(mesh.path, mesh.triangles.size()));
+    ORO_TRY(MeshDetail detail, MeshDetail::open(region, view.exaggeration, thread_count()));
+    return std::make_shared<const MeshDetail>(std::move(detail));
 }
 
 static MeshParts shown_parts(const std::optional<Show>& show) {
@@ -67,17 +69,21 @@ MeshAsked mesh_asked_by(const View& view, const MemoryOptions& memory) {
     if (memory.gpu_memory_mb)
         asked.most_triangles =
             static_cast<std::uint64_t>(*memory.gpu_memory_mb) * 1'000'000 / 2 / bytes_a_triangle;
+    constexpr std::uint64_t usual_memory_mb = 64;
+    asked.held_bytes = static_cast<std::uint64_t>(memory.memory_mb.value_or(usual_memory_mb)) * 1'000'000 / 2;
     if (view.mesh_level) asked.level = static_cast<std::uint32_t>(*view.mesh_level);
     return asked;
 }
 
-MeshCut mesh_cut_of(const MeshDetail& detail, const MeshAsked& asked, std::span<const Camera> cameras,
-                    const MeshCut* before) {
+Result<MeshCut> mesh_cut_of(const MeshDetail& detail, const MeshAsked& asked, std::span<const Camera> cameras,
+                            const MeshCut* before) {
     constexpr double least_px = 0.05, largest_px = 1.0e6;
+    detail.hold_at_most(asked.held_bytes);
     for (double tau_px = asked.tau_px;; tau_px = std::max(1.5 * tau_px, least_px)) {
-        MeshCut cut = detail.cut(cameras, tau_px, asked.air, asked.level, before, asked.parts);
-        const bool fits = asked.most_triangles == 0 || cut.triangles <= asked.most_triangles;
-        if (fits || asked.level || tau_px > largest_px) return cut;
+        MeshCut chosen = detail.chosen(cameras, tau_px, asked.air, asked.level);
+        const bool fits = asked.most_triangles == 0 || chosen.triangles <= asked.most_triangles;
+        if (fits || asked.level || tau_px > largest_px)
+            return detail.with_meshes(std::move(chosen), before, asked.parts);
     }
 }
 
@@ -89,7 +95,7 @@ Result<std::optional<DrawnMeshes>> drawn_meshes(const Region& region, const View
     DrawnMeshes drawn;
     drawn.graph_s = seconds_since(start);
     drawn.built = detail->built();
-    drawn.cut = mesh_cut_of(*detail, mesh_asked_by(view, memory), std::span(&view.camera, 1));
+    ORO_TRY(drawn.cut, mesh_cut_of(*detail, mesh_asked_by(view, memory), std::span(&view.camera, 1)));
     drawn.is_coarser = !view.mesh_level && drawn.cut.error_px > view.tau_px;
     return std::optional(std::move(drawn));
 }

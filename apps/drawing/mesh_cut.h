@@ -40,13 +40,14 @@ struct MeshAsked {
     std::optional<std::uint32_t> level{};  // --mesh-level
     MeshParts parts{};                     // --show
     std::uint64_t most_triangles{};        // that half of --gpu-memory holds; 0: any number
+    std::uint64_t held_bytes{};            // half of --memory: of groups that were read
 };
 MeshAsked mesh_asked_by(const View& view, const MemoryOptions& memory);
 // What a view with that camera, or several, shows of them. Where it needs more triangles than there is memory
 // for, its tau is half as large again until they fit, unless it asks for a level. before: as
-// MeshDetail::cut().
-MeshCut mesh_cut_of(const MeshDetail& detail, const MeshAsked& asked, std::span<const Camera> cameras,
-                    const MeshCut* before = nullptr);
+// MeshDetail::cut(). Errors: as that.
+Result<MeshCut> mesh_cut_of(const MeshDetail& detail, const MeshAsked& asked, std::span<const Camera> cameras,
+                            const MeshCut* before = nullptr);
 
 // Builds the graphs of the region's meshes and chooses from them, on all threads of the machine; nothing
 // where draws_mesh_clusters() says no. Errors: as it.

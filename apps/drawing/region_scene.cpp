@@ -16,8 +16,10 @@
 #include "core/made_pages/made_pages.h"
 #include "core/seam/mesh_pages.h"
 #include "core/terrain/drawn_heights.h"
+#include "geo/meshes/placed_mesh.h"
 #include "geo/opening/made_world.h"
 #include "geo/refined/refined_region.h"
+#include "geo/together/baked_meshes.h"
 
 namespace oro {
 namespace {
@@ -150,6 +152,11 @@ Result<void> add_clusters(const Gpu& gpu, const RegionGrid& grid, std::uint64_t 
 
 Result<GridPages> pages_between(const Region& region, const RegionCuts& cuts, double exaggeration,
                                 const std::vector<PlacedMesh>* meshes) {
+    MeshesOfRegion whole;
+    if (meshes == nullptr) {
+        ORO_TRY(whole, whole_meshes(region));
+        meshes = whole.get();
+    }
     const Seam seam = seam_between(region, cuts, exaggeration, meshes);
     const HeightField& field = region.grids.front().field;
     return pages_beside(seam, field.undulation, region_shape(field, exaggeration));
@@ -178,7 +185,9 @@ Result<RegionScene> scene_of_region(const Gpu& gpu, const Region& region, const 
     SceneMemory memory;
     // Clusters have half of either.
     const std::uint64_t parts = request.clusters ? 2 : 1;
-    memory.main = main_bytes(bytes_of(request.memory.memory_mb)) / parts;
+    // ... and meshes that are read group by group half of main memory.
+    const bool streams = region.meshes && std::ranges::any_of(*region.meshes, &PlacedMesh::streamed);
+    memory.main = main_bytes(bytes_of(request.memory.memory_mb)) / parts / (streams ? 2 : 1);
     memory.shares = static_cast<unsigned>(pages.size());
     const std::uint64_t bytes = gpu_bytes(gpu, bytes_of(request.memory.gpu_memory_mb)) / parts;
     memory.shared = page_budget(gpu, bytes);

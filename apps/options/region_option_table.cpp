@@ -135,7 +135,8 @@ std::vector<OptionRow<MemoryOptions>> made_memory_table() {
     rows.push_back(option_row<MemoryOptions>(
         option_headings::detail, {"--memory MB", no_trait, "64", "", memory_mb}, &MemoryOptions::memory_mb,
         "How much main memory terrain may take on its way to the GPU, in megabytes, {}. Clusters have half "
-        "of it. Files other than .oro need more: all their heights are read at once; so are those of what is "
+        "of it, and so have baked meshes that are drawn by clusters. Files other than .oro need more: all "
+        "their heights are read at once; so are those of what is "
         "drawn by clusters."));
     return rows;
 }

@@ -240,6 +240,16 @@ void begin_with_grid_at(const Geodetic& eye, View& view, Region& region) {
 
 namespace {
 
+// How the meshes of a baked file are read for a view: group by group where it draws them by clusters, where
+// the file has them, and places nothing on their roofs.
+MeshReading meshes_of(const View& view, const ViewOptions& options) {
+    const bool by_clusters =
+        view.mesh == "clusters" || view.mesh_level || (is_of_clusters(view.show) && view.mesh != "grid");
+    const bool streams =
+        by_clusters && view.exaggeration == 1.0 && view.has_geoid && options.stand_on != "top";
+    return streams ? MeshReading::streamed : MeshReading::whole;
+}
+
 // The region of a view that comes from a file, and its fingerprints; `held` as of open_recorded_view().
 Result<void> open_region_of(const RegionOptions& region_options, const Progress& progress, const View* held,
                             View& view, Region& region) {
@@ -254,7 +264,7 @@ Result<void> open_region_of(const RegionOptions& region_options, const Progress&
         settle_mesh_parts(region, view);
         return check_own_posts(view, region);
     }
-    auto opened = open_region(view.region, progress);
+    auto opened = open_region(view.region, progress, meshes_of(view, {}));
     if (!opened) return with_way_out(opened.error(), view, region_options);
     region = std::move(*opened);
     settle_mesh_parts(region, view);
@@ -346,7 +356,7 @@ Result<void> open_view(const std::string& view_file, const ViewOptions& view_opt
     ORO_TRY(RegionRequest request, region_request(region_options));
     ORO_TRY(view, view_without_eye(view_options, std::move(request)));
     take_usual_sun(view);
-    ORO_TRY(region, open_region(view.region, progress));
+    ORO_TRY(region, open_region(view.region, progress, meshes_of(view, view_options)));
     return look_at_region(view_options, view, region);
 }
 

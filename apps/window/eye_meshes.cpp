@@ -30,7 +30,8 @@ void begin_choice(EyeMeshes& meshes, const MeshTarget& target, const Camera& cam
          asked = mesh_asked_by(target.view, memory_of_pages(target.view, target.memory)),
          exaggeration = target.view.exaggeration](const auto&,
                                                   const std::stop_token& stop) -> Result<ChosenMeshes> {
-            ChosenMeshes chosen{mesh_cut_of(*detail, asked, std::span(&camera, 1), &before), camera, tau_px};
+            ORO_TRY(MeshCut cut, mesh_cut_of(*detail, asked, std::span(&camera, 1), &before));
+            ChosenMeshes chosen{std::move(cut), camera, tau_px};
             chosen.is_new = chosen.cut.meshes != before.meshes;
             if (!chosen.is_new || stop.stop_requested()) return chosen;
             ORO_TRY(chosen.pages, pages_between(region, cuts, exaggeration, chosen.cut.meshes.get()));
@@ -91,11 +92,12 @@ void forget_drawn(EyeMeshes& meshes) {
     meshes.tau_px = 0.0;
 }
 
-bool choose_cut(EyeMeshes& meshes, const View& view, const MemoryOptions& memory, const Camera& camera) {
+Result<bool> choose_cut(EyeMeshes& meshes, const View& view, const MemoryOptions& memory,
+                        const Camera& camera) {
     if (!meshes.detail || are_chosen_for(meshes, view, camera)) return false;
     give_up(meshes);
-    MeshCut cut =
-        mesh_cut_of(*meshes.detail, mesh_asked_by(view, memory), std::span(&camera, 1), &meshes.cut);
+    ORO_TRY(MeshCut cut,
+            mesh_cut_of(*meshes.detail, mesh_asked_by(view, memory), std::span(&camera, 1), &meshes.cut));
     const bool is_drawn = cut.meshes == meshes.cut.meshes;
     meshes.cut = std::move(cut);
     meshes.camera = camera, meshes.tau_px = view.tau_px;
@@ -104,7 +106,9 @@ bool choose_cut(EyeMeshes& meshes, const View& view, const MemoryOptions& memory
 
 Result<void> draw_cut_of(EyeMeshes& meshes, const MeshTarget& target, const Camera& camera,
                          const std::function<Result<void>()>& before) {
-    if (!choose_cut(meshes, target.view, memory_of_pages(target.view, target.memory), camera)) return {};
+    ORO_TRY(const bool is_new,
+            choose_cut(meshes, target.view, memory_of_pages(target.view, target.memory), camera));
+    if (!is_new) return {};
     ORO_CHECK(before());
     ORO_CHECK(redraw_meshes(target.gpu, target.region, target.cuts, target.view.exaggeration,
                             *meshes.cut.meshes, target.scene));

@@ -53,7 +53,8 @@ bool are_chosen_for(const EyeMeshes& meshes, const View& view, const Camera& cam
 
 // Goes on without waiting towards what a camera with the view's tau needs of the meshes: begins to choose
 // it, or looks whether that is done, or loads it onto the GPU. At least as long as a choice took passes until
-// the next while the eye moves. True where all is on the GPU: take_coming() draws it. Errors: the device.
+// the next while the eye moves. True where all is on the GPU: take_coming() draws it. Errors: those of
+// mesh_cut_of(); the device.
 Result<bool> follow_with_meshes(EyeMeshes& meshes, const MeshTarget& target, const Camera& camera,
                                 bool is_moving);
 // Draws what follow_with_meshes() has loaded. No frame of the scene is under way.
@@ -63,9 +64,10 @@ void take_coming(EyeMeshes& meshes, Scene& scene);
 void forget_drawn(EyeMeshes& meshes);
 
 // Chooses what a camera with the view's tau needs of the meshes, here and now; what was coming is given up.
-// True: that is not what is drawn, and the scene is to take it.
-bool choose_cut(EyeMeshes& meshes, const View& view, const MemoryOptions& memory, const Camera& camera);
-// choose_cut(), drawn. before: waits until no frame of the scene is under way. Errors: the device.
+// True: that is not what is drawn, and the scene is to take it. Errors: those of mesh_cut_of().
+Result<bool> choose_cut(EyeMeshes& meshes, const View& view, const MemoryOptions& memory,
+                        const Camera& camera);
+// choose_cut(), drawn. before: waits until no frame of the scene is under way. Errors: its; the device.
 Result<void> draw_cut_of(EyeMeshes& meshes, const MeshTarget& target, const Camera& camera,
                          const std::function<Result<void>()>& before);
 

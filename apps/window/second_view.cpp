@@ -136,7 +136,9 @@ Result<std::unique_ptr<SecondView>> second_of(Viewer& viewer, SecondGround groun
     ORO_TRY(const Style style, load_style(view, region.grids.front().field));
     EyeMeshes meshes;
     meshes.detail = detail_beside(viewer, own, view);
-    choose_cut(meshes, view, half_of(viewer.options.memory, viewer.gpu), view.camera);
+    if (const auto chosen = choose_cut(meshes, view, half_of(viewer.options.memory, viewer.gpu), view.camera);
+        !chosen)
+        return chosen.error();
     ORO_TRY(const bool clusters, clusters_beside(region, view, meshes.detail));
     const bool means = asks_for_means(style.frame);
     ORO_TRY(Scene scene,

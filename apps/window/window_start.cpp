@@ -83,7 +83,9 @@ Result<OpenedScene> first_scene(const Gpu& gpu, const Region& region, const Regi
     ORO_TRY(choice.clusters, draws_terrain_clusters(region, view));
     EyeMeshes meshes;
     ORO_TRY(meshes.detail, mesh_detail_of(region, view));
-    choose_cut(meshes, view, memory_of_pages(view, choice.memory), view.camera);
+    if (const auto chosen = choose_cut(meshes, view, memory_of_pages(view, choice.memory), view.camera);
+        !chosen)
+        return chosen.error();
     choice.meshes = meshes.cut.meshes;
     const bool keeps_means = choice.keeps_means;
     const bool lacks_means = keeps_means && measures_means_long(region);

@@ -5,6 +5,11 @@
 
 namespace oro {
 
+static bool is_of_mesh(ChunkType type) {
+    return type == ChunkType::mesh_facts || type == ChunkType::mesh_triangles ||
+           type == ChunkType::mesh_records || type == ChunkType::mesh_payloads;
+}
+
 Result<std::vector<BakedGrid>> open_baked_file(const std::string& path) {
     ORO_TRY(const std::shared_ptr<const Container> container, Container::open(path));
     const OpenFile& file = container->file();
@@ -20,7 +25,7 @@ Result<std::vector<BakedGrid>> open_baked_file(const std::string& path) {
     while (container->find(ChunkType::mesh_facts, meshes)) ++meshes;
     // Each number below their count once, as no chunk is there twice; and nobody else's chunks.
     for (const Chunk& chunk : chunks) {
-        if (chunk.type == ChunkType::mesh_facts || chunk.type == ChunkType::mesh_triangles) {
+        if (is_of_mesh(chunk.type)) {
             if (chunk.grid >= meshes)
                 return file.damaged(chunk.offset, "a chunk of mesh " + std::to_string(chunk.grid) +
                                                       ", which is none of its " + std::to_string(meshes));

@@ -31,7 +31,9 @@ constexpr std::array type_names = {TypeName{ChunkType::outline, "the outline"},
                                    TypeName{ChunkType::window, "the index of a window"},
                                    TypeName{ChunkType::blocks, "the chunk of a window's groups"},
                                    TypeName{ChunkType::mesh_facts, "the facts of a mesh"},
-                                   TypeName{ChunkType::mesh_triangles, "the triangles of a mesh"}};
+                                   TypeName{ChunkType::mesh_triangles, "the triangles of a mesh"},
+                                   TypeName{ChunkType::mesh_records, "the records of a mesh"},
+                                   TypeName{ChunkType::mesh_payloads, "the groups of a mesh"}};
 
 Error refused(const OpenFile& file, const std::string& what) {
     return {ErrorKind::failed, file.path(), what};

@@ -10,8 +10,8 @@
 //
 // Numbers are little endian, and checksums are XXH64. No byte is without one. What a chunk holds is said
 // where it is written: core/baked/region_format.h, core/cluster_file/cluster_format.h,
-// core/cluster_windows/window_file.cpp, core/mesh_file/mesh_bytes.cpp. Offsets inside a chunk count from
-// where it begins, so that chunks can be copied from file to file.
+// core/cluster_windows/window_file.cpp, core/mesh_file/mesh_bytes.cpp, core/streamed_mesh/mesh_records.cpp.
+// Offsets inside a chunk count from where it begins, so that chunks can be copied from file to file.
 #pragma once
 
 #include <array>
@@ -35,19 +35,21 @@ constexpr std::uint32_t four_letters(const char (&letters)[5]) {
     return number;
 }
 enum class ChunkType : std::uint32_t {
-    outline = four_letters("GRID"),        // of a grid: its numbers
-    description = four_letters("DESC"),    // of a grid: text
-    undulation = four_letters("GEOI"),     // of a grid: the geoid's undulation at nodes
-    net = four_letters("NETP"),            // of a grid whose posts lie in a CRS of their own: where they lie
-    pages = four_letters("PAGE"),          // of a grid: the bounds of each page, and where its heights are
-    heights = four_letters("HGTS"),        // of a grid: heights and errors, page by page
-    graph = four_letters("CLUS"),          // of clusters: the graph's numbers and levels
-    groups = four_letters("GRPS"),         // of clusters: the bounds of each group, and where its mesh is
-    meshes = four_letters("MESH"),         // of clusters: members and triangles, group by group
-    window = four_letters("WIDX"),         // of clusters that are being built: what a window has
-    blocks = four_letters("WBLK"),         // of clusters that are being built: what its groups made
-    mesh_facts = four_letters("MFCT"),     // of a mesh, by its number: what is known of it
-    mesh_triangles = four_letters("MTRI")  // of a mesh, by its number: its triangles and their graph
+    outline = four_letters("GRID"),         // of a grid: its numbers
+    description = four_letters("DESC"),     // of a grid: text
+    undulation = four_letters("GEOI"),      // of a grid: the geoid's undulation at nodes
+    net = four_letters("NETP"),             // of a grid whose posts lie in a CRS of their own: where they lie
+    pages = four_letters("PAGE"),           // of a grid: the bounds of each page, and where its heights are
+    heights = four_letters("HGTS"),         // of a grid: heights and errors, page by page
+    graph = four_letters("CLUS"),           // of clusters: the graph's numbers and levels
+    groups = four_letters("GRPS"),          // of clusters: the bounds of each group, and where its mesh is
+    meshes = four_letters("MESH"),          // of clusters: members and triangles, group by group
+    window = four_letters("WIDX"),          // of clusters that are being built: what a window has
+    blocks = four_letters("WBLK"),          // of clusters that are being built: what its groups made
+    mesh_facts = four_letters("MFCT"),      // of a mesh, by its number: what is known of it
+    mesh_triangles = four_letters("MTRI"),  // of a mesh, by its number: its triangles and their graph
+    mesh_records = four_letters("MREC"),    // of a mesh, by its number: its graph without triangles
+    mesh_payloads = four_letters("MPAY")    // of a mesh, by its number: triangles, group by group
 };
 
 // A chunk is one line of the table.

@@ -370,7 +370,7 @@ std::optional<SightHit> Oracle::first_hit_after(const glm::dvec3& start_m, const
     if (sight_.earth == Earth::ellipsoid) {
         for (const TrueMesh& mesh : ground_.meshes())
             if (const auto hit = mesh.first_hit(sight_.eye, sight_.refraction, start_m, direction, most_m))
-                most_m = hit->along_m, beside = OfMesh{mesh.number(), mesh.feature(hit->triangle)};
+                most_m = hit->along_m, beside = OfMesh{mesh.number(), hit->feature};
     }
     return beside ? hit_beside(start_m + most_m * direction, most_m, *beside) : nearest;
 }

@@ -55,6 +55,7 @@ double TrueGround::N_m(double lat_deg, double lon_deg) const {
 
 Result<void> TrueGround::health() const {
     for (const Grid& grid : grids_) ORO_CHECK(grid.surface->field().health());
+    for (const TrueMesh& mesh : meshes()) ORO_CHECK(mesh.health());
     return {};
 }
 

@@ -66,7 +66,7 @@ class TrueGround {
     [[nodiscard]] std::optional<double> h_m(double lat_deg, double lon_deg) const;
     // N at a place: as the grid has it that is the ground there, or else the first.
     [[nodiscard]] double N_m(double lat_deg, double lon_deg) const;
-    // Errors: posts that could not be read, and so counted as void.
+    // Errors: posts, and triangles of meshes, that could not be read, and so counted as void.
     [[nodiscard]] Result<void> health() const;
 
   private:

@@ -11,14 +11,14 @@
 
 #include "core/base/parallel.h"
 #include "core/truth/box_walk.h"
+#include "core/truth/line_in_air.h"
 #include "core/truth/line_meets.h"
+#include "core/truth/true_mesh_parts.h"
 
 namespace oro {
 namespace {
 
 constexpr std::uint32_t most_in_leaf = 6;
-// By what rounding, and turning into the frame, may move a line from 1e9 m away.
-constexpr double rounded_m = 1.0e-6;
 
 // Of a tree over so many triangles.
 std::uint32_t nodes_over(std::uint32_t triangles) {
@@ -117,8 +117,8 @@ void TrueMesh::bound(const Part& part) {
     Node& node = nodes_[part.node];
     node.first = part.first, node.count = part.last - part.first;
     for (int axis = 0; axis < 3; ++axis) {
-        node.low[static_cast<std::size_t>(axis)] = below(low[axis] - rounded_m);
-        node.high[static_cast<std::size_t>(axis)] = above(high[axis] + rounded_m);
+        node.low[static_cast<std::size_t>(axis)] = below(low[axis] - LineInAir::rounded_m);
+        node.high[static_cast<std::size_t>(axis)] = above(high[axis] + LineInAir::rounded_m);
     }
 }
 
@@ -130,32 +130,36 @@ void TrueMesh::join(std::uint32_t node) {
     }
 }
 
+TrueMesh::TrueMesh(std::shared_ptr<const TriangleSource> source, std::uint32_t number, int threads,
+                   std::uint64_t most_bytes)
+    : number_(number),
+      parts_(std::make_shared<const TrueMeshParts>(std::move(source), number, threads, most_bytes)) {}
+
+const TrueMesh& TrueMesh::whole() const {
+    return parts_ ? parts_->whole() : *this;
+}
+
+std::size_t TrueMesh::size() const {
+    return parts_ ? parts_->triangles() : mesh_.triangles.size();
+}
+
+Result<void> TrueMesh::health() const {
+    return parts_ ? parts_->health() : Result<void>();
+}
+
 std::optional<TrueMesh::Hit> TrueMesh::first_hit(const Ecef& eye, const Refraction& refraction,
                                                  const glm::dvec3& start_m, const glm::dvec3& direction,
                                                  double reach_m) const {
+    if (parts_) return parts_->first_hit(eye, refraction, start_m, direction, reach_m);
     if (nodes_.empty()) return std::nullopt;
-    const glm::dvec3 eye_m = frame_from_ecef_ * (eye.m - origin_m_);
-    const glm::dvec3 start = eye_m + frame_from_ecef_ * start_m,
-                     inverse = finite_inverse(frame_from_ecef_ * direction),
-                     up = frame_from_ecef_ * refraction.up();
-    const double curvature_per_m = refraction.curvature_per_m();
+    const LineInAir line(frame_from_ecef_, frame_from_ecef_ * (eye.m - origin_m_), refraction, start_m,
+                         direction);
     std::optional<Hit> nearest;
     double most_m = reach_m;
-    // Where light bends a box is seen higher up. Points of it are lifted by c a^2 / 2, and where their
-    // distances across the vertical, a, differ by at most r, that differs by at most c r (a + r / 2).
     const auto begin_of = [&](std::uint32_t number) {
         const Node& node = nodes_[number];
-        glm::dvec3 low(node.low[0], node.low[1], node.low[2]), high(node.high[0], node.high[1], node.high[2]);
-        if (curvature_per_m != 0.0) {
-            const glm::dvec3 from_eye = 0.5 * (low + high) - eye_m;
-            const double radius_m = 0.5 * glm::length(high - low),
-                         across_m = glm::length(from_eye - glm::dot(from_eye, up) * up);
-            const glm::dvec3 lift = 0.5 * curvature_per_m * across_m * across_m * up;
-            const double wider_m =
-                rounded_m + std::abs(curvature_per_m) * radius_m * (across_m + 0.5 * radius_m);
-            low += lift - wider_m, high += lift + wider_m;
-        }
-        return box_begin_m(start, inverse, low, high, most_m);
+        return line.box_begin_m({node.low[0], node.low[1], node.low[2]},
+                                {node.high[0], node.high[1], node.high[2]}, most_m);
     };
     using Two = std::optional<std::pair<std::uint32_t, std::uint32_t>>;
     const auto below_of = [&](std::uint32_t number) {
@@ -170,7 +174,7 @@ std::optional<TrueMesh::Hit> TrueMesh::first_hit(const Ecef& eye, const Refracti
             const auto at_m = triangle_along_m(seen, start_m, direction);
             if (!at_m || *at_m < 0.0 || *at_m >= most_m) continue;
             most_m = *at_m;
-            nearest = Hit{most_m, order_[i]};
+            nearest = Hit{most_m, order_[i], feature(order_[i])};
         }
     });
     return nearest;

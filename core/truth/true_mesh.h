@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "core/base/result.h"
 #include "core/earth/ellipsoid.h"
 #include "core/earth/world_model.h"
 
@@ -21,27 +23,39 @@ struct MeshTriangles {
     std::vector<std::uint32_t> features;  // of each triangle: its number, from 1; empty: none
 };
 
+class TriangleSource;
+class TrueMeshParts;
+
 class TrueMesh {
   public:
     // number: of the mesh, from 1. Takes some 50 bytes a triangle, those given among them, and 0.3 us of one
     // thread. The tree is the same by any number of threads.
     TrueMesh(MeshTriangles mesh, std::uint32_t number, int threads);
+    // Of triangles that are read where a line may meet them; all of them where somebody asks for one by its
+    // number. most_bytes: of memory that what was read for lines takes between lines.
+    TrueMesh(std::shared_ptr<const TriangleSource> source, std::uint32_t number, int threads,
+             std::uint64_t most_bytes);
 
     [[nodiscard]] std::uint32_t number() const { return number_; }
-    [[nodiscard]] std::size_t size() const { return mesh_.triangles.size(); }
-    [[nodiscard]] const std::vector<glm::dvec3>& vertices_m() const { return mesh_.vertices_m; }
+    [[nodiscard]] std::size_t size() const;
+    [[nodiscard]] const std::vector<glm::dvec3>& vertices_m() const { return whole().mesh_.vertices_m; }
     // ECEF, metres.
     [[nodiscard]] std::array<glm::dvec3, 3> corners_m(std::size_t triangle) const {
-        const auto& [a, b, c] = mesh_.triangles[triangle];
-        return {mesh_.vertices_m[a], mesh_.vertices_m[b], mesh_.vertices_m[c]};
+        const MeshTriangles& all = whole().mesh_;
+        const auto& [a, b, c] = all.triangles[triangle];
+        return {all.vertices_m[a], all.vertices_m[b], all.vertices_m[c]};
     }
     [[nodiscard]] std::uint32_t feature(std::size_t triangle) const {
-        return mesh_.features.empty() ? 0 : mesh_.features[triangle];
+        const MeshTriangles& all = whole().mesh_;
+        return all.features.empty() ? 0 : all.features[triangle];
     }
+    // Errors: triangles that could not be read, and so were not there.
+    [[nodiscard]] Result<void> health() const;
 
     struct Hit {
         double along_m{};  // the line, from its start
         std::uint32_t triangle{};
+        std::uint32_t feature{};  // of that triangle, from 1; 0: none
     };
     // How far along a line (`direction` of length 1) its first triangle is, as an eye on the ellipsoid sees
     // it through that air, less than reach_m and not before its start, from either side. start_m: from the
@@ -66,6 +80,8 @@ class TrueMesh {
     void build(const Part& part, const std::vector<glm::vec3>& middles);
     void bound(const Part& part);
     void join(std::uint32_t node);
+    // With all triangles.
+    [[nodiscard]] const TrueMesh& whole() const;
 
     MeshTriangles mesh_;
     std::uint32_t number_;
@@ -73,6 +89,7 @@ class TrueMesh {
     glm::dmat3 frame_from_ecef_{1.0};   // east, north, up there
     std::vector<std::uint32_t> order_;  // of triangles, as the nodes hold them
     std::vector<Node> nodes_;
+    std::shared_ptr<const TrueMeshParts> parts_;  // null: all triangles are here
 };
 
 }  // namespace oro

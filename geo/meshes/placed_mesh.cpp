@@ -476,6 +476,17 @@ Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, 
 
 }  // namespace
 
+std::uint64_t fingerprint_of_undulation(const UndulationField& undulation) {
+    const std::uint64_t axes = xxh64(std::as_bytes(std::span(&undulation.lat, 1))),
+                        both = xxh64(std::as_bytes(std::span(&undulation.lon, 1)), axes);
+    return xxh64(std::as_bytes(std::span(undulation.N_m)), both);
+}
+
+bool is_drawn_as_streamed(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration) {
+    return mesh.streamed() && exaggeration == 1.0 &&
+           mesh.baked->undulation_fingerprint == fingerprint_of_undulation(undulation);
+}
+
 bool is_coloured(const PlacedMesh& mesh, std::size_t triangle) {
     return !mesh.colours.empty() && std::ranges::all_of(mesh.triangles[triangle], [&](std::uint32_t corner) {
         return corner < mesh.colours.size() && mesh.colours[corner].is_stated != 0;

@@ -17,6 +17,7 @@
 namespace oro {
 
 struct StoredMesh;
+class StreamedMesh;
 
 // As in Blender's "shade smooth by angle".
 inline constexpr double default_crease_deg = 30.0;
@@ -36,6 +37,14 @@ Geodetic geodetic_of(const PlacedVertex& vertex, const UndulationField& undulati
 struct RimWall {
     std::array<std::uint32_t, 2> cut{};   // along the terrain
     std::array<std::uint32_t, 2> over{};  // above or below these
+};
+
+// What a baked file has of a mesh: one of both.
+struct BakedMesh {
+    std::shared_ptr<const StoredMesh> stored;  // its triangles as the file has them, with their graph
+    // Reads them group by group: the mesh is here without vertices, triangles and colours.
+    std::shared_ptr<const StreamedMesh> streamed;
+    std::uint64_t undulation_fingerprint{};  // ... of N that it was opened with (fingerprint_of_undulation())
 };
 
 // A mesh as it is drawn and asked: its triangles' sides are straight in space, and no longer than
@@ -71,9 +80,17 @@ struct PlacedMesh {
     std::string note;             // what a user must know; "" for nothing
     // Where triangles meet at a smaller angle they share the light: the normal at their common vertex.
     double crease_deg{default_crease_deg};
-    // Of one that was baked: its triangles as its file has them, with their graph; null: it was not.
-    std::shared_ptr<const StoredMesh> stored;
+    std::shared_ptr<const BakedMesh> baked;  // null: it was not
+    // What `baked` has of them; null: nothing.
+    [[nodiscard]] const StoredMesh* stored() const { return baked ? baked->stored.get() : nullptr; }
+    [[nodiscard]] const StreamedMesh* streamed() const { return baked ? baked->streamed.get() : nullptr; }
 };
+
+// Tells one N from another. The same numbers give the same.
+std::uint64_t fingerprint_of_undulation(const UndulationField& undulation);
+// Whether a mesh that is read group by group is drawn where its file has it: at the N that it was opened
+// with, and not exaggerated. Elsewhere all of it is read.
+bool is_drawn_as_streamed(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration);
 
 // Whether all corners of a triangle have a colour that the file states.
 bool is_coloured(const PlacedMesh& mesh, std::size_t triangle);

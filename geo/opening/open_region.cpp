@@ -65,12 +65,15 @@ void leave_outside_out(const std::optional<BoundingBox>& box, std::vector<Placed
 }
 
 // The meshes in a baked file, before those that lie on it besides. Its description has the notes on them.
-Result<void> open_baked_meshes(const std::string& path, const std::optional<BoundingBox>& box,
+Result<void> take_baked_meshes(const std::string& path, const RegionRequest& request, MeshReading reading,
                                Region& region) {
     ORO_TRY(const std::shared_ptr<const Container> container, Container::open(path));
+    const UndulationField& undulation = region.grids.front().field.undulation;
+    // What lies in a box, and what cuts the terrain, is told by triangles.
+    const bool streams = reading == MeshReading::streamed && !request.box && !request.meshes.cut_under;
     ORO_TRY(std::vector<PlacedMesh> meshes,
-            read_baked_meshes(*container, region.grids.front().field.undulation));
-    leave_outside_out(box, meshes, region.grids.front());
+            streams ? open_baked_meshes(container, undulation) : read_baked_meshes(*container, undulation));
+    leave_outside_out(request.box, meshes, region.grids.front());
     if (meshes.empty()) return {};
     region.meshes = std::make_shared<const std::vector<PlacedMesh>>(std::move(meshes));
     return {};
@@ -121,7 +124,7 @@ Result<void> check_height_unit(const RegionRequest& request, std::span<const Cho
 }
 
 // The five steps. Of grids over each other one may lack all height: the others have ground.
-Result<Region> read_region(const RegionRequest& request, const Progress& progress) {
+Result<Region> read_region(const RegionRequest& request, const Progress& progress, MeshReading meshes) {
     ORO_TRY(const RegionFiles files, find_files(request));
     const bool is_baked = !files.baked.empty();
     if (!is_baked) start_gdal();
@@ -156,7 +159,7 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
     if (progress) progress(1.0, "region read");
     Region region = describe_region(std::move(grids), empty, is_baked);
     if (request.feather_m > 0.0 && region.grids.size() > 1) ORO_CHECK(feather(region, request.feather_m));
-    if (is_baked) ORO_CHECK(open_baked_meshes(files.baked, request.box, region));
+    if (is_baked) ORO_CHECK(take_baked_meshes(files.baked, request, meshes, region));
     if (!request.meshes.files.empty()) ORO_CHECK(open_meshes_of(request, region));
     return region;
 }
@@ -165,7 +168,7 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
 bool has_data(const RegionRequest& request) {
     const auto files = find_files(request);
     if (!files) return false;
-    if (!files->baked.empty()) return read_region(request, {}).ok();
+    if (!files->baked.empty()) return read_region(request, {}, MeshReading::streamed).ok();
     auto found = probe_files(*files, request, {});
     return found.ok() && !found->sources.empty() && choose_extent(found->sources, request.box);
 }
@@ -206,6 +209,7 @@ Result<void> check_west_and_east(const RegionRequest& request) {
 // What keep_last_region() keeps.
 struct KeptRegion {
     RegionRequest request;
+    MeshReading meshes{};
     Region region;
     std::shared_ptr<const FilesReadSoFar> files;
 };
@@ -243,23 +247,24 @@ std::uint64_t bytes_of(const Region& region) {
     return floats * sizeof(float);
 }
 
-void keep(const RegionRequest& request, const Region& region) {
+void keep(const RegionRequest& request, MeshReading meshes, const Region& region) {
     keeping().last.reset();
     const auto memory_bytes = machine_memory_bytes();
     if (memory_bytes && bytes_of(region) > *memory_bytes / 4) return;
-    keeping().last = KeptRegion{request, region, files_read_so_far()};
+    keeping().last = KeptRegion{request, meshes, region, files_read_so_far()};
 }
 
-Result<Region> read_or_kept(const RegionRequest& request, const Progress& progress) {
+Result<Region> read_or_kept(const RegionRequest& request, const Progress& progress, MeshReading meshes) {
     RegionKeeping& kept = keeping();
-    if (!kept.keeps) return read_region(request, progress);
-    if (kept.last && asks_for_same(kept.last->request, request) && are_unchanged(*kept.last->files)) {
+    if (!kept.keeps) return read_region(request, progress, meshes);
+    if (kept.last && kept.last->meshes == meshes && asks_for_same(kept.last->request, request) &&
+        are_unchanged(*kept.last->files)) {
         remember_again(*kept.last->files);
         return kept.last->region;
     }
     kept.last.reset();
     ++kept.read;
-    return read_region(request, progress);
+    return read_region(request, progress, meshes);
 }
 
 }  // namespace
@@ -277,14 +282,18 @@ std::size_t regions_read() {
 }
 
 Result<Region> open_region(const RegionRequest& request, const Progress& progress) {
+    return open_region(request, progress, MeshReading::whole);
+}
+
+Result<Region> open_region(const RegionRequest& request, const Progress& progress, MeshReading meshes) {
     try {
         ORO_CHECK(check_west_and_east(request));
-        Result<Region> region = read_or_kept(request, progress);
+        Result<Region> region = read_or_kept(request, progress, meshes);
         if (region.ok()) ORO_CHECK(libraries_are_sound());
         // Also where it could not be read: a file that is being rewritten is not damaged.
         ORO_CHECK(check_files_unchanged());
         if (!region.ok()) return with_order_of_box(region.error(), request);
-        if (keeping().keeps && !keeping().last) keep(request, *region);
+        if (keeping().keeps && !keeping().last) keep(request, meshes, *region);
         return region;
     } catch (const std::bad_alloc&) {
         return Error{ErrorKind::failed, "region too large",

@@ -23,6 +23,11 @@ namespace oro {
 // was baked (ErrorKind::usage).
 Result<Region> open_region(const RegionRequest& request, const Progress& progress = {});
 
+// How the meshes of a baked file are opened: with all their triangles; or without these, where the file has
+// them group by group (PlacedMesh::streamed), unless a box or --cut-under has to know them.
+enum class MeshReading { whole, streamed };
+Result<Region> open_region(const RegionRequest& request, const Progress& progress, MeshReading meshes);
+
 // From now on the region that was opened last is kept, and open_region() gives a copy of it to whoever asks
 // for the same while its files stay what they were: for one job after the other. Regions whose posts would
 // take more than a quarter of the machine's memory are not kept. To be called by the thread that opens

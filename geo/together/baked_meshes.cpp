@@ -15,6 +15,7 @@
 #include "core/mesh_file/mesh_bytes.h"
 #include "core/mesh_file/stored_mesh.h"
 #include "core/mesh_graph/mesh_graph.h"
+#include "core/streamed_mesh/streamed_mesh.h"
 #include "core/terrain/page_on_net.h"
 #include "geo/files/whole_file.h"
 #include "geo/meshes/mesh_facts.h"
@@ -31,14 +32,20 @@ constexpr std::size_t most_fact_bytes = std::size_t{1} << 30U;
 constexpr std::uint64_t most_triangle_bytes = std::uint64_t{64} * most_stored_triangles;
 
 Result<void> write_container(const std::string& path, std::span<const std::byte> facts,
-                             std::span<const std::byte> triangles) {
+                             std::span<const std::byte> triangles, const StreamedBytes& streamed) {
+    const std::span<const std::byte> records = streamed.records, payloads = streamed.payloads;
     ChunkTable table{0,
                      {{ChunkType::mesh_facts, 0, 0, facts.size(), xxh64(facts)},
                       {ChunkType::mesh_triangles, 0, 0, triangles.size(), xxh64(triangles)}}};
+    if (!records.empty()) {
+        table.chunks.push_back({ChunkType::mesh_records, 0, 0, records.size(), xxh64(records)});
+        table.chunks.push_back({ChunkType::mesh_payloads, 0, 0, payloads.size(), xxh64(payloads)});
+    }
     table.file_bytes = table.place();
     ORO_TRY(WholeFile whole, WholeFile::create(path, true));
     const std::vector<std::byte> front = table.to_bytes();
-    for (const std::span<const std::byte> bytes : {std::span<const std::byte>(front), facts, triangles})
+    for (const std::span<const std::byte> bytes :
+         {std::span<const std::byte>(front), facts, triangles, records, payloads})
         ORO_CHECK(whole.write(bytes.data(), bytes.size()));
     return whole.commit();
 }
@@ -46,16 +53,9 @@ Result<void> write_container(const std::string& path, std::span<const std::byte>
 // The vertices and triangles of a mesh as its file has them.
 void add_triangles(std::shared_ptr<const StoredMesh> stored, const UndulationField& undulation,
                    PlacedMesh& mesh) {
-    const auto placed = [&](const LatticeSteps& at) -> PlacedVertex {
-        const Geodetic place = geodetic_from_ecef(Ecef{{static_cast<double>(at[0]) / lattice_steps_per_m,
-                                                        static_cast<double>(at[1]) / lattice_steps_per_m,
-                                                        static_cast<double>(at[2]) / lattice_steps_per_m}});
-        const double N_m = undulation.N_m.empty() ? 0.0 : undulation.at_m(place.lat_deg, place.lon_deg);
-        return {place.lat_deg, place.lon_deg, place.h_m - N_m};
-    };
     mesh.vertices.resize(stored->places.size());
     in_chunks(mesh.vertices.size(), thread_count(),
-              [&](std::size_t i) { mesh.vertices[i] = placed(stored->places[i]); });
+              [&](std::size_t i) { mesh.vertices[i] = vertex_on_lattice(stored->places[i], undulation); });
     const ClusterGraph& graph = stored->graph.clusters;
     for (const Cluster& cluster : graph.clusters) {
         if (cluster.made_by != no_group) break;
@@ -63,7 +63,7 @@ void add_triangles(std::shared_ptr<const StoredMesh> stored, const UndulationFie
     }
     mesh.feature_of = stored->labels;
     mesh.not_added = mesh.triangles.size();
-    mesh.stored = std::move(stored);
+    mesh.baked = std::make_shared<const BakedMesh>(BakedMesh{std::move(stored), nullptr, 0});
 }
 
 // Colours of the vertices of a mesh as its bytes number them. Vertices at one place have that of the first.
@@ -150,28 +150,77 @@ std::string folder_of(const std::string& path) {
     return slash == std::string::npos ? "." : path.substr(0, slash + 1);
 }
 
-Result<PlacedMesh> read_mesh_of(const Container& container, const Chunk& facts_chunk,
-                                const UndulationField& undulation) {
-    ORO_TRY(const Chunk triangles_chunk, container.chunk(ChunkType::mesh_triangles, facts_chunk.grid));
-    const OpenFile& file = container.file();
+// A mesh group by group; nothing where its graph was built over ground, which all its triangles are asked for
+// when it is drawn.
+StreamedBytes groups_of(const StoredMesh& stored, std::span<const VertexColour> colours, int threads) {
+    return stored.ground_fingerprint == 0 ? streamed_bytes_of(stored, colours, threads) : StreamedBytes();
+}
+
+// Whether a file has a mesh group by group as these bytes have it.
+bool has_streamed_bytes(const Container& container, std::uint32_t number, const StreamedBytes& expected) {
+    const auto is_there = [&](ChunkType type, std::span<const std::byte> bytes) {
+        const Chunk* const chunk = container.find(type, number);
+        if (chunk == nullptr || chunk->bytes != bytes.size()) return chunk == nullptr && bytes.empty();
+        const auto found = container.read(*chunk, bytes.size());
+        return found.ok() && std::ranges::equal(*found, bytes);
+    };
+    return is_there(ChunkType::mesh_records, expected.records) &&
+           is_there(ChunkType::mesh_payloads, expected.payloads);
+}
+
+// What is known of a mesh beside its triangles.
+Result<PlacedMesh> read_facts(const Container& container, const Chunk& facts_chunk) {
     ORO_TRY(const std::vector<std::byte> packed, container.read(facts_chunk, most_fact_bytes));
     const auto facts = decompressed(packed, most_fact_bytes);
     std::optional<PlacedMesh> mesh = facts ? facts_from_bytes(*facts) : std::nullopt;
-    if (!mesh) return file.damaged(facts_chunk.offset, "facts of a mesh that are none");
+    if (!mesh) return container.file().damaged(facts_chunk.offset, "facts of a mesh that are none");
+    return std::move(*mesh);
+}
+
+Result<void> check_features(const Container& container, const Chunk& chunk, std::uint32_t label_count,
+                            const PlacedMesh& mesh) {
+    if (label_count == mesh.features.size()) return {};
+    return container.file().damaged(chunk.offset, "the mesh has " + std::to_string(label_count) +
+                                                      " features, expected " +
+                                                      std::to_string(mesh.features.size()));
+}
+
+Result<PlacedMesh> read_mesh_of(const Container& container, const Chunk& facts_chunk,
+                                const UndulationField& undulation) {
+    ORO_TRY(const Chunk triangles_chunk, container.chunk(ChunkType::mesh_triangles, facts_chunk.grid));
+    ORO_TRY(PlacedMesh mesh, read_facts(container, facts_chunk));
     ORO_TRY(const std::vector<std::byte> bytes, container.read(triangles_chunk, most_triangle_bytes));
     auto stored = std::make_shared<StoredMesh>();
     if (const auto wrong = mesh_from_bytes(bytes, *stored))
-        return file.damaged(triangles_chunk.offset, "the mesh " + *wrong);
-    if (stored->label_count != mesh->features.size())
-        return file.damaged(triangles_chunk.offset, "the mesh has " + std::to_string(stored->label_count) +
-                                                        " features, expected " +
-                                                        std::to_string(mesh->features.size()));
-    if (!mesh->colours.empty() && mesh->colours.size() != stored->places.size())
-        return file.damaged(facts_chunk.offset, "colours of " + std::to_string(mesh->colours.size()) +
-                                                    " vertices, expected " +
-                                                    std::to_string(stored->places.size()));
-    add_triangles(std::move(stored), undulation, *mesh);
-    return std::move(*mesh);
+        return container.file().damaged(triangles_chunk.offset, "the mesh " + *wrong);
+    ORO_CHECK(check_features(container, triangles_chunk, stored->label_count, mesh));
+    if (!mesh.colours.empty() && mesh.colours.size() != stored->places.size())
+        return container.file().damaged(
+            facts_chunk.offset, "colours of " + std::to_string(mesh.colours.size()) + " vertices, expected " +
+                                    std::to_string(stored->places.size()));
+    // Every byte is under a checksum, also of what is read in another way.
+    for (const ChunkType type : {ChunkType::mesh_records, ChunkType::mesh_payloads})
+        if (const Chunk* const chunk = container.find(type, facts_chunk.grid))
+            ORO_CHECK(container.check(*chunk));
+    add_triangles(std::move(stored), undulation, mesh);
+    return mesh;
+}
+
+// The same without its triangles, which are read as they are needed.
+Result<PlacedMesh> open_mesh_of(const std::shared_ptr<const Container>& container, const Chunk& facts_chunk,
+                                const UndulationField& undulation) {
+    ORO_TRY(PlacedMesh mesh, read_facts(*container, facts_chunk));
+    ORO_TRY(const std::shared_ptr<const StreamedMesh> streamed,
+            StreamedMesh::open(container, facts_chunk.grid));
+    const MeshRecords& records = streamed->records();
+    const Chunk& records_chunk = *container->find(ChunkType::mesh_records, facts_chunk.grid);
+    ORO_CHECK(check_features(*container, records_chunk, records.label_count, mesh));
+    if (mesh.colours.empty() == records.has_colours)
+        return container->file().damaged(records_chunk.offset, "the mesh has other colours than its facts");
+    mesh.colours = {};  // groups have their own
+    mesh.baked = std::make_shared<const BakedMesh>(
+        BakedMesh{nullptr, streamed, fingerprint_of_undulation(undulation)});
+    return mesh;
 }
 
 }  // namespace
@@ -204,14 +253,20 @@ Result<BakedMeshReport> write_baked_mesh(const std::string& path, const PlacedMe
         {lattice_point(lattice.origin_m).steps, on_lattice.places, labels,
          static_cast<std::uint32_t>(mesh.features.size()), graph, fingerprint_of(below, lattice.origin_m)});
     if (!bytes) return Error{bytes.error().kind, mesh.path, bytes.error().what};
+    // Groups by themselves have the numbers and the order that whoever reads the whole mesh finds.
+    StoredMesh stored;
+    if (const auto wrong = mesh_from_bytes(*bytes, stored))
+        return Error{ErrorKind::failed, mesh.path, "the mesh that was written " + *wrong};
     std::vector<VertexColour> colours;
-    if (StoredMesh stored; !mesh.colours.empty() && !mesh_from_bytes(*bytes, stored))
+    if (!mesh.colours.empty())
         colours = stored_colours(mesh, lattice.vertex_of, on_lattice.places, stored);
+    const StreamedBytes streamed = groups_of(stored, colours, threads);
     const std::vector<std::byte> facts = compressed(facts_to_bytes(mesh, std::move(colours)));
-    ORO_CHECK(write_container(path, facts, *bytes));
+    ORO_CHECK(write_container(path, facts, *bytes, streamed));
     report.graph_triangles = graph.clusters.triangles.size();
     report.levels = graph.clusters.levels.size();
-    report.bytes = bytes->size(), report.fact_bytes = facts.size();
+    report.bytes = bytes->size() + streamed.records.size() + streamed.payloads.size();
+    report.fact_bytes = facts.size();
     return report;
 }
 
@@ -237,15 +292,55 @@ std::optional<BakedMeshReport> mesh_baked_before(const std::string& path, const 
     if (stored.ground_fingerprint != fingerprint_of(below, now.lattice.origin_m)) return std::nullopt;
     std::vector<VertexColour> colours;
     if (!mesh.colours.empty()) colours = stored_colours(mesh, now.lattice.vertex_of, now.places, stored);
+    const StreamedBytes streamed = groups_of(stored, colours, thread_count());
+    if (!has_streamed_bytes(**container, 0, streamed)) return std::nullopt;
     if (decompressed(*packed, most_fact_bytes) != facts_to_bytes(mesh, std::move(colours)))
         return std::nullopt;
     BakedMeshReport report;
     report.triangles = now.lattice.triangles.size();
     report.graph_triangles = stored.graph.clusters.triangles.size();
     report.levels = stored.graph.clusters.levels.size();
-    report.bytes = bytes->size(), report.fact_bytes = packed->size();
+    report.bytes = bytes->size() + streamed.records.size() + streamed.payloads.size();
+    report.fact_bytes = packed->size();
     report.was_there = true;
     return report;
+}
+
+Result<void> check_streamed_mesh(const Container& container, std::uint32_t number, const PlacedMesh& mesh) {
+    if (!StreamedMesh::is_in(container, number)) return {};
+    const StreamedBytes expected = groups_of(*mesh.stored(), mesh.colours, thread_count());
+    if (has_streamed_bytes(container, number, expected)) return {};
+    return container.file().damaged(container.find(ChunkType::mesh_records, number)->offset,
+                                    "the groups of the mesh are not those of its triangles");
+}
+
+Result<MeshesOfRegion> whole_meshes(const Region& region) {
+    if (!region.meshes || std::ranges::none_of(*region.meshes, &PlacedMesh::streamed)) return region.meshes;
+    auto meshes = std::make_shared<std::vector<PlacedMesh>>(*region.meshes);
+    for (PlacedMesh& mesh : *meshes)
+        if (mesh.streamed()) {
+            ORO_TRY(mesh, read_whole_mesh(mesh, region.grids.front().field.undulation));
+        }
+    return MeshesOfRegion(std::move(meshes));
+}
+
+Result<PlacedMesh> read_whole_mesh(const PlacedMesh& mesh, const UndulationField& undulation) {
+    const Container& container = mesh.streamed()->container();
+    ORO_TRY(const Chunk facts, container.chunk(ChunkType::mesh_facts, mesh.streamed()->number()));
+    return read_mesh_of(container, facts, undulation);
+}
+
+Result<std::vector<PlacedMesh>> open_baked_meshes(const std::shared_ptr<const Container>& container,
+                                                  const UndulationField& undulation) {
+    std::vector<PlacedMesh> meshes;
+    for (std::uint32_t number = 0;; ++number) {
+        const Chunk* const facts = container->find(ChunkType::mesh_facts, number);
+        if (facts == nullptr) return meshes;
+        ORO_TRY(PlacedMesh mesh, StreamedMesh::is_in(*container, number)
+                                     ? open_mesh_of(container, *facts, undulation)
+                                     : read_mesh_of(*container, *facts, undulation));
+        meshes.push_back(std::move(mesh));
+    }
 }
 
 Result<std::vector<PlacedMesh>> read_baked_meshes(const Container& container,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +23,7 @@ struct BakedMeshReport {
     std::uint64_t triangles{};        // of the mesh
     std::uint64_t graph_triangles{};  // of all levels
     std::uint64_t levels{};
-    std::uint64_t bytes{};       // of triangles, places and graph
+    std::uint64_t bytes{};       // of triangles, places and graph, as a whole and group by group
     std::uint64_t fact_bytes{};  // of features and what else is known of it, pressed
     double build_s{};            // building its graph
     bool was_there{};            // it was not built: a bake that was broken off had
@@ -50,5 +51,21 @@ std::optional<BakedMeshReport> mesh_baked_before(const std::string& path, const 
 // them whole, in one pass. Errors: those of Container; damage; numbers that no mesh has.
 Result<std::vector<PlacedMesh>> read_baked_meshes(const Container& container,
                                                   const UndulationField& undulation);
+
+// The same without the triangles of those that the file has group by group: PlacedMesh::streamed reads them.
+// The others are read whole.
+Result<std::vector<PlacedMesh>> open_baked_meshes(const std::shared_ptr<const Container>& container,
+                                                  const UndulationField& undulation);
+// All of a mesh that open_baked_meshes() has opened, as read_baked_meshes() reads it. Errors: as it.
+Result<PlacedMesh> read_whole_mesh(const PlacedMesh& mesh, const UndulationField& undulation);
+
+// The meshes of a region with all their triangles: its own, or where it reads some group by group those read
+// whole. Errors: as read_whole_mesh().
+using MeshesOfRegion = std::shared_ptr<const std::vector<PlacedMesh>>;
+Result<MeshesOfRegion> whole_meshes(const Region& region);
+
+// Holds the groups of a mesh, by its number, that was read whole against those that follow from its
+// triangles. Errors: they are others.
+Result<void> check_streamed_mesh(const Container& container, std::uint32_t number, const PlacedMesh& mesh);
 
 }  // namespace oro

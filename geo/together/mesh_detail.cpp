@@ -8,10 +8,13 @@
 #include "core/cluster_frame/group_rule.h"
 #include "core/frame/frame_colours.h"
 #include "core/mesh_file/stored_mesh.h"
+#include "core/streamed_mesh/streamed_mesh.h"
 #include "core/terrain/page_on_net.h"
+#include "geo/together/baked_meshes.h"
 #include "geo/together/lattice_mesh.h"
 #include "geo/together/mesh_ground.h"
 #include "geo/together/mesh_surface.h"
+#include "geo/together/streamed_triangles.h"
 
 namespace oro {
 namespace {
@@ -20,14 +23,14 @@ constexpr std::uint32_t not_used = ~std::uint32_t{0};
 
 // Whether a mesh is drawn where its baked graph was built, and over the same ground.
 bool lies_as_stored(const PlacedMesh& mesh, const Region& region, double exaggeration) {
-    if (!mesh.stored) return false;
+    if (!mesh.stored()) return false;
     const std::vector<glm::dvec3> places =
         drawn_places_m(mesh, region.grids.front().field.undulation, exaggeration);
     for (std::size_t i = 0; i < places.size(); ++i)
-        if (lattice_point(places[i]).steps != mesh.stored->places[i]) return false;
-    if (mesh.stored->ground_fingerprint == 0) return true;
-    const MeshGround ground = ground_below_parts(*mesh.stored, region, exaggeration);
-    return fingerprint_of(ground, mesh.stored->origin_ecef_m()) == mesh.stored->ground_fingerprint;
+        if (lattice_point(places[i]).steps != mesh.stored()->places[i]) return false;
+    if (mesh.stored()->ground_fingerprint == 0) return true;
+    const MeshGround ground = ground_below_parts(*mesh.stored(), region, exaggeration);
+    return fingerprint_of(ground, mesh.stored()->origin_ecef_m()) == mesh.stored()->ground_fingerprint;
 }
 
 VertexColour coded(const gpu::vec3& colour) {
@@ -80,13 +83,24 @@ MeshDetail::Graph MeshDetail::graph_of(const PlacedMesh& mesh, const UndulationF
 }
 
 MeshDetail MeshDetail::of(const Region& region, double exaggeration, int threads) {
+    return of(region, exaggeration, threads, region.meshes);
+}
+
+MeshDetail MeshDetail::of(const Region& region, double exaggeration, int threads,
+                          std::shared_ptr<const std::vector<PlacedMesh>> meshes) {
     MeshDetail detail;
-    detail.meshes_ = region.meshes;
+    detail.meshes_ = std::move(meshes), detail.threads_ = threads;
     const UndulationField& undulation = region.grids.front().field.undulation;
-    for (const PlacedMesh& mesh : *region.meshes) {
+    for (const PlacedMesh& mesh : *detail.meshes_) {
+        if (mesh.streamed()) {
+            Graph& streamed = detail.graphs_.emplace_back();
+            streamed.graph = std::shared_ptr<const MeshGraph>(mesh.baked, &mesh.streamed()->records().graph);
+            detail.undulation_ = undulation;
+            continue;
+        }
         if (lies_as_stored(mesh, region, exaggeration)) {
             Graph& stored = detail.graphs_.emplace_back();
-            stored.graph = std::shared_ptr<const MeshGraph>(mesh.stored, &mesh.stored->graph);
+            stored.graph = std::shared_ptr<const MeshGraph>(mesh.baked, &mesh.stored()->graph);
             continue;
         }
         detail.graphs_.push_back(graph_of(mesh, undulation, exaggeration, threads, &region));
@@ -96,13 +110,22 @@ MeshDetail MeshDetail::of(const Region& region, double exaggeration, int threads
     return detail;
 }
 
+Result<MeshDetail> MeshDetail::open(const Region& region, double exaggeration, int threads) {
+    const UndulationField& undulation = region.grids.front().field.undulation;
+    auto meshes = region.meshes;
+    for (std::size_t i = 0; i < region.meshes->size(); ++i) {
+        const PlacedMesh& mesh = (*region.meshes)[i];
+        if (!mesh.streamed() || streams_as_drawn(mesh, undulation, exaggeration)) continue;
+        auto changed = std::make_shared<std::vector<PlacedMesh>>(*meshes);
+        ORO_TRY((*changed)[i], read_whole_mesh(mesh, undulation));
+        meshes = std::move(changed);
+    }
+    return of(region, exaggeration, threads, std::move(meshes));
+}
+
 PlacedMesh MeshDetail::drawn(const PlacedMesh& mesh, const Graph& graph,
                              const std::vector<std::uint32_t>& clusters) {
-    PlacedMesh drawn;
-    drawn.path = mesh.path, drawn.format = mesh.format, drawn.crs = mesh.crs, drawn.heights = mesh.heights;
-    drawn.kind = mesh.kind, drawn.look = mesh.look, drawn.has_look_by_type = mesh.has_look_by_type;
-    drawn.crease_deg = mesh.crease_deg;
-    drawn.features = mesh.features, drawn.in_file = mesh.in_file, drawn.fingerprint = mesh.fingerprint;
+    PlacedMesh drawn = without_triangles(mesh);
     std::vector<std::uint32_t> number(mesh.vertices.size(), not_used);
     const ClusterGraph& all = graph.graph->clusters;
     const auto of_mesh = [](const std::vector<std::uint32_t>& numbers, std::uint32_t i) {
@@ -131,19 +154,23 @@ PlacedMesh MeshDetail::drawn(const PlacedMesh& mesh, const Graph& graph,
     return drawn;
 }
 
-MeshCut MeshDetail::cut(const Camera& camera, double tau_px, const Air& air,
-                        const std::optional<std::uint32_t>& level, const MeshCut* before,
-                        MeshParts parts) const {
+Result<MeshCut> MeshDetail::cut(const Camera& camera, double tau_px, const Air& air,
+                                const std::optional<std::uint32_t>& level, const MeshCut* before,
+                                MeshParts parts) const {
     return cut(std::span(&camera, 1), tau_px, air, level, before, parts);
 }
 
-MeshCut MeshDetail::cut(std::span<const Camera> cameras, double tau_px, const Air& air,
-                        const std::optional<std::uint32_t>& level, const MeshCut* before,
-                        MeshParts parts) const {
+Result<MeshCut> MeshDetail::cut(std::span<const Camera> cameras, double tau_px, const Air& air,
+                                const std::optional<std::uint32_t>& level, const MeshCut* before,
+                                MeshParts parts) const {
+    return with_meshes(chosen(cameras, tau_px, air, level), before, parts);
+}
+
+MeshCut MeshDetail::chosen(std::span<const Camera> cameras, double tau_px, const Air& air,
+                           const std::optional<std::uint32_t>& level) const {
     std::vector<GroupRule> rules;
     for (const Camera& camera : cameras) rules.emplace_back(camera, tau_px, air, level);
     MeshCut cut;
-    cut.parts = parts;
     for (const Graph& one : graphs_) {
         const ClusterGraph& graph = one.graph->clusters;
         std::vector<char> stands;
@@ -160,14 +187,26 @@ MeshCut MeshDetail::cut(std::span<const Camera> cameras, double tau_px, const Ai
         for (const std::uint32_t cluster : cut.clusters.back())
             cut.triangles += graph.clusters[cluster].triangles;
     }
-    for (const PlacedMesh& mesh : *meshes_) cut.of_triangles += mesh.triangles.size();
+    for (const PlacedMesh& mesh : *meshes_)
+        cut.of_triangles += mesh.streamed() ? mesh.streamed()->records().triangles : mesh.triangles.size();
+    return cut;
+}
+
+Result<MeshCut> MeshDetail::with_meshes(MeshCut cut, const MeshCut* before, MeshParts parts) const {
+    cut.parts = parts;
     if (before != nullptr && before->clusters == cut.clusters && before->parts == parts) {
         cut.meshes = before->meshes;
         return cut;
     }
     auto meshes = std::make_shared<std::vector<PlacedMesh>>();
     for (std::size_t i = 0; i < graphs_.size(); ++i) {
-        meshes->push_back(drawn((*meshes_)[i], graphs_[i], cut.clusters[i]));
+        const PlacedMesh& mesh = (*meshes_)[i];
+        if (mesh.streamed()) {
+            ORO_TRY(PlacedMesh read, streamed_cut(mesh, cut.clusters[i], undulation_, threads_));
+            meshes->push_back(std::move(read));
+        } else {
+            meshes->push_back(drawn(mesh, graphs_[i], cut.clusters[i]));
+        }
         if (parts == MeshParts::none) continue;
         const ClusterGraph& graph = graphs_[i].graph->clusters;
         for (const std::uint32_t cluster : cut.clusters[i])
@@ -179,12 +218,18 @@ MeshCut MeshDetail::cut(std::span<const Camera> cameras, double tau_px, const Ai
     return cut;
 }
 
+void MeshDetail::hold_at_most(std::uint64_t bytes) const {
+    hold_streamed_at_most(*meshes_, bytes);
+}
+
 std::size_t mesh_levels(const Region& region) {
     std::size_t levels = 1;
     for (const PlacedMesh& mesh : *region.meshes) {
         std::size_t of_mesh = 1;
-        if (mesh.stored)
-            of_mesh += mesh.stored->graph.clusters.levels.size();
+        if (mesh.streamed())
+            of_mesh += mesh.streamed()->records().graph.clusters.levels.size();
+        else if (mesh.stored())
+            of_mesh += mesh.stored()->graph.clusters.levels.size();
         else
             for (double left = static_cast<double>(mesh.triangles.size()); left > most_cluster_triangles;
                  left *= 2.0 / 3.0)

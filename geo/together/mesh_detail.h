@@ -42,26 +42,41 @@ class MeshDetail {
     // over other ground than is there now is built again. region: with meshes, which it holds on to.
     // threads: 1 or more; the graphs are the same by any number.
     static MeshDetail of(const Region& region, double exaggeration, int threads);
+    // The same; meshes that the region reads group by group are read so (streams_meshes()), or whole where
+    // they are drawn elsewhere than their file has them, or were built over ground that is to be known for
+    // parts of them. Errors: damage.
+    static Result<MeshDetail> open(const Region& region, double exaggeration, int threads);
 
     // What a view draws: of each mesh as few triangles as keep all within tau_px of where the mesh is seen,
     // or those of one level from everywhere: 0 are all triangles. Its triangles' features are those of the
     // triangles that they began as. camera: of the whole picture. parts: what they have the colours of.
     // before: a cut of these meshes; where the same clusters are drawn in the same colours now, its meshes
     // are given once more.
-    [[nodiscard]] MeshCut cut(const Camera& camera, double tau_px, const Air& air,
-                              const std::optional<std::uint32_t>& level, const MeshCut* before = nullptr,
-                              MeshParts parts = MeshParts::none) const;
+    // Errors: groups that cannot be read.
+    [[nodiscard]] Result<MeshCut> cut(const Camera& camera, double tau_px, const Air& air,
+                                      const std::optional<std::uint32_t>& level,
+                                      const MeshCut* before = nullptr,
+                                      MeshParts parts = MeshParts::none) const;
     // The same of several views at once: what is drawn keeps tau_px in each of them.
-    [[nodiscard]] MeshCut cut(std::span<const Camera> cameras, double tau_px, const Air& air,
-                              const std::optional<std::uint32_t>& level, const MeshCut* before = nullptr,
-                              MeshParts parts = MeshParts::none) const;
+    [[nodiscard]] Result<MeshCut> cut(std::span<const Camera> cameras, double tau_px, const Air& air,
+                                      const std::optional<std::uint32_t>& level,
+                                      const MeshCut* before = nullptr,
+                                      MeshParts parts = MeshParts::none) const;
+    // Its two halves: which clusters, without meshes, which reads nothing; and the meshes of these.
+    [[nodiscard]] MeshCut chosen(std::span<const Camera> cameras, double tau_px, const Air& air,
+                                 const std::optional<std::uint32_t>& level) const;
+    [[nodiscard]] Result<MeshCut> with_meshes(MeshCut chosen, const MeshCut* before = nullptr,
+                                              MeshParts parts = MeshParts::none) const;
 
-    // The graph of a mesh, by its number from 0, and its vertices as drawn, ECEF metres.
+    // The graph of a mesh, by its number from 0; without triangles where these are read group by group.
     [[nodiscard]] const MeshGraph& graph(std::size_t mesh) const { return *graphs_[mesh].graph; }
     [[nodiscard]] std::size_t size() const { return graphs_.size(); }
     // How many of them had to be built; the others lay in a baked file, which holds for where its meshes are
     // drawn without exaggeration.
     [[nodiscard]] std::size_t built() const { return built_; }
+
+    // Bytes of memory that all groups that were read may take between cuts.
+    void hold_at_most(std::uint64_t bytes) const;
 
     // The graph of one mesh, and what of the mesh it is over.
     struct Graph {
@@ -78,11 +93,15 @@ class MeshDetail {
                           int threads, const Region* ground = nullptr);
 
   private:
+    static MeshDetail of(const Region& region, double exaggeration, int threads,
+                         std::shared_ptr<const std::vector<PlacedMesh>> meshes);
     [[nodiscard]] static PlacedMesh drawn(const PlacedMesh& mesh, const Graph& graph,
                                           const std::vector<std::uint32_t>& clusters);
 
     std::shared_ptr<const std::vector<PlacedMesh>> meshes_;
     std::vector<Graph> graphs_;
+    UndulationField undulation_;  // of the region; empty where nothing is read group by group
+    int threads_{1};
     std::size_t built_{};
 };
 

@@ -146,6 +146,14 @@ std::vector<glm::dvec3> drawn_places_m(const PlacedMesh& mesh, const UndulationF
     return places;
 }
 
+PlacedVertex vertex_on_lattice(const LatticeSteps& at, const UndulationField& undulation) {
+    const Geodetic place = geodetic_from_ecef(Ecef{{static_cast<double>(at[0]) / lattice_steps_per_m,
+                                                    static_cast<double>(at[1]) / lattice_steps_per_m,
+                                                    static_cast<double>(at[2]) / lattice_steps_per_m}});
+    const double N_m = undulation.N_m.empty() ? 0.0 : undulation.at_m(place.lat_deg, place.lon_deg);
+    return {place.lat_deg, place.lon_deg, place.h_m - N_m};
+}
+
 void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration, Seam& seam) {
     const TriangleLooks looks(mesh);
     const std::vector<SeamCorner> corners = drawn_vertices(mesh, undulation, exaggeration);

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/mesh_file/stored_mesh.h"
 #include "core/seam/seam.h"
 #include "core/truth/true_ground.h"
 #include "geo/meshes/placed_mesh.h"
@@ -16,6 +17,9 @@ namespace oro {
 // empty: 0.
 std::vector<glm::dvec3> drawn_places_m(const PlacedMesh& mesh, const UndulationField& undulation,
                                        double exaggeration);
+
+// The vertex that is drawn at that place where nothing is exaggerated.
+PlacedVertex vertex_on_lattice(const LatticeSteps& at, const UndulationField& undulation);
 
 // Adds a mesh's triangles to what is drawn beside the grids. undulation: N of the region; empty: 0. Normals
 // face upwards; at a vertex of more than 64 triangles each has its own. Where the mesh's crease is 0 all

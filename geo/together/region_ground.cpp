@@ -6,8 +6,11 @@
 
 #include "core/baked/file_pages.h"
 #include "core/base/parallel.h"
+#include "core/streamed_mesh/streamed_mesh.h"
+#include "geo/together/baked_meshes.h"
 #include "geo/together/cut_regions.h"
 #include "geo/together/mesh_surface.h"
+#include "geo/together/streamed_triangles.h"
 
 namespace oro {
 namespace {
@@ -114,8 +117,18 @@ Result<std::unique_ptr<const RegionGround>> RegionGround::of(const Region& regio
         for (std::uint32_t i = 0; i < region.meshes->size(); ++i) {
             const PlacedMesh& mesh = (*region.meshes)[i];
             const UndulationField& undulation = grids.front().surface->field().undulation;
-            beside->meshes.emplace_back(true_triangles(mesh, undulation, exaggeration), i + 1,
-                                        thread_count());
+            if (is_drawn_as_streamed(mesh, undulation, exaggeration)) {
+                beside->meshes.emplace_back(true_triangles_of_streamed(mesh, undulation), i + 1,
+                                            thread_count(), StreamedMesh::usual_bytes);
+                continue;
+            }
+            PlacedMesh read;
+            if (mesh.streamed()) {
+                ORO_TRY(read, read_whole_mesh(mesh, region.grids.front().field.undulation));
+            }
+            beside->meshes.emplace_back(
+                true_triangles(mesh.streamed() ? read : mesh, undulation, exaggeration), i + 1,
+                thread_count());
             add_rim_walls(mesh, undulation, exaggeration, i + 1, beside->pieces);
         }
     made->ground_.emplace(std::move(grids), std::move(beside));

@@ -32,7 +32,7 @@ class EyesMeshes : public test::GpuTest {
         view_.tau_px = 1.0;
         view_.mesh = "clusters";
         meshes_.detail = std::make_shared<const MeshDetail>(MeshDetail::of(region_, 1.0, 2));
-        EXPECT_TRUE(choose_cut(meshes_, view_, {}, view_.camera));
+        EXPECT_TRUE(choose_cut(meshes_, view_, {}, view_.camera).value());
         SceneRequest request;
         request.meshes = meshes_.cut.meshes;
         auto scene = test::create_scene(*gpu_, region_, request);
@@ -66,7 +66,7 @@ class EyesMeshes : public test::GpuTest {
         return false;
     }
     [[nodiscard]] std::vector<std::vector<std::uint32_t>> expected(const Camera& camera) const {
-        return mesh_cut_of(*meshes_.detail, mesh_asked_by(view_, {}), std::span(&camera, 1)).clusters;
+        return mesh_cut_of(*meshes_.detail, mesh_asked_by(view_, {}), std::span(&camera, 1)).value().clusters;
     }
     // A frame by the scene as it is lacks nothing of the mesh, and draws as many of its triangles.
     void expect_whole(const Camera& camera) {
@@ -136,14 +136,14 @@ TEST_F(EyesMeshes, AreCoarserWhereMemoryHoldsNoMore) {
     MeshAsked asked = mesh_asked_by(view_, {});
     EXPECT_EQ(asked.most_triangles, 0U);
     const Camera camera = eye_at(90.0);
-    const MeshCut fine = mesh_cut_of(*meshes_.detail, asked, std::span(&camera, 1));
+    const MeshCut fine = mesh_cut_of(*meshes_.detail, asked, std::span(&camera, 1)).value();
     asked.most_triangles = fine.triangles / 2;
-    const MeshCut coarse = mesh_cut_of(*meshes_.detail, asked, std::span(&camera, 1));
+    const MeshCut coarse = mesh_cut_of(*meshes_.detail, asked, std::span(&camera, 1)).value();
     EXPECT_LE(coarse.triangles, asked.most_triangles);
     EXPECT_GT(coarse.triangles, 0U);
     EXPECT_GT(coarse.error_px, view_.tau_px);
     asked.level = 0;
-    EXPECT_EQ(mesh_cut_of(*meshes_.detail, asked, std::span(&camera, 1)).triangles, fine.of_triangles);
+    EXPECT_EQ(mesh_cut_of(*meshes_.detail, asked, std::span(&camera, 1)).value().triangles, fine.of_triangles);
 }
 
 // 12 bytes a triangle at least, until other meshes take their place.

@@ -71,9 +71,11 @@ Result<void> FilmFrames::make_scene(const Camera& camera) {
     if (!meshes_) {
         ORO_TRY(meshes_, mesh_detail_of(region_, view_));
     }
-    if (meshes_)
-        mesh_cut_ = mesh_cut_of(*meshes_, mesh_asked_by(view_, memory_of_pages(view_, options_.memory)),
-                                std::span(&camera, 1));
+    if (meshes_) {
+        ORO_TRY(mesh_cut_,
+                mesh_cut_of(*meshes_, mesh_asked_by(view_, memory_of_pages(view_, options_.memory)),
+                            std::span(&camera, 1)));
+    }
     ORO_TRY(RegionScene whole,
             scene_of_region(gpu_, region_, cuts_, std::move(pages),
                             {view_.exaggeration, memory_of_pages(view_, options_.memory), view_.heights,
@@ -88,8 +90,8 @@ Result<void> FilmFrames::make_scene(const Camera& camera) {
 
 Result<void> FilmFrames::choose_meshes(const View& view) {
     if (!meshes_) return {};
-    MeshCut cut = mesh_cut_of(*meshes_, mesh_asked_by(view_, memory_of_pages(view_, options_.memory)),
-                              std::span(&view.camera, 1), &mesh_cut_);
+    ORO_TRY(MeshCut cut, mesh_cut_of(*meshes_, mesh_asked_by(view_, memory_of_pages(view_, options_.memory)),
+                                     std::span(&view.camera, 1), &mesh_cut_));
     const bool is_same = cut.meshes == mesh_cut_.meshes;
     mesh_cut_ = std::move(cut);
     if (is_same) return {};

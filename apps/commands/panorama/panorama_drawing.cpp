@@ -98,7 +98,8 @@ Result<CylinderPicture> draw_panorama(const View& view, const Region& region, co
         // Finer ones are drawn and averaged: what is within tau of these is.
         for (const CylinderTile& tile : cylinder_tiles(around, view.camera.eye, {1.0}))
             cameras.push_back(tile.camera);
-        cut = mesh_cut_of(*meshes, mesh_asked_by(view, memory_of_pages(view, drawing.memory)), cameras);
+        ORO_TRY(cut,
+                mesh_cut_of(*meshes, mesh_asked_by(view, memory_of_pages(view, drawing.memory)), cameras));
     }
     ORO_TRY(RegionScene whole,
             scene_of_region(*gpu, region, cuts, std::move(pages),

@@ -76,7 +76,8 @@ TEST_F(BakedMeshes, AreReadAsTheyWereWritten) {
     const auto report = write_baked_mesh(path_.string(), mesh, geoid_, 2);
     ASSERT_TRUE(report.ok()) << report.error().line();
     EXPECT_EQ(report->triangles, 1520U);
-    EXPECT_LT(static_cast<double>(report->bytes), 9.0 * 1520);
+    // As a whole 3.8 a triangle, and group by group 4.2 for each triangle of all levels.
+    EXPECT_LT(static_cast<double>(report->bytes), 20.0 * 1520);
     const auto meshes = read(path_);
     ASSERT_TRUE(meshes.ok()) << meshes.error().line();
     ASSERT_EQ(meshes->size(), 1U);
@@ -152,7 +153,7 @@ TEST_F(BakedMeshes, GiveTheSameCutsWithoutBuilding) {
     camera.eye = {46.995, 8.5, 860.0};
     camera.vertical_fov_deg = 20.0, camera.width_px = 800, camera.height_px = 600;
     for (const double tau_px : {0.25, 1.0, 4.0}) {
-        const MeshCut a = one.cut(camera, tau_px, {}, {}), b = other.cut(camera, tau_px, {}, {});
+        const MeshCut a = one.cut(camera, tau_px, {}, {}).value(), b = other.cut(camera, tau_px, {}, {}).value();
         EXPECT_EQ(a.triangles, b.triangles);
         EXPECT_EQ(a.error_m, b.error_m);
         EXPECT_EQ(a.error_px, b.error_px);

@@ -126,7 +126,7 @@ Found look_at(const MeshDetail& detail, const Geodetic& middle, double nearest_m
     for (int i = 0; i < cameras; ++i) {
         const Camera camera = random_camera(middle, nearest_m, random);
         const double tau_px = std::array{0.3, 1.0, 1.0, 4.0}[random() % 4];
-        const MeshCut cut = detail.cut(camera, tau_px, {}, {});
+        const MeshCut cut = detail.cut(camera, tau_px, {}, {}).value();
         ++found.cameras;
         found.over_tau += cut.error_px <= tau_px ? 0U : 1U;
         of_cut(camera, cut, random);
@@ -207,7 +207,7 @@ TEST(CameraCuts, HolesAndPlacesTwiceAreFound) {
     const MeshDetail detail = MeshDetail::of(region, 1.0, 2);
     const ClusterGraph& graph = detail.graph(0).clusters;
     const WholeMesh whole(graph);
-    const MeshCut cut = detail.cut(Camera{}, 1.0, {}, 1U);
+    const MeshCut cut = detail.cut(Camera{}, 1.0, {}, 1U).value();
     Found sound;
     whole.check(triangles_of(graph, cut.clusters[0]), sound);
     EXPECT_EQ(sound.open + sound.crowded, 0U);

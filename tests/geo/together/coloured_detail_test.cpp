@@ -53,7 +53,7 @@ TEST(ColouredDetail, CutsKeepTheColoursOfPlaces) {
     Camera camera;
     camera.eye = {46.99, 8.5, 830.0};
     for (const std::uint32_t level : {0U, 2U, 5U}) {
-        const MeshCut cut = detail.cut(camera, 1.0, {}, level);
+        const MeshCut cut = detail.cut(camera, 1.0, {}, level).value();
         const PlacedMesh& drawn = cut.meshes->front();
         const std::array<std::size_t, 2> counts = right_and_wrong(drawn);
         EXPECT_EQ(counts[0], 3 * drawn.triangles.size()) << level;
@@ -100,10 +100,10 @@ TEST(ColouredDetail, PartsHaveColoursOfTheirOwn) {
     const MeshDetail detail = MeshDetail::of(region_with(coloured_ball()), 1.0, 1);
     Camera camera;
     camera.eye = {46.99, 8.5, 830.0};
-    const MeshCut plain = detail.cut(camera, 1.0, {}, {});
+    const MeshCut plain = detail.cut(camera, 1.0, {}, {}).value();
     EXPECT_TRUE(plain.meshes->front().part_colours.empty()) << "not asked for";
     for (const std::optional<std::uint32_t>& level : {std::optional<std::uint32_t>(), {0U}, {2U}}) {
-        const auto cut = [&](MeshParts parts) { return detail.cut(camera, 0.2, {}, level, nullptr, parts); };
+        const auto cut = [&](MeshParts parts) { return detail.cut(camera, 0.2, {}, level, nullptr, parts).value(); };
         const DrawnParts clusters = parts_of(detail, cut(MeshParts::clusters)),
                          groups = parts_of(detail, cut(MeshParts::groups));
         expect_one_each(clusters.codes, clusters.clusters);
@@ -125,7 +125,7 @@ TEST(ColouredDetail, LevelsHaveTheColoursOfTheGroundsLevels) {
     camera.eye = {46.99, 8.5, 830.0};
     for (const std::uint32_t level : {0U, 1U, 2U, 3U}) {
         const DrawnParts drawn =
-            parts_of(detail, detail.cut(camera, 1.0, {}, level, nullptr, MeshParts::levels));
+            parts_of(detail, detail.cut(camera, 1.0, {}, level, nullptr, MeshParts::levels).value());
         ASSERT_EQ(drawn.codes.size(), drawn.levels.size());
         for (std::size_t i = 0; i < drawn.codes.size(); ++i) {
             ASSERT_LE(drawn.levels[i], level);
@@ -143,10 +143,10 @@ TEST(ColouredDetail, PartsChangeColoursAlone) {
     const MeshDetail detail = MeshDetail::of(region_with(coloured_ball()), 1.0, 1);
     Camera camera;
     camera.eye = {46.99, 8.5, 830.0};
-    const MeshCut plain = detail.cut(camera, 1.0, {}, 2U);
-    const MeshCut shown = detail.cut(camera, 1.0, {}, 2U, &plain, MeshParts::clusters);
+    const MeshCut plain = detail.cut(camera, 1.0, {}, 2U).value();
+    const MeshCut shown = detail.cut(camera, 1.0, {}, 2U, &plain, MeshParts::clusters).value();
     EXPECT_NE(shown.meshes, plain.meshes) << "the same clusters in other colours";
-    EXPECT_EQ(detail.cut(camera, 1.0, {}, 2U, &shown, MeshParts::clusters).meshes, shown.meshes);
+    EXPECT_EQ(detail.cut(camera, 1.0, {}, 2U, &shown, MeshParts::clusters).value().meshes, shown.meshes);
     Seam one, other;
     add_mesh(plain.meshes->front(), {}, 1.0, one);
     add_mesh(shown.meshes->front(), {}, 1.0, other);

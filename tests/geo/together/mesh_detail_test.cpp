@@ -90,7 +90,7 @@ TEST(MeshDetail, WhatIsDrawnIsWithinTauOfTheMeshBothWays) {
     std::uint64_t before = all.size() + 1;
     for (const double distance_m : {150.0, 600.0, 3000.0}) {
         const Camera camera = eye_at(distance_m, 70.0);
-        const MeshCut cut = detail.cut(camera, 1.0, {}, {});
+        const MeshCut cut = detail.cut(camera, 1.0, {}, {}).value();
         EXPECT_EQ(cut.of_triangles, 1520U);
         EXPECT_LE(cut.error_px, 1.0);
         EXPECT_LT(cut.triangles, before);
@@ -109,11 +109,11 @@ TEST(MeshDetail, WhatIsDrawnIsWithinTauOfTheMeshBothWays) {
 TEST(MeshDetail, LevelZeroAreAllTrianglesAndEachKeepsItsFeature) {
     const Region region = region_with(ball_of_two_features());
     const MeshDetail detail = MeshDetail::of(region, 1.0, 1);
-    const MeshCut whole = detail.cut(eye_at(600.0, 0.0), 1.0, {}, 0U);
+    const MeshCut whole = detail.cut(eye_at(600.0, 0.0), 1.0, {}, 0U).value();
     EXPECT_EQ(whole.triangles, 1520U);
     EXPECT_EQ(whole.error_m, 0.0);
     for (const std::uint32_t level : {0U, 1U, 2U}) {
-        const MeshCut cut = detail.cut(eye_at(600.0, 0.0), 1.0, {}, level);
+        const MeshCut cut = detail.cut(eye_at(600.0, 0.0), 1.0, {}, level).value();
         const PlacedMesh& drawn = cut.meshes->front();
         ASSERT_EQ(drawn.feature_of.size(), drawn.triangles.size());
         for (std::size_t i = 0; i < drawn.triangles.size(); ++i) {
@@ -132,7 +132,7 @@ TEST(MeshDetail, CutsOfAClosedMeshAreClosed) {
     const Region region = region_with(ball_of_two_features());
     const MeshDetail detail = MeshDetail::of(region, 1.5, 1);
     for (const std::uint32_t level : {0U, 1U, 2U, 3U, 5U}) {
-        const MeshCut cut = detail.cut(eye_at(600.0, 0.0), 1.0, {}, level);
+        const MeshCut cut = detail.cut(eye_at(600.0, 0.0), 1.0, {}, level).value();
         const PlacedMesh& drawn = cut.meshes->front();
         const std::vector<glm::dvec3> at = drawn_places_m(drawn, {}, 1.5);
         using Place = std::array<double, 3>;

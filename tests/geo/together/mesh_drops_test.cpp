@@ -53,7 +53,7 @@ class MeshDrops : public ::testing::Test {
         Camera camera;
         camera.eye = {46.967 - distance_m / 111200.0, 8.032, 3000.0};
         camera.vertical_fov_deg = 30.0, camera.width_px = 800, camera.height_px = 600;
-        return detail.cut(camera, 1.0, {}, {});
+        return detail.cut(camera, 1.0, {}, {}).value();
     }
 
     // From places of the true surface a metre apart, up to 14 m around: 0.71 m too far at most on even
@@ -139,7 +139,7 @@ TEST_F(MeshDrops, AreBuiltAgainOverOtherGroundThanTheFiles) {
     ASSERT_TRUE(container.ok());
     auto meshes = read_baked_meshes(**container, {});
     ASSERT_TRUE(meshes.ok()) << meshes.error().line();
-    const StoredMesh& stored = *meshes->front().stored;
+    const StoredMesh& stored = *meshes->front().stored();
     EXPECT_NE(stored.ground_fingerprint, 0U);
     const MeshGround ground = ground_below_parts(stored, region_, 1.0);
     EXPECT_EQ(fingerprint_of(ground, stored.origin_ecef_m()), stored.ground_fingerprint);

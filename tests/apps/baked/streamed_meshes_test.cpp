@@ -1,0 +1,150 @@
+// A baked mesh that is drawn by clusters is read group by group: the picture, and what is found of it, are
+// those of the same file without its groups, which is read whole.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/base/container.h"
+#include "tests/apps/picture_pixels.h"
+#include "tests/apps/program.h"
+#include "tests/support/mended_container.h"
+#include "tests/support/test_data.h"
+
+namespace {
+namespace fs = std::filesystem;
+using nlohmann::json;
+using oro::ChunkType;
+using oro::test::bundled;
+using oro::test::bytes_of;
+using oro::test::expect_refusal;
+using oro::test::failed;
+using oro::test::joined;
+using oro::test::Outcome;
+using oro::test::run_orograph;
+using oro::test::Words;
+using oro::test::write_bytes;
+
+// A rough hill of 10,368 triangles, 1 km wide.
+std::string obj_of_hill() {
+    constexpr int n = 73;
+    std::string text;
+    char line[100];
+    for (int i = 0; i < n; ++i)
+        for (int k = 0; k < n; ++k) {
+            const double x = i / (n - 1.0), y = k / (n - 1.0);
+            std::snprintf(
+                line, sizeof line, "v %.9f %.9f %.4f\n", -84.18 + 0.011 * x, 36.60 + 0.009 * y,
+                560.0 + 30.0 * std::sin(9.0 * x) * std::cos(7.0 * y) + 0.9 * std::sin(91.0 * i * k));
+            text += line;
+        }
+    for (int i = 0; i + 1 < n; ++i)
+        for (int k = 0; k + 1 < n; ++k) {
+            const int at = 1 + i * n + k;
+            std::snprintf(line, sizeof line, "f %d %d %d\nf %d %d %d\n", at, at + n, at + 1, at + 1, at + n,
+                          at + n + 1);
+            text += line;
+        }
+    return text;
+}
+
+// The same file as a program wrote it that had no groups.
+void write_without_groups(const std::string& from, const std::string& to) {
+    const auto container = oro::Container::open(from).value();
+    oro::ChunkTable table;
+    std::string chunks;
+    for (const oro::Chunk& chunk : container->table().chunks) {
+        if (chunk.type == ChunkType::mesh_records || chunk.type == ChunkType::mesh_payloads) continue;
+        table.chunks.push_back(chunk);
+        const auto bytes = container->read(chunk, chunk.bytes).value();
+        chunks.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    }
+    table.file_bytes = table.place();
+    const auto front = table.to_bytes();
+    write_bytes(to, std::string(reinterpret_cast<const char*>(front.data()), front.size()) + chunks);
+}
+
+class StreamedMeshes : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        write_bytes(mesh_, obj_of_hill());
+        const Outcome done = run_orograph(
+            {"bake", bundled(), "--mesh-file", mesh_, "--mesh-crs", "EPSG:4326", "--out", baked_, "-q"});
+        ASSERT_EQ(done.exit_code, 0) << done.err;
+        write_without_groups(baked_, whole_);
+    }
+    [[nodiscard]] Outcome shot(const std::string& data, const std::string& out, const Words& more) const {
+        return run_orograph(
+            joined({"shot", data, "--at", "36.5965,-84.176", "--above", "250", "--heading", "0", "--size",
+                    "200x150", "--style", "plain", "-q", "--out", out, "--overwrite", "--json"},
+                   more));
+    }
+    const fs::path folder_ = oro::test::scratch_folder();
+    const std::string mesh_ = (folder_ / "hill.obj").string(), baked_ = (folder_ / "hill.oro").string(),
+                      whole_ = (folder_ / "whole.oro").string(), one_ = (folder_ / "one.png").string(),
+                      other_ = (folder_ / "other.png").string();
+};
+
+TEST_F(StreamedMeshes, ArePicturesOfTheWholeMesh) {
+    for (const Words& how :
+         {Words{"--mesh", "clusters"}, Words{"--mesh", "clusters", "--tau", "4", "--pitch", "-20"},
+          Words{"--mesh-level", "2"}, Words{"--show", "groups", "--tau", "2"}}) {
+        const Outcome of_groups = shot(baked_, one_, how), of_whole = shot(whole_, other_, how);
+        ASSERT_EQ(of_groups.exit_code, 0) << of_groups.err;
+        ASSERT_EQ(of_whole.exit_code, 0) << of_whole.err;
+        json a = json::parse(of_groups.out), b = json::parse(of_whole.out);
+        for (json* const one : {&a, &b}) (*one)["meshes"].erase("graph_s");
+        for (const char* const key : {"meshes", "triangles", "destination", "eye"})
+            EXPECT_EQ(a[key], b[key]) << key;
+        EXPECT_TRUE(a.contains("meshes"));
+        EXPECT_EQ(oro::test::pixels_of(one_).rgb, oro::test::pixels_of(other_).rgb);
+    }
+}
+
+// What asks the true mesh reads where its lines may meet it: the same figures.
+TEST_F(StreamedMeshes, AreMeasuredAsTheWholeMeshIs) {
+    const Words how{"--mesh", "clusters", "--tau", "2", "--verify"};
+    const Outcome of_groups = shot(baked_, one_, how), of_whole = shot(whole_, other_, how);
+    ASSERT_EQ(of_groups.exit_code, 0) << of_groups.err;
+    ASSERT_EQ(of_whole.exit_code, 0) << of_whole.err;
+    json a = json::parse(of_groups.out)["error"], b = json::parse(of_whole.out)["error"];
+    for (json* const one : {&a, &b})
+        for (const char* const key : {"file", "picture", "time_s"}) one->erase(key);
+    EXPECT_FALSE(a.is_null());
+    EXPECT_EQ(a, b);
+}
+
+// Level 0 is not drawn from so far; damaged, it is one line, and no picture, where it is.
+TEST_F(StreamedMeshes, DamagedAreRefusedWhereTheyAreDrawn) {
+    const oro::Chunk chunk = oro::test::chunk_of(baked_, ChunkType::mesh_payloads);
+    std::string bytes = bytes_of(baked_);
+    bytes[static_cast<std::size_t>(chunk.offset) + 40] ^= 8;
+    write_bytes(baked_, bytes);
+    const Words far{"--mesh", "clusters", "--tau", "40", "--pitch", "60"};
+    const Outcome drawn = shot(baked_, one_, far);
+    EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+    fs::remove(one_);
+    expect_refusal(shot(baked_, one_, {"--mesh-level", "0"}), failed,
+                   {"hill.oro", "level 0 below group 0 of the mesh"});
+    EXPECT_FALSE(fs::exists(one_));
+    const Outcome checked = run_orograph({"info", baked_, "--check"});
+    EXPECT_EQ(checked.exit_code, failed) << checked.out;
+}
+
+// Records whose checksum was made right after a change are refused by what they say, or found by --check.
+TEST_F(StreamedMeshes, ThatLieAreRefused) {
+    const oro::Chunk chunk = oro::test::chunk_of(baked_, ChunkType::mesh_records);
+    const std::string bytes = bytes_of(baked_);
+    for (const double share : {0.001, 0.2, 0.5, 0.9}) {
+        std::string changed = bytes;
+        changed[static_cast<std::size_t>(chunk.offset) +
+                static_cast<std::size_t>(share * static_cast<double>(chunk.bytes))] ^= 16;
+        write_bytes(baked_, changed);
+        expect_refusal(shot(baked_, one_, {"--mesh", "clusters"}), failed, {"hill.oro", "checksum"});
+        write_bytes(baked_, oro::test::mended(changed));
+        const Outcome checked = run_orograph({"info", baked_, "--check"});
+        EXPECT_EQ(checked.exit_code, failed) << share << checked.out;
+    }
+}
+
+}  // namespace
