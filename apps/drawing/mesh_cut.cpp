@@ -34,9 +34,11 @@ Result<bool> draws_terrain_clusters(const Region& region, View& view) {
 // One that was baked may have more triangles than are drawn at once.
 static Result<void> check_drawn_whole(const PlacedMesh& mesh) {
     const std::size_t most = MeshRequest().most_triangles;
-    if (mesh.triangles.size() <= most) return {};
+    const std::size_t triangles =
+        mesh.streamed() ? mesh.streamed()->records().triangles : mesh.triangles.size();
+    if (triangles <= most) return {};
     return Error{ErrorKind::usage, mesh.path,
-                 "has " + counted(mesh.triangles.size(), "triangle", "triangles") + ", and " +
+                 "has " + counted(triangles, "triangle", "triangles") + ", and " +
                      counted(most, "triangle", "triangles") +
                      " are drawn at once: --mesh clusters draws as many as the picture needs"};
 }

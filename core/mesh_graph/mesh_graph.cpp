@@ -294,13 +294,19 @@ std::vector<LevelTriangle> MeshGraphBuilder::simplified(std::size_t group, doubl
                             spacing_m_,
                             ground_ ? &*ground_ : nullptr,
                             ground_off_m()};
-    SpaceSimplifier simplifier(vertices_, *mesh_, limits);
-    simplifier.simplify(
-        std::move(triangles), [&](std::uint32_t vertex) { return is_border(vertex); },
-        static_cast<std::size_t>(options_.kept_share * static_cast<double>(before)));
-    believed_m_[group] = simplifier.reached_m(), least_error_m_[group] = simplifier.least_error_m();
-    on_the_ground_[group] = simplifier.on_the_ground();
-    std::vector<LevelTriangle> made = simplifier.take();
+    const auto stays = [this](std::uint32_t vertex) { return is_border(vertex); };
+    const auto aim = static_cast<std::size_t>(options_.kept_share * static_cast<double>(before));
+    std::vector<LevelTriangle> made;
+    if (options_.simplifier != nullptr) {
+        made = simplified_by(*options_.simplifier, {vertices_, {}, stays, aim, limits.most_m},
+                             std::move(triangles));
+    } else {
+        SpaceSimplifier simplifier(vertices_, *mesh_, limits);
+        simplifier.simplify(std::move(triangles), stays, aim);
+        believed_m_[group] = simplifier.reached_m(), least_error_m_[group] = simplifier.least_error_m();
+        on_the_ground_[group] = simplifier.on_the_ground();
+        made = simplifier.take();
+    }
     for (LevelTriangle& triangle : made) triangle.made_by = first_group_ + static_cast<std::uint32_t>(group);
     return made;
 }

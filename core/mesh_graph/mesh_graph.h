@@ -9,6 +9,7 @@
 
 #include "core/base/scratch_memory.h"
 #include "core/clusters/cluster_graph.h"
+#include "core/mesh_graph/custom_simplifier.h"
 #include "core/mesh_graph/mesh_ground.h"
 #include "core/mesh_graph/nested_parts.h"
 
@@ -59,6 +60,9 @@ struct MeshGraphOptions {
     std::size_t window_groups{};
     // What such a window had in memory at most: triangles with their samples. Null: not asked.
     std::size_t* most_window_bytes{};
+    // What makes a group coarser; null: SpaceSimplifier. Its errors are measured in the same way, so they are
+    // bounds whatever it does. Outlives the call.
+    const CustomSimplifier* simplifier{};
 };
 
 // vertices: metres, from a place near the mesh. origin: that place, ECEF; groups' spheres are from the

@@ -14,7 +14,7 @@
 
 namespace oro {
 
-Result<MeshGraph> graph_of_source(const SourceMesh& mesh, int threads) {
+Result<MetricMesh> metric_mesh(const SourceMesh& mesh) {
     constexpr double steps_per_metre = 2048.0;
     double metres = mesh.unit.empty() ? 1.0 : mesh.metres_per_unit;
     if (!mesh.crs.empty()) {
@@ -28,7 +28,9 @@ Result<MeshGraph> graph_of_source(const SourceMesh& mesh, int threads) {
     // Around the first, so that far coordinates keep their millimetres.
     const glm::dvec3 first = mesh.vertices[mesh.triangles.front()[0]];
     std::map<std::tuple<double, double, double>, std::uint32_t> numbers;
-    std::vector<glm::dvec3> vertices;
+    MetricMesh made;
+    made.first_m = first * metres;
+    std::vector<glm::dvec3>& vertices = made.vertices;
     std::vector<std::uint32_t> number_of(mesh.vertices.size());
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
         const glm::dvec3 at =
@@ -38,14 +40,18 @@ Result<MeshGraph> graph_of_source(const SourceMesh& mesh, int threads) {
         if (is_new) vertices.push_back(at);
         number_of[i] = found->second;
     }
-    std::vector<std::array<std::uint32_t, 3>> triangles;
     for (const SourceTriangle& corners : mesh.triangles) {
         const std::uint32_t a = number_of[corners[0]], b = number_of[corners[1]], c = number_of[corners[2]];
         if (glm::cross(vertices[b] - vertices[a], vertices[c] - vertices[a]) == glm::dvec3(0.0)) continue;
-        triangles.push_back({a, b, c});
+        made.triangles.push_back({a, b, c});
     }
-    if (triangles.empty()) return Error{ErrorKind::failed, mesh.path, "has no triangle with an area"};
-    return build_mesh_graph(vertices, triangles, first * metres, {threads});
+    if (made.triangles.empty()) return Error{ErrorKind::failed, mesh.path, "has no triangle with an area"};
+    return made;
+}
+
+Result<MeshGraph> graph_of_source(const SourceMesh& mesh, int threads) {
+    ORO_TRY(const MetricMesh metric, metric_mesh(mesh));
+    return build_mesh_graph(metric.vertices, metric.triangles, metric.first_m, {threads});
 }
 
 }  // namespace oro
