@@ -16,6 +16,8 @@ namespace oro {
 namespace {
 
 constexpr std::uint32_t records_version = 1, most_record_levels = 80, most_used = 4096;
+// Three new vertices, their colours and a label take less for each triangle.
+constexpr std::uint32_t most_payload_bytes = 256 * most_used;
 
 struct RecordNumbers {
     std::uint32_t version{records_version};
@@ -360,6 +362,8 @@ std::optional<std::string> records_from_bytes(std::span<const std::byte> bytes, 
     std::uint64_t offset = 0;
     for (MeshRecords::Payload& payload : records.payloads) {
         visit_payload(reader, payload);
+        if (payload.bytes > most_payload_bytes)
+            return "has a group of " + std::to_string(payload.bytes) + " bytes, expected 1,048,576 at most";
         payload.offset = offset;
         offset += payload.bytes;
     }

@@ -192,7 +192,14 @@ TEST(MeshRecords, ThatLieAreRefused) {
                   other.graph.clusters.clusters[0].used_by = 4000;
               }).find("a group of another level"),
               std::string::npos);
-    // Links to the level above the next.
+    // A group of any size: nothing is allocated for it.
+    StreamedBytes large = streamed_bytes_of(mesh, {}, 1);
+    to_little_endian(std::uint32_t{4000000000U}, &large.records[large.records.size() - 12]);
+    MeshRecords none;
+    EXPECT_NE(records_from_bytes(large.records, large.payloads.size(), none)
+                  .value_or("")
+                  .find("has a group of 4000000000 bytes"),
+              std::string::npos);
     const StreamedBytes bytes = streamed_bytes_of(mesh, {}, 1);
     MeshRecords records;
     EXPECT_NE(records_from_bytes(bytes.records, bytes.payloads.size() + 1, records)->find("and the file has"),

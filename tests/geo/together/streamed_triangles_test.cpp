@@ -219,6 +219,49 @@ TEST_F(StreamedTriangles, DamageMattersWhereItIsDrawn) {
     EXPECT_TRUE(check_streamed_mesh(*open(), 0, mesh_of(whole_)).ok());
 }
 
+// Two meshes of one file, and one between them that has no groups: each is what it is alone.
+TEST_F(StreamedTriangles, OfSeveralMeshesOfAFileAreTheirOwn) {
+    std::vector<ContainerPart> parts;
+    const auto add = [&](const PlacedMesh& mesh, const std::string& name) {
+        const std::string path = (folder_ / name).string();
+        ASSERT_TRUE(write_baked_mesh(path, mesh, geoid_, 2).ok());
+        parts.push_back({path, static_cast<std::uint32_t>(parts.size())});
+    };
+    add(coloured_sheet(40), "sheet");
+    add(test::ball_of_two_features(), "ball");
+    add(coloured_sheet(50), "other");
+    std::string joined;
+    const auto written = join_containers(parts, [&](std::span<const std::byte> bytes) -> Result<void> {
+        joined.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        return {};
+    });
+    ASSERT_TRUE(written.ok()) << written.error().line();
+    std::ofstream(path_, std::ios::binary) << joined;
+    whole_ = region_with({}), streamed_ = region_with({});
+    whole_.grids.front().field.undulation = streamed_.grids.front().field.undulation = geoid_;
+    whole_.meshes =
+        std::make_shared<const std::vector<PlacedMesh>>(read_baked_meshes(*open(), geoid_).value());
+    auto meshes = open_baked_meshes(open(), geoid_).value();
+    ASSERT_EQ(meshes.size(), 3U);
+    meshes[1] = (*whole_.meshes)[1];  // as of a file without its groups
+    streamed_.meshes = std::make_shared<const std::vector<PlacedMesh>>(std::move(meshes));
+    const auto a = MeshDetail::open(whole_, 1.0, 2), b = MeshDetail::open(streamed_, 1.0, 2);
+    ASSERT_TRUE(a.ok() && b.ok());
+    for (const double south_m : {100.0, 4000.0}) {
+        const MeshCut one = a->cut(eye_at(south_m, 80.0), 1.0, {}, {}).value(),
+                      other = b->cut(eye_at(south_m, 80.0), 1.0, {}, {}).value();
+        EXPECT_EQ(one.clusters, other.clusters);
+        for (std::size_t i = 0; i < 3; ++i) {
+            EXPECT_EQ((*one.meshes)[i].triangles, (*other.meshes)[i].triangles);
+            EXPECT_EQ((*one.meshes)[i].colours, (*other.meshes)[i].colours);
+            EXPECT_EQ((*one.meshes)[i].feature_of, (*other.meshes)[i].feature_of);
+        }
+    }
+    for (std::uint32_t i = 0; i < 3; ++i)
+        EXPECT_TRUE(check_streamed_mesh(*open(), i, (*whole_.meshes)[i]).ok()) << i;
+    EXPECT_FALSE(check_streamed_mesh(*open(), 0, (*whole_.meshes)[2]).ok());
+}
+
 // Records of one mesh and groups of another, each with right checksums.
 TEST_F(StreamedTriangles, OfAnotherMeshAreTold) {
     bake(coloured_sheet(40));
