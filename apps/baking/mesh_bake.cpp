@@ -40,8 +40,9 @@ std::string words_of(const std::string& name, const BakedMeshReport& report) {
         std::snprintf(built, sizeof built, "of a bake that was broken off");
     else
         std::snprintf(built, sizeof built, "built in %.1f s", report.build_s);
-    std::snprintf(text, sizeof text, ", %.2f bytes a triangle, graph ",
-                  static_cast<double>(report.bytes) / static_cast<double>(report.triangles));
+    std::snprintf(
+        text, sizeof text, ", %.2f bytes a triangle, graph ",
+        static_cast<double>(report.bytes + report.group_bytes) / static_cast<double>(report.triangles));
     return "with " + name + ": " + counted(report.triangles, "triangle", "triangles") + ", " +
            counted(report.levels, "level", "levels") + " above them" + text + built;
 }

@@ -121,8 +121,9 @@ nlohmann::ordered_json meshes_json_of(const BakeResult& baked) {
         const BakedMeshReport& mesh = baked.meshes[i];
         meshes.push_back(json_object("name", baked.mesh_names[i], "triangles", mesh.triangles, "levels",
                                      mesh.levels, "triangles_at_all_levels", mesh.graph_triangles, "bytes",
-                                     mesh.bytes, "bytes_of_features", mesh.fact_bytes, "build_s",
-                                     mesh.build_s, "of_a_bake_broken_off", mesh.was_there));
+                                     mesh.bytes, "bytes_of_groups", mesh.group_bytes, "bytes_of_features",
+                                     mesh.fact_bytes, "build_s", mesh.build_s, "of_a_bake_broken_off",
+                                     mesh.was_there));
     }
     return meshes;
 }

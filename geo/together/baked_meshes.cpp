@@ -265,7 +265,8 @@ Result<BakedMeshReport> write_baked_mesh(const std::string& path, const PlacedMe
     ORO_CHECK(write_container(path, facts, *bytes, streamed));
     report.graph_triangles = graph.clusters.triangles.size();
     report.levels = graph.clusters.levels.size();
-    report.bytes = bytes->size() + streamed.records.size() + streamed.payloads.size();
+    report.bytes = bytes->size();
+    report.group_bytes = streamed.records.size() + streamed.payloads.size();
     report.fact_bytes = facts.size();
     return report;
 }
@@ -300,7 +301,8 @@ std::optional<BakedMeshReport> mesh_baked_before(const std::string& path, const 
     report.triangles = now.lattice.triangles.size();
     report.graph_triangles = stored.graph.clusters.triangles.size();
     report.levels = stored.graph.clusters.levels.size();
-    report.bytes = bytes->size() + streamed.records.size() + streamed.payloads.size();
+    report.bytes = bytes->size();
+    report.group_bytes = streamed.records.size() + streamed.payloads.size();
     report.fact_bytes = packed->size();
     report.was_there = true;
     return report;

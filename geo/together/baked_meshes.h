@@ -23,10 +23,11 @@ struct BakedMeshReport {
     std::uint64_t triangles{};        // of the mesh
     std::uint64_t graph_triangles{};  // of all levels
     std::uint64_t levels{};
-    std::uint64_t bytes{};       // of triangles, places and graph, as a whole and group by group
-    std::uint64_t fact_bytes{};  // of features and what else is known of it, pressed
-    double build_s{};            // building its graph
-    bool was_there{};            // it was not built: a bake that was broken off had
+    std::uint64_t bytes{};        // of triangles, places and graph
+    std::uint64_t group_bytes{};  // of the same once more, group by group
+    std::uint64_t fact_bytes{};   // of features and what else is known of it, pressed
+    double build_s{};             // building its graph
+    bool was_there{};             // it was not built: a bake that was broken off had
 };
 
 // Builds the graph of a mesh, as it is drawn at no exaggeration, and writes both as a container of their own.

@@ -77,7 +77,8 @@ TEST_F(BakedMeshes, AreReadAsTheyWereWritten) {
     ASSERT_TRUE(report.ok()) << report.error().line();
     EXPECT_EQ(report->triangles, 1520U);
     // As a whole 3.8 a triangle, and group by group 4.2 for each triangle of all levels.
-    EXPECT_LT(static_cast<double>(report->bytes), 20.0 * 1520);
+    EXPECT_LT(static_cast<double>(report->bytes), 9.0 * 1520);
+    EXPECT_LT(static_cast<double>(report->group_bytes), 12.0 * 1520);
     const auto meshes = read(path_);
     ASSERT_TRUE(meshes.ok()) << meshes.error().line();
     ASSERT_EQ(meshes->size(), 1U);
@@ -188,6 +189,7 @@ TEST_F(BakedMeshes, AreTakenFromABakeThatWasBrokenOff) {
     EXPECT_EQ(there->graph_triangles, written->graph_triangles);
     EXPECT_EQ(there->levels, written->levels);
     EXPECT_EQ(there->bytes, written->bytes);
+    EXPECT_EQ(there->group_bytes, written->group_bytes);
     EXPECT_EQ(there->fact_bytes, written->fact_bytes);
     // In another order it is the same mesh.
     PlacedMesh other = mesh;
