@@ -9,6 +9,7 @@
 #include "apps/view/mesh_parts.h"
 #include "core/base/elapsed.h"
 #include "core/base/parallel.h"
+#include "core/streamed_mesh/streamed_mesh.h"
 #include "geo/together/graph_memory.h"
 
 namespace oro {
