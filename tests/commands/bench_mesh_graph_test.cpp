@@ -12,11 +12,9 @@
 namespace oro {
 namespace {
 
-using namespace test;
-
 // The ball's half beyond x = 0, its rim, and one vertex in the middle of it have to stay.
 struct HalfBall {
-    SpaceMesh mesh = hilly_ball(20, 50.0);
+    test::SpaceMesh mesh = test::hilly_ball(20, 50.0);
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::set<std::uint32_t> staying;
     GroupToSimplify group;
@@ -68,7 +66,7 @@ TEST(BenchMeshGraph, MeshoptIsHeldToADistance) {
 }
 
 TEST(BenchMeshGraph, CollapsesWithoutGroupsAreWithinTheirErrors) {
-    const SpaceMesh mesh = hilly_ball(24, 50.0);
+    const test::SpaceMesh mesh = test::hilly_ball(24, 50.0);
     const std::array<double, 2> errors_m{0.3, 1.0};
     const std::vector<WholeMesh> found = whole_collapses(mesh.vertices, mesh.triangles, errors_m);
     ASSERT_EQ(found.size(), 2U);
