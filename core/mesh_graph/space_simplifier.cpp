@@ -69,8 +69,9 @@ void SpaceSimplifier::begin(std::vector<LevelTriangle> triangles) {
     checked_.assign(vertices, 0), cost_m_.assign(vertices, no_limit), target_.assign(vertices, no_target);
 }
 
-bool SpaceSimplifier::ring_of(std::uint32_t vertex, Ring& ring) {
-    ring.neighbours.clear(), ring.shared.clear();
+void SpaceSimplifier::ring_of(std::uint32_t vertex, Ring& ring) {
+    ring.neighbours.clear(), ring.shared.clear(), ring.is_fan = false;
+    bool is_crowded = false;
     for (const std::uint32_t triangle : around_[vertex]) {
         for (const std::uint32_t corner : triangles_[triangle].corners) {
             if (corner == vertex) continue;
@@ -78,14 +79,14 @@ bool SpaceSimplifier::ring_of(std::uint32_t vertex, Ring& ring) {
             if (found == ring.neighbours.end()) {
                 ring.neighbours.push_back(corner), ring.shared.push_back(1);
             } else if (++ring.shared[static_cast<std::size_t>(found - ring.neighbours.begin())] > 2) {
-                return false;
+                is_crowded = true;
             }
         }
     }
     const auto rim = std::count(ring.shared.begin(), ring.shared.end(), 1);
-    if (rim != 0 && rim != 2) return false;
-    if (around_[vertex].size() + (rim != 0 ? 1 : 0) != ring.neighbours.size()) return false;
-    return is_one_fan(vertex);
+    if (is_crowded || (rim != 0 && rim != 2)) return;
+    if (around_[vertex].size() + (rim != 0 ? 1 : 0) != ring.neighbours.size()) return;
+    ring.is_fan = is_one_fan(vertex);
 }
 
 // Whether one triangle's neighbours, and theirs, are all that there are.
@@ -108,7 +109,8 @@ bool SpaceSimplifier::are_adjacent(std::uint32_t a, std::uint32_t b) const {
                        [&](std::uint32_t triangle) { return has(triangles_[triangle], b); });
 }
 
-bool SpaceSimplifier::may_collapse(std::uint32_t, std::uint32_t onto, const Ring& ring) const {
+bool SpaceSimplifier::may_collapse(std::uint32_t vertex, std::uint32_t onto, const Ring& ring) const {
+    if (!ring.is_fan) return may_collapse_fans(vertex, onto, ring);
     const auto found = std::find(ring.neighbours.begin(), ring.neighbours.end(), onto);
     const int shared = ring.shared[static_cast<std::size_t>(found - ring.neighbours.begin())];
     if (ring.is_rim() && shared != 1) return false;
@@ -120,6 +122,46 @@ bool SpaceSimplifier::may_collapse(std::uint32_t, std::uint32_t onto, const Ring
         if (!adjacent && stays_[onto] != 0 && stays_[other] != 0) return false;
     }
     return common == shared;
+}
+
+// Where several fans or sheets meet. They stay joined, for all of them go with the vertex; no edge gets more
+// triangles than one of those that it is made of has, none becomes a rim, and no triangle is there twice.
+bool SpaceSimplifier::may_collapse_fans(std::uint32_t vertex, std::uint32_t onto, const Ring& ring) const {
+    const auto has_both = [&](std::uint32_t triangle, std::uint32_t a, std::uint32_t b) {
+        return has(triangles_[triangle], a) && has(triangles_[triangle], b);
+    };
+    const bool is_rim = ring.is_rim();
+    for (std::size_t i = 0; i < ring.neighbours.size(); ++i) {
+        const std::uint32_t other = ring.neighbours[i];
+        if (other == onto) {
+            if (is_rim && ring.shared[i] != 1) return false;
+            continue;
+        }
+        const bool is_border = stays_[onto] != 0 && stays_[other] != 0;
+        const auto there =
+            static_cast<int>(std::count_if(around_[onto].begin(), around_[onto].end(),
+                                           [&](std::uint32_t k) { return has(triangles_[k], other); }));
+        if (there == 0) {
+            if (is_border) return false;
+            continue;
+        }
+        const auto common =
+            static_cast<int>(std::count_if(around_[vertex].begin(), around_[vertex].end(),
+                                           [&](std::uint32_t k) { return has_both(k, onto, other); }));
+        const int after = ring.shared[i] + there - 2 * common;
+        if (common == 0 || after > std::max({2, ring.shared[i], there})) return false;
+        if (after == 1 && ring.shared[i] != 1 && there != 1) return false;
+        if (is_border && after != there) return false;
+    }
+    return std::none_of(around_[vertex].begin(), around_[vertex].end(), [&](std::uint32_t k) {
+        if (has(triangles_[k], onto)) return false;
+        std::array<std::uint32_t, 2> side{};
+        std::size_t count = 0;
+        for (const std::uint32_t corner : triangles_[k].corners)
+            if (corner != vertex) side[count++] = corner;
+        return std::any_of(around_[onto].begin(), around_[onto].end(),
+                           [&](std::uint32_t there) { return has_both(there, side[0], side[1]); });
+    });
 }
 
 bool SpaceSimplifier::make_fan(std::uint32_t vertex, std::uint32_t onto) {
@@ -199,8 +241,8 @@ double SpaceSimplifier::cost_to_mesh(std::uint32_t vertex, std::uint32_t onto, d
 
 void SpaceSimplifier::evaluate(std::uint32_t vertex) {
     cost_m_[vertex] = no_limit, target_[vertex] = no_target, stale_[vertex] = 0, checked_[vertex] = 0;
-    if (stays_[vertex] != 0 || gone_[vertex] != 0 || around_[vertex].empty() || !ring_of(vertex, ring_))
-        return;
+    if (stays_[vertex] != 0 || gone_[vertex] != 0 || around_[vertex].empty()) return;
+    ring_of(vertex, ring_);
     double shortest2 = 0.0;
     for (const std::uint32_t onto : ring_.neighbours) {
         if (!may_collapse(vertex, onto, ring_) || !make_fan(vertex, onto)) continue;
@@ -264,7 +306,8 @@ void SpaceSimplifier::run(std::size_t aim) {
             continue;
         }
         const std::uint32_t onto = target_[vertex];
-        if (!ring_of(vertex, ring_) || !may_collapse(vertex, onto, ring_) || !make_fan(vertex, onto)) {
+        ring_of(vertex, ring_);
+        if (!may_collapse(vertex, onto, ring_) || !make_fan(vertex, onto)) {
             evaluate(vertex), push(vertex);
             continue;
         }

@@ -68,6 +68,7 @@ class SpaceSimplifier {
     struct Ring {
         std::vector<std::uint32_t> neighbours;
         std::vector<int> shared;
+        bool is_fan{};  // one fan of triangles
         [[nodiscard]] bool is_rim() const;
     };
     struct Queued {
@@ -103,10 +104,11 @@ class SpaceSimplifier {
                                           const std::vector<std::uint32_t>& part_of,
                                           std::uint32_t number) const;
     [[nodiscard]] const glm::dvec3& at(std::uint32_t vertex) const { return positions_[vertices_[vertex]]; }
-    bool ring_of(std::uint32_t vertex, Ring& ring);
+    void ring_of(std::uint32_t vertex, Ring& ring);
     [[nodiscard]] bool is_one_fan(std::uint32_t vertex);
     [[nodiscard]] bool are_adjacent(std::uint32_t a, std::uint32_t b) const;
     [[nodiscard]] bool may_collapse(std::uint32_t vertex, std::uint32_t onto, const Ring& ring) const;
+    [[nodiscard]] bool may_collapse_fans(std::uint32_t vertex, std::uint32_t onto, const Ring& ring) const;
     // The triangles that a collapse leaves, into fan_; false where one would turn over, or none is left.
     bool make_fan(std::uint32_t vertex, std::uint32_t onto);
     // The largest distance of samples from the fan; at `stop` and above just something above.

@@ -96,4 +96,37 @@ SpaceMesh folded_sheet(std::uint32_t n) {
     return mesh;
 }
 
+SpaceMesh walled_hills(std::uint32_t n) {
+    SpaceMesh mesh;
+    constexpr double step_m = 2.0;
+    const auto number = [&](std::uint32_t row, std::uint32_t column) { return row * (n + 1) + column; };
+    const auto add_quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+        mesh.triangles.push_back({a, b, c});
+        mesh.triangles.push_back({a, c, d});
+    };
+    for (std::uint32_t row = 0; row <= n; ++row)
+        for (std::uint32_t column = 0; column <= n; ++column) {
+            const double x = step_m * row, y = step_m * column;
+            mesh.vertices.push_back(
+                on_lattice({x, y, 1.5 * std::sin(x / 9.0) + 1.2 * std::cos(y / 7.0 + x / 15.0)}));
+        }
+    for (std::uint32_t row = 0; row < n; ++row)
+        for (std::uint32_t column = 0; column < n; ++column)
+            add_quad(number(row, column), number(row + 1, column), number(row + 1, column + 1),
+                     number(row, column + 1));
+    for (std::uint32_t row = 3; row < n; row += 3) {
+        std::uint32_t below = number(row, 0);
+        for (int storey = 1; storey <= 2; ++storey) {
+            const auto above = static_cast<std::uint32_t>(mesh.vertices.size());
+            for (std::uint32_t column = 0; column <= n; ++column)
+                mesh.vertices.push_back(on_lattice(mesh.vertices[number(row, column)] +
+                                                   glm::dvec3(0.3 * std::sin(column), 0.0, step_m * storey)));
+            for (std::uint32_t column = 0; column < n; ++column)
+                add_quad(below + column, below + column + 1, above + column + 1, above + column);
+            below = above;
+        }
+    }
+    return mesh;
+}
+
 }  // namespace oro::test

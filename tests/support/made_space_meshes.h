@@ -15,6 +15,9 @@ SpaceMesh hilly_ball(std::uint32_t n, double radius_m);
 SpaceMesh box_town(std::uint32_t rows);
 // A sheet that is folded over itself like a letter, layers half a metre apart: open, no height field.
 SpaceMesh folded_sheet(std::uint32_t n);
+// Hills with walls upright on each third row: where a wall stands edges have three triangles. 2 n n triangles
+// of hills, 4 n a wall.
+SpaceMesh walled_hills(std::uint32_t n);
 
 // Hills of a metre below and around box_town(rows), in triangles of 12 m: houses stand in them.
 MeshGround hills_below_town(std::uint32_t rows);

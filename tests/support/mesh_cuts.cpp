@@ -85,12 +85,20 @@ void check_edges(const SpaceMesh& mesh, std::span<const std::array<std::uint32_t
     std::set<std::uint32_t> rim;
     for (const auto& [edge, count] : own)
         if (count != 2) rim.insert(edge.first), rim.insert(edge.second);
+    std::uint64_t crowded_before = 0, crowded = 0;
+    int most_before = 2, most = 2;
+    for (const auto& [edge, count] : own) {
+        crowded_before += count > 2 ? 1U : 0U;
+        most_before = std::max(most_before, count);
+    }
     for (const auto& [edge, count] : edges_of(drawn)) {
         const bool on_rim = rim.contains(edge.first) && rim.contains(edge.second);
         if (count == 1 && !on_rim) ++check.open_edges;
-        const auto before = own.find(edge);
-        if (count > 2 && (before == own.end() || before->second <= 2)) ++check.crowded;
+        crowded += count > 2 ? 1U : 0U;
+        most = std::max(most, count);
     }
+    if (crowded > crowded_before) check.crowded += crowded - crowded_before;
+    if (most > most_before) ++check.crowded;
 }
 
 std::set<std::pair<std::uint32_t, std::uint32_t>> links_of(const ClusterGraph& graph) {

@@ -33,8 +33,10 @@ struct CutCheck {
     std::uint64_t drawn_over{};   // farther than the error of the group that made them
     std::uint64_t no_link{};      // steps of chains that are no links of the graph
     std::uint64_t open_edges{};   // edges of one triangle that the mesh does not have on its rim
-    std::uint64_t crowded{};      // edges of three triangles and more that the mesh does not have
-    double worst_m{};             // by which the worst place is over
+    // Edges of three triangles and more beyond as many as the mesh has, and one where some edge has more
+    // triangles than any of the mesh.
+    std::uint64_t crowded{};
+    double worst_m{};  // by which the worst place is over
 };
 // Holds `count` places of the mesh, and one of each drawn triangle up to as many, against brute force by code
 // of its own: whether any triangle is within the error and a micrometre.

@@ -94,6 +94,13 @@ TEST(MeshGraph, OfAFoldedSheetIsWithinItsErrors) {
     expect_bound(folded_sheet(38), 5203, 128);
 }
 
+// 2,880 triangles, 847 of which stayed where vertices between three sheets could not go.
+TEST(MeshGraph, OfWallsOnHillsIsWithinItsErrorsAndCoarse) {
+    const SpaceMesh mesh = walled_hills(30);
+    ASSERT_EQ(mesh.triangles.size(), 2880U);
+    expect_bound(mesh, 5207, 128);
+}
+
 TEST(MeshGraph, TestsByChainsCatchMutants) {
     constexpr unsigned seed = 5204;
     std::printf("seed %u\n", seed);
