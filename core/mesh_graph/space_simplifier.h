@@ -35,10 +35,12 @@ struct SimplifierLimits {
 // Collapses edges onto one of their ends: the next is always the one whose new triangles are least far from
 // the mesh, by samples, both ways (largest distance). A collapse must leave the surface a surface: a vertex
 // with one fan of triangles, the link condition, no triangle turned over, no new edge between two vertices of
-// the border, which a neighbour may have too. Parts that hang together with nothing and are small are dropped
-// when that costs less: what they cost is how far they reach from what stays, or above or below the ground. A
-// part that lies on the ground costs a quarter of its diagonal at least, for a roof is seen from above,
-// however low it is. The last part stays. Nothing here is a bound: DistanceCover measures what came out.
+// the border, which a neighbour may have too. Where sheets or fans meet, all that meets in a vertex goes with
+// it, and no edge gets more triangles than one of those that it is made of has. Parts that hang together with
+// nothing and are small are dropped when that costs less: what they cost is how far they reach from what
+// stays, or above or below the ground. A part that lies on the ground costs a quarter of its diagonal at
+// least, for a roof is seen from above, however low it is. The last part stays. Nothing here is a bound:
+// DistanceCover measures what came out.
 class SpaceSimplifier {
   public:
     // mesh: what distances to the mesh are measured against. Both outlive this.
