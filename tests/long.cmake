@@ -411,6 +411,7 @@ set_tests_properties(
   SightCommand.WhatIsWrongIsSaidInOneLine
   SkyBands.AreBrokenUpByDither
   StreamedMeshes.AreMeasuredAsTheWholeMeshIs
+  StreamedMeshes.ThatLieAreRefused
   SunCommand.NightIsNotHiddenByTerrain
   SunCommand.OverTerrain
   SunOfAShot.AViewTakesAnother
