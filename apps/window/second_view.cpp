@@ -145,6 +145,8 @@ Result<std::unique_ptr<SecondView>> second_of(Viewer& viewer, SecondGround groun
             scene_with_images(
                 viewer.gpu, region, cuts_of(viewer, own), std::move(ground.pages), view,
                 {half_of(viewer.options.memory, viewer.gpu), true, means, clusters, meshes.cut.meshes}));
+    // Pages of a made world take long to be measured: by threads that load them, and the window goes on.
+    scene.wait_for_records(false);
     ORO_TRY(FrameRenderer renderer, renderer_for(viewer.gpu, view, style, viewer.path,
                                                  extent_of_second(viewer, viewer.window.extent())));
     return std::unique_ptr<SecondView>(new SecondView{std::move(ground.choice),
