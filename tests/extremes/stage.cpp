@@ -11,20 +11,10 @@
 #include "core/truth/oracle.h"
 #include "tests/extremes/accuracy_table.h"
 #include "tests/extremes/gpu_scan.h"
+#include "tests/support/drawn/plain_style.h"
 
 namespace oro::test {
 namespace {
-
-gpu::FrameStyle plain_style() {
-    gpu::FrameStyle style{};
-    style.tint_count = 1;
-    style.tints[0].colour = gpu::vec3(0.5F);
-    style.sun_enu = gpu::vec3(0.0F, 0.6F, 0.8F);
-    style.relief = 1.0F;
-    style.haze_distance_m = 1e5F;
-    style.sky_scale_height_m = 8000.0F;
-    return style;
-}
 
 // Distances that the oracle sees through some places of one pixel.
 struct Seen {

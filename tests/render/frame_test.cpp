@@ -10,22 +10,12 @@
 #include "core/terrain/ground.h"
 #include "core/truth/oracle.h"
 #include "render/frame/picture_renderer.h"
+#include "tests/support/drawn/plain_style.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/rough_terrain.h"
 
 namespace oro {
 namespace {
-
-gpu::FrameStyle plain_style() {
-    gpu::FrameStyle style{};
-    style.tint_count = 1;
-    style.tints[0].colour = gpu::vec3(0.5F);
-    style.sun_enu = gpu::vec3(0.0F, 0.6F, 0.8F);
-    style.relief = 1.0F;
-    style.haze_distance_m = 1e5F;
-    style.sky_scale_height_m = 8000.0F;
-    return style;
-}
 
 // Pages that nothing can hide.
 class UnhiddenPages : public RegionPages {
@@ -197,7 +187,7 @@ TEST_P(Frame, CullingChangesNoPixel) {
 TEST_P(Frame, SameInputGivesSameBytes) {
     std::mt19937 random(44);
     const Camera camera = random_camera(random, 100.0, 1000.0, -40.0, -10.0);
-    const gpu::FrameStyle style = plain_style();
+    const gpu::FrameStyle style = test::plain_style();
     std::vector<std::uint8_t> first;
     for (int i = 0; i < 3; ++i) {
         ASSERT_TRUE(renderer_->draw(plan(camera), style).ok());
@@ -213,7 +203,7 @@ TEST_P(Frame, TilesJoinIntoTheSamePicture) {
     Camera camera = random_camera(random, 300.0, 1000.0, -30.0, -10.0);
     camera.width_px = 150;
     camera.height_px = 100;
-    const gpu::FrameStyle style = plain_style();
+    const gpu::FrameStyle style = test::plain_style();
     const auto picture = [&](int tile_px, int samples) {
         std::vector<std::uint8_t> rows;
         PictureOptions options;
@@ -248,7 +238,7 @@ TEST_P(Frame, PartsHaveThePicturesPixels) {
     Camera camera = random_camera(random, 100.0, 400.0, -25.0, -10.0);
     camera.width_px = 150;
     camera.height_px = 100;
-    gpu::FrameStyle style = plain_style();
+    gpu::FrameStyle style = test::plain_style();
     style.smooth_edges = 1;
     for (const int tile_px : {0, 64}) {
         PictureOptions options;

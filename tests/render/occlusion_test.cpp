@@ -7,6 +7,7 @@
 #include "render/frame/picture_renderer.h"
 #include "tests/support/drawn/drawn_scene.h"
 #include "tests/support/drawn/occlusion_pairs.h"
+#include "tests/support/drawn/plain_style.h"
 #include "tests/support/rough_terrain.h"
 
 namespace oro {
@@ -239,17 +240,6 @@ TEST_P(Occluded, HiddenPagesNeedNoRoom) {
     EXPECT_GE(with_fewer, 5) << "or hidden pages took room";
 }
 
-gpu::FrameStyle relief_style() {
-    gpu::FrameStyle style{};
-    style.tint_count = 1;
-    style.tints[0].colour = gpu::vec3(0.5F);
-    style.sun_enu = gpu::vec3(0.0F, 0.6F, 0.8F);
-    style.relief = 1.0F;
-    style.haze_distance_m = 1e5F;
-    style.sky_scale_height_m = 8000.0F;
-    return style;
-}
-
 // A window's frames of one eye: another one is planned where there may be something new alone.
 struct RestingFrames {
     bool is_settled{}, lacks_memory{}, shows_all{};
@@ -266,7 +256,7 @@ RestingFrames rest(Scene& scene, FrameRenderer& renderer, const Camera& camera) 
             EXPECT_TRUE(plan.ok()) << plan.error().line();
             resting.is_settled = plan->is_settled();
             resting.shows_all = plan->shows_all();
-            const auto report = renderer.draw(std::move(*plan), relief_style());
+            const auto report = renderer.draw(std::move(*plan), test::plain_style());
             EXPECT_TRUE(report.ok()) << report.error().line();
             scene.apply_feedback(report->feedback);
             ++resting.frames;

@@ -25,23 +25,6 @@ constexpr std::array<const char*, 8> kind_names{"fbm",  "ridged", "plane",  "con
 constexpr int page_side = static_cast<int>(gpu::height_stride);
 constexpr int pages_at_once = 64;
 
-// Posts a second apart around 46 N 8 E, from -200 to 4000 m.
-MadeTerrain terrain_of(MadeKind kind, int side) {
-    MadeTerrain terrain;
-    terrain.kind = kind;
-    terrain.seed = 7;
-    terrain.low = -200 * 2048;
-    terrain.high = 4000 * 2048;
-    terrain.west = 8 * 3600;
-    terrain.east = terrain.west + side - 1;
-    terrain.south = 46 * 3600;
-    terrain.north = terrain.south + side - 1;
-    terrain.length_m = 27000;
-    terrain.radius_m = 15000;
-    terrain.azimuth_deg = 30;
-    return terrain;
-}
-
 // By the CPU, as many threads as there are.
 std::vector<std::int32_t> heights_by_cpu(const MadeTerrain& terrain) {
     const gpu::MadeRule rule = made_rule(terrain);
@@ -85,6 +68,22 @@ Result<double> pages_us(MadePosts& posts, int pages, const MadeBenchOptions& opt
 
 }  // namespace
 
+MadeTerrain bench_terrain(MadeKind kind, int side) {
+    MadeTerrain terrain;
+    terrain.kind = kind;
+    terrain.seed = 7;
+    terrain.low = -200 * 2048;
+    terrain.high = 4000 * 2048;
+    terrain.west = 8 * 3600;
+    terrain.east = terrain.west + side - 1;
+    terrain.south = 46 * 3600;
+    terrain.north = terrain.south + side - 1;
+    terrain.length_m = 27000;
+    terrain.radius_m = 15000;
+    terrain.azimuth_deg = 30;
+    return terrain;
+}
+
 Result<void> print_made(const Gpu& gpu, const MadeBenchOptions& options) {
     ordered_json json = ordered_json::object();
     json["device"] = gpu.report().name;
@@ -93,7 +92,7 @@ Result<void> print_made(const Gpu& gpu, const MadeBenchOptions& options) {
                     gpu.report().name.c_str(), options.side, options.side, page_side, page_side);
     std::uint64_t all_differ = 0;
     for (std::size_t kind = 0; kind < kind_names.size(); ++kind) {
-        const MadeTerrain terrain = terrain_of(static_cast<MadeKind>(kind), options.side);
+        const MadeTerrain terrain = bench_terrain(static_cast<MadeKind>(kind), options.side);
         ORO_TRY(MadePosts posts, MadePosts::create(gpu, terrain));
         const std::vector<std::int32_t> truth = heights_by_cpu(terrain);
         std::vector<std::int32_t> steps(truth.size());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/base/result.h"
+#include "core/made/made_terrain.h"
 #include "render/device/gpu.h"
 
 namespace oro {
@@ -11,6 +12,10 @@ struct MadeBenchOptions {
     int frames{30};
     bool json{false};
 };
+
+// Terrain of a kind with so many posts along each side, a second of arc apart from 46 N 8 E, -200 to 4000 m
+// high.
+MadeTerrain bench_terrain(MadeKind kind, int side);
 
 // Prints for each kind of made terrain how many posts differ between GPU and CPU, and microseconds a page of
 // 131 x 131 posts takes on the GPU: alone, one of 64 in one submission, and on one core of the CPU. Errors:

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "apps/bench/bench_style.h"
+#include "apps/bench/times/bench_made.h"
 #include "core/base/elapsed.h"
 #include "core/base/median.h"
 #include "core/base/parallel.h"
@@ -29,19 +30,6 @@ using nlohmann::ordered_json;
 constexpr std::array<std::pair<HeightMaker, const char*>, 2> makers{
     {{HeightMaker::processor, "sent"}, {HeightMaker::gpu, "made"}}};
 constexpr std::size_t pages_at_once = 64;
-
-// fbm of nine octaves a second apart around 46 N 8 E.
-MadeTerrain bounded_terrain(int side) {
-    MadeTerrain terrain;
-    terrain.seed = 7;
-    terrain.low = -200 * 2048;
-    terrain.high = 4000 * 2048;
-    terrain.west = 8 * 3600;
-    terrain.east = terrain.west + side - 1;
-    terrain.south = 46 * 3600;
-    terrain.north = terrain.south + side - 1;
-    return terrain;
-}
 
 PostGrid grid_of(const MadeTerrain& terrain) {
     const auto per_deg = static_cast<double>(terrain.posts_per_deg);
@@ -198,7 +186,7 @@ Result<Loads> time_loads(const Gpu& gpu, const RegionPages& pages, HeightMaker m
 }
 
 Result<ordered_json> time_bounded(const Gpu& gpu, const MadePagesBenchOptions& options) {
-    const std::unique_ptr<RegionPages> pages = bounded_pages(bounded_terrain(options.side));
+    const std::unique_ptr<RegionPages> pages = bounded_pages(bench_terrain(MadeKind::fbm, options.side));
     ordered_json json = ordered_json::object();
     json["pages"] = pages->layout(0).count();
     ORO_TRY(json["gpu_us_alone"], gpu_us(gpu, *pages, 1, options.frames));
@@ -221,7 +209,7 @@ Result<ordered_json> time_bounded(const Gpu& gpu, const MadePagesBenchOptions& o
 
 // That of docs/notes/2026-11-29-made-worlds.md: a second apart from 60 S to 60 N.
 MadeTerrain world_terrain() {
-    MadeTerrain terrain = bounded_terrain(2);
+    MadeTerrain terrain = bench_terrain(MadeKind::fbm, 2);
     terrain.octaves = 12;
     terrain.west = std::int64_t{-179} * 3600;
     terrain.east = std::int64_t{179} * 3600;

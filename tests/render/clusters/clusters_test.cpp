@@ -7,23 +7,13 @@
 #include "tests/support/drawn/cluster_scene.h"
 #include "tests/support/drawn/cracks.h"
 #include "tests/support/drawn/drawn_scene.h"
+#include "tests/support/drawn/plain_style.h"
 #include "tests/support/rough_terrain.h"
 
 namespace oro {
 namespace {
 
 constexpr int side_px = test::crack_side_px;
-
-gpu::FrameStyle plain_style() {
-    gpu::FrameStyle style{};
-    style.tint_count = 1;
-    style.tints[0].colour = gpu::vec3(0.5F);
-    style.sun_enu = gpu::vec3(0.0F, 0.6F, 0.8F);
-    style.relief = 1.0F;
-    style.haze_distance_m = 1e5F;
-    style.sky_scale_height_m = 8000.0F;
-    return style;
-}
 
 struct Picture {
     test::DrawnFrame frame;
@@ -41,7 +31,7 @@ class Clusters : public test::GpuTest {
         return drawn;
     }
     static Picture picture(test::DrawnScene& scene, const Camera& camera, double tau_px) {
-        Picture drawn{scene.draw(camera, tau_px, plain_style()), {}, {}};
+        Picture drawn{scene.draw(camera, tau_px, test::plain_style()), {}, {}};
         drawn.depths = *scene.renderer().read_depths(side_px, side_px);
         drawn.rgba = *scene.renderer().read_picture(side_px, side_px);
         return drawn;
