@@ -131,26 +131,31 @@ PlacedMesh MeshDetail::drawn(const PlacedMesh& mesh, const Graph& graph,
     const auto of_mesh = [](const std::vector<std::uint32_t>& numbers, std::uint32_t i) {
         return numbers.empty() ? i : numbers[i];
     };
+    const auto drawn_vertex = [&](std::uint32_t vertex) {
+        if (number[vertex] == not_used) {
+            number[vertex] = static_cast<std::uint32_t>(drawn.vertices.size());
+            drawn.vertices.push_back(mesh.vertices[vertex]);
+            if (!mesh.colours.empty())
+                drawn.colours.push_back(vertex < mesh.colours.size() ? mesh.colours[vertex] : VertexColour{});
+        }
+        return number[vertex];
+    };
     for (const std::uint32_t one : clusters) {
         const Cluster& cluster = all.clusters[one];
         for (std::uint32_t i = cluster.first_triangle; i < cluster.first_triangle + cluster.triangles; ++i) {
             SourceTriangle& triangle = drawn.triangles.emplace_back();
-            for (std::size_t k = 0; k < 3; ++k) {
-                const std::uint32_t vertex = of_mesh(graph.vertex_of, all.triangles[i][k]);
-                if (number[vertex] == not_used) {
-                    number[vertex] = static_cast<std::uint32_t>(drawn.vertices.size());
-                    drawn.vertices.push_back(mesh.vertices[vertex]);
-                    if (!mesh.colours.empty())
-                        drawn.colours.push_back(vertex < mesh.colours.size() ? mesh.colours[vertex]
-                                                                             : VertexColour{});
-                }
-                triangle[k] = number[vertex];
-            }
+            for (std::size_t k = 0; k < 3; ++k)
+                triangle[k] = drawn_vertex(of_mesh(graph.vertex_of, all.triangles[i][k]));
             if (!mesh.feature_of.empty())
                 drawn.feature_of.push_back(
                     mesh.feature_of[of_mesh(graph.triangle_of, graph.graph->original_of[i])]);
         }
     }
+    // From the terrain to where the mesh itself ends: what is drawn ends within tau of that, and skirts close
+    // gaps of tau.
+    for (const RimWall& wall : mesh.rim_walls)
+        drawn.rim_walls.push_back({{drawn_vertex(wall.cut[0]), drawn_vertex(wall.cut[1])},
+                                   {drawn_vertex(wall.over[0]), drawn_vertex(wall.over[1])}});
     return drawn;
 }
 

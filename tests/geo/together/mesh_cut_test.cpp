@@ -7,8 +7,10 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 
 #include "core/truth/oracle.h"
+#include "geo/together/mesh_detail.h"
 #include "geo/together/region_ground.h"
 #include "tests/support/rough_terrain.h"
 
@@ -105,11 +107,12 @@ TEST(MeshCut, EachPlaceIsCoveredOnce) {
     }
 }
 
-// From above and aslant, on all sides of the pit: without walls some lines get through, with them none.
+// From above and aslant, on all sides of the pit: without walls some lines get through, with them none, nor
+// where the mesh is drawn by its clusters.
 TEST(MeshCut, NoLineOfSightGetsThroughTheRim) {
     const unsigned seed = 5205;
     SCOPED_TRACE("seed " + std::to_string(seed));
-    for (const bool has_walls : {true, false}) {
+    for (const auto& [has_walls, by_clusters] : {std::pair(true, false), {true, true}, {false, false}}) {
         std::mt19937 random(seed);
         std::uniform_real_distribution<double> off(-0.004, 0.004), share(0.0, 1.0);
         Region region{std::vector<RegionGrid>(1)};
@@ -119,6 +122,11 @@ TEST(MeshCut, NoLineOfSightGetsThroughTheRim) {
         ASSERT_TRUE(cut.ok()) << cut.error().line();
         if (!has_walls) mesh.rim_walls.clear();
         region.meshes = std::make_shared<const std::vector<PlacedMesh>>(1, mesh);
+        if (by_clusters) {
+            const auto drawn = MeshDetail::of(region, 1.0, 2).cut(Camera{}, 1.0, {}, 0);
+            ASSERT_TRUE(drawn.ok()) << drawn.error().line();
+            region.meshes = drawn->meshes;
+        }
         const auto ground = RegionGround::of(region, 1.0);
         ASSERT_TRUE(ground.ok()) << ground.error().line();
         int through = 0;
