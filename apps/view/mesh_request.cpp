@@ -19,18 +19,23 @@ std::vector<std::string> terrain_paths(const RegionOptions& options) {
     return paths;
 }
 
+std::vector<std::string> mesh_files_of(const RegionOptions& options) {
+    std::vector<std::string> files = options.mesh_files;
+    std::ranges::copy_if(options.paths, std::back_inserter(files), is_mesh_file);
+    return files;
+}
+
 bool is_no_lod(const std::string& lod) {
     return lod.size() > 4 || lod.find_first_not_of("0123456789.") != std::string::npos ||
            lod.starts_with('.') || lod.ends_with('.') || std::ranges::count(lod, '.') > 1;
 }
 
 Result<MeshRequest> mesh_request(const RegionOptions& options) {
-    MeshRequest meshes{options.mesh_files,      options.mesh_crs,      options.mesh_unit, options.mesh_lod,
+    MeshRequest meshes{mesh_files_of(options),  options.mesh_crs,      options.mesh_unit, options.mesh_lod,
                        options.building_height, options.building_base, options.mesh_look, options.cut_under};
     if (options.crease_deg) {
         ORO_TRY(meshes.crease_deg, within("--crease", *options.crease_deg, view_limits::crease_deg));
     }
-    std::ranges::copy_if(options.paths, std::back_inserter(meshes.files), is_mesh_file);
     const std::array<std::pair<const char*, const std::string*>, 6> given{
         {{"--mesh-crs", &meshes.crs},
          {"--mesh-unit", &meshes.unit},

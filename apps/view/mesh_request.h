@@ -12,6 +12,8 @@ namespace oro {
 
 // PATHs of elevation data: those that are no meshes (is_mesh_file()).
 std::vector<std::string> terrain_paths(const RegionOptions& options);
+// The meshes of --mesh-file, then those among the PATHs.
+std::vector<std::string> mesh_files_of(const RegionOptions& options);
 // The meshes of --mesh-file, then those among the PATHs, and how they are read. Errors of usage: an option of
 // meshes without any; --building-base without --building-height; a --lod that is no number from 0 to 10.
 Result<MeshRequest> mesh_request(const RegionOptions& options);

@@ -79,13 +79,9 @@ Result<void> choose_mesh_level(View& view, const ViewOptions& options) {
     return {};
 }
 
-// Who wants no trees wants none of other sources, either.
-Result<void> leave_canopy_out(View& view, const ViewOptions& options) {
-    if (options.trees != "off") return {};
-    if (!options.canopy.empty())
-        return refused("--trees", "off", "not together with --canopy, which raises the ground by trees");
-    view.canopy_choice = {};
-    return {};
+// Who wants no trees wants none that a view has from files, either.
+void leave_canopy_out(View& view, const ViewOptions& options) {
+    if (options.trees == "off" && options.canopy.empty()) view.canopy_choice = {};
 }
 
 // The options that a view from a file can be changed by.
@@ -112,7 +108,7 @@ Result<void> apply_look(View& view, const ViewOptions& options) {
         ORO_TRY(view.canopy_choice,
                 canopy_choice_from(words, options.canopy_held, !view.cover_choice.files.empty()));
     }
-    ORO_CHECK(leave_canopy_out(view, options));
+    leave_canopy_out(view, options);
     if (options.detail) {
         ORO_TRY(view.detail, detail_choice_from(*options.detail));
     }
@@ -215,9 +211,16 @@ Result<void> change_view(View& view, const ViewOptions& options) {
 }
 
 Result<void> change_region(View& view, const RegionOptions& options) {
-    if (const char* const option = first_given_of_region(options))
+    RegionOptions but_files = options;
+    but_files.mesh_files.clear();
+    if (const char* const option = first_given_of_region(but_files))
         return refused(option, "", "not together with a picture's view, which says it itself");
-    if (!options.paths.empty()) view.region.paths = options.paths;
+    std::vector<std::string> terrain = terrain_paths(options), meshes = mesh_files_of(options);
+    if (!meshes.empty() && view.region.meshes.files.empty())
+        return refused(options.mesh_files.empty() ? "PATH" : "--mesh-file", meshes.front(),
+                       "is a mesh, and the view has none");
+    if (!terrain.empty()) view.region.paths = std::move(terrain);
+    if (!meshes.empty()) view.region.meshes.files = std::move(meshes);
     return {};
 }
 

@@ -86,6 +86,17 @@ TEST_F(MeshOnTerrain, IsDrawnAndDrawnAgain) {
     const Outcome redrawn = run_orograph({"shot", "--view", picture_, "--out", again, "--overwrite", "-q"});
     ASSERT_EQ(redrawn.exit_code, 0) << redrawn.err;
     EXPECT_EQ(json::parse(view_in(again))["fingerprints"]["pixels"], by_compute);
+    // Where data and mesh lie elsewhere now they are named again, the mesh as a PATH or as itself.
+    const std::string moved = (folder_ / "moved.obj").string();
+    fs::rename(mesh_, moved);
+    for (const Words& named :
+         {Words{bundled(), moved}, Words{moved}, Words{bundled(), "--mesh-file", moved}}) {
+        const Outcome elsewhere = run_orograph(
+            joined(joined({"shot"}, named), {"--view", picture_, "--out", again, "--overwrite", "-q"}));
+        ASSERT_EQ(elsewhere.exit_code, 0) << elsewhere.err;
+        EXPECT_EQ(json::parse(view_in(again))["fingerprints"]["pixels"], by_compute);
+    }
+    fs::rename(moved, mesh_);
     // A mesh that changed is noticed.
     oro::test::write_bytes(mesh_, obj_of_house(421.0));
     const Outcome changed = run_orograph({"shot", "--view", picture_, "--out", again, "--overwrite", "-q"});
