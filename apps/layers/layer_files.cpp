@@ -71,8 +71,8 @@ Tags feature_tags(const Region& region, const PictureLayers& layers) {
 
 }  // namespace
 
-bool has_meshes(const View& view) {
-    return !view.region.meshes.files.empty();
+bool has_meshes(const View& view, const Region& region) {
+    return !view.region.meshes.files.empty() || (region.meshes && !region.meshes->empty());
 }
 
 std::vector<const char*> layers_of_view(bool covers, bool meshes) {
@@ -107,7 +107,7 @@ Result<std::vector<WholeFile>> layer_files(const std::string& picture, bool over
         {Floats(layers.source), "number of the source in the list that --json prints, from 0", ""},
         {Floats(layers.shadow), "share of the sun's light past the terrain: 0 in shadow, 1 in the sun", ""},
     };
-    if (has_meshes(view))
+    if (has_meshes(view, region))
         all.push_back(
             {Floats(layers.feature),
              "number of the thing of a mesh (a building): the tags FEATURE_... have names of those that "
@@ -116,7 +116,7 @@ Result<std::vector<WholeFile>> layer_files(const std::string& picture, bool over
     if (view.cover)
         all.push_back(
             {Floats(layers.cover), "code of the land cover: the tags CLASS_... have its names", ""});
-    const std::vector<const char*> names = layers_of_view(view.cover != nullptr, has_meshes(view));
+    const std::vector<const char*> names = layers_of_view(view.cover != nullptr, has_meshes(view, region));
     const Tags common = common_tags(picture, view, region);
     std::vector<WholeFile> files;
     for (std::size_t i = 0; i < all.size(); ++i) {

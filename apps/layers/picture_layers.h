@@ -50,8 +50,8 @@ inline constexpr std::array layer_names{"longitude", "latitude", "height", "elli
 // Those of a view, in their order: with land cover, the layer cover is the last of all; with meshes, feature
 // comes before it.
 std::vector<const char*> layers_of_view(bool covers, bool meshes);
-// Whether a view has the layer feature.
-bool has_meshes(const View& view);
+// Whether a view of a region has the layer feature: baked regions have meshes that no view names.
+bool has_meshes(const View& view, const Region& region);
 std::string layer_path(const std::string& picture, const std::string& layer);
 
 // One file a layer, in the order of the names; whole, without their names yet. Errors: the files'.

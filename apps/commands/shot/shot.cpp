@@ -144,7 +144,8 @@ void tell(const ShotOptions& options, const PictureFiles& files, bool checks, co
     for (const std::string& pose : pose_paths(files.picture, poses_asked(options)))
         say(options.quiet, "wrote " + pose);
     if (shot.layers)
-        for (const char* layer : layers_of_view(shot.view.cover != nullptr, has_meshes(shot.view)))
+        for (const char* layer :
+             layers_of_view(shot.view.cover != nullptr, has_meshes(shot.view, shot.region)))
             say(options.quiet, "wrote " + layer_path(files.picture, layer));
     // Measurements say it themselves.
     if (!shot.verification) say_unseen(options, shot.unseen, reported_notes);
@@ -333,7 +334,7 @@ Result<void> take_shot(const ShotOptions& options, const PictureFiles& files, co
 Result<void> check_view_of_file(const View& recorded, ShotOptions& options) {
     options.ortho = recorded.map.has_value();
     options.covers = options.covers || !recorded.cover_choice.files.empty();
-    options.has_meshes = options.has_meshes || has_meshes(recorded);
+    options.has_meshes = options.has_meshes || !recorded.region.meshes.files.empty();
     if (options.ortho && (options.verify || options.layers))
         return refused(options.verify ? "--verify" : "--layers", "",
                        "is for pictures from an eye; " + options.view_file + " is a map");

@@ -14,6 +14,7 @@
 #include "apps/report/summit_words.h"
 #include "apps/styles/growth_json.h"
 #include "apps/view/model_names.h"
+#include "apps/view/trees_of_view.h"
 #include "apps/view/truth.h"
 #include "geo/refined/refined_region.h"
 #include "render/device/device_report.h"
@@ -157,8 +158,7 @@ void put_style(const ShotResult& shot, const Style& style, ordered_json& json) {
         json["materials"] = shot.view.cover
                                 ? "invented, by a rule: colours within a class, clefts and ledges of rock"
                                 : "invented, by a rule: fields with hedges, clefts and ledges of rock";
-    if (const ordered_json growth = growth_json(style, shot.view.trees ? "left out (--trees off)" : nullptr);
-        !growth.empty())
+    if (const ordered_json growth = growth_json(style, why_without_trees(shot.view)); !growth.empty())
         json["growth"] = growth;
     if (shot.picture.near_tree_px > 0)
         json["growth"]["near_eye"] = near_trees_json(shot.picture, shot.view.camera);
@@ -167,13 +167,13 @@ void put_style(const ShotResult& shot, const Style& style, ordered_json& json) {
 }
 
 // The files by what is in them.
-void put_layers(const LayersReport& layers, const View& view, const ShotTimes& times,
-                const PictureFiles& files, ordered_json& json) {
+void put_layers(const LayersReport& layers, const ShotResult& shot, const PictureFiles& files,
+                ordered_json& json) {
     ordered_json& layer_files = json["layers"] = ordered_json::object();
-    for (const char* layer : layers_of_view(view.cover != nullptr, has_meshes(view)))
+    for (const char* layer : layers_of_view(shot.view.cover != nullptr, has_meshes(shot.view, shot.region)))
         layer_files[layer] = layer_path(files.picture, layer);
     json["layer_pixels"] = json_object("ground", layers.ground_px, "beside", layers.missed_px);
-    json["times_s"]["layers"] = times.layers_s;
+    json["times_s"]["layers"] = shot.times.layers_s;
 }
 
 // All sources, the region, and those that lie apart from it.
@@ -250,7 +250,7 @@ ordered_json shot_json(const ShotResult& shot, const PictureFiles& files, const 
                                  device.driver, "api", version_words(device.vulkan_version));
     json["pipeline"] = name_of(shot.picture.path);
     if (shot.view.map) put_map(*shot.view.map, files, json);
-    if (shot.layers) put_layers(*shot.layers, shot.view, shot.times, files, json);
+    if (shot.layers) put_layers(*shot.layers, shot, files, json);
     if (shot.verification) {
         json["times_s"]["verify"] = shot.times.verify_s;
         json["error_picture"] = files.error;

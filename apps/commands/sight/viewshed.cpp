@@ -238,6 +238,8 @@ Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptio
     ORO_CHECK(
         place_eyes(standings, options.target_on.value_or("") == "canopy", *ground, question, standpoints));
     std::optional<MeshRoofs> roofs;
+    if (options.target_on == "top" && !ground->region.meshes)
+        return refused("--target-on", "top", "needs a mesh: --mesh-file FILE");
     if (options.target_on == "top")
         question.roofs = &roofs.emplace(ground->region, ground->ground().exaggeration());
     const RegionGround& hiding = ground->canopy ? *ground->canopy->grids : *ground->grids;

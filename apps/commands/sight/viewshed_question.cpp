@@ -41,9 +41,9 @@ Result<void> check_viewshed(const ViewshedOptions& options) {
 
 Result<void> check_target_on(const ViewshedOptions& options) {
     if (options.target_on == "top") {
-        ORO_TRY(const MeshRequest meshes, mesh_request(options.region));
-        return meshes.files.empty() ? refused("--target-on", "top", "needs a mesh: --mesh-file FILE")
-                                    : Result<void>();
+        // Whether there is any is known once the region is open: a baked one may have meshes.
+        ORO_CHECK(mesh_request(options.region));
+        return {};
     }
     if (options.target_on && options.view.canopy.empty())
         return refused("--target-on", *options.target_on, "needs --canopy");

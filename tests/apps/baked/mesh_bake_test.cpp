@@ -95,6 +95,14 @@ TEST_F(MeshBake, IsDrawnAsTheFilesAre) {
             EXPECT_EQ(a["meshes"]["error_m"], b["meshes"]["error_m"]);
         }
     }
+    // Its layers have the mesh, too, and what stands on its top is looked for there.
+    const Outcome layered = shot({baked_}, other_, {"--layers"});
+    ASSERT_EQ(layered.exit_code, 0) << layered.err;
+    EXPECT_EQ(json::parse(layered.out)["layers"].count("feature"), 1U);
+    EXPECT_TRUE(fs::exists(folder_ / "other.feature.tif"));
+    const Outcome tops = run_orograph({"viewshed", baked_, "--at", "36.605,-84.1834", "--radius", "1",
+                                       "--target-on", "top", "--out", (folder_ / "top.tif").string(), "-q"});
+    EXPECT_EQ(tops.exit_code, 0) << tops.err;
     // What was drawn of the files is what the baked region draws, but for colours of heights to 0.2 mm.
     const Outcome compared = run_orograph({"compare", other_, "--json", "-q"});
     ASSERT_EQ(compared.exit_code, 0) << compared.err;
