@@ -10,6 +10,7 @@
 #include "apps/legend/legend.h"
 #include "apps/report/figures.h"
 #include "apps/report/region_json.h"
+#include "apps/view/trees_of_view.h"
 #include "core/terrain/ground.h"
 #include "geo/canopy/raised_region.h"
 #include "geo/refined/refined_region.h"
@@ -132,8 +133,8 @@ std::vector<std::string> legend_lines(const View& view, const Region& region, co
                                       : "Fields with hedges, and clefts of rock: invented, by a rule");
     if ((style.frame.materials.on & gpu::materials_with_trees) != 0)
         lines.emplace_back("Trees: invented, by a rule, where the ground cover is forest");
-    else if (view.trees && style.frame.materials.on != 0)
-        lines.emplace_back("Trees: left out (--trees off)");
+    else if (const std::string why = why_without_trees(view); !why.empty() && style.frame.materials.on != 0)
+        lines.emplace_back("Trees: " + why);
     if ((style.frame.materials.on & gpu::materials_with_grass) != 0)
         lines.emplace_back("Grass within 60 m: invented, by a rule, where the ground cover is meadow");
     if (style.frame.contours.interval_m > 0.0F)

@@ -18,6 +18,7 @@
 #include "apps/styles/data_folder.h"
 #include "apps/styles/style_json.h"
 #include "apps/view/model_names.h"
+#include "apps/view/trees_of_view.h"
 #include "core/light/sun_position.h"
 #include "core/made_pages/made_pages.h"
 #include "geo/files/text_encoding.h"
@@ -90,9 +91,13 @@ Result<void> label_by(const View& view, Style& style) {
     return {};
 }
 
-// What the view says of trees. A style of materials that has none by itself may have them, too.
+// What the view says of trees. A style of materials that has none by itself may have them, too. A canopy has
+// the ground's own trees in it, and an image shows them: invented ones would stand on top.
 Result<void> plant_by(const View& view, gpu::FrameStyle& style) {
-    if (!view.trees) return {};
+    if (!view.trees) {
+        if (stands_for_trees(view) != nullptr) style.materials.on &= ~gpu::materials_with_trees;
+        return {};
+    }
     if (*view.trees && style.materials.on == 0)
         return Error{ErrorKind::usage, "--trees on",
                      "the style '" + view.style + "' knows no ground that trees could stand on"};

@@ -286,12 +286,14 @@ void add_light(Rows looks) {
 }
 
 void add_surroundings(Rows looks) {
-    looks.on_off({"--trees", changes_looks, "as the style has it; on in natural; off in panoramas", "trees"},
-                 &ViewOptions::trees, &View::trees,
-                 "Whether the style's invented trees stand on the ground and hide what is behind them. off "
-                 "shows towns, meshes and tracks in forests, and is not together with --canopy. on is for "
-                 "styles that know the ground's materials: natural. A panorama has trees only with on: they "
-                 "would hide what it names.");
+    looks.on_off(
+        {"--trees", changes_looks,
+         "as the style has it; on in natural; off in panoramas, with --canopy and with --drape", "trees"},
+        &ViewOptions::trees, &View::trees,
+        "Whether the style's invented trees stand on the ground and hide what is behind them. off "
+        "shows towns, meshes and tracks in forests. on is for styles that know the ground's materials: "
+        "natural. Only with on has a panorama trees, as they would hide what it names, and a view "
+        "with --canopy or --drape, which show the ground's own.");
     looks.choice({"--sea", changes_looks, "level", "sea"}, &ViewOptions::sea, &View::sea, sea_names,
                  "What a style with water draws as the sea: level, ground that is level, as lakes are; low, "
                  "too, what is up to 5 m above sea level and all below it; voids, what has no height.");

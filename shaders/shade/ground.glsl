@@ -115,6 +115,7 @@ vec4 cover_below(SurfacePoint point, bool as_codes) {
     vec3 light = cover.rgb / cover.a;
     return vec4(as_codes ? srgb_from_linear(light) : light, cover.a);
 }
+float image_share = 0.0;  // of a pixel's ground: what lies under an image
 Images images_over(SurfacePoint point) {
     Images images = Images(vec3(0.0), 0.0, 0.0, vec4(0.0));
     if (!draped) return images;
@@ -124,6 +125,7 @@ Images images_over(SurfacePoint point) {
     vec4 image = drape_sample(point);
     float share = image.a * FRAME.drape.opacity;
     if (share <= 0.0) return images;
+    image_share = share;
     vec3 codes = image.rgb / image.a;
     return Images(as_codes ? codes : linear_from_srgb(codes), share, share * (1.0 - FRAME.drape.relief), images.cover);
 }
@@ -267,7 +269,9 @@ vec3 sent_by(LitPlace place) {
 
 LitPlace ground_place(SurfacePoint point) {
     vec3 sun = sun_at(point.view);
-    LitPlace place = LitPlace(pixel_light(point, sun), point.view, point.h_m, sun, point.water);
+    GroundLight light = pixel_light(point, sun);
+    // An image has its own water.
+    LitPlace place = LitPlace(light, point.view, point.h_m, sun, point.water * (1.0 - image_share));
 #ifdef IN_AIR
     if (of_materials) find_canopy(point);
 #endif

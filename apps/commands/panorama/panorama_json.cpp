@@ -8,6 +8,7 @@
 #include "apps/report/summit_words.h"
 #include "apps/styles/growth_json.h"
 #include "apps/view/model_names.h"
+#include "apps/view/trees_of_view.h"
 #include "geo/refined/refined_region.h"
 
 namespace oro {
@@ -82,7 +83,7 @@ ordered_json panorama_json(const PanoramaReport& report, const std::string& file
     if (const RegionGrid* const refined = detail_of(report.region))
         json["detail"] = detail_json(*refined->detail);
     if (const ordered_json growth =
-            growth_json(style, view.trees ? "left out (--trees off)" : "left out (--trees on draws them)");
+            growth_json(style, view.trees ? why_without_trees(view) : "left out (--trees on draws them)");
         !growth.empty())
         json["growth"] = growth;
     json["models"] = models_json(view);

@@ -115,8 +115,6 @@ TEST_F(TreesOfShots, AreRefusedWhereNoneCanBe) {
     };
     refused({"--style", "plain", "--trees", "on"},
             "--trees on: the style 'plain' knows no ground that trees could stand on");
-    refused({"--style", "natural", "--trees", "off", "--canopy", "trees.tif"},
-            "--trees off: not together with --canopy");
     refused({"--trees", "perhaps"}, "--trees perhaps: choose on or off");
 }
 
