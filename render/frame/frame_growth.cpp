@@ -73,13 +73,15 @@ void FrameRenderer::record_growth(VkCommandBuffer commands, const FramePlan& pla
     for (std::size_t i = 0; i < plan.grids.size(); ++i) {
         if (!grids_[i].growth.is_on()) continue;
         grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
-        grids_[i].growth.record_draw(commands, *pipelines_, plan.view.width_px(), plan.view.height_px());
+        grids_[i].growth.record_draw(commands, *pipelines_, plan.view.width_px(), plan.view.height_px(),
+                                     slots_[slot_].passes.get());
     }
     for (std::size_t i = 0; i < plan.grids.size(); ++i) {
         if (!grids_[i].meadow.is_on()) continue;
         wait();
         grids_[i].bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
         grids_[i].meadow.record_draw(commands, *pipelines_);
+        end_pass(commands, "grass");
     }
     if (!compute_) {
         image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, shader_read, shader_write);

@@ -114,6 +114,10 @@ Result<void> FrameRenderer::create_slot(Slot& slot) const {
     if (slot.counts_read.handle) return {};
     ORO_TRY(slot.commands, Commands::create(*gpu_, "frame"));
     ORO_TRY(slot.timestamps, create_timestamps(*gpu_));
+    if (options_.time_passes) {
+        ORO_TRY(PassTimes passes, PassTimes::create(*gpu_));
+        slot.passes = std::make_unique<PassTimes>(std::move(passes));
+    }
     ORO_TRY(slot.counts_read, create_buffer(*gpu_, sizeof(gpu::FrameCounts), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                             MemoryKind::readback, "counts read back"));
     return {};
@@ -438,7 +442,14 @@ Result<void> FrameRenderer::add_times(const Slot& slot, FrameReport& report) {
     report.raster_s = between_s(1);
     occlusion_->end(slot.trial, report.raster_s);
     report.shade_s = between_s(slot.has_images ? 4 : 2);
+    if (slot.passes && options_.shades) {
+        ORO_TRY(report.passes, slot.passes->read(*gpu_));
+    }
     return {};
+}
+
+void FrameRenderer::end_pass(VkCommandBuffer commands, const char* name) const {
+    oro::end_pass(slots_[slot_].passes.get(), commands, name);
 }
 
 }  // namespace oro

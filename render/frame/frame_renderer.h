@@ -11,6 +11,7 @@
 
 #include "core/frame/frame_plan.h"
 #include "core/measure/drawn_point.h"
+#include "render/device/pass_times.h"
 #include "render/device/resources.h"
 #include "render/frame/grid_frame.h"
 #include "render/pipelines/choice_pass.h"
@@ -26,11 +27,12 @@ namespace oro {
 // What a frame did and how long the GPU took for it.
 struct FrameReport {
     gpu::FrameCounts counts{};
-    std::uint64_t pages{};      // of the frame, parents of drawn ones included
-    double choose_s{};          // GPU timestamps: levels chosen
-    double raster_s{};          // from pages to triangle ids, by either path
-    double shade_s{};           // the shading pass
-    bool images_settled{true};  // images over the ground are as fine as the frame asks for
+    std::uint64_t pages{};         // of the frame, parents of drawn ones included
+    double choose_s{};             // GPU timestamps: levels chosen
+    double raster_s{};             // from pages to triangle ids, by either path
+    double shade_s{};              // the shading pass
+    std::vector<PassTime> passes;  // of shading, with time_passes
+    bool images_settled{true};     // images over the ground are as fine as the frame asks for
     std::vector<FrameFeedback>
         feedback;  // of each grid, for Scene::apply_feedback(); none where it was drawn at once
     [[nodiscard]] double gpu_s() const { return choose_s + raster_s + shade_s; }
@@ -59,6 +61,7 @@ struct FrameRendererOptions {
     // picture is the same.
     bool as_on_gpu{false};
     ListRoom list_room{};         // compute path: fewer than there are, for tests of full lists
+    bool time_passes{false};      // for FrameReport::passes
     bool nearest_pyramid{false};  // wrong occlusion, for the test that notices it
     RasterPath path{RasterPath::mesh};
 };
@@ -163,6 +166,7 @@ class FrameRenderer {
     struct Slot {
         Buffer counts_read;  // for the host
         OwnedQueryPool timestamps;
+        std::unique_ptr<PassTimes> passes;  // with time_passes
         std::optional<FramePlan> plan;
         Occlusion::Trial trial;
         bool has_images{}, in_parts{};
@@ -172,6 +176,8 @@ class FrameRenderer {
     Result<void> begin(FramePlan plan, const FrameAsked& asked);
     Result<FrameReport> report_of(Slot& slot);
     Result<void> add_times(const Slot& slot, FrameReport& report);
+    // Of the frame that is being recorded.
+    void end_pass(VkCommandBuffer commands, const char* name) const;
     // For what is recorded while no frame is under way.
     [[nodiscard]] Commands& commands() { return slots_.front().commands; }
     Result<void> upload(std::size_t number, GridPlan& plan, const FrameAsked& asked);

@@ -81,15 +81,18 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
     const bool in_parts =
         std::any_of(grids_.begin(), grids_.begin() + static_cast<std::ptrdiff_t>(plan.grids.size()),
                     [](const GridFrame& grid) { return grid.shade_parts != VK_NULL_HANDLE; });
+    if (slots_[slot_].passes) slots_[slot_].passes->begin(commands);
     if (in_parts) vkCmdFillBuffer(commands, tiles_in_parts_.handle.get(), 0, VK_WHOLE_SIZE, 0);
     grids_.front().bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
     air_.record(commands, *pipelines_);
+    end_pass(commands, "air");
     image_barrier(commands, ids_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT,
                   has_images(plan) ? shader_read
                   : compute_       ? unused
                                    : as_colour,
                   shader_read);
     record_casters(commands, plan);
+    end_pass(commands, "shadows and sky");
     record_growth(commands, plan);
     const bool first = plan.grids.front().constants.sample_index == 0;
     image_barrier(commands, sum_.handle.get(), VK_IMAGE_ASPECT_COLOR_BIT, first ? unused : shader_write,
@@ -114,13 +117,20 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
     };
     for (std::size_t i = 0; i < plan.grids.size(); ++i) {
         pass(grids_[i], grids_[i].shade);
+        end_pass(commands, "ground of one place");
         pass(grids_[i], grids_[i].shade_parts);
+        end_pass(commands, "ground of several places");
     }
     record_growth_pixels(commands, plan, GrowthPass::raise);
+    end_pass(commands, "far forests");
     record_growth_pixels(commands, plan, GrowthPass::shade);
+    end_pass(commands, "colours of trees and grass");
     record_growth_pixels(commands, plan, GrowthPass::mirror);
+    end_pass(commands, "mirrors");
     for (std::size_t i = 0; options_.smooth_edges && i < plan.grids.size(); ++i) pass(grids_[i], edges_);
+    end_pass(commands, "edges of the ground");
     record_growth_pixels(commands, plan, GrowthPass::smooth);
+    end_pass(commands, "outlines of trees and grass");
     if (options_.show != gpu::show_colours) record_show(commands, plan);
 }
 

@@ -161,7 +161,7 @@ void GrowthFrame::push(VkCommandBuffer commands, const Pipelines& pipelines) con
 }
 
 void GrowthFrame::record_draw(VkCommandBuffer commands, const Pipelines& pipelines, gpu::uint width_px,
-                              gpu::uint height_px) const {
+                              gpu::uint height_px, PassTimes* times) const {
     push(commands, pipelines);
     const auto wait = [&](VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
         memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | stages,
@@ -191,13 +191,19 @@ void GrowthFrame::record_draw(VkCommandBuffer commands, const Pipelines& pipelin
     wait(VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines.list_sites.get());
     dispatch_groups(commands, tiles_ * gpu::site_groups_per_tile);
+    end_pass(times, commands, "sites in view");
     wait(0, 0);
     draw(grow_, offsetof(gpu::CrownLists, site_groups));
+    end_pass(times, commands, "what stands there");
     wait(0, 0);
     draw(pipelines.draw_crowns.get(), offsetof(gpu::CrownLists, site_groups));
+    end_pass(times, commands, "small crowns");
     wait(0, 0);
     draw(pipelines.draw_large_crowns.get(), offsetof(gpu::CrownLists, piece_groups));
-    if (map_ != VK_NULL_HANDLE) draw(map_, offsetof(gpu::CrownLists, shade_groups));
+    end_pass(times, commands, "large crowns");
+    if (map_ == VK_NULL_HANDLE) return;
+    draw(map_, offsetof(gpu::CrownLists, shade_groups));
+    end_pass(times, commands, "shadows of trees");
 }
 
 void GrowthFrame::record_pixels(VkCommandBuffer commands, const Pipelines& pipelines, VkPipeline pipeline,

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "core/growth/growth_plan.h"
+#include "render/device/pass_times.h"
 #include "render/device/resources.h"
 #include "render/pipelines/pipelines.h"
 
@@ -29,9 +30,9 @@ class GrowthFrame {
                          VkExtent2D culled, std::size_t slot);
     [[nodiscard]] bool is_on() const { return tiles_ > 0; }
     // What stands on its sites, and its trees into the visibility buffer. The grid's set is bound, and the
-    // nodes of its casters are there.
+    // nodes of its casters are there. times: null where nobody asks for them.
     void record_draw(VkCommandBuffer commands, const Pipelines& pipelines, gpu::uint width_px,
-                     gpu::uint height_px) const;
+                     gpu::uint height_px, PassTimes* times) const;
     // GrowthTable::shade_map; null without shadows of trees.
     [[nodiscard]] const Buffer* shade_map() const {
         return is_on() && map_ != VK_NULL_HANDLE ? &shade_map_ : nullptr;

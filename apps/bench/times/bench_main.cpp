@@ -11,6 +11,7 @@
 #include "apps/bench/times/bench_made.h"
 #include "apps/bench/times/bench_made_pages.h"
 #include "apps/bench/times/bench_moving.h"
+#include "apps/bench/times/bench_passes.h"
 #include "apps/bench/times/bench_patches.h"
 #include "apps/bench/times/bench_random.h"
 #include "apps/bench/times/bench_region.h"
@@ -117,6 +118,7 @@ Result<ordered_json> run_path(const Gpu& gpu, RasterPath path, Scene& scene,
         if (!options.json && options.random_eyes == 0) print_times(eye.name, one);
         json["eyes"][eye.name] = std::move(one);
     }
+    if (options.passes) json["passes"] = passes_of_eyes(all, options.json);
     if (options.random_eyes == 0) return json;
     json["frame"] = spread_json(eyes, all, &BenchTimes::gpu_s);
     json["raster"] = spread_json(eyes, all, &BenchTimes::raster_s);
@@ -299,6 +301,9 @@ void add_modes(CLI::App& app, BenchOptions& options, BenchWords& words) {
     app.add_flag("--floor", options.floor,
                  "Measure the path's peak triangle rate, too, and tell times as multiples of the least that "
                  "it allows");
+    app.add_flag("--passes", options.passes,
+                 "Tell what each pass of shading takes, too, and of all eyes the median, 95 % and the worst. "
+                 "Frames take a little longer so");
     app.add_option(
         "--style", options.style_file,
         "A style: a .json file like those in data/styles. Without it: plain colours of the benchmark's own, "

@@ -45,6 +45,7 @@ struct BenchOptions {
     int houses{0};                 // before each eye, beside frames without them; 0: none
     bool tables{false};
     bool floor{false};
+    bool passes{false};  // of shading, each by itself
     bool json{false};
 };
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "apps/bench/times/bench_passes.h"
 #include "apps/bench/times/bench_region.h"
 #include "core/base/elapsed.h"
 #include "core/base/median.h"
@@ -63,6 +64,7 @@ Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Came
     const gpu::FrameStyle& style = options.style;
     scene.require_fields(style);
     std::vector<double> choose, raster, shade, whole, planned, frame;
+    TimesOfPasses passes;
     BenchTimes times;
     const auto beginning = Clock::now();
     ORO_TRY(FramePlan plan, whole_plan(scene, camera, tile, options));
@@ -81,12 +83,14 @@ Result<BenchTimes> time_frames(Scene& scene, FrameRenderer& renderer, const Came
         raster.push_back(times.last.raster_s);
         shade.push_back(times.last.shade_s);
         whole.push_back(times.last.gpu_s());
+        passes.add(times.last.passes);
     }
     for (int i = 0; i < options.frames; ++i) {
         const auto start = Clock::now();
         ORO_CHECK(whole_plan(scene, camera, tile, options));
         planned.push_back(seconds_since(start));
     }
+    times.passes = passes.medians();
     times.choose_s = median_of(std::move(choose));
     times.raster_s = median_of(std::move(raster));
     times.shade_s = median_of(std::move(shade));
@@ -117,6 +121,7 @@ Result<FrameRenderer> renderer_for(const Gpu& gpu, RasterPath path, const BenchO
     renderer_options.split = options.split;
     renderer_options.leave_out_small = options.leave_out_small;
     renderer_options.smooth_edges = options.style.smooth_edges != 0;
+    renderer_options.time_passes = options.passes;
     return FrameRenderer::create(gpu, renderer_options);
 }
 
@@ -167,6 +172,7 @@ ordered_json times_json(const BenchTimes& times) {
     json["choose_ms"] = 1e3 * times.choose_s;
     json["raster_ms"] = 1e3 * times.raster_s;
     json["shade_ms"] = 1e3 * times.shade_s;
+    for (const PassTime& one : times.passes) json["passes_ms"][one.pass] = 1e3 * one.s;
     json["cpu_plan_ms"] = 1e3 * times.plan_s;
     json["cpu_frame_ms"] = 1e3 * times.frame_s;
     json["first_settled_ms"] = 1e3 * times.settled_s;

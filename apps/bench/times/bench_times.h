@@ -19,9 +19,10 @@ struct BenchTimes {
     double raster_s{};
     double shade_s{};
     double gpu_s{};
-    double plan_s{};     // processor: pages chosen
-    double frame_s{};    // processor: a frame that is planned, the wait for the GPU included
-    double settled_s{};  // the first frame, with all that had to be read
+    double plan_s{};               // processor: pages chosen
+    double frame_s{};              // processor: a frame that is planned, the wait for the GPU included
+    std::vector<PassTime> passes;  // where they are asked for
+    double settled_s{};            // the first frame, with all that had to be read
     std::size_t pages_on_gpu{};
     std::uint64_t bytes_on_gpu{};
     std::size_t clusters_on_gpu{};
