@@ -54,18 +54,44 @@ struct GrowthTable {
     uvec2 canopy;  // uvec2 for each pixel, row by row: what it shows (growth/pixels_kept.glsl)
 };
 
-// Work that is spread over more invocations than one a tree: pieces of crowns that cover many pixels, of 32 x 32 or more, and trees whose
-// shadow may be seen. A site here is its number in its tile and 4096 times that of the tile.
+// A crown that covers many pixels, as all its pieces have it.
+struct LargeCrown {
+    vec3 foot;  // ... and so on, as Crown of growth.glsl
+    vec3 axes[3];
+    float low_m;
+    float high_m;
+    float radius_m;
+    float shell;
+    uint kind;
+    uint hash;
+    uint id;
+    uint first_px;  // of its box: x | y << 16
+    uint last_px;
+    float begins_m;  // metres before the eye, its nearest leaves
+};
+// Work that is spread over more invocations than one a tree: pieces of crowns that cover many pixels, of 32 x 32, and trees whose shadow may
+// be seen. A site here is its number in its tile and 4096 times that of the tile. A piece is its number in its crown's box of pixels, and
+// 2^14 times that of the crown; pieces of near crowns come first.
 ORO_CONST uint crown_piece_px = 32u;
+ORO_CONST uint crown_piece_bits = 14u;
 ORO_CONST uint crown_piece_max = 524288u;
+ORO_CONST uint large_crown_max = 131072u;
 ORO_CONST uint crown_list_max = 65535u;
+ORO_CONST uint crown_step_count = 64u;  // steps of distance, four where it doubles
+ORO_CONST uint sorted_by_group = 2048u;  // pieces that a workgroup of sort_pieces.comp takes
 struct CrownLists {
     uint piece_groups[3];  // of an indirect dispatch: pieces, folded into rows
     uint shade_groups[3];
     uint site_groups[3];  // of site_group sites that are asked for, folded into rows
+    uint sort_groups[3];
     uint asked_count;
-    uint piece_count;
-    uvec2 pieces[524288];  // site, number of the piece in the crown's box of pixels
+    uint piece_count;  // of those that were asked for: more than the list has room for, perhaps
+    uint crown_count;  // ... the same
+    uint pieces_at[64];  // each step of distance
+    uint sorted_at[64];  // ... of these, so far
+    LargeCrown crowns[131072];
+    uint found[524288];   // pieces
+    uint pieces[524288];  // ... in their order
     uint shades[65535];   // site
 };
 ORO_CONST uint depth_block_px = 8u;

@@ -15,6 +15,7 @@
 #include "spirv/seed_visibility_comp.h"
 #include "spirv/shade_growth_comp.h"
 #include "spirv/smooth_crowns_comp.h"
+#include "spirv/sort_pieces_comp.h"
 
 namespace oro {
 namespace {
@@ -102,6 +103,7 @@ Result<void> GrowthFrame::choose_pipelines(const Gpu& gpu, Pipelines& pipelines,
     };
     ORO_CHECK(need(pipelines.list_sites, list_sites_comp_spirv, "sites in view"));
     ORO_CHECK(need(pipelines.draw_crowns, draw_crowns_comp_spirv, "draw trees"));
+    ORO_CHECK(need(pipelines.sort_pieces, sort_pieces_comp_spirv, "order of large trees"));
     ORO_CHECK(need(pipelines.draw_large_crowns, draw_large_crowns_comp_spirv, "draw large trees"));
     if (culls_) ORO_CHECK(need(pipelines.farthest_depths, farthest_depths_comp_spirv, "farthest depths"));
     if (kind.casts) ORO_CHECK(need(pipelines.draw_shade_map, draw_shade_map_comp_spirv, "shadows of trees"));
@@ -174,9 +176,10 @@ void GrowthFrame::record_draw(VkCommandBuffer commands, const Pipelines& pipelin
     memory_barrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
                    0, VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
                    VK_ACCESS_2_TRANSFER_WRITE_BIT);
-    // Groups of pieces, of shadows, of sites; sites, pieces.
-    constexpr std::array<gpu::uint, 11> nothing{0, 1, 1, 0, 1, 1, 0, 1, 1, 0, 0};
-    static_assert(offsetof(gpu::CrownLists, piece_count) == sizeof(nothing) - sizeof(gpu::uint));
+    // Groups of pieces, of shadows, of sites, of pieces that are brought into order; then counts.
+    constexpr std::array<gpu::uint, offsetof(gpu::CrownLists, crowns) / sizeof(gpu::uint)> nothing{
+        0, 1, 1, 0, 1, 1, 0, 1, 1, 0, 1, 1};
+    static_assert(offsetof(gpu::CrownLists, asked_count) == 12 * sizeof(gpu::uint));
     vkCmdUpdateBuffer(commands, lists_.handle.get(), 0, sizeof(nothing), nothing.data());
     if (map_ != VK_NULL_HANDLE) vkCmdFillBuffer(commands, shade_map_.handle.get(), 0, VK_WHOLE_SIZE, 0);
     if (culls_) {
@@ -198,6 +201,8 @@ void GrowthFrame::record_draw(VkCommandBuffer commands, const Pipelines& pipelin
     wait(0, 0);
     draw(pipelines.draw_crowns.get(), offsetof(gpu::CrownLists, site_groups));
     end_pass(times, commands, "small crowns");
+    wait(0, 0);
+    draw(pipelines.sort_pieces.get(), offsetof(gpu::CrownLists, sort_groups));
     wait(0, 0);
     draw(pipelines.draw_large_crowns.get(), offsetof(gpu::CrownLists, piece_groups));
     end_pass(times, commands, "large crowns");

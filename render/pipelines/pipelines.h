@@ -96,7 +96,8 @@ struct Pipelines {
     // Of frames with trees (render/growth): what stands on sites and what colours it, by what they ask for;
     // what draws them and softens their outlines; mesh path: copies of its images before that, and back.
     std::map<std::size_t, std::array<OwnedPipeline, 2>> growth;
-    OwnedPipeline list_sites, draw_crowns, draw_large_crowns, draw_shade_map, farthest_depths, smooth_crowns;
+    OwnedPipeline list_sites, draw_crowns, sort_pieces, draw_large_crowns, draw_shade_map, farthest_depths,
+        smooth_crowns;
     OwnedPipeline seed_visibility, keep_ids;
     // Forests farther than their trees, and what water mirrors; by edges_follow.
     std::array<OwnedPipeline, 2> raise_canopy, mirror_in_water;

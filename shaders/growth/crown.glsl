@@ -98,8 +98,9 @@ float detail_at(float pixel_m) { return clamp(1.5 - 1.15 * pixel_m, 0.0, 1.0); }
 vec2 leaves_at(float pixel_m) { return clamp(vec2(1.4, 1.5) - vec2(18.0, 60.0) * pixel_m, 0.0, 1.0); }
 
 const int crown_steps = 16, near_crown_steps = 22;
-// A line from a place along a ray, both in view coordinates, from a depth on. pixel_m: what a pixel covers at the tree.
-bool meets_crown(Crown crown, vec3 from, vec3 ray, float pixel_m, float least, out CrownHit hit) {
+// A line from a place along a ray, both in view coordinates, from a depth on; what it meets beyond another depth, `most`, may be left out.
+// pixel_m: what a pixel covers at the tree.
+bool meets_crown(Crown crown, vec3 from, vec3 ray, float pixel_m, float least, float most, out CrownHit hit) {
     vec3 middle = crown.foot + 0.5 * crown.high_m * crown.axes[2] - from;
     float begin = dot(middle, ray) / dot(ray, ray);
     vec3 p = (ray * begin + (from - crown.foot)) * crown.axes, d = ray * crown.axes;
@@ -110,11 +111,12 @@ bool meets_crown(Crown crown, vec3 from, vec3 ray, float pixel_m, float least, o
     float s = is_needle ? enters_cone(p, d, crown.low_m, crown.high_m, crown.radius_m * size) : enters_ellipsoid(p, d, crown.low_m, crown.high_m, crown.radius_m);
     hit.is_stem = false;
     hit.inside = 0.0;
+    if (begin + s > most) s = no_hit;
     if (s < no_hit && detail <= 0.0) best = s;
     if (detail > 0.0 && s < no_hit) s = max(s, least - begin);
     // Along the line through what is convex, until it is among leaves.
     float step_m = 0.5 * crown.radius_m / length(d), before = 1.0, last = s, per_m = 1.0 / (crown.high_m - crown.low_m);
-    for (int i = 0; s < no_hit && detail > 0.0 && i < steps; ++i) {
+    for (int i = 0; s < no_hit && detail > 0.0 && i < steps && begin + last <= most; ++i) {
         vec3 at = p + s * d;
         float outside = outside_leaves(crown, at, detail, leaves);
         if (outside < 0.0) {
@@ -127,8 +129,8 @@ bool meets_crown(Crown crown, vec3 from, vec3 ray, float pixel_m, float least, o
         // Towards a cone's tip steps are as small as it is there.
         s += step_m * clamp(outside, 0.12, 0.5) * (is_needle && is_near ? clamp((crown.high_m - at.z) * per_m, 0.04, 1.0) : 1.0);
     }
-    if (pixel_m < 0.25) {
-        float on_stem = enters_stem(p, d, crown.low_m + 0.3 * (crown.high_m - crown.low_m), 0.011 * crown.high_m);
+    if (pixel_m < stem_least_px_m) {
+        float on_stem = enters_stem(p, d, stem_m(crown), stem_radius_m(crown));
         if (on_stem < best) {
             best = on_stem;
             hit.is_stem = true;
@@ -141,7 +143,7 @@ bool meets_crown(Crown crown, vec3 from, vec3 ray, float pixel_m, float least, o
     return true;
 }
 // Through a pixel. Leaves at the eye are met where rays begin, or less by what is rounded.
-bool hits_crown(Crown crown, vec3 ray, float pixel_m, out CrownHit hit) {
-    const float begin_m = 0.3, rounded_m = 0.001;
-    return meets_crown(crown, vec3(0.0), ray, pixel_m, begin_m, hit) && hit.depth_m >= begin_m - rounded_m;
+bool hits_crown(Crown crown, vec3 ray, float pixel_m, float most_m, out CrownHit hit) {
+    const float rounded_m = 0.001;
+    return meets_crown(crown, vec3(0.0), ray, pixel_m, ray_begin_m, most_m, hit) && hit.depth_m >= ray_begin_m - rounded_m;
 }

@@ -1,6 +1,6 @@
 #version 460
-// Draws trees: an invocation takes a site. Those that cover many pixels are left to draw_large_crowns.comp, piece by piece; those whose
-// shadows may be seen to draw_shade_map.comp. Pixels by rays, so that silhouettes are exact.
+// Draws trees: an invocation takes a site. Those that cover many pixels are left to draw_large_crowns.comp, piece by piece, the nearest
+// first (sort_pieces.comp); those whose shadows may be seen to draw_shade_map.comp. Pixels by rays, so that silhouettes are exact.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_memory_scope_semantics : require
 #extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
@@ -13,34 +13,14 @@
 #include "shaders/growth/growth.glsl"
 #include "shaders/growth/crown.glsl"
 #include "shaders/growth/crown_pixels.glsl"
+#include "shaders/growth/crown_bounds.glsl"
+#include "shaders/growth/large_crown.glsl"
+#include "shaders/growth/crown_steps.glsl"
 #include "shaders/growth/shade_map.glsl"
 
 layout(local_size_x = 128) in;  // site_group
 
 const int alone_px = 256;
-
-bool is_seen_piece(CrownPixels of, int piece, int across, int side) {
-    ivec2 first = of.box.xy + ivec2(piece % across, piece / across) * side;
-    return !is_behind_ground(ivec4(first, min(first + side - 1, of.box.zw)), of.nearest);
-}
-
-// False where the list has no room for all of them. Whoever finds none gives its places back, so that the list's number is right in the end.
-bool list_pieces(CrownPixels of, uint site) {
-    int side = piece_px(of);
-    ivec2 count = (of.box.zw - of.box.xy) / side + 1;
-    uint seen = 0u;
-    for (int piece = 0; piece < count.x * count.y; ++piece) seen += is_seen_piece(of, piece, count.x, side) ? 1u : 0u;
-    if (seen == 0u) return true;
-    ListsOfCrowns lists = ListsOfCrowns(GROWTH.lists);
-    uint at = atomicAdd(lists.at.piece_count, seen), asked_end = at + seen, end = min(asked_end, crown_piece_max);
-    if (asked_end > end) atomicAdd(lists.at.piece_count, max(at, end) - asked_end);
-    if (at >= end) return false;
-    for (int piece = 0; at < end; ++piece)
-        if (is_seen_piece(of, piece, count.x, side)) lists.at.pieces[at++] = uvec2(site, uint(piece));
-    atomicMax(lists.at.piece_groups[0], min(end, groups_per_row));
-    atomicMax(lists.at.piece_groups[1], (end + groups_per_row - 1u) / groups_per_row);
-    return asked_end == end;
-}
 
 // Whether a crown may shade a place that the picture shows: one within the map's reach, and so not farther from it than both reach.
 bool may_shade(Crown crown) {
@@ -57,69 +37,153 @@ void list_shade(uint site) {
     if (at < crown_list_max) lists.at.shades[at] = site;
 }
 
-// Crowns of a workgroup that are not left to others: its invocations share their pixels, however many each has.
+// The crowns of a workgroup that are in the picture. Its invocations share their pieces, or their pixels, however many each has.
 shared uint crown_count;
 shared Crown crowns[site_group];
 shared uvec2 boxes[site_group];  // x | y << 16 of their first pixel, pixels across | down << 16
+shared float begins_m[site_group];
 shared uint ids[site_group];
-shared uint ends[site_group];  // of its pixels, among those of all crowns
+shared uint numbers[site_group];  // of those that cover many pixels, in the list of these
+shared uint ends[site_group];     // of its pieces, or pixels, among those of all crowns
+shared uint large_count;
+shared uint first_large;
+shared uint found_count;
+shared uint first_found;
+shared uint steps[crown_step_count];
+
+const uint is_small = 0xffffffffu;
+
+CrownPixels pixels_at(uint at) {
+    ivec2 first = ivec2(boxes[at].x & 0xffffu, boxes[at].x >> 16), size = ivec2(boxes[at].y & 0xffffu, boxes[at].y >> 16);
+    return CrownPixels(ivec4(first, first + size - 1), pixel_m_at(crowns[at].foot), begins_m[at], ids[at]);
+}
 
 void add_crown(uint tile, uint site) {
     Crown crown;
     if (!crown_of_site(tile, site, crown)) return;
     if (GROWTH.shade_map != uvec2(0u) && may_shade(crown)) list_shade(tile * sites_per_tile + site);
-    CrownPixels of = crown_pixels(crown, tile, site);
-    if (is_empty(of.box) || is_behind_ground(of.box, of.nearest)) return;
-    ivec2 size = of.box.zw - of.box.xy + 1;
-    if (size.x * size.y > alone_px && list_pieces(of, tile * sites_per_tile + site)) return;
+    ivec4 box = pixels_of_crown(crown);
+    if (is_empty(box)) return;
+    float begins = begins_before_eye(crown);
+    if (is_behind_ground(box, largest_depth(CrownPixels(box, 0.0, begins, 0u)))) return;
+    ivec2 size = box.zw - box.xy + 1;
     uint at = atomicAdd(crown_count, 1u);
     crowns[at] = crown;
-    boxes[at] = uvec2(of.box.x | of.box.y << 16, size.x | size.y << 16);
-    ids[at] = of.id;
-    ends[at] = uint(size.x * size.y);
+    boxes[at] = uvec2(box.x | box.y << 16, size.x | size.y << 16);
+    begins_m[at] = begins;
+    ids[at] = id_of_site(tile, site);
+    numbers[at] = size.x * size.y > alone_px ? atomicAdd(large_count, 1u) : is_small;
 }
 
-// From numbers of pixels to ends.
-void sum_pixels() {
+// From numbers of pieces, or pixels, to ends.
+uint sum_ends() {
     uint own = gl_LocalInvocationIndex;
     for (uint step = 1u; step < crown_count; step *= 2u) {
+        barrier();
         uint before = own >= step && own < crown_count ? ends[own - step] : 0u;
         barrier();
         if (own < crown_count) ends[own] += before;
-        barrier();
     }
+    barrier();
+    return crown_count == 0u ? 0u : ends[crown_count - 1u];
 }
 
-// The first crown that ends beyond a pixel.
-uint crown_of_pixel(uint pixel) {
+// The first crown that ends beyond a piece, or a pixel.
+uint crown_at_end(uint number) {
     uint first = 0u, last = crown_count - 1u;
     while (first < last) {
         uint middle = (first + last) / 2u;
-        if (ends[middle] > pixel) last = middle;
+        if (ends[middle] > number) last = middle;
         else first = middle + 1u;
     }
     return first;
 }
 
+// Crowns that cover many pixels into their list. Those that have no room there stay with this workgroup.
+void list_large_crowns() {
+    uint own = gl_LocalInvocationIndex;
+    ListsOfCrowns lists = ListsOfCrowns(GROWTH.lists);
+    if (own == 0u && large_count > 0u) first_large = atomicAdd(lists.at.crown_count, large_count);
+    barrier();
+    if (own >= crown_count) return;
+    ends[own] = 0u;
+    if (numbers[own] == is_small) return;
+    numbers[own] += first_large;
+    if (numbers[own] >= large_crown_max) {
+        numbers[own] = is_small;
+        return;
+    }
+    CrownPixels of = pixels_at(own);
+    lists.at.crowns[numbers[own]] = as_large(crowns[own], of);
+    ends[own] = piece_count_of(of.box);
+}
+
+// Of the pieces of this workgroup's crowns, the number that its invocation may draw; false for none.
+bool is_seen_piece(uint number, out uint at, out uint piece) {
+    at = crown_at_end(number);
+    piece = number - (at == 0u ? 0u : ends[at - 1u]);
+    CrownPixels of = pixels_at(at);
+    ivec4 box = piece_of(of.box, piece);
+    return !is_behind_ground(box, largest_depth(of)) && may_show_crown(crowns[at], box);
+}
+
+void end_lists() {
+    ListsOfCrowns lists = ListsOfCrowns(GROWTH.lists);
+    uint end = min(first_found + found_count, crown_piece_max);
+    atomicMax(lists.at.piece_groups[0], min(end, groups_per_row));
+    atomicMax(lists.at.piece_groups[1], (end + groups_per_row - 1u) / groups_per_row);
+    atomicMax(lists.at.sort_groups[0], (end + sorted_by_group - 1u) / sorted_by_group);
+}
+
+// A crown whose pieces have no room in the list stays with this workgroup, too: who draws a pixel twice draws the same.
+void list_pieces() {
+    ListsOfCrowns lists = ListsOfCrowns(GROWTH.lists);
+    uint own = gl_LocalInvocationIndex, count = sum_ends();
+    for (uint first = 0u; first < count; first += site_group) {
+        if (own == 0u) found_count = 0u;
+        barrier();
+        uint at, piece, place = 0u;
+        bool is_seen = first + own < count && is_seen_piece(first + own, at, piece);
+        if (is_seen) place = atomicAdd(found_count, 1u);
+        barrier();
+        if (own == 0u && found_count > 0u) {
+            first_found = atomicAdd(lists.at.piece_count, found_count);
+            end_lists();
+        }
+        barrier();
+        if (is_seen && first_found + place < crown_piece_max) {
+            lists.at.found[first_found + place] = numbers[at] << crown_piece_bits | piece;
+            atomicAdd(steps[step_at(begins_m[at])], 1u);
+        }
+        barrier();
+        if (is_seen && first_found + place >= crown_piece_max) numbers[at] = is_small;
+    }
+    barrier();
+    if (own < crown_step_count && steps[own] > 0u) atomicAdd(lists.at.pieces_at[own], steps[own]);
+}
+
 void draw_crowns() {
-    uint count = crown_count == 0u ? 0u : ends[crown_count - 1u];
-    for (uint pixel = gl_LocalInvocationIndex; pixel < count; pixel += site_group) {
-        uint at = crown_of_pixel(pixel);
-        Crown crown = crowns[at];
-        vec3 top = crown.foot + crown.high_m * crown.axes[2];
-        ivec2 first = ivec2(boxes[at].x & 0xffffu, boxes[at].x >> 16), size = ivec2(boxes[at].y & 0xffffu, boxes[at].y >> 16);
-        CrownPixels of = CrownPixels(ivec4(first, first + size - 1), pixel_m_at(crown.foot), nearest_depth(crown.foot, top, crown.radius_m), ids[at]);
-        int number = int(pixel - (at == 0u ? 0u : ends[at - 1u]));
-        draw_pixel(crown, of, first + ivec2(number % size.x, number / size.x));
+    uint own = gl_LocalInvocationIndex;
+    if (own < crown_count) ends[own] = numbers[own] == is_small ? (boxes[own].y & 0xffffu) * (boxes[own].y >> 16) : 0u;
+    uint count = sum_ends();
+    for (uint pixel = own; pixel < count; pixel += site_group) {
+        uint at = crown_at_end(pixel);
+        CrownPixels of = pixels_at(at);
+        int number = int(pixel - (at == 0u ? 0u : ends[at - 1u])), across = of.box.z - of.box.x + 1;
+        draw_pixel(crowns[at], of, of.box.xy + ivec2(number % across, number / across));
     }
 }
 
 void main() {
-    if (gl_LocalInvocationIndex == 0u) crown_count = 0u;
+    if (gl_LocalInvocationIndex == 0u) crown_count = large_count = 0u;
+    if (gl_LocalInvocationIndex < crown_step_count) steps[gl_LocalInvocationIndex] = 0u;
     barrier();
     uint tile, site;
     if (asked_site(tile, site)) add_crown(tile, site);
     barrier();
-    sum_pixels();
+    list_large_crowns();
+    barrier();
+    list_pieces();
+    barrier();
     draw_crowns();
 }

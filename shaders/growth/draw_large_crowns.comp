@@ -10,20 +10,19 @@
 #include "shaders/growth/growth.glsl"
 #include "shaders/growth/crown.glsl"
 #include "shaders/growth/crown_pixels.glsl"
+#include "shaders/growth/large_crown.glsl"
 
 layout(local_size_x = 8, local_size_y = 16) in;
 
 void main() {
     uint number = folded(gl_WorkGroupID);
-    if (number >= ListsOfCrowns(GROWTH.lists).at.piece_count) return;
-    uvec2 piece = ListsOfCrowns(GROWTH.lists).at.pieces[number];
-    uint tile = piece.x / sites_per_tile, site = piece.x % sites_per_tile;
-    Crown crown;
-    if (!crown_of_site(tile, site, crown)) return;
-    CrownPixels of = crown_pixels(crown, tile, site);
-    int side = piece_px(of), count = (of.box.z - of.box.x) / side + 1;
-    ivec2 first = of.box.xy + ivec2(int(piece.y) % count, int(piece.y) / count) * side;
-    ivec2 end = min(first + side, of.box.zw + 1);
-    for (int y = first.y + int(gl_LocalInvocationID.y); y < end.y; y += int(gl_WorkGroupSize.y))
-        for (int x = first.x + int(gl_LocalInvocationID.x); x < end.x; x += int(gl_WorkGroupSize.x)) draw_pixel(crown, of, ivec2(x, y));
+    ListsOfCrowns lists = ListsOfCrowns(GROWTH.lists);
+    if (number >= min(lists.at.piece_count, crown_piece_max)) return;
+    uint piece = lists.at.pieces[number];
+    LargeCrown large = lists.at.crowns[piece >> crown_piece_bits];
+    Crown crown = crown_of(large);
+    CrownPixels of = pixels_of(large);
+    ivec4 box = piece_of(of.box, piece & ((1u << crown_piece_bits) - 1u));
+    for (int y = box.y + int(gl_LocalInvocationID.y); y <= box.w; y += int(gl_WorkGroupSize.y))
+        for (int x = box.x + int(gl_LocalInvocationID.x); x <= box.z; x += int(gl_WorkGroupSize.x)) draw_pixel(crown, of, ivec2(x, y));
 }

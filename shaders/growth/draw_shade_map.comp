@@ -22,7 +22,7 @@ void draw(Crown crown, mat3 axes) {
             vec2 at_m = (vec2(x, y) + 0.5 - 0.5 * float(shade_map_side)) * shade_map_cell_m;
             vec3 from = axes * vec3(at_m, foot.towards_m);
             CrownHit hit;
-            if (!meets_crown(crown, from, -axes[2], shade_map_cell_m, -1.0e9, hit)) continue;
+            if (!meets_crown(crown, from, -axes[2], shade_map_cell_m, -1.0e9, no_hit, hit)) continue;
             float towards_m = foot.towards_m - hit.depth_m + shade_map_base_m;
             if (towards_m > 0.0) atomicMax(Words(GROWTH.shade_map).at[uint(y) * shade_map_side + uint(x)], floatBitsToUint(towards_m));
         }

@@ -128,6 +128,13 @@ Crown crown_at(vec3 view, uint hash, uint stands) {
     return crown;
 }
 
+// Stems end among leaves. They are drawn where a pixel covers less than this.
+const float stem_least_px_m = 0.25;
+float stem_m(Crown crown) { return crown.low_m + 0.3 * (crown.high_m - crown.low_m); }
+float stem_radius_m(Crown crown) { return 0.011 * crown.high_m; }
+// Rays through pixels begin so many metres before the eye.
+const float ray_begin_m = 0.3;
+
 // What stands on a site of the frame; false for nothing.
 bool crown_of_site(uint tile_number, uint site, out Crown crown) {
     uint stands = Words(GROWTH.sites).at[tile_number * sites_per_tile + site];
@@ -167,7 +174,6 @@ ivec4 pixels_around(vec3 foot, vec3 top, float radius_m) {
     ivec4 box = ivec4(ivec2(clamp(floor(first), vec2(-1.0), end)), ivec2(clamp(floor(last), vec2(-1.0), end)));
     return ivec4(max(box.xy, ivec2(0)), min(box.zw, ivec2(end) - 1));
 }
-ivec4 pixels_of_crown(Crown crown) { return pixels_around(crown.foot, crown.foot + crown.high_m * crown.axes[2], crown.radius_m); }
 bool is_empty(ivec4 box) { return box.x > box.z || box.y > box.w; }
 // No part of a crown has a larger depth than this, of the frame's: near_m over metres.
 float nearest_depth(vec3 foot, vec3 top, float radius_m) { return FRAME.near_m / max(min(-foot.z, -top.z) - radius_m, 0.01) * 1.0001; }

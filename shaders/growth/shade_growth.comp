@@ -113,7 +113,7 @@ void shade(ivec2 pixel) {
     vec3 ray = ray_of_pixel(pixel);
     float pixel_m = pixel_m_at(crown.foot);
     CrownHit hit;
-    if (!hits_crown(crown, ray, pixel_m, hit)) {
+    if (!hits_crown(crown, ray, pixel_m, no_hit, hit)) {
         // Another program may round a rim otherwise.
         hit.depth_m = -(crown.foot.z + 0.6 * crown.high_m * crown.axes[2].z);
         hit.at = vec3(0.0, 0.0, 0.6 * crown.high_m);
