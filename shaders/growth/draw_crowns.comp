@@ -44,14 +44,13 @@ shared uvec2 boxes[site_group];  // x | y << 16 of their first pixel, pixels acr
 shared float begins_m[site_group];
 shared uint ids[site_group];
 shared uint numbers[site_group];  // of those that cover many pixels, in the list of these
+shared uint stays[site_group];    // 1: drawn by this workgroup
 shared uint ends[site_group];     // of its pieces, or pixels, among those of all crowns
 shared uint large_count;
 shared uint first_large;
 shared uint found_count;
 shared uint first_found;
 shared uint steps[crown_step_count];
-
-const uint is_small = 0xffffffffu;
 
 CrownPixels pixels_at(uint at) {
     ivec2 first = ivec2(boxes[at].x & 0xffffu, boxes[at].x >> 16), size = ivec2(boxes[at].y & 0xffffu, boxes[at].y >> 16);
@@ -72,7 +71,8 @@ void add_crown(uint tile, uint site) {
     boxes[at] = uvec2(box.x | box.y << 16, size.x | size.y << 16);
     begins_m[at] = begins;
     ids[at] = id_of_site(tile, site);
-    numbers[at] = size.x * size.y > alone_px ? atomicAdd(large_count, 1u) : is_small;
+    stays[at] = size.x * size.y > alone_px ? 0u : 1u;
+    if (stays[at] == 0u) numbers[at] = atomicAdd(large_count, 1u);
 }
 
 // From numbers of pieces, or pixels, to ends.
@@ -107,10 +107,10 @@ void list_large_crowns() {
     barrier();
     if (own >= crown_count) return;
     ends[own] = 0u;
-    if (numbers[own] == is_small) return;
+    if (stays[own] == 1u) return;
     numbers[own] += first_large;
     if (numbers[own] >= large_crown_max) {
-        numbers[own] = is_small;
+        stays[own] = 1u;
         return;
     }
     CrownPixels of = pixels_at(own);
@@ -118,53 +118,61 @@ void list_large_crowns() {
     ends[own] = piece_count_of(of.box);
 }
 
-// Of the pieces of this workgroup's crowns, the number that its invocation may draw; false for none.
-bool is_seen_piece(uint number, out uint at, out uint piece) {
-    at = crown_at_end(number);
-    piece = number - (at == 0u ? 0u : ends[at - 1u]);
-    CrownPixels of = pixels_at(at);
-    ivec4 box = piece_of(of.box, piece);
-    return !is_behind_ground(box, largest_depth(of)) && may_show_crown(crowns[at], box);
+// A piece of this workgroup's crowns.
+struct FoundPiece {
+    uint at;  // of its crown
+    uint number;
+};
+FoundPiece piece_at(uint number) {
+    uint at = crown_at_end(number);
+    return FoundPiece(at, number - (at == 0u ? 0u : ends[at - 1u]));
+}
+bool is_seen(FoundPiece piece) {
+    CrownPixels of = pixels_at(piece.at);
+    ivec4 box = piece_of(of.box, piece.number);
+    return !is_behind_ground(box, largest_depth(of)) && may_show_crown(crowns[piece.at], box);
 }
 
-void end_lists() {
+void lengthen_list() {
     ListsOfCrowns lists = ListsOfCrowns(GROWTH.lists);
+    first_found = atomicAdd(lists.at.piece_count, found_count);
     uint end = min(first_found + found_count, crown_piece_max);
     atomicMax(lists.at.piece_groups[0], min(end, groups_per_row));
     atomicMax(lists.at.piece_groups[1], (end + groups_per_row - 1u) / groups_per_row);
     atomicMax(lists.at.sort_groups[0], (end + sorted_by_group - 1u) / sorted_by_group);
 }
 
-// A crown whose pieces have no room in the list stays with this workgroup, too: who draws a pixel twice draws the same.
+// A crown some of whose pieces have no room in the list stays with this workgroup: who draws a pixel twice draws the same.
+void list_piece(FoundPiece piece, uint place) {
+    if (place >= crown_piece_max) {
+        stays[piece.at] = 1u;
+        return;
+    }
+    ListsOfCrowns(GROWTH.lists).at.found[place] = numbers[piece.at] << crown_piece_bits | piece.number;
+    atomicAdd(steps[step_at(begins_m[piece.at])], 1u);
+}
+
+// An invocation takes 32 pieces at a time, as many as a word has bits.
 void list_pieces() {
-    ListsOfCrowns lists = ListsOfCrowns(GROWTH.lists);
     uint own = gl_LocalInvocationIndex, count = sum_ends();
-    for (uint first = 0u; first < count; first += site_group) {
+    for (uint first = own; first - own < count; first += 32u * site_group) {
         if (own == 0u) found_count = 0u;
         barrier();
-        uint at, piece, place = 0u;
-        bool is_seen = first + own < count && is_seen_piece(first + own, at, piece);
-        if (is_seen) place = atomicAdd(found_count, 1u);
+        uint seen = 0u, place = 0u;
+        for (uint i = 0u; i < 32u && first + i * site_group < count; ++i) seen |= is_seen(piece_at(first + i * site_group)) ? 1u << i : 0u;
+        if (seen != 0u) place = atomicAdd(found_count, uint(bitCount(seen)));
         barrier();
-        if (own == 0u && found_count > 0u) {
-            first_found = atomicAdd(lists.at.piece_count, found_count);
-            end_lists();
-        }
+        if (own == 0u && found_count > 0u) lengthen_list();
         barrier();
-        if (is_seen && first_found + place < crown_piece_max) {
-            lists.at.found[first_found + place] = numbers[at] << crown_piece_bits | piece;
-            atomicAdd(steps[step_at(begins_m[at])], 1u);
-        }
-        barrier();
-        if (is_seen && first_found + place >= crown_piece_max) numbers[at] = is_small;
+        for (; seen != 0u; seen &= seen - 1u) list_piece(piece_at(first + uint(findLSB(seen)) * site_group), first_found + place++);
     }
     barrier();
-    if (own < crown_step_count && steps[own] > 0u) atomicAdd(lists.at.pieces_at[own], steps[own]);
+    if (own < crown_step_count && steps[own] > 0u) atomicAdd(ListsOfCrowns(GROWTH.lists).at.pieces_at[own], steps[own]);
 }
 
 void draw_crowns() {
     uint own = gl_LocalInvocationIndex;
-    if (own < crown_count) ends[own] = numbers[own] == is_small ? (boxes[own].y & 0xffffu) * (boxes[own].y >> 16) : 0u;
+    if (own < crown_count) ends[own] = stays[own] == 1u ? (boxes[own].y & 0xffffu) * (boxes[own].y >> 16) : 0u;
     uint count = sum_ends();
     for (uint pixel = own; pixel < count; pixel += site_group) {
         uint at = crown_at_end(pixel);
