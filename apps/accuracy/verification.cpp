@@ -129,7 +129,7 @@ std::string verification_text(const Verification& verification, const View& view
         "Displacement: how far each pixel's ground is drawn from where it truly is. " +
         counted(ground.drawn, "pixel", "pixels") +
         if_any(ground.beyond_data, " of them where there are no data") +
-        if_any(ground.between, " of them between grids") +
+        if_any(ground.between, " of them on meshes or between grids, which Seen and Skyline measure") +
         ".\n"
         "Surface: how far the drawn ground is from the true surface, wherever along it.\n"
         "Seen: how far away on the picture the truth has what is drawn; what is missing or should be hidden "

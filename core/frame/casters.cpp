@@ -238,7 +238,7 @@ ShadowRequest shadow_request(const gpu::FrameStyle& style) {
 Result<double> region_top_m(const RegionPages& pages) {
     const int top = pages.levels() - 1;
     if (pages.layout(top).count() == 0) return 0.0;
-    if (const std::optional<double> known_m = pages.known_top_m()) return *known_m;
+    if (const auto known = pages.known_heights()) return known->highest_h_m;
     ORO_TRY(const double top_m, top_of(pages, {0, 0, top}));
     return std::max(top_m, -1.0e5) + 1.0;
 }

@@ -17,6 +17,8 @@ HeightQuantization sixteen_bits(std::int32_t lowest_steps, std::int32_t highest_
 Result<HeightQuantization> height_quantization(const RegionPages& pages, HeightStorage storage) {
     if (storage != HeightStorage::i16)
         return HeightQuantization{false, 0, 0, storage == HeightStorage::packed};
+    if (const auto known = pages.known_heights())
+        return sixteen_bits(height_steps(known->lowest_h_m), height_steps(known->highest_h_m));
     double lowest_m = std::numeric_limits<double>::infinity(), highest_m = -lowest_m;
     const PageLayout layout = pages.layout(0);
     for (int row = 0; row < layout.rows; ++row) {

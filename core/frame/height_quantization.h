@@ -48,8 +48,9 @@ struct HeightQuantization {
 
 // The finest 16-bit coding that holds heights from lowest to highest (steps).
 HeightQuantization sixteen_bits(std::int32_t lowest_steps, std::int32_t highest_steps);
-// The coding for a region: of i16 the finest that holds all heights of triangles at full resolution. Asks for
-// the record of every page of level 0. Errors: a file that cannot be read.
+// The coding for a region: of i16 the finest that holds all heights of triangles at full resolution, or all
+// that pages may have (known_heights()). Else asks for the record of every page of level 0. Errors: a file
+// that cannot be read.
 Result<HeightQuantization> height_quantization(const RegionPages& pages, HeightStorage storage);
 
 }  // namespace oro

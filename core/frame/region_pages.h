@@ -90,9 +90,12 @@ class RegionPages {
     virtual Result<void> load_words(const PageIndex& page, std::vector<std::uint32_t>& words) const;
     // Triangles of meshes among these, which cast shadows on all grids of a frame; null: there are none.
     [[nodiscard]] virtual const MeshCasters* mesh_casters() const { return nullptr; }
-    // Height above the ellipsoid that nothing of them is above, as drawn, where it is known without records
-    // that take long.
-    [[nodiscard]] virtual std::optional<double> known_top_m() const { return std::nullopt; }
+    // Heights above the ellipsoid that nothing of them is below or above, as drawn, where these are known
+    // without records that take long.
+    struct HeightBounds {
+        double lowest_h_m{}, highest_h_m{};
+    };
+    [[nodiscard]] virtual std::optional<HeightBounds> known_heights() const { return std::nullopt; }
     // What casters need to be for shadows in all pictures that the pages are for, where these and their light
     // were known beforehand; others are not measured. Null: any picture may be planned.
     [[nodiscard]] virtual const CastMap* cast_map() const { return nullptr; }

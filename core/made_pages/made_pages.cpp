@@ -117,7 +117,9 @@ class MadePages : public RegionPages {
     void make_posts_by(std::shared_ptr<MadePostMaker> maker) { region_.maker = std::move(maker); }
     [[nodiscard]] std::optional<PageBound> bound(const PageIndex& page) const override;
     // By the rule: to ask the records would be to measure all of a world.
-    [[nodiscard]] std::optional<double> known_top_m() const override { return highest_h_m_; }
+    [[nodiscard]] std::optional<HeightBounds> known_heights() const override {
+        return HeightBounds{lowest_h_m_, highest_h_m_};
+    }
     [[nodiscard]] const CastMap* cast_map() const override { return cast_map_ ? &*cast_map_ : nullptr; }
 
     [[nodiscard]] Result<PageRecord> record(const PageIndex& page) const override {
