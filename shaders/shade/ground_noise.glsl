@@ -21,6 +21,7 @@ GroundNoise ground_noise(vec3 view, float foot_m, float least) {
     vec3 at = (view * FRAME.view_from_ecef) / FRAME.noise[0].cell_m;
     GroundNoise noise = GroundNoise(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     vec2 left = vec2(1.0);  // variance
+    bool are_drawn = (FRAME.style.materials.on & materials_with_trees) != 0u;
     for (uint i = 0u; i < noise_octaves; ++i) {
         // From two to three pixels long it fades in.
         float kept = min(FRAME.noise[i].cell_m / foot_m - 2.0, 1.0);
@@ -34,7 +35,9 @@ GroundNoise ground_noise(vec3 view, float foot_m, float least) {
         left -= 0.1603 * kept * kept * vec2(border * border, patches * patches);
         // Of the one kind where it moves no border much, so that grain and borders have nothing in common.
         noise.grain += FRAME.noise[i].grain * both.y;
-        vec2 crowns = both * min(inversesqrt(FRAME.noise[i].cell_m / crown_m), 1.0);
+        float crowns_wide = FRAME.noise[i].cell_m / crown_m;
+        // Where no trees are drawn a forest is a smooth canopy, also from near: what is smaller than crowns fades out.
+        vec2 crowns = both * (crowns_wide > 1.0 ? inversesqrt(crowns_wide) : are_drawn ? 1.0 : crowns_wide);
         noise.crowns += crowns.y;
         noise.tops += crowns.x;
         at = noise_lacunarity / 3.0 * vec3(2.0 * at.x - 2.0 * at.y + at.z, at.x + 2.0 * at.y + 2.0 * at.z, 2.0 * at.x + at.y - 2.0 * at.z);
