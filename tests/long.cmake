@@ -832,6 +832,10 @@ set_tests_properties(
   SurroundingsTest.SkirtIsNoGround
   SurroundingsTest.SmallVoidsShowALine
   SurroundingsTest.VoidsAreHatchedUpToTheRimOfTheRegion
+  TiledPictures.MirrorTheMeanOfSamples
+  TiledPictures.MirrorWhatOtherTilesShow
+  TiledPictures.OfTheLakeOfBrienzAreThoseOfOneTile
+  TiledPictures.RaiseForestsWhereTilesHaveNoTrees
   Town.LayersKnowFeatures
   Town.PickingNamesTheBuilding
   Town.SightPassesARoofsEdgeToACentimetre

@@ -217,6 +217,38 @@ std::vector<NearTile> tiles_around(const Geodetic& eye, double reach_m, const Ti
     return near;
 }
 
+// What a frame has of a grid.
+struct FramedGround {
+    const PostGrid& grid;
+    std::span<const PageIndex> page_indices;
+    const GroundRangeOf& of_page;
+    GroundRange all;  // of all its pages
+};
+
+// The tiles within reach that may show, at most so many, the nearest.
+std::vector<gpu::GrowthTile> tiles_in_view(const FramedGround& ground, const TilesInView& in_view,
+                                           const Geodetic& eye, double reach_m, std::size_t most) {
+    std::vector<gpu::GrowthTile> tiles;
+    const auto around = tiles_around(eye, reach_m, in_view, ground.all);
+    if (around.empty()) return tiles;
+    const CoveringPages pages(ground.page_indices);
+    const auto [lowest, highest] = std::ranges::minmax(around, {}, &NearTile::row);
+    std::vector<TileRow> rows;
+    for (std::uint32_t row = lowest.row; row <= highest.row; ++row)
+        rows.push_back(tile_row(ground.grid, row));
+    for (const NearTile& near : around) {
+        if (tiles.size() == most) break;
+        const TileRow& row = rows[near.row - lowest.row];
+        const auto tile = tile_on_grid(ground.grid, pages, row, near.row, near.column);
+        if (tile && in_view.may_show(row, near.column, ground.of_page(tile->page))) tiles.push_back(*tile);
+    }
+    return tiles;
+}
+
+bool is_whole_picture(const Camera& camera, const Tile& tile) {
+    return tile.width_px == camera.width_px && tile.height_px == camera.height_px;
+}
+
 }  // namespace
 
 GrowthPlan plan_growth(const PostGrid& grid, std::span<const PageIndex> page_indices,
@@ -225,24 +257,19 @@ GrowthPlan plan_growth(const PostGrid& grid, std::span<const PageIndex> page_ind
     const double pixels_per_tangent = 0.5 * view.camera.height_px / view.camera.half_fov_tangent().y;
     plan.reach_m = gpu::tree_reach_m(static_cast<float>(pixels_per_tangent), static_cast<float>(view.tau_px));
     if (page_indices.empty()) return plan;
-    const TilesInView in_view(view.camera, view.tile, view.exaggeration);
-    GroundRange all = ground(0);
+    FramedGround framed{grid, page_indices, ground, ground(0)};
     for (std::size_t i = 1; i < page_indices.size(); ++i) {
         const GroundRange one = ground(i);
-        all = {std::min(all.low_m, one.low_m), std::max(all.high_m, one.high_m)};
+        framed.all = {std::min(framed.all.low_m, one.low_m), std::max(framed.all.high_m, one.high_m)};
     }
-    const auto around = tiles_around(view.camera.eye, static_cast<double>(plan.reach_m), in_view, all);
-    if (around.empty()) return plan;
-    const CoveringPages pages(page_indices);
-    const auto [lowest, highest] = std::ranges::minmax(around, {}, &NearTile::row);
-    std::vector<TileRow> rows;
-    for (std::uint32_t row = lowest.row; row <= highest.row; ++row) rows.push_back(tile_row(grid, row));
-    for (const NearTile& near : around) {
-        if (plan.tiles.size() == gpu::growth_tiles_max) break;
-        const TileRow& row = rows[near.row - lowest.row];
-        const auto tile = tile_on_grid(grid, pages, row, near.row, near.column);
-        if (tile && in_view.may_show(row, near.column, ground(tile->page))) plan.tiles.push_back(*tile);
-    }
+    const auto seen = [&](const Tile& part, std::size_t most) {
+        return tiles_in_view(framed, TilesInView(view.camera, part, view.exaggeration), view.camera.eye,
+                             static_cast<double>(plan.reach_m), most);
+    };
+    plan.tiles = seen(view.tile, gpu::growth_tiles_max);
+    // Far forests rise, and water mirrors, where a picture has trees: in all of its tiles.
+    if (plan.tiles.empty() && !is_whole_picture(view.camera, view.tile))
+        plan.tiles = seen({0, 0, view.camera.width_px, view.camera.height_px}, 1);
     return plan;
 }
 

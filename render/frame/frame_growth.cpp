@@ -37,10 +37,50 @@ Result<void> FrameRenderer::reserve_growth(const FramePlan& plan) {
                           MemoryKind::device, "visibility");
 }
 
+Result<void> FrameRenderer::begin_tiled_picture(VkExtent2D size_px) {
+    // 384 MiB: all of a picture of 33 million pixels.
+    constexpr std::uint64_t most = std::uint64_t{1} << 25U;
+    const auto kept = [&](std::uint64_t step) {
+        return ((size_px.width + step - 1) / step) * ((size_px.height + step - 1) / step);
+    };
+    std::uint64_t step = 1;
+    while (kept(step) > most) ++step;
+    const VkDeviceSize bytes = kept(step) * sizeof(gpu::KeptOfPicture);
+    if (kept_picture_.size < bytes)
+        ORO_CHECK(replace_buffer(*gpu_, kept_picture_, bytes,
+                                 VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                     VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT,
+                                 MemoryKind::device, "a picture of several tiles"));
+    tiled_ = {};
+    tiled_.pixels = address_words(kept_picture_.address);
+    tiled_.width_px = size_px.width;
+    tiled_.height_px = size_px.height;
+    tiled_.step_px = static_cast<gpu::uint>(step);
+    return commands().run(*gpu_, [&](VkCommandBuffer commands) {
+        wait_for_earlier(commands);
+        vkCmdFillBuffer(commands, kept_picture_.handle.get(), 0, VK_WHOLE_SIZE, 0);
+        memory_barrier(commands, VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                       VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+    });
+}
+
+void FrameRenderer::keep_for_tiles(const VkRect2D& own) {
+    tiled_.own_x_px = static_cast<gpu::uint>(own.offset.x);
+    tiled_.own_y_px = static_cast<gpu::uint>(own.offset.y);
+    tiled_.own_width_px = own.extent.width;
+    tiled_.own_height_px = own.extent.height;
+}
+
 Result<void> FrameRenderer::choose_growth(GridFrame& grid, const GridPlan& plan) {
     const gpu::FrameConstants& constants = plan.constants;
-    const GrowthKind kind{grid.casters.has_shadows(), grid.casters.opens(),  grid.drape.is_on(),
-                          constants.has_means != 0,   options_.smooth_edges, canopy_.address};
+    const GrowthKind kind{grid.casters.has_shadows(),
+                          grid.casters.opens(),
+                          grid.drape.is_on(),
+                          constants.has_means != 0,
+                          options_.smooth_edges,
+                          canopy_.address,
+                          tiled_};
     const VkExtent2D culled = options_.occlusion == OcclusionUse::off ? VkExtent2D{} : options_.extent;
     ORO_CHECK(grid.growth.prepare(*gpu_, *pipelines_, plan.growth, kind, culled, slot_));
     return grid.meadow.prepare(*gpu_, *pipelines_, plan.meadow, kind, grid.growth, slot_);
@@ -101,13 +141,15 @@ void FrameRenderer::record_growth_pixels(VkCommandBuffer commands, const FramePl
         grid.bind(commands, *pipelines_, VK_PIPELINE_BIND_POINT_COMPUTE);
         (growth.*pixels)(commands, *pipelines_, plan.view.width_px(), plan.view.height_px());
     };
-    if (pass == GrowthPass::raise || pass == GrowthPass::mirror) {
+    if (pass == GrowthPass::raise || pass == GrowthPass::mirror || pass == GrowthPass::keep) {
         const auto grid = std::ranges::find_if(
             grids_.begin(), grids_.begin() + static_cast<std::ptrdiff_t>(plan.grids.size()),
             [](const GridFrame& one) { return one.growth.is_on(); });
         if (grid - grids_.begin() < static_cast<std::ptrdiff_t>(plan.grids.size()))
             record(*grid, grid->growth,
-                   pass == GrowthPass::raise ? &GrowthFrame::record_raise : &GrowthFrame::record_mirror);
+                   pass == GrowthPass::raise    ? &GrowthFrame::record_raise
+                   : pass == GrowthPass::mirror ? &GrowthFrame::record_mirror
+                                                : &GrowthFrame::record_keep);
         return;
     }
     const bool shades = pass == GrowthPass::shade;

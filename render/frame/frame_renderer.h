@@ -90,6 +90,13 @@ class FrameRenderer {
     // picture; trees and shadows are still looked for everywhere. Nothing: all of it.
     void colour_only(const std::optional<VkRect2D>& part) { part_ = part; }
 
+    // The next frames with trees are tiles of a picture of that size, until end_tiled_picture(): their water
+    // mirrors what tiles show that were drawn before (core/frame/tile_order.h). Errors: out of device memory.
+    Result<void> begin_tiled_picture(VkExtent2D size_px);
+    // Which part of the next frames no other tile draws, in the frame: that is kept for the tiles after it.
+    void keep_for_tiles(const VkRect2D& own);
+    void end_tiled_picture() { tiled_ = {}; }
+
     // Several frames under way: submit() begins one of one sample as draw() does and does not wait for it;
     // finish() waits for the one that was begun first. At most frames_in_flight may be under way, and none
     // where draw() or what reads a picture is called. All that is submitted to the device afterwards sees the
@@ -210,7 +217,7 @@ class FrameRenderer {
     Result<void> reserve_growth(const FramePlan& plan);
     Result<void> choose_growth(GridFrame& grid, const GridPlan& plan);
     void record_growth(VkCommandBuffer commands, const FramePlan& plan) const;
-    enum class GrowthPass { raise, shade, mirror, smooth };
+    enum class GrowthPass { raise, shade, mirror, keep, smooth };
     void record_growth_pixels(VkCommandBuffer commands, const FramePlan& plan, GrowthPass pass) const;
     void record_show(VkCommandBuffer commands, const FramePlan& plan) const;
     void dispatch_pixels(VkCommandBuffer commands, const FramePlan& plan) const;
@@ -238,9 +245,11 @@ class FrameRenderer {
     Image ids_, depth_, sum_, picture_;
     Buffer depths_;
     Buffer tiles_in_parts_;
-    Buffer visibility_;  // mesh path: FrameConstants::visibility of frames with trees
-    Buffer canopy_;      // GrowthTable::canopy
-    Buffer overdraw_;    // FrameConstants::overdraw, where it is shown
+    Buffer visibility_;          // mesh path: FrameConstants::visibility of frames with trees
+    Buffer canopy_;              // GrowthTable::canopy
+    Buffer kept_picture_;        // TiledPicture::pixels
+    gpu::TiledPicture tiled_{};  // all zero: frames are pictures of their own
+    Buffer overdraw_;            // FrameConstants::overdraw, where it is shown
     Buffer triangles_;
     Buffer counts_;  // on the device
     Buffer recorded_;

@@ -126,6 +126,7 @@ void FrameRenderer::record_shade(VkCommandBuffer commands, const FramePlan& plan
     record_growth_pixels(commands, plan, GrowthPass::shade);
     end_pass(commands, "colours of trees and grass");
     record_growth_pixels(commands, plan, GrowthPass::mirror);
+    if (tiled_.step_px > 0) record_growth_pixels(commands, plan, GrowthPass::keep);
     end_pass(commands, "mirrors");
     for (std::size_t i = 0; options_.smooth_edges && i < plan.grids.size(); ++i) pass(grids_[i], edges_);
     end_pass(commands, "edges of the ground");

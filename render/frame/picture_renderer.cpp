@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/frame/tile_order.h"
 #include "core/growth/growth_plan.h"
 #include "render/frame/settled_frame.h"
 
@@ -14,14 +15,31 @@ constexpr int preferred_tile_px = 4096;
 // Around a tile of a picture of one sample: an edge depends on the next pixel (shaders/shade/edges.comp).
 // Light depends on the shadows in the next pixel (shaders/cast/cast_on.glsl), and those on shadows 3 px away
 // (shaders/cast/shares.comp). Multiples of 4, so that shadows are looked for in the same pixels first.
-// Far forests reach up into pixels above them (shaders/growth/raise_canopy.comp).
-int margin_of(const gpu::FrameStyle& style, const Camera& camera, const PictureOptions& options) {
+// Far forests reach up into pixels above them (shaders/growth/raise_canopy.comp), the farther the more their
+// ground is exaggerated.
+int margin_of(const gpu::FrameStyle& style, const Camera& camera, const PictureOptions& options,
+              double exaggeration) {
     constexpr int edges_px = 4, shadows_px = 8;
     int margin_px = 0;
     if (options.samples == 1)
         margin_px = style.shadows != 0 ? shadows_px : style.smooth_edges != 0 ? edges_px : 0;
     if ((style.materials.on & gpu::materials_with_trees) == 0) return margin_px;
-    return std::max(margin_px, (canopy_rise_px(camera, options.tau_px) + 3) / 4 * 4);
+    const double rise_px = std::ceil(std::max(exaggeration, 1.0) * canopy_rise_px(camera, options.tau_px));
+    const int most_px = std::min(static_cast<int>(gpu::canopy_search_px), static_cast<int>(rise_px));
+    return std::max(margin_px, (most_px + 3) / 4 * 4);
+}
+
+double exaggeration_of(Scene& scene) {
+    double most = 1.0;
+    for (const GridScene& grid : scene.grids())
+        most = std::max(most, grid.pages().facts().shape.exaggeration);
+    return most;
+}
+
+// Whether water mirrors what other tiles show.
+bool mirrors_tiles(const gpu::FrameStyle& style, const PictureOptions& options) {
+    return (style.materials.on & gpu::materials_with_trees) != 0 && style.water.on != 0 &&
+           options.show == gpu::show_colours && (!options.keep_depths || options.depths_of_growth);
 }
 
 // What a tile draws: counted once, not for each sample.
@@ -137,6 +155,10 @@ VkRect2D rectangle_in(const Tile& tile, const Tile& part) {
             {static_cast<std::uint32_t>(part.width_px), static_cast<std::uint32_t>(part.height_px)}};
 }
 
+VkExtent2D extent_of(const Camera& camera) {
+    return {static_cast<std::uint32_t>(camera.width_px), static_cast<std::uint32_t>(camera.height_px)};
+}
+
 // A tile with its margin, as far as the picture goes.
 Tile with_margin(const Tile& own, int margin_px, const Camera& camera) {
     Tile drawn = own;
@@ -228,6 +250,22 @@ Result<std::uint32_t> PictureRenderer::near_tree_pixels(const Tile& drawn, const
     return count;
 }
 
+// What a tile shows that is drawn, of the part that is its own.
+Result<std::vector<std::uint8_t>> PictureRenderer::read_own(const Tile& drawn, const Tile& own,
+                                                            int picture_width, PictureReport& report) {
+    ORO_TRY(const std::vector<std::uint8_t> pixels,
+            renderer_.read_picture(static_cast<std::uint32_t>(drawn.width_px),
+                                   static_cast<std::uint32_t>(drawn.height_px)));
+    if (options_.keep_depths) ORO_CHECK(keep_depths(drawn, own, picture_width));
+    if (options_.counts_near_trees) {
+        ORO_TRY(const std::uint32_t near_px, near_tree_pixels(drawn, own));
+        report.near_tree_px += near_px;
+    }
+    std::vector<std::uint8_t> rgba = inner_pixels(pixels, drawn, own);
+    report.ground_px += ground_pixels(rgba);
+    return rgba;
+}
+
 Result<PictureReport> PictureRenderer::draw(Scene& scene, const Camera& camera, const gpu::FrameStyle& style,
                                             const RowSink& sink, const RenderProgress& progress) {
     return draw_part(scene, camera, {0, 0, camera.width_px, camera.height_px}, style, sink, progress);
@@ -238,10 +276,15 @@ Result<PictureReport> PictureRenderer::draw_part(Scene& scene, const Camera& cam
                                                  const RenderProgress& progress) {
     int tile_width = static_cast<int>(renderer_.extent().width);
     int tile_height = static_cast<int>(renderer_.extent().height);
-    const int margin_px = margin_of(style, camera, options_);
+    const int margin_px = margin_of(style, camera, options_, exaggeration_of(scene));
     if (tile_width < camera.width_px) tile_width -= 2 * margin_px;
     if (tile_height < camera.height_px) tile_height -= 2 * margin_px;
     assert(tile_width > 0 && tile_height > 0);
+    const bool mirrors =
+        (tile_width < camera.width_px || tile_height < camera.height_px) && mirrors_tiles(style, options_);
+    renderer_.end_tiled_picture();
+    if (mirrors) ORO_CHECK(renderer_.begin_tiled_picture(extent_of(camera)));
+    const std::vector<int> columns = columns_by_uprights(camera, tile_width);
 
     scene.require_fields(style);
     PictureReport report;
@@ -254,27 +297,23 @@ Result<PictureReport> PictureRenderer::draw_part(Scene& scene, const Camera& cam
     for (int y = 0; y < camera.height_px; y += tile_height) {
         const int height_px = std::min(tile_height, camera.height_px - y);
         int rows = 0;
-        for (int x = 0; x < camera.width_px; x += tile_width) {
+        for (const int x : columns) {
             const Tile tile{x, y, std::min(tile_width, camera.width_px - x), height_px};
             const Tile own = common_to(tile, part);
-            if (own.width_px <= 0 || own.height_px <= 0) continue;
-            rows = own.height_px;
+            const bool is_asked = own.width_px > 0 && own.height_px > 0;
+            // Water in the part mirrors what is above it.
+            if (!is_asked && !(mirrors && y < part.y_px + part.height_px)) continue;
             const Tile drawn = with_margin(tile, margin_px, camera);
-            if (own.width_px < tile.width_px || own.height_px < tile.height_px)
+            if (mirrors)
+                renderer_.keep_for_tiles(rectangle_in(drawn, tile));
+            else if (own.width_px < tile.width_px || own.height_px < tile.height_px)
                 renderer_.colour_only(rectangle_in(drawn, own));
             const Result<void> done = draw_tile(scene, camera, style, options_, drawn, renderer_, report);
             renderer_.colour_only({});
             ORO_CHECK(done);
-            ORO_TRY(const std::vector<std::uint8_t> pixels,
-                    renderer_.read_picture(static_cast<std::uint32_t>(drawn.width_px),
-                                           static_cast<std::uint32_t>(drawn.height_px)));
-            if (options_.keep_depths) ORO_CHECK(keep_depths(drawn, own, camera.width_px));
-            if (options_.counts_near_trees) {
-                ORO_TRY(const std::uint32_t near_px, near_tree_pixels(drawn, own));
-                report.near_tree_px += near_px;
-            }
-            const std::vector<std::uint8_t> rgba = inner_pixels(pixels, drawn, own);
-            report.ground_px += ground_pixels(rgba);
+            if (!is_asked) continue;
+            rows = own.height_px;
+            ORO_TRY(const std::vector<std::uint8_t> rgba, read_own(drawn, own, camera.width_px, report));
             copy_rgb(rgba, {own.x_px - part.x_px, 0, own.width_px, own.height_px}, part.width_px, band);
         }
         for (int i = 0; i < rows; ++i) {

@@ -78,6 +78,8 @@ class PictureRenderer {
   private:
     Result<void> keep_depths(const Tile& drawn, const Tile& own, int picture_width);
     Result<std::uint32_t> near_tree_pixels(const Tile& drawn, const Tile& own);
+    Result<std::vector<std::uint8_t>> read_own(const Tile& drawn, const Tile& own, int picture_width,
+                                               PictureReport& report);
     PictureRenderer(const PictureOptions& options, FrameRenderer renderer)
         : options_(options), renderer_(std::move(renderer)) {}
     PictureOptions options_;

@@ -8,6 +8,7 @@
 #include "spirv/draw_shade_map_comp.h"
 #include "spirv/farthest_depths_comp.h"
 #include "spirv/grow_sites_comp.h"
+#include "spirv/keep_for_tiles_comp.h"
 #include "spirv/keep_ids_comp.h"
 #include "spirv/list_sites_comp.h"
 #include "spirv/mirror_in_water_comp.h"
@@ -20,7 +21,9 @@
 namespace oro {
 namespace {
 
-constexpr VkDeviceSize tiles_at = (sizeof(gpu::GrowthTable) + 15) / 16 * 16;
+// growth/picture_kept.glsl has the picture right behind the table.
+constexpr VkDeviceSize picture_at = sizeof(gpu::GrowthTable);
+constexpr VkDeviceSize tiles_at = (picture_at + sizeof(gpu::TiledPicture) + 15) / 16 * 16;
 
 std::size_t number_of(const GrowthKind& kind) {
     return (kind.casts ? 1U : 0U) + (kind.opens ? 2U : 0U) + (kind.draped ? 4U : 0U) +
@@ -134,8 +137,14 @@ Result<void> GrowthFrame::choose_changes(const Gpu& gpu, Pipelines& pipelines, c
     if (!mirror) {
         ORO_TRY(mirror, create_growth_pipeline(gpu, pipelines, mirror_in_water_comp_spirv, "mirrors", kind));
     }
+    const bool is_tile = kind.picture.step_px > 0;
+    if (is_tile && !pipelines.keep_for_tiles) {
+        ORO_TRY(pipelines.keep_for_tiles,
+                create_compute_pipeline(gpu, pipelines, keep_for_tiles_comp_spirv, "pixels for other tiles"));
+    }
     raise_ = raise.get();
     mirror_ = mirror.get();
+    keep_ = is_tile ? pipelines.keep_for_tiles.get() : VK_NULL_HANDLE;
     return {};
 }
 
@@ -153,6 +162,7 @@ void GrowthFrame::write_table(const GrowthPlan& plan, const GrowthKind& kind) {
     table.first_page = plan.first_page;
     table.reach_m = plan.reach_m;
     std::memcpy(tables_[slot_].mapped, &table, sizeof(table));
+    std::memcpy(tables_[slot_].mapped + picture_at, &kind.picture, sizeof(kind.picture));
     std::memcpy(tables_[slot_].mapped + tiles_at, plan.tiles.data(), tiles_ * sizeof(gpu::GrowthTile));
 }
 

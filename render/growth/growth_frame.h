@@ -9,17 +9,19 @@
 #include "render/device/pass_times.h"
 #include "render/device/resources.h"
 #include "render/pipelines/pipelines.h"
+#include "shaders/growth/shared_picture.h"
 
 namespace oro {
 
 // What of a frame decides which programs it takes.
 struct GrowthKind {
-    bool casts{};              // terrain casts shadows
-    bool opens{};              // the sky's light is that of the part of the sky that is seen
-    bool draped{};             // land cover lies over the ground
-    bool by_means{};           // pages have means
-    bool edges_follow{};       // the picture is left to `edges`
-    VkDeviceAddress canopy{};  // GrowthTable::canopy
+    bool casts{};                 // terrain casts shadows
+    bool opens{};                 // the sky's light is that of the part of the sky that is seen
+    bool draped{};                // land cover lies over the ground
+    bool by_means{};              // pages have means
+    bool edges_follow{};          // the picture is left to `edges`
+    VkDeviceAddress canopy{};     // GrowthTable::canopy
+    gpu::TiledPicture picture{};  // all zero: the frame is a picture of its own
 };
 
 class GrowthFrame {
@@ -58,6 +60,11 @@ class GrowthFrame {
                       gpu::uint height_px) const {
         record_pixels(commands, pipelines, raise_, width_px, height_px);
     }
+    // Of a tile of a picture: keeps what it shows for the tiles after it.
+    void record_keep(VkCommandBuffer commands, const Pipelines& pipelines, gpu::uint width_px,
+                     gpu::uint height_px) const {
+        if (keep_ != VK_NULL_HANDLE) record_pixels(commands, pipelines, keep_, width_px, height_px);
+    }
     void record_smooth(VkCommandBuffer commands, const Pipelines& pipelines, gpu::uint width_px,
                        gpu::uint height_px) const {
         if (smooth_ != VK_NULL_HANDLE) record_pixels(commands, pipelines, smooth_, width_px, height_px);
@@ -71,7 +78,7 @@ class GrowthFrame {
     void record_pixels(VkCommandBuffer commands, const Pipelines& pipelines, VkPipeline pipeline,
                        gpu::uint width_px, gpu::uint height_px) const;
 
-    std::array<Buffer, frames_in_flight> tables_;  // GrowthTable, then its tiles
+    std::array<Buffer, frames_in_flight> tables_;  // GrowthTable, TiledPicture, then its tiles
     Buffer sites_;
     Buffer shade_map_;  // GrowthTable::shade_map, where terrain casts shadows
     Buffer lists_;      // CrownLists
@@ -80,7 +87,7 @@ class GrowthFrame {
     std::size_t slot_{};
     gpu::uint tiles_{};
     VkPipeline grow_{VK_NULL_HANDLE}, map_{VK_NULL_HANDLE}, shade_{VK_NULL_HANDLE}, smooth_{VK_NULL_HANDLE},
-        raise_{VK_NULL_HANDLE}, mirror_{VK_NULL_HANDLE};
+        raise_{VK_NULL_HANDLE}, mirror_{VK_NULL_HANDLE}, keep_{VK_NULL_HANDLE};
 };
 
 // Mesh path: its images into a visibility buffer, and the ids back, around what draws trees. The images are

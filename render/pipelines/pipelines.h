@@ -99,8 +99,9 @@ struct Pipelines {
     OwnedPipeline list_sites, draw_crowns, sort_pieces, draw_large_crowns, draw_shade_map, farthest_depths,
         smooth_crowns;
     OwnedPipeline seed_visibility, keep_ids;
-    // Forests farther than their trees, and what water mirrors; by edges_follow.
+    // Forests farther than their trees, and what water mirrors; by edges_follow. What tiles keep for others.
     std::array<OwnedPipeline, 2> raise_canopy, mirror_in_water;
+    OwnedPipeline keep_for_tiles;
     // Of frames with grass, likewise; shade_meadow by edges_follow.
     std::map<std::size_t, OwnedPipeline> grow_meadow;
     OwnedPipeline draw_meadow, smooth_meadow;

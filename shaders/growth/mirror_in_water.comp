@@ -1,6 +1,7 @@
 #version 460
 // Mirrors in water what stands beyond it, in a picture whose pixels are coloured: from a pixel of water the mirrored line of sight is followed
 // over the picture to where it goes behind what that shows. What is not in the picture is not mirrored; water has the sky there (water.glsl).
+// A picture of several tiles is followed over those that were drawn before, which are all that a line can meet (core/frame/tile_order.h).
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/place/frame.glsl"
 #include "shaders/growth/growth_table.glsl"
@@ -11,6 +12,7 @@ const bool in_air = true;
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 5) const bool edges_follow = false;  // edges.comp mixes what is in `sum`
 #include "shaders/growth/kept_colour.glsl"
+#include "shaders/growth/picture_kept.glsl"
 
 const int line_steps = 56;
 const float first_step = 0.004, longer = 1.12, line_most_m = 40000.0;  // of the water's distance; each of the one before
@@ -21,13 +23,12 @@ vec2 place_on_picture(vec3 view) {
 }
 bool is_on_picture(vec3 view, out ivec2 pixel) {
     if (-view.z < 1.0) return false;
-    vec2 at = place_on_picture(view);
-    pixel = ivec2(floor(at));
-    return all(greaterThanEqual(at, vec2(0.0))) && all(lessThan(pixel, ivec2(FRAME.width_px, FRAME.height_px)));
+    pixel = ivec2(floor(clamp(place_on_picture(view), vec2(-1.0e6), vec2(1.0e6))));
+    return is_within(pixel + first_of_frame(), size_of_picture());
 }
 // How far behind what its pixel shows a place is, metres along the view's axis; negative: before it.
 float behind_m(vec3 view, ivec2 pixel) {
-    float depth = depth_in(pixel);
+    float depth = depth_anywhere(pixel);
     return depth == 0.0 ? -1.0 : -view.z - FRAME.near_m / depth;
 }
 
@@ -47,11 +48,12 @@ vec4 met_by(vec3 from, vec3 along, float begin_m) {
                     pixel = middle;
                 } else before_m = middle_m;
             }
-            vec4 there = kept_at(pixel);
+            vec4 there = kept_anywhere(pixel);
             if (there.w == 0.0) return vec4(0.0);
             if (there.w > 0.0) {
-                vec2 edge = min(vec2(pixel), vec2(FRAME.width_px, FRAME.height_px) - vec2(pixel)) / (0.06 * float(FRAME.height_px));
-                return vec4(there.rgb, clamp(min(edge.x, edge.y), 0.0, 1.0));
+                ivec2 on = pixel + first_of_frame(), size = size_of_picture();
+                vec2 edge = vec2(min(on, size - on)) / (0.06 * float(size.y));
+                return vec4(there.rgb, min(there.w, 1.0) * clamp(min(edge.x, edge.y), 0.0, 1.0));
             }
         }
         before_m = at_m;

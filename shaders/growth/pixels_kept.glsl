@@ -7,7 +7,5 @@ uint number_of(ivec2 pixel) { return uint(pixel.y) * FRAME.width_px + uint(pixel
 uvec2 kept_pixel(vec3 colour, float canopy_m, float water) {
     return uvec2(packHalf2x16(colour.rg), packHalf2x16(vec2(colour.b, water > 0.01 ? -water : 1.0 + canopy_m)));
 }
-vec4 kept_at(ivec2 pixel) {
-    uvec2 halves = KeptPixels(GROWTH.canopy).at[number_of(pixel)];
-    return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y));
-}
+vec4 colour_of_kept(uvec2 halves) { return vec4(unpackHalf2x16(halves.x), unpackHalf2x16(halves.y)); }
+vec4 kept_at(ivec2 pixel) { return colour_of_kept(KeptPixels(GROWTH.canopy).at[number_of(pixel)]); }
