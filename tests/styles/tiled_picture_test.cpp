@@ -22,10 +22,10 @@ class TiledPictures : public test::StyleTest {
 
     // H by metres north of the middle; square cells.
     template <typename HeightAt>
-    static Region made_region(int posts, double post_m, const HeightAt& H_m) {
+    static Region made_region(int posts, double cell_m, const HeightAt& H_m) {
         Region region{std::vector<RegionGrid>(1)};
         region.grids[0].field = test::square_field(
-            46.5, 8.0, post_m, posts, [&](int row, int) { return H_m(post_m * (posts / 2 - row)); });
+            46.5, 8.0, cell_m, posts, [&](int row, int) { return H_m(cell_m * (posts / 2 - row)); });
         return region;
     }
     // A lake, and 900 m north of the middle a wall of 240 m.
@@ -127,8 +127,8 @@ TEST_F(TiledPictures, MirrorWhatOtherTilesShow) {
     }
 }
 
-// Of several samples other tiles have kept the mean colour and the nearest depth: outlines of what is mirrored
-// may differ.
+// Of several samples other tiles have kept the mean colour and the nearest depth: outlines of what is
+// mirrored may differ.
 TEST_F(TiledPictures, MirrorTheMeanOfSamples) {
     const Region region = lake_and_wall();
     const gpu::FrameStyle style = natural_style(region, {180.0, 50.0});
