@@ -71,9 +71,9 @@ struct LargeCrown {
 };
 // Work that is spread over more invocations than one a tree: pieces of crowns that cover many pixels, of 32 x 32, and trees whose shadow may
 // be seen. A site here is its number in its tile and 4096 times that of the tile. A piece is its number in its crown's box of pixels, and
-// 2^14 times that of the crown; pieces of near crowns come first.
+// 2^15 times that of the crown; pieces of near crowns come first.
 ORO_CONST uint crown_piece_px = 32u;
-ORO_CONST uint crown_piece_bits = 14u;
+ORO_CONST uint crown_piece_bits = 15u;
 ORO_CONST uint crown_piece_max = 524288u;
 ORO_CONST uint large_crown_max = 131072u;
 ORO_CONST uint crown_list_max = 65535u;

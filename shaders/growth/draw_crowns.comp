@@ -71,7 +71,8 @@ void add_crown(uint tile, uint site) {
     boxes[at] = uvec2(box.x | box.y << 16, size.x | size.y << 16);
     begins_m[at] = begins;
     ids[at] = id_of_site(tile, site);
-    stays[at] = size.x * size.y > alone_px ? 0u : 1u;
+    // Of a picture so large that a number has no room for a piece's none is made.
+    stays[at] = size.x * size.y > alone_px && piece_count_of(box) <= 1u << crown_piece_bits ? 0u : 1u;
     if (stays[at] == 0u) numbers[at] = atomicAdd(large_count, 1u);
 }
 
