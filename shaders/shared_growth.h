@@ -77,7 +77,7 @@ ORO_CONST uint crown_piece_bits = 15u;
 ORO_CONST uint crown_piece_max = 524288u;
 ORO_CONST uint large_crown_max = 131072u;
 ORO_CONST uint crown_list_max = 65535u;
-ORO_CONST uint crown_step_count = 64u;  // steps of distance, four where it doubles
+ORO_CONST uint crown_step_count = 64u;  // steps of distance (crown_steps.glsl)
 ORO_CONST uint sorted_by_group = 2048u;  // pieces that a workgroup of sort_pieces.comp takes
 struct CrownLists {
     uint piece_groups[3];  // of an indirect dispatch: pieces, folded into rows
