@@ -412,6 +412,8 @@ set_tests_properties(
   SkyBands.AreBrokenUpByDither
   StreamedMeshes.AreMeasuredAsTheWholeMeshIs
   StreamedMeshes.ThatLieAreRefused
+  StreamedTown.IsDrawnAsTheWholeMeshIsInOtherWays
+  StreamedTown.WhoseGroundLiesIsRefusedOrReadWhole
   SunCommand.NightIsNotHiddenByTerrain
   SunCommand.OverTerrain
   SunOfAShot.AViewTakesAnother

@@ -57,7 +57,7 @@ Result<void> check_baked_meshes(const Region& region) {
     ORO_TRY(const std::shared_ptr<const Container> container, Container::open(grid.file->path()));
     std::uint32_t number = 0;
     for (const PlacedMesh& mesh : *region.meshes)
-        if (mesh.stored()) ORO_CHECK(check_streamed_mesh(*container, number++, mesh));
+        if (mesh.stored()) ORO_CHECK(check_streamed_mesh(*container, number++, mesh, region));
     return {};
 }
 

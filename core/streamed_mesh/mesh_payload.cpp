@@ -6,6 +6,7 @@
 
 #include "core/cluster_file/number_code.h"
 #include "core/mesh_file/open_sides.h"
+#include "core/streamed_mesh/place_code.h"
 
 namespace oro {
 namespace {
@@ -19,7 +20,7 @@ template <class Coder>
 class PayloadCode {
   public:
     PayloadCode(Coder& coder, const PayloadShape& shape, const MeshPayload* source, MeshPayload& payload)
-        : coder_(coder), shape_(shape), source_(source), payload_(payload) {}
+        : coder_(coder), shape_(shape), source_(source), payload_(payload), beside_(coder, shape.least) {}
 
     // False where a decoder's bytes tell none.
     bool code() {
@@ -48,8 +49,9 @@ class PayloadCode {
     [[nodiscard]] Hanging hanging(const Corners& corners) const;
     std::uint32_t vertex(std::span<const std::uint32_t> known, std::uint32_t value, const Side* side);
     void place(const Side* side, std::uint32_t value);
+    bool place_in_town(std::span<const std::uint32_t> known, const Side* side, std::uint32_t value);
     void colour(std::uint32_t value);
-    void label(const Side* side);
+    bool label(const Side* side);
     void add(const Corners& corners, std::uint32_t label);
 
     Coder& coder_;
@@ -62,6 +64,10 @@ class PayloadCode {
     SmallNumber rank_, which_end_;
     FewNumbers first_;
     AdaptiveBit turned_, same_label_, has_colour_;
+    // Of a town alone.
+    PlaceCode<Coder> beside_;
+    AdaptiveBit hangs_;
+    NearZero label_away_;
     std::array<AdaptiveBit, 2> is_new_;
     std::array<AdaptiveBit, 4> is_end_;
     std::array<std::array<NearZero, 3>, 2> away_;
@@ -103,6 +109,22 @@ void PayloadCode<Coder>::place(const Side* side, std::uint32_t value) {
     payload_.places.push_back(at);
 }
 
+template <class Coder>
+bool PayloadCode<Coder>::place_in_town(std::span<const std::uint32_t> known, const Side* side,
+                                       std::uint32_t value) {
+    typename PlaceCode<Coder>::Known there;
+    for (const std::uint32_t one : known) there.corners[there.count++] = payload_.places[one];
+    there.last = payload_.places.empty() ? shape_.least : payload_.places.back();
+    there.hangs = side != nullptr;
+    if (side != nullptr) there.third = payload_.places[side->third];
+    LatticeSteps place{};
+    if constexpr (Coder::writes) place = source_->places[value];
+    LatticeSteps at{};
+    if (!beside_.code(there, place, at)) return false;
+    payload_.places.push_back(at);
+    return true;
+}
+
 // Of a new vertex, beside the last one's.
 template <class Coder>
 void PayloadCode<Coder>::colour(std::uint32_t value) {
@@ -131,7 +153,10 @@ std::uint32_t PayloadCode<Coder>::vertex(std::span<const std::uint32_t> known, s
     if (!is_new) is_new = coder_.bit(is_new_[side != nullptr ? 1 : 0], value == next);
     if (is_new) {
         if (next > std::numeric_limits<std::uint16_t>::max()) return no_vertex;
-        place(side, value);
+        if (!shape_.is_town)
+            place(side, value);
+        else if (!place_in_town(known, side, value))
+            return no_vertex;
         if (shape_.has_colours) colour(value);
         return next;
     }
@@ -152,17 +177,21 @@ std::uint32_t PayloadCode<Coder>::vertex(std::span<const std::uint32_t> known, s
 }
 
 template <class Coder>
-void PayloadCode<Coder>::label(const Side* side) {
-    if (shape_.label_count == 0) return;
+bool PayloadCode<Coder>::label(const Side* side) {
+    if (shape_.label_count == 0) return true;
     std::uint32_t value = 0;
     if constexpr (Coder::writes) value = source_->labels[payload_.labels.size()];
     const bool is_first = payload_.labels.empty();
     const std::uint32_t near = side != nullptr ? side->label : is_first ? 0 : payload_.labels.back();
-    if (is_first || !coder_.bit(same_label_, value == near))
-        value = coder_.uniform(shape_.label_count, value);
-    else
+    if (!is_first && coder_.bit(same_label_, value == near))
         value = near;
+    else if (shape_.is_town && !is_first)
+        value = near +
+                static_cast<std::uint32_t>(label_away_.code(coder_, static_cast<std::int32_t>(value - near)));
+    else
+        value = coder_.uniform(shape_.label_count, value);
     payload_.labels.push_back(value);
+    return value < shape_.label_count;
 }
 
 // Its sides are open, but for those that are open already: these are closed.
@@ -180,6 +209,9 @@ void PayloadCode<Coder>::add(const Corners& corners, std::uint32_t label) {
             open_.push_back({from, to, corners[(i + 2) % 3], label});
     }
     sides_of_all_.add(corners);
+    if (shape_.is_town)
+        beside_.add_triangle(
+            {payload_.places[corners[0]], payload_.places[corners[1]], payload_.places[corners[2]]});
 }
 
 template <class Coder>
@@ -192,8 +224,11 @@ bool PayloadCode<Coder>::triangle() {
         at = hanging(there);
     }
     const std::size_t count = sides_in_reach();
-    // 0 is the last side; that there is none comes behind all.
-    if (count > 0) at.rank = rank_.code(coder_, static_cast<std::uint32_t>(at.rank));
+    // 0 is the last side; that there is none comes behind all, or is told before.
+    if (count > 0 && shape_.is_town && !coder_.bit(hangs_, at.rank < count))
+        at.rank = count;
+    else if (count > 0)
+        at.rank = rank_.code(coder_, static_cast<std::uint32_t>(at.rank));
     if (at.rank > count) return false;
     Corners corners{no_vertex, no_vertex, no_vertex};
     std::optional<Side> side;
@@ -214,7 +249,7 @@ bool PayloadCode<Coder>::triangle() {
     }
     for (std::size_t i = 0; i < 3; ++i)
         if (corners[i] == no_vertex || corners[i] == corners[(i + 1) % 3]) return false;
-    label(side ? &*side : nullptr);
+    if (!label(side ? &*side : nullptr)) return false;
     add(corners, payload_.labels.empty() ? 0 : payload_.labels.back());
     payload_.triangles.push_back({static_cast<std::uint16_t>(corners[0]),
                                   static_cast<std::uint16_t>(corners[1]),

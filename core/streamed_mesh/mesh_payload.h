@@ -33,6 +33,7 @@ struct PayloadShape {
     std::uint32_t label_count{};
     bool has_colours{};
     std::span<const std::uint32_t> clusters;  // how many triangles each has
+    bool is_town{};  // coded by what houses have alike (core/streamed_mesh/place_code.h)
 };
 
 // The same payload gives the same bytes.

@@ -11,11 +11,13 @@
 #include "core/mesh_file/mesh_bytes.h"
 
 // The order of the bytes: RecordNumbers; groups of each level, 4 bytes each; of each leaf its triangles and
-// its user; of each group its error, its sphere, what it made and where its payloads are.
+// its user; of each group its error, its sphere, what it made and where its payloads are; of version 2 the
+// cells of the ground. Without ground the version is 1. Payloads of version 2 are those of a town.
 namespace oro {
 namespace {
 
-constexpr std::uint32_t records_version = 1, most_record_levels = 80, most_used = 4096;
+constexpr std::uint32_t records_version = 1, version_with_ground = 2, most_record_levels = 80,
+                        most_used = 4096;
 // Three new vertices, their colours and a label take less for each triangle.
 constexpr std::uint32_t most_payload_bytes = 256 * most_used;
 
@@ -58,8 +60,8 @@ void visit_payload(Visit& visit, auto& payload) {
 
 std::string implausible_numbers(const RecordNumbers& numbers) {
     constexpr std::int64_t most_steps = 6600000LL * 2048;  // the Earth and 100 km around it
-    if (numbers.version != records_version)
-        return "has records of version " + std::to_string(numbers.version) + ", expected 1";
+    if (numbers.version != records_version && numbers.version != version_with_ground)
+        return "has records of version " + std::to_string(numbers.version) + ", expected 1 or 2";
     for (const LatticeSteps& at : {numbers.origin, numbers.least})
         for (const std::int64_t step : at)
             if (step < -2 * most_steps || step > most_steps) return "lies outside of the Earth";
@@ -225,6 +227,11 @@ std::vector<std::uint32_t> triangles_of_clusters(const MeshRecords& records, std
     return counts;
 }
 
+// clusters: as triangles_of_clusters() has them.
+PayloadShape shape_of(const MeshRecords& records, std::span<const std::uint32_t> clusters) {
+    return {records.least, records.label_count, records.has_colours, clusters, records.is_town()};
+}
+
 // The triangles of some clusters by themselves.
 MeshPayload payload_in(const StoredMesh& mesh, std::span<const VertexColour> colours,
                        std::span<const std::uint32_t> clusters) {
@@ -284,6 +291,8 @@ MeshRecords records_of(const StoredMesh& mesh, bool has_colours) {
 std::vector<std::byte> bytes_of_records(const MeshRecords& records) {
     const ClusterGraph& graph = records.graph.clusters;
     RecordNumbers numbers;
+    const bool has_cells = records.is_town();
+    if (has_cells) numbers.version = version_with_ground;
     numbers.origin = records.origin, numbers.least = records.least;
     numbers.triangles = records.triangles, numbers.labels = records.label_count;
     numbers.colours = records.has_colours ? 1 : 0;
@@ -301,6 +310,10 @@ std::vector<std::byte> bytes_of_records(const MeshRecords& records) {
             visit_cluster(writer, graph.clusters[group.first_made + i]);
     }
     for (const MeshRecords::Payload& payload : records.payloads) visit_payload(writer, payload);
+    if (has_cells) {
+        const std::vector<std::byte> cells = ground_cells_to_bytes(records.ground_cells);
+        writer.bytes.insert(writer.bytes.end(), cells.begin(), cells.end());
+    }
     return std::move(writer.bytes);
 }
 
@@ -318,9 +331,11 @@ std::vector<std::uint32_t> MeshRecords::clusters_of(std::uint32_t payload) const
     return numbers;
 }
 
-StreamedBytes streamed_bytes_of(const StoredMesh& mesh, std::span<const VertexColour> colours, int threads) {
+StreamedBytes streamed_bytes_of(const StoredMesh& mesh, std::span<const VertexColour> colours, int threads,
+                                const GroundCells* cells) {
     StreamedBytes bytes;
     MeshRecords records = records_of(mesh, !colours.empty());
+    if (cells != nullptr) records.ground_cells = *cells;
     const auto count = static_cast<std::uint32_t>(records.payloads.size());
     constexpr std::uint32_t at_a_time = 256;
     for (std::uint32_t first = 0; first < count; first += at_a_time) {
@@ -331,8 +346,7 @@ StreamedBytes streamed_bytes_of(const StoredMesh& mesh, std::span<const VertexCo
             const std::vector<std::uint32_t> clusters = records.clusters_of(number);
             const std::vector<std::uint32_t> counts = triangles_of_clusters(records, number);
             coded[static_cast<std::size_t>(i)] =
-                payload_to_bytes({records.least, records.label_count, records.has_colours, counts},
-                                 payload_in(mesh, colours, clusters));
+                payload_to_bytes(shape_of(records, counts), payload_in(mesh, colours, clusters));
         });
         for (std::uint32_t i = 0; i < some; ++i) {
             records.payloads[first + i] = {bytes.payloads.size(), static_cast<std::uint32_t>(coded[i].size()),
@@ -367,7 +381,13 @@ std::optional<std::string> records_from_bytes(std::span<const std::byte> bytes, 
         payload.offset = offset;
         offset += payload.bytes;
     }
-    if (reader.is_wrong()) return "has records that go on after their last group, or are cut off";
+    const bool has_cells = numbers.version == version_with_ground;
+    if (has_cells != (numbers.ground_fingerprint != 0)) return "has ground without a place";
+    if (has_cells) {
+        if (auto wrong = ground_cells_from_bytes(reader.rest(), records.ground_cells)) return wrong;
+    } else if (reader.is_wrong()) {
+        return "has records that go on after their last group, or are cut off";
+    }
     if (offset != payload_bytes)
         return "has groups of " + std::to_string(offset) + " bytes, and the file has " +
                std::to_string(payload_bytes);
@@ -383,8 +403,7 @@ std::optional<std::string> payload_of_records(std::span<const std::byte> bytes, 
     if (xxh64(bytes, number) != records.payloads[number].checksum)
         return name + other_checksum(xxh64(bytes, number), records.payloads[number].checksum);
     const std::vector<std::uint32_t> counts = triangles_of_clusters(records, number);
-    if (const auto wrong = payload_from_bytes(
-            bytes, {records.least, records.label_count, records.has_colours, counts}, payload))
+    if (const auto wrong = payload_from_bytes(bytes, shape_of(records, counts), payload))
         return name + *wrong;
     const ClusterGroup& group = records.group_around(number);
     constexpr double rounded_m = 1.0e-6;

@@ -10,6 +10,7 @@
 
 #include "core/mesh_file/stored_mesh.h"
 #include "core/seam/vertex_colour.h"
+#include "core/streamed_mesh/ground_cells.h"
 #include "core/streamed_mesh/mesh_payload.h"
 
 namespace oro {
@@ -22,6 +23,10 @@ struct MeshRecords {
     std::uint32_t label_count{};
     bool has_colours{};
     std::uint64_t ground_fingerprint{};  // as of StoredMesh
+    // Where the ground lies that this is the fingerprint of. Without grids: it is 0, or they are not known.
+    GroundCells ground_cells;
+    // Whether its graph was built over ground, which has small parts: its payloads are a town's.
+    [[nodiscard]] bool is_town() const { return !ground_cells.grids.empty(); }
     // Without triangles and vertices; first_triangle numbers them as StoredMesh does.
     MeshGraph graph;
 
@@ -51,13 +56,14 @@ struct MeshRecords {
     }
 };
 
-// A stored mesh as records and payloads. colours: of its vertices; empty: none. The same mesh gives the same
-// bytes by any number of threads. No group uses more triangles than StoredMesh's bytes may tell.
+// A stored mesh as records and payloads. colours: of its vertices; empty: none. cells: of the ground that its
+// graph was built over; null: it was built over none. The same mesh gives the same bytes by any number of
+// threads. No group uses more triangles than StoredMesh's bytes may tell.
 struct StreamedBytes {
     std::vector<std::byte> records, payloads;
 };
 [[nodiscard]] StreamedBytes streamed_bytes_of(const StoredMesh& mesh, std::span<const VertexColour> colours,
-                                              int threads);
+                                              int threads, const GroundCells* cells = nullptr);
 
 // Of any bytes: nothing when they are records of groups that are a graph, whose payloads have so many bytes
 // together; else what is wrong with them, in words that follow "the mesh". Errors and spheres grow from each

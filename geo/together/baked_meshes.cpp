@@ -150,10 +150,21 @@ std::string folder_of(const std::string& path) {
     return slash == std::string::npos ? "." : path.substr(0, slash + 1);
 }
 
-// A mesh group by group; nothing where its graph was built over ground, which all its triangles are asked for
-// when it is drawn.
-StreamedBytes groups_of(const StoredMesh& stored, std::span<const VertexColour> colours, int threads) {
-    return stored.ground_fingerprint == 0 ? streamed_bytes_of(stored, colours, threads) : StreamedBytes();
+// The ground that a mesh's graph is built over.
+struct BakedGround {
+    GroundCells cells;
+    MeshGround triangles;
+    BakedGround(const LatticeMesh& mesh, const Region* region) {
+        if (region == nullptr) return;
+        cells = ground_cells_below_parts(mesh.vertices, mesh.triangles, mesh.origin_m, *region);
+        triangles = ground_in_cells(cells, mesh.origin_m, *region, 1.0);
+    }
+};
+
+// A mesh group by group. cells: of the ground that its graph was built over, if any.
+StreamedBytes groups_of(const StoredMesh& stored, std::span<const VertexColour> colours,
+                        const GroundCells& cells, int threads) {
+    return streamed_bytes_of(stored, colours, threads, stored.ground_fingerprint != 0 ? &cells : nullptr);
 }
 
 // Whether a file has a mesh group by group as these bytes have it.
@@ -238,29 +249,28 @@ Result<BakedMeshReport> write_baked_mesh(const std::string& path, const PlacedMe
     MeshOnLattice on_lattice(mesh, undulation);
     LatticeMesh& lattice = on_lattice.lattice;
     ScratchMemory scratch(folder_of(path));
-    MeshGround below;
-    if (ground != nullptr)
-        below = ground_below_parts(lattice.vertices, lattice.triangles, lattice.origin_m, *ground, 1.0);
+    const BakedGround below(lattice, ground);
     const bool is_large = lattice.triangles.size() > most_in_memory;
-    ORO_TRY(const MeshGraph graph, graph_over(lattice, below, threads, is_large ? &scratch : nullptr));
+    ORO_TRY(const MeshGraph graph,
+            graph_over(lattice, below.triangles, threads, is_large ? &scratch : nullptr));
     report.build_s = seconds_since(start);
     report.triangles = lattice.triangles.size();
     lattice.vertices = {}, lattice.triangles = {};
     std::vector<std::uint32_t> labels;
     if (!mesh.features.empty())
         for (const std::uint32_t triangle : lattice.triangle_of) labels.push_back(mesh.feature_of[triangle]);
-    Result<std::vector<std::byte>> bytes = mesh_to_bytes(
-        {lattice_point(lattice.origin_m).steps, on_lattice.places, labels,
-         static_cast<std::uint32_t>(mesh.features.size()), graph, fingerprint_of(below, lattice.origin_m)});
+    Result<std::vector<std::byte>> bytes =
+        mesh_to_bytes({lattice_point(lattice.origin_m).steps, on_lattice.places, labels,
+                       static_cast<std::uint32_t>(mesh.features.size()), graph,
+                       fingerprint_of(below.triangles, lattice.origin_m)});
     if (!bytes) return Error{bytes.error().kind, mesh.path, bytes.error().what};
     // Groups by themselves have the numbers and the order that whoever reads the whole mesh finds.
     StoredMesh stored;
     if (const auto wrong = mesh_from_bytes(*bytes, stored))
         return Error{ErrorKind::failed, mesh.path, "the mesh that was written " + *wrong};
     std::vector<VertexColour> colours;
-    if (!mesh.colours.empty())
-        colours = stored_colours(mesh, lattice.vertex_of, on_lattice.places, stored);
-    const StreamedBytes streamed = groups_of(stored, colours, threads);
+    if (!mesh.colours.empty()) colours = stored_colours(mesh, lattice.vertex_of, on_lattice.places, stored);
+    const StreamedBytes streamed = groups_of(stored, colours, below.cells, threads);
     const std::vector<std::byte> facts = compressed(facts_to_bytes(mesh, std::move(colours)));
     ORO_CHECK(write_container(path, facts, *bytes, streamed));
     report.graph_triangles = graph.clusters.triangles.size();
@@ -286,14 +296,12 @@ std::optional<BakedMeshReport> mesh_baked_before(const std::string& path, const 
     if (stored.origin != lattice_point(now.lattice.origin_m).steps ||
         stored.label_count != mesh.features.size() || sum_of(stored) != now.sum(mesh))
         return std::nullopt;
-    MeshGround below;
-    if (ground != nullptr)
-        below = ground_below_parts(now.lattice.vertices, now.lattice.triangles, now.lattice.origin_m, *ground,
-                                   1.0);
-    if (stored.ground_fingerprint != fingerprint_of(below, now.lattice.origin_m)) return std::nullopt;
+    const BakedGround below(now.lattice, ground);
+    if (stored.ground_fingerprint != fingerprint_of(below.triangles, now.lattice.origin_m))
+        return std::nullopt;
     std::vector<VertexColour> colours;
     if (!mesh.colours.empty()) colours = stored_colours(mesh, now.lattice.vertex_of, now.places, stored);
-    const StreamedBytes streamed = groups_of(stored, colours, thread_count());
+    const StreamedBytes streamed = groups_of(stored, colours, below.cells, thread_count());
     if (!has_streamed_bytes(**container, 0, streamed)) return std::nullopt;
     if (decompressed(*packed, most_fact_bytes) != facts_to_bytes(mesh, std::move(colours)))
         return std::nullopt;
@@ -308,9 +316,12 @@ std::optional<BakedMeshReport> mesh_baked_before(const std::string& path, const 
     return report;
 }
 
-Result<void> check_streamed_mesh(const Container& container, std::uint32_t number, const PlacedMesh& mesh) {
+Result<void> check_streamed_mesh(const Container& container, std::uint32_t number, const PlacedMesh& mesh,
+                                 const Region& region) {
     if (!StreamedMesh::is_in(container, number)) return {};
-    const StreamedBytes expected = groups_of(*mesh.stored(), mesh.colours, thread_count());
+    GroundCells cells;
+    if (mesh.stored()->ground_fingerprint != 0) cells = ground_cells_below_parts(*mesh.stored(), region);
+    const StreamedBytes expected = groups_of(*mesh.stored(), mesh.colours, cells, thread_count());
     if (has_streamed_bytes(container, number, expected)) return {};
     return container.file().damaged(container.find(ChunkType::mesh_records, number)->offset,
                                     "the groups of the mesh are not those of its triangles");

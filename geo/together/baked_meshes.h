@@ -66,7 +66,8 @@ using MeshesOfRegion = std::shared_ptr<const std::vector<PlacedMesh>>;
 Result<MeshesOfRegion> whole_meshes(const Region& region);
 
 // Holds the groups of a mesh, by its number, that was read whole against those that follow from its
-// triangles. Errors: they are others.
-Result<void> check_streamed_mesh(const Container& container, std::uint32_t number, const PlacedMesh& mesh);
+// triangles, and from the grids of the region where it was built over ground. Errors: they are others.
+Result<void> check_streamed_mesh(const Container& container, std::uint32_t number, const PlacedMesh& mesh,
+                                 const Region& region);
 
 }  // namespace oro

@@ -115,7 +115,7 @@ Result<MeshDetail> MeshDetail::open(const Region& region, double exaggeration, i
     auto meshes = region.meshes;
     for (std::size_t i = 0; i < region.meshes->size(); ++i) {
         const PlacedMesh& mesh = (*region.meshes)[i];
-        if (!mesh.streamed() || streams_as_drawn(mesh, undulation, exaggeration)) continue;
+        if (!mesh.streamed() || streams_as_drawn(mesh, region, exaggeration)) continue;
         auto changed = std::make_shared<std::vector<PlacedMesh>>(*meshes);
         ORO_TRY((*changed)[i], read_whole_mesh(mesh, undulation));
         meshes = std::move(changed);

@@ -42,9 +42,8 @@ class MeshDetail {
     // over other ground than is there now is built again. region: with meshes, which it holds on to.
     // threads: 1 or more; the graphs are the same by any number.
     static MeshDetail of(const Region& region, double exaggeration, int threads);
-    // The same; meshes that the region reads group by group are read so (streams_meshes()), or whole where
-    // they are drawn elsewhere than their file has them, or were built over ground that is to be known for
-    // parts of them. Errors: damage.
+    // The same; meshes that the region reads group by group are read so where streams_as_drawn() says that
+    // they may be, else whole. Errors: damage.
     static Result<MeshDetail> open(const Region& region, double exaggeration, int threads);
 
     // What a view draws: of each mesh as few triangles as keep all within tau_px of where the mesh is seen,

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/base/checksum.h"
@@ -57,10 +59,10 @@ class GroundOfGrid {
     GroundOfGrid(const Region& region, const RegionGrid& grid, double exaggeration)
         : region_(region), of_(grid), field_(grid.field), exaggeration_(exaggeration) {}
 
-    // False where these are too many cells.
-    bool add_cells(const PartPlaces& parts) {
+    // The cells below some parts; nothing where these are too many.
+    std::optional<std::vector<GroundCells::Run>> cells_below(const PartPlaces& parts) {
         const PostGrid& grid = field_.grid;
-        if (grid.rows() < 2 || grid.columns() < 2) return true;
+        if (grid.rows() < 2 || grid.columns() < 2) return std::vector<GroundCells::Run>();
         for (const std::vector<Geodetic>& part : parts) {
             constexpr double far = std::numeric_limits<double>::infinity();
             PostNumber low{far, far}, high{-far, -far};
@@ -70,17 +72,23 @@ class GroundOfGrid {
                 high = {std::max(high.row, at.row), std::max(high.column, at.column)};
             }
             add_box(low, high);
-            if (cells_.size() > 4 * most_cells) return false;
+            if (cells_.size() > 4 * most_cells) return std::nullopt;
         }
         std::ranges::sort(cells_);
         cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
-        return cells_.size() <= most_cells;
+        if (cells_.size() > most_cells) return std::nullopt;
+        return runs();
     }
 
-    void add_triangles(const glm::dvec3& origin_m, MeshGround& ground) const {
-        for (const std::uint64_t cell : cells_) {
-            const auto columns = static_cast<std::uint64_t>(field_.grid.columns());
-            add_cell(static_cast<int>(cell / columns), static_cast<int>(cell % columns), origin_m, ground);
+    void add_triangles(std::span<const GroundCells::Run> runs, const glm::dvec3& origin_m,
+                       MeshGround& ground) const {
+        const auto rows = static_cast<std::uint32_t>(field_.grid.rows() - 1),
+                   columns = static_cast<std::uint32_t>(field_.grid.columns() - 1);
+        for (const GroundCells::Run& run : runs) {
+            // Numbers of a file may be any.
+            if (run.row >= rows || run.count > columns || run.column > columns - run.count) continue;
+            for (std::uint32_t i = 0; i < run.count; ++i)
+                add_cell(static_cast<int>(run.row), static_cast<int>(run.column + i), origin_m, ground);
         }
     }
 
@@ -106,6 +114,19 @@ class GroundOfGrid {
                 cells_.push_back(static_cast<std::uint64_t>(row) *
                                      static_cast<std::uint64_t>(field_.grid.columns()) +
                                  static_cast<std::uint64_t>(column));
+    }
+    [[nodiscard]] std::vector<GroundCells::Run> runs() const {
+        const auto columns = static_cast<std::uint64_t>(field_.grid.columns());
+        std::vector<GroundCells::Run> runs;
+        for (const std::uint64_t cell : cells_) {
+            const auto row = static_cast<std::uint32_t>(cell / columns),
+                       column = static_cast<std::uint32_t>(cell % columns);
+            if (!runs.empty() && runs.back().row == row && runs.back().column + runs.back().count == column)
+                ++runs.back().count;
+            else
+                runs.push_back({row, column, 1});
+        }
+        return runs;
     }
     [[nodiscard]] bool may_be_covered(int row, int column) const;
     void add_cell(int row, int column, const glm::dvec3& origin_m, MeshGround& ground) const;
@@ -173,36 +194,110 @@ void GroundOfGrid::add_cell(int row, int column, const glm::dvec3& origin_m, Mes
     }
 }
 
-}  // namespace
-
-MeshGround ground_below_parts(std::span<const glm::dvec3> vertices,
-                              std::span<const std::array<std::uint32_t, 3>> triangles,
-                              const glm::dvec3& origin_ecef_m, const Region& region, double exaggeration) {
-    MeshGround ground;
-    if (region.meshes &&
-        std::ranges::any_of(*region.meshes, [](const PlacedMesh& mesh) { return !mesh.rim_walls.empty(); }))
-        return ground;
-    const PartPlaces parts = places_of_parts(vertices, triangles, origin_ecef_m);
-    if (parts.empty()) return ground;
-    for (const RegionGrid& grid : region.grids) {
-        GroundOfGrid of_grid(region, grid, exaggeration);
-        if (!of_grid.add_cells(parts)) return {};
-        of_grid.add_triangles(origin_ecef_m, ground);
-    }
-    return ground.triangles.size() > 2 * most_cells ? MeshGround() : ground;
+bool cuts_ground_out(const Region& region) {
+    return region.meshes && std::ranges::any_of(*region.meshes, [](const PlacedMesh& mesh) {
+               return !mesh.rim_walls.empty();
+           });
 }
 
-MeshGround ground_below_parts(const StoredMesh& mesh, const Region& region, double exaggeration) {
+// Whether a grid may have cells for places of such a box. Also true where that is not easily told.
+bool may_reach_into(const PostGrid& grid, const GroundCells& box) {
+    constexpr double most_wide_deg = 90.0;
+    if (grid.net || !(box.east_deg - box.west_deg < most_wide_deg)) return true;
+    const PostNumber low = grid.post_at(box.north_deg, box.west_deg),
+                     high = grid.post_at(box.south_deg, box.east_deg);
+    if (!(low.column <= high.column)) return true;  // a turn begins between them
+    return high.row > -1.0 && high.column > -1.0 && low.row < grid.rows() && low.column < grid.columns();
+}
+
+// Tells where the posts of a grid lie from where those of others do.
+std::uint64_t fingerprint_of_posts(const PostGrid& grid) {
+    NumberWriter writer;
+    writer(grid.rows()), writer(grid.columns());
+    for (const int row : {0, (grid.rows() - 1) / 2, grid.rows() - 1})
+        for (const int column : {0, (grid.columns() - 1) / 2, grid.columns() - 1}) {
+            const PostPlace place = grid.place_at(row, column);
+            for (const std::int64_t step :
+                 lattice_point(ecef_from_geodetic({place.lat_deg, place.lon_deg, 0.0}).m).steps)
+                writer(step);
+        }
+    return xxh64(writer.bytes);
+}
+
+struct PartMesh {
     std::vector<glm::dvec3> vertices;
-    for (std::uint32_t i = 0; i < mesh.places.size(); ++i) vertices.push_back(mesh.from_origin_m(i));
     std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+PartMesh mesh_of(const StoredMesh& mesh) {
+    PartMesh all;
+    for (std::uint32_t i = 0; i < mesh.places.size(); ++i) all.vertices.push_back(mesh.from_origin_m(i));
     const ClusterGraph& graph = mesh.graph.clusters;
     for (const Cluster& cluster : graph.clusters) {
         if (cluster.made_by != no_group) break;
         for (const VertexTriangle& triangle : graph.triangles_of(cluster))
-            triangles.push_back({triangle[0], triangle[1], triangle[2]});
+            all.triangles.push_back({triangle[0], triangle[1], triangle[2]});
     }
-    return ground_below_parts(vertices, triangles, mesh.origin_ecef_m(), region, exaggeration);
+    return all;
+}
+
+}  // namespace
+
+GroundCells ground_cells_below_parts(std::span<const glm::dvec3> vertices,
+                                     std::span<const std::array<std::uint32_t, 3>> triangles,
+                                     const glm::dvec3& origin_ecef_m, const Region& region) {
+    if (cuts_ground_out(region)) return {};
+    const PartPlaces parts = places_of_parts(vertices, triangles, origin_ecef_m);
+    if (parts.empty()) return {};
+    constexpr double far_deg = std::numeric_limits<double>::infinity();
+    GroundCells cells{far_deg, -far_deg, far_deg, -far_deg, {}};
+    for (const std::vector<Geodetic>& part : parts)
+        for (const Geodetic& place : part) {
+            cells.south_deg = std::min(cells.south_deg, place.lat_deg);
+            cells.north_deg = std::max(cells.north_deg, place.lat_deg);
+            cells.west_deg = std::min(cells.west_deg, place.lon_deg);
+            cells.east_deg = std::max(cells.east_deg, place.lon_deg);
+        }
+    for (const RegionGrid& grid : region.grids) {
+        if (!may_reach_into(grid.field.grid, cells)) continue;
+        auto runs = GroundOfGrid(region, grid, 1.0).cells_below(parts);
+        if (!runs) return {};
+        cells.grids.push_back({fingerprint_of_posts(grid.field.grid), std::move(*runs)});
+    }
+    return cells.grids.size() > most_ground_grids || cells.count() > most_ground_cells ? GroundCells()
+                                                                                       : cells;
+}
+
+GroundCells ground_cells_below_parts(const StoredMesh& mesh, const Region& region) {
+    const PartMesh all = mesh_of(mesh);
+    return ground_cells_below_parts(all.vertices, all.triangles, mesh.origin_ecef_m(), region);
+}
+
+MeshGround ground_in_cells(const GroundCells& cells, const glm::dvec3& origin_ecef_m, const Region& region,
+                           double exaggeration) {
+    if (cells.grids.empty() || cuts_ground_out(region)) return {};
+    MeshGround ground;
+    auto next = cells.grids.begin();
+    for (const RegionGrid& grid : region.grids) {
+        if (!may_reach_into(grid.field.grid, cells)) continue;
+        if (next == cells.grids.end() || next->posts != fingerprint_of_posts(grid.field.grid)) return {};
+        GroundOfGrid(region, grid, exaggeration).add_triangles(next->runs, origin_ecef_m, ground);
+        ++next;
+    }
+    if (next != cells.grids.end() || ground.triangles.size() > 2 * most_cells) return {};
+    return ground;
+}
+
+MeshGround ground_below_parts(std::span<const glm::dvec3> vertices,
+                              std::span<const std::array<std::uint32_t, 3>> triangles,
+                              const glm::dvec3& origin_ecef_m, const Region& region, double exaggeration) {
+    return ground_in_cells(ground_cells_below_parts(vertices, triangles, origin_ecef_m, region),
+                           origin_ecef_m, region, exaggeration);
+}
+
+MeshGround ground_below_parts(const StoredMesh& mesh, const Region& region, double exaggeration) {
+    return ground_in_cells(ground_cells_below_parts(mesh, region), mesh.origin_ecef_m(), region,
+                           exaggeration);
 }
 
 std::uint64_t fingerprint_of(const MeshGround& ground, const glm::dvec3& origin_ecef_m) {

@@ -8,6 +8,7 @@
 #include "core/base/parallel.h"
 #include "core/streamed_mesh/streamed_mesh.h"
 #include "geo/together/baked_meshes.h"
+#include "geo/together/mesh_ground.h"
 #include "geo/together/mesh_surface.h"
 
 namespace oro {
@@ -128,9 +129,16 @@ PlacedMesh without_triangles(const PlacedMesh& mesh) {
     return bare;
 }
 
-bool streams_as_drawn(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration) {
-    return is_drawn_as_streamed(mesh, undulation, exaggeration) &&
-           mesh.streamed()->records().ground_fingerprint == 0;
+bool streams_as_drawn(const PlacedMesh& mesh, const Region& region, double exaggeration) {
+    if (!is_drawn_as_streamed(mesh, region.grids.front().field.undulation, exaggeration)) return false;
+    const MeshRecords& records = mesh.streamed()->records();
+    if (records.ground_fingerprint == 0) return true;
+    const glm::dvec3 origin_m =
+        glm::dvec3(static_cast<double>(records.origin[0]), static_cast<double>(records.origin[1]),
+                   static_cast<double>(records.origin[2])) /
+        lattice_steps_per_m;
+    const MeshGround ground = ground_in_cells(records.ground_cells, origin_m, region, exaggeration);
+    return fingerprint_of(ground, origin_m) == records.ground_fingerprint;
 }
 
 Result<PlacedMesh> streamed_cut(const PlacedMesh& mesh, const std::vector<std::uint32_t>& clusters,

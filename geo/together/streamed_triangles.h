@@ -9,15 +9,16 @@
 #include "core/terrain/post_grid.h"
 #include "core/truth/true_mesh_parts.h"
 #include "geo/meshes/placed_mesh.h"
+#include "geo/region/region.h"
 
 namespace oro {
 
 // What is known of a mesh beside its triangles, for some of these.
 PlacedMesh without_triangles(const PlacedMesh& mesh);
 
-// Whether a mesh's groups may be drawn as its file has them: it is_drawn_as_streamed(), and was built over no
-// ground that would have to be the same.
-bool streams_as_drawn(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration);
+// Whether a mesh's groups may be drawn as its file has them: it is_drawn_as_streamed(), and the region has
+// the ground below that its graph was built over, if it was.
+bool streams_as_drawn(const PlacedMesh& mesh, const Region& region, double exaggeration);
 
 // The clusters of a mesh that streams_as_drawn(), by their numbers, rising: the same vertices, triangles,
 // features and colours, in the same order, as the whole mesh has of them, by any number of threads. Errors:

@@ -1,7 +1,8 @@
 // Any bytes as the records of a mesh, or as one of its payloads. The first byte says how the others are
 // taken: as records, as changes of true ones (three bytes each: where, and what is there instead), as a
-// payload's bytes, or as changes of a true one's. What is read must be a graph that cuts can be chosen of,
-// and triangles.
+// payload's bytes, or as changes of a true one's; of a mesh over ground where its fourth bit is set. What is
+// read must be a graph that cuts can be chosen of, and triangles.
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -21,38 +22,46 @@ void expect(bool is_so) {
 }
 
 // A ball of 264 triangles, with labels.
-const StreamedBytes& true_streamed_bytes() {
-    static const StreamedBytes bytes = [] {
-        constexpr std::uint32_t n = 12, around = 12;
-        std::vector<LatticeSteps> places{{0, 0, 40000}, {0, 0, -40000}};
-        for (std::uint32_t i = 1; i < n; ++i)
-            for (std::uint32_t k = 0; k < around; ++k) {
-                const double a = std::numbers::pi * i / n, b = 2.0 * std::numbers::pi * k / around;
-                places.push_back({std::llround(40000.0 * std::sin(a) * std::cos(b)),
-                                  std::llround(40000.0 * std::sin(a) * std::sin(b)),
-                                  std::llround(40000.0 * std::cos(a))});
-            }
-        std::vector<std::array<std::uint32_t, 3>> triangles;
-        const auto at = [&](std::uint32_t i, std::uint32_t k) { return 2 + i * around + k % around; };
+StoredMesh ball() {
+    constexpr std::uint32_t n = 12, around = 12;
+    std::vector<LatticeSteps> places{{0, 0, 40000}, {0, 0, -40000}};
+    for (std::uint32_t i = 1; i < n; ++i)
         for (std::uint32_t k = 0; k < around; ++k) {
-            triangles.push_back({0, at(0, k), at(0, k + 1)});
-            triangles.push_back({1, at(n - 2, k + 1), at(n - 2, k)});
-            for (std::uint32_t i = 0; i + 2 < n; ++i) {
-                triangles.push_back({at(i, k), at(i + 1, k), at(i, k + 1)});
-                triangles.push_back({at(i, k + 1), at(i + 1, k), at(i + 1, k + 1)});
-            }
+            const double a = std::numbers::pi * i / n, b = 2.0 * std::numbers::pi * k / around;
+            places.push_back({std::llround(40000.0 * std::sin(a) * std::cos(b)),
+                              std::llround(40000.0 * std::sin(a) * std::sin(b)),
+                              std::llround(40000.0 * std::cos(a))});
         }
-        std::vector<glm::dvec3> vertices;
-        for (const LatticeSteps& place : places)
-            vertices.push_back(glm::dvec3(place[0], place[1], place[2]) / lattice_steps_per_m);
-        std::vector<std::uint32_t> labels;
-        for (std::uint32_t i = 0; i < triangles.size(); ++i) labels.push_back(i / 9 % 5);
-        const MeshGraph graph = build_mesh_graph(vertices, triangles, glm::dvec3(0.0));
-        StoredMesh mesh;
-        expect(!mesh_from_bytes(mesh_to_bytes({{}, places, labels, 5, graph}).value(), mesh));
-        return streamed_bytes_of(mesh, {}, 1);
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    const auto at = [&](std::uint32_t i, std::uint32_t k) { return 2 + i * around + k % around; };
+    for (std::uint32_t k = 0; k < around; ++k) {
+        triangles.push_back({0, at(0, k), at(0, k + 1)});
+        triangles.push_back({1, at(n - 2, k + 1), at(n - 2, k)});
+        for (std::uint32_t i = 0; i + 2 < n; ++i) {
+            triangles.push_back({at(i, k), at(i + 1, k), at(i, k + 1)});
+            triangles.push_back({at(i, k + 1), at(i + 1, k), at(i + 1, k + 1)});
+        }
+    }
+    std::vector<glm::dvec3> vertices;
+    for (const LatticeSteps& place : places)
+        vertices.push_back(glm::dvec3(place[0], place[1], place[2]) / lattice_steps_per_m);
+    std::vector<std::uint32_t> labels;
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) labels.push_back(i / 9 % 5);
+    const MeshGraph graph = build_mesh_graph(vertices, triangles, glm::dvec3(0.0));
+    StoredMesh mesh;
+    expect(!mesh_from_bytes(mesh_to_bytes({{}, places, labels, 5, graph}).value(), mesh));
+    return mesh;
+}
+
+const StreamedBytes& true_streamed_bytes(bool is_town) {
+    static const std::array<StreamedBytes, 2> bytes = [] {
+        const GroundCells cells{46.0, 46.1, 8.0, 8.2, {{77, {{10, 20, 5}, {11, 19, 7}, {11, 40, 1}}}}};
+        StoredMesh mesh = ball();
+        const StreamedBytes alone = streamed_bytes_of(mesh, {}, 1);
+        mesh.ground_fingerprint = 1;
+        return std::array{alone, streamed_bytes_of(mesh, {}, 1, &cells)};
     }();
-    return bytes;
+    return bytes[is_town ? 1 : 0];
 }
 
 void use(const MeshRecords& records) {
@@ -61,6 +70,7 @@ void use(const MeshRecords& records) {
         expect(std::isfinite(group.error_m) && std::isfinite(group.radius_m));
         expect(group.error_m >= largest_member_error_m(graph, group));
     }
+    expect(records.ground_cells.count() <= most_ground_cells);
     for (std::uint32_t level = 0; level <= graph.levels.size(); ++level)
         for (const std::uint32_t one : cut_by_level(graph, level))
             expect(records.payload_of(graph.clusters[one]) < records.payloads.size());
@@ -75,7 +85,9 @@ void use_as_payload(std::span<const std::byte> bytes, const MeshRecords& records
         all += counts.back();
     }
     MeshPayload payload;
-    if (payload_from_bytes(bytes, {records.least, records.label_count, records.has_colours, counts}, payload))
+    if (payload_from_bytes(
+            bytes, {records.least, records.label_count, records.has_colours, counts, records.is_town()},
+            payload))
         return;
     expect(payload.triangles.size() == all && payload.labels.size() == all);
     for (const auto& triangle : payload.triangles)
@@ -96,7 +108,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::uint8_t how = data[0] % 4, number = data[1];
     std::vector<std::byte> bytes;
     for (std::size_t i = 2; i < size; ++i) bytes.push_back(static_cast<std::byte>(data[i]));
-    const StreamedBytes& whole = true_streamed_bytes();
+    const StreamedBytes& whole = true_streamed_bytes((data[0] & 8U) != 0);
     MeshRecords records;
     if (how < 2) {
         if (how == 1) bytes = changed(whole.records, data + 2, size - 2);

@@ -147,4 +147,91 @@ TEST_F(StreamedMeshes, ThatLieAreRefused) {
     }
 }
 
+// 400 houses of 8 to 26 m, 70 m apart, as footprints.
+std::string geojson_of_town() {
+    std::string text;
+    char line[400];
+    for (int i = 0; i < 20; ++i)
+        for (int k = 0; k < 20; ++k) {
+            const double west = -84.185 + 0.0008 * i + 0.00002 * (k % 3), south = 36.598 + 0.00063 * k,
+                         east = west + 0.0002 + 0.00002 * (i % 4), north = south + 0.0001 + 0.00002 * (k % 5);
+            std::snprintf(
+                line, sizeof line,
+                R"(%s{"type":"Feature","properties":{"height":%d,"name":"house %d"},"geometry":)"
+                R"({"type":"Polygon","coordinates":[[[%.7f,%.7f],[%.7f,%.7f],[%.7f,%.7f],[%.7f,%.7f],)"
+                R"([%.7f,%.7f]]]}})",
+                text.empty() ? "" : ",", 8 + (i * 5 + k * 7) % 19, 20 * i + k, west, south, east, south, east,
+                north, west, north, west, south);
+            text += line;
+        }
+    return R"({"type":"FeatureCollection","features":[)" + text + "]}";
+}
+
+// A town, whose graph is built over the ground.
+class StreamedTown : public StreamedMeshes {
+  protected:
+    void SetUp() override {
+        const std::string houses = (folder_ / "houses.geojson").string();
+        write_bytes(houses, geojson_of_town());
+        const Outcome done = run_orograph(
+            {"bake", bundled(), "--mesh-file", houses, "--building-height", "height", "--out", baked_, "-q"});
+        ASSERT_EQ(done.exit_code, 0) << done.err;
+        write_without_groups(baked_, whole_);
+    }
+    // Both files' pictures, and what is found of them.
+    void expect_same_pictures(const Words& how) const {
+        const Outcome of_groups = shot(baked_, one_, how), of_whole = shot(whole_, other_, how);
+        ASSERT_EQ(of_groups.exit_code, 0) << of_groups.err;
+        ASSERT_EQ(of_whole.exit_code, 0) << of_whole.err;
+        json a = json::parse(of_groups.out), b = json::parse(of_whole.out);
+        for (json* const one : {&a, &b}) (*one)["meshes"].erase("graph_s");
+        for (const char* const key : {"meshes", "triangles", "destination", "eye"})
+            EXPECT_EQ(a[key], b[key]) << key;
+        EXPECT_TRUE(a.contains("meshes"));
+        EXPECT_EQ(oro::test::pixels_of(one_).rgb, oro::test::pixels_of(other_).rgb);
+    }
+};
+
+TEST_F(StreamedTown, IsDrawnAsTheWholeMeshIs) {
+    ASSERT_TRUE(oro::Container::open(baked_).value()->find(ChunkType::mesh_records, 0));
+    expect_same_pictures({"--mesh", "clusters", "--tau", "8"});
+    // Most houses are on the ground there.
+    const json coarse = json::parse(shot(baked_, one_, {"--mesh-level", "5"}).out)["meshes"];
+    EXPECT_EQ(coarse["of_triangles"], 4000);
+    EXPECT_LT(coarse["triangles"], 1000);
+    const Outcome checked = run_orograph({"info", baked_, "--check"});
+    EXPECT_EQ(checked.exit_code, 0) << checked.err;
+}
+
+TEST_F(StreamedTown, IsDrawnAsTheWholeMeshIsInOtherWays) {
+    for (const Words& how :
+         {Words{"--mesh", "clusters"}, Words{"--mesh-level", "3"}, Words{"--show", "clusters", "--tau", "20"},
+          Words{"--mesh", "clusters", "--exaggeration", "2"}})
+        expect_same_pictures(how);
+}
+
+// The cells of the ground are the last bytes of the records. Changed, with checksums made right: one line, or
+// the mesh is read whole; --check finds it.
+TEST_F(StreamedTown, WhoseGroundLiesIsRefusedOrReadWhole) {
+    const oro::Chunk chunk = oro::test::chunk_of(baked_, ChunkType::mesh_records);
+    const std::string bytes = bytes_of(baked_);
+    const Words how{"--mesh", "clusters", "--tau", "8"};
+    ASSERT_EQ(shot(whole_, other_, how).exit_code, 0);
+    for (const int from_end : {1, 6, 12, 20}) {
+        std::string changed = bytes;
+        changed[static_cast<std::size_t>(chunk.offset + chunk.bytes) - static_cast<std::size_t>(from_end)] ^=
+            4;
+        write_bytes(baked_, changed);
+        expect_refusal(shot(baked_, one_, how), failed, {"hill.oro", "checksum"});
+        write_bytes(baked_, oro::test::mended(changed));
+        const Outcome drawn = shot(baked_, one_, how);
+        if (drawn.exit_code == 0) {
+            EXPECT_EQ(oro::test::pixels_of(one_).rgb, oro::test::pixels_of(other_).rgb) << from_end;
+        } else {
+            expect_refusal(drawn, failed, {"hill.oro", "ground"});
+        }
+        EXPECT_EQ(run_orograph({"info", baked_, "--check"}).exit_code, failed) << from_end;
+    }
+}
+
 }  // namespace

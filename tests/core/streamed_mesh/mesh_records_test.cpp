@@ -47,6 +47,21 @@ std::vector<VertexColour> colours_for(const StoredMesh& mesh) {
     return colours;
 }
 
+// Of a mesh that was built over the ground of one grid.
+GroundCells some_cells() {
+    return {46.0, 46.1, 8.0, 8.2, {{77, {{10, 20, 5}, {11, 19, 7}, {11, 40, 1}}}}};
+}
+
+// The payload of that number by any bytes, whatever its checksum is.
+std::optional<std::string> payload_of_any(std::span<const std::byte> bytes, const MeshRecords& records,
+                                          std::uint32_t number, MeshPayload& payload) {
+    std::vector<std::uint32_t> counts;
+    for (const std::uint32_t one : records.clusters_of(number))
+        counts.push_back(records.graph.clusters.clusters[one].triangles);
+    return payload_from_bytes(
+        bytes, {records.least, records.label_count, records.has_colours, counts, records.is_town()}, payload);
+}
+
 std::span<const std::byte> bytes_at(const StreamedBytes& bytes, const MeshRecords& records,
                                     std::uint32_t number) {
     return std::span(bytes.payloads).subspan(records.payloads[number].offset, records.payloads[number].bytes);
@@ -116,29 +131,62 @@ void expect_same_graph(const ClusterGraph& a, const ClusterGraph& b) {
     }
 }
 
-// A closed ball, a town of boxes, a sheet that lies over itself.
+// Records and payloads of a mesh, and back.
+void expect_mesh_comes_back(StoredMesh mesh, std::size_t triangles, std::span<const VertexColour> colours,
+                            const GroundCells* cells) {
+    mesh.ground_fingerprint = cells != nullptr ? 52 : 0;
+    const StreamedBytes bytes = streamed_bytes_of(mesh, colours, 2, cells);
+    MeshRecords records;
+    const auto wrong = records_from_bytes(bytes.records, bytes.payloads.size(), records);
+    ASSERT_FALSE(wrong) << *wrong;
+    EXPECT_EQ(records.triangles, triangles);
+    EXPECT_EQ(records.label_count, 7U);
+    EXPECT_EQ(records.has_colours, !colours.empty());
+    EXPECT_EQ(records.origin, mesh.origin);
+    EXPECT_EQ(records.ground_fingerprint, mesh.ground_fingerprint);
+    EXPECT_EQ(records.ground_cells, cells != nullptr ? *cells : GroundCells());
+    EXPECT_EQ(records.is_town(), cells != nullptr);
+    expect_same_graph(records.graph.clusters, mesh.graph.clusters);
+    expect_clusters_of(mesh, colours, bytes, records);
+    const auto of_all = static_cast<double>(mesh.graph.clusters.triangles.size());
+    std::printf("%zu triangles, %.0f of all levels%s: records %.2f, groups %.2f bytes a triangle of all\n",
+                triangles, of_all, records.is_town() ? ", as a town's" : "",
+                static_cast<double>(bytes.records.size()) / of_all,
+                static_cast<double>(bytes.payloads.size()) / of_all);
+    EXPECT_LT(static_cast<double>(bytes.records.size()), 1.0 * of_all);
+    EXPECT_LT(static_cast<double>(bytes.payloads.size()), (colours.empty() ? 7.0 : 9.0) * of_all);
+}
+
+// A closed ball, a town of boxes, a sheet that lies over itself; each over ground, too.
 TEST(MeshRecords, HaveOfEachGroupWhatTheWholeMeshHas) {
+    const GroundCells cells = some_cells();
     for (const SpaceMesh& made : {hilly_ball(40, 50.0), box_town(14), folded_sheet(48)}) {
         const StoredMesh mesh = stored_mesh_of(made);
-        for (const std::vector<VertexColour>& colours : {std::vector<VertexColour>(), colours_for(mesh)}) {
-            const StreamedBytes bytes = streamed_bytes_of(mesh, colours, 2);
-            MeshRecords records;
-            const auto wrong = records_from_bytes(bytes.records, bytes.payloads.size(), records);
-            ASSERT_FALSE(wrong) << *wrong;
-            EXPECT_EQ(records.triangles, made.triangles.size());
-            EXPECT_EQ(records.label_count, 7U);
-            EXPECT_EQ(records.has_colours, !colours.empty());
-            EXPECT_EQ(records.origin, mesh.origin);
-            expect_same_graph(records.graph.clusters, mesh.graph.clusters);
-            expect_clusters_of(mesh, colours, bytes, records);
-            const auto of_all = static_cast<double>(mesh.graph.clusters.triangles.size());
-            std::printf(
-                "%zu triangles, %.0f of all levels: records %.2f, groups %.2f bytes a triangle of all\n",
-                made.triangles.size(), of_all, static_cast<double>(bytes.records.size()) / of_all,
-                static_cast<double>(bytes.payloads.size()) / of_all);
-            EXPECT_LT(static_cast<double>(bytes.records.size()), 1.0 * of_all);
-            EXPECT_LT(static_cast<double>(bytes.payloads.size()), (colours.empty() ? 7.0 : 9.0) * of_all);
-        }
+        for (const std::vector<VertexColour>& colours : {std::vector<VertexColour>(), colours_for(mesh)})
+            for (const GroundCells* const ground : {static_cast<const GroundCells*>(nullptr), &cells})
+                expect_mesh_comes_back(mesh, made.triangles.size(), colours, ground);
+    }
+}
+
+// Which version records are of, and whether they have a fingerprint of ground, go together.
+TEST(MeshRecords, OfGroundWithoutCellsAreRefused) {
+    StoredMesh mesh = stored_mesh_of(box_town(4));
+    const GroundCells cells = some_cells();
+    const auto refusal = [&](std::uint64_t fingerprint, const GroundCells* ground) {
+        mesh.ground_fingerprint = fingerprint;
+        const StreamedBytes bytes = streamed_bytes_of(mesh, {}, 1, ground);
+        MeshRecords records;
+        return records_from_bytes(bytes.records, bytes.payloads.size(), records).value_or("");
+    };
+    EXPECT_EQ(refusal(0, nullptr), "");
+    EXPECT_EQ(refusal(5, &cells), "");
+    EXPECT_EQ(refusal(5, nullptr), "has ground without a place");
+    EXPECT_EQ(refusal(0, &cells), "has ground without a place");
+    mesh.ground_fingerprint = 5;
+    const StreamedBytes bytes = streamed_bytes_of(mesh, {}, 1, &cells);
+    for (std::size_t size = bytes.records.size() - 80; size < bytes.records.size(); ++size) {
+        MeshRecords records;
+        EXPECT_TRUE(records_from_bytes(std::span(bytes.records).first(size), bytes.payloads.size(), records));
     }
 }
 
@@ -256,9 +304,8 @@ TEST(MeshRecords, OfAnyBytesAreAGraphOrRefused) {
 }
 
 // 4,000 changes of payloads, by the shape that records have: refused, or triangles that can be drawn.
-TEST(MeshRecords, PayloadsOfAnyBytesAreTrianglesOrRefused) {
-    const StoredMesh mesh = stored_mesh_of(hilly_ball(20, 50.0));
-    const StreamedBytes bytes = streamed_bytes_of(mesh, colours_for(mesh), 1);
+void expect_any_payloads_are_sound(const StoredMesh& mesh, const GroundCells* cells) {
+    const StreamedBytes bytes = streamed_bytes_of(mesh, colours_for(mesh), 1, cells);
     MeshRecords records;
     ASSERT_FALSE(records_from_bytes(bytes.records, bytes.payloads.size(), records));
     std::mt19937 random(53);
@@ -270,15 +317,11 @@ TEST(MeshRecords, PayloadsOfAnyBytesAreTrianglesOrRefused) {
         if (changed.empty()) continue;
         changed[random() % changed.size()] = static_cast<std::byte>(random());
         if (i % 5 == 0) changed.resize(random() % changed.size());
-        std::vector<std::uint32_t> counts;
         std::size_t all = 0;
-        for (const std::uint32_t one : records.clusters_of(number)) {
-            counts.push_back(records.graph.clusters.clusters[one].triangles);
-            all += counts.back();
-        }
+        for (const std::uint32_t one : records.clusters_of(number))
+            all += records.graph.clusters.clusters[one].triangles;
         MeshPayload payload;
-        if (payload_from_bytes(changed, {records.least, records.label_count, true, counts}, payload))
-            continue;
+        if (payload_of_any(changed, records, number, payload)) continue;
         ++taken;
         ASSERT_EQ(payload.triangles.size(), all);
         ASSERT_EQ(payload.labels.size(), all);
@@ -289,6 +332,17 @@ TEST(MeshRecords, PayloadsOfAnyBytesAreTrianglesOrRefused) {
     }
     std::printf("%d of 4,000 changes left triangles\n", taken);
     EXPECT_LT(taken, 400);
+}
+
+TEST(MeshRecords, PayloadsOfAnyBytesAreTrianglesOrRefused) {
+    expect_any_payloads_are_sound(stored_mesh_of(hilly_ball(20, 50.0)), nullptr);
+}
+
+TEST(MeshRecords, PayloadsOfATownOfAnyBytesAreTrianglesOrRefused) {
+    StoredMesh mesh = stored_mesh_of(box_town(10));
+    mesh.ground_fingerprint = 9;
+    const GroundCells cells = some_cells();
+    expect_any_payloads_are_sound(mesh, &cells);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "geo/together/mesh_detail.h"
 #include "geo/together/region_ground.h"
 #include "tests/geo/together/made_placed_mesh.h"
+#include "tests/geo/together/same_cuts.h"
 #include "tests/support/mended_container.h"
 #include "tests/support/test_data.h"
 
@@ -24,6 +25,7 @@ namespace oro {
 namespace {
 namespace fs = std::filesystem;
 
+using test::expect_same;
 using test::region_with;
 
 // A rough sheet of n x n cells, 1.2 km wide, whose vertices have colours: many groups.
@@ -83,25 +85,6 @@ class StreamedTriangles : public ::testing::Test {
         camera.attitude = {0.0, -5.0, 0.0};
         camera.vertical_fov_deg = 30.0, camera.width_px = 800, camera.height_px = 600;
         return camera;
-    }
-    static void expect_same(const MeshCut& a, const MeshCut& b) {
-        EXPECT_EQ(a.clusters, b.clusters);
-        EXPECT_EQ(a.triangles, b.triangles);
-        EXPECT_EQ(a.of_triangles, b.of_triangles);
-        EXPECT_EQ(a.error_m, b.error_m);
-        EXPECT_EQ(a.error_px, b.error_px);
-        const PlacedMesh &one = a.meshes->front(), &other = b.meshes->front();
-        EXPECT_EQ(one.triangles, other.triangles);
-        EXPECT_EQ(one.feature_of, other.feature_of);
-        EXPECT_EQ(one.colours, other.colours);
-        EXPECT_EQ(one.part_colours, other.part_colours);
-        EXPECT_EQ(one.fingerprint, other.fingerprint);
-        ASSERT_EQ(one.vertices.size(), other.vertices.size());
-        for (std::size_t i = 0; i < one.vertices.size(); ++i) {
-            ASSERT_EQ(one.vertices[i].lat_deg, other.vertices[i].lat_deg);
-            ASSERT_EQ(one.vertices[i].lon_deg, other.vertices[i].lon_deg);
-            ASSERT_EQ(one.vertices[i].H_m, other.vertices[i].H_m);
-        }
     }
     void expect_same_cuts() {
         const MeshDetail a = MeshDetail::of(whole_, 1.0, 2);
@@ -214,9 +197,9 @@ TEST_F(StreamedTriangles, DamageMattersWhereItIsDrawn) {
         << all.error().line();
     // Who reads all of the mesh is told, too.
     EXPECT_FALSE(read_baked_meshes(*open(), geoid_).ok());
-    EXPECT_FALSE(check_streamed_mesh(*open(), 0, mesh_of(whole_)).ok());
+    EXPECT_FALSE(check_streamed_mesh(*open(), 0, mesh_of(whole_), whole_).ok());
     change(of_leaf);
-    EXPECT_TRUE(check_streamed_mesh(*open(), 0, mesh_of(whole_)).ok());
+    EXPECT_TRUE(check_streamed_mesh(*open(), 0, mesh_of(whole_), whole_).ok());
 }
 
 // Two meshes of one file, and one between them that has no groups: each is what it is alone.
@@ -258,8 +241,8 @@ TEST_F(StreamedTriangles, OfSeveralMeshesOfAFileAreTheirOwn) {
         }
     }
     for (std::uint32_t i = 0; i < 3; ++i)
-        EXPECT_TRUE(check_streamed_mesh(*open(), i, (*whole_.meshes)[i]).ok()) << i;
-    EXPECT_FALSE(check_streamed_mesh(*open(), 0, (*whole_.meshes)[2]).ok());
+        EXPECT_TRUE(check_streamed_mesh(*open(), i, (*whole_.meshes)[i], whole_).ok()) << i;
+    EXPECT_FALSE(check_streamed_mesh(*open(), 0, (*whole_.meshes)[2], whole_).ok());
 }
 
 // Records of one mesh and groups of another, each with right checksums.
@@ -270,7 +253,7 @@ TEST_F(StreamedTriangles, OfAnotherMeshAreTold) {
     auto moved = std::make_shared<StoredMesh>(*other.stored());
     moved->places[5][2] += 3;
     other.baked = std::make_shared<const BakedMesh>(BakedMesh{moved, nullptr, 0});
-    const auto checked = check_streamed_mesh(*open(), 0, other);
+    const auto checked = check_streamed_mesh(*open(), 0, other, whole_);
     ASSERT_FALSE(checked.ok());
     EXPECT_NE(checked.error().line().find("the groups of the mesh are not those of its triangles"),
               std::string::npos);
