@@ -418,21 +418,22 @@ MeshNumbers numbers_of(const MeshToStore& mesh) {
 
 }  // namespace
 
-Result<std::vector<std::byte>> mesh_to_bytes(const MeshToStore& mesh) {
+Result<std::vector<std::byte>> mesh_to_bytes(const MeshToStore& mesh, StoredMesh* written) {
     const MeshNumbers numbers = numbers_of(mesh);
     if (const std::string wrong = implausible(numbers); !wrong.empty())
         return Error{ErrorKind::failed, "", "the mesh " + wrong};
     std::vector<std::uint32_t> groups(numbers.levels, 0);
     for (const ClusterGroup& group : mesh.graph.clusters.groups) ++groups[group.level - 1];
     NumberWriter writer;
-    MeshNumbers written = numbers;
-    if (mesh.ground_fingerprint != 0) written.levels |= has_ground;
-    visit_numbers(writer, written);
+    MeshNumbers stated = numbers;
+    if (mesh.ground_fingerprint != 0) stated.levels |= has_ground;
+    visit_numbers(writer, stated);
     if (mesh.ground_fingerprint != 0) writer(mesh.ground_fingerprint);
     for (const std::uint32_t count : groups) writer(count);
     RangeEncoder coder;
     StoredMesh stored;
     stored.origin = mesh.origin, stored.label_count = mesh.label_count;
+    stored.ground_fingerprint = mesh.ground_fingerprint;
     // Vectors that grow to these would take twice as much for a moment.
     stored.places.reserve(numbers.vertices);
     stored.graph.clusters.triangles.reserve(numbers.graph_triangles);
@@ -443,6 +444,7 @@ Result<std::vector<std::byte>> mesh_to_bytes(const MeshToStore& mesh) {
         return Error{ErrorKind::failed, "", "the mesh " + wrong};
     const std::vector<std::byte> coded = coder.finish();
     writer.bytes.insert(writer.bytes.end(), coded.begin(), coded.end());
+    if (written != nullptr) *written = std::move(stored);
     return std::move(writer.bytes);
 }
 

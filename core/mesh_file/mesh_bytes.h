@@ -31,9 +31,11 @@ struct MeshToStore {
 
 // The same mesh gives the same bytes. Told are the mesh's triangles and places, and of each group which of
 // its vertices go to which neighbours, in which clusters the rest lies, and its error: so what is read has no
-// crack between groups, whatever the bytes say. Spheres are reckoned from these. Errors, in words: a graph
-// above the limits, or one that no builder makes.
-[[nodiscard]] Result<std::vector<std::byte>> mesh_to_bytes(const MeshToStore& mesh);
+// crack between groups, whatever the bytes say. Spheres are reckoned from these. written: null, or takes what
+// mesh_from_bytes() reads of these bytes. Errors, in words: a graph above the limits, or one that no builder
+// makes.
+[[nodiscard]] Result<std::vector<std::byte>> mesh_to_bytes(const MeshToStore& mesh,
+                                                           StoredMesh* written = nullptr);
 
 // The inverse, in one pass, a fortieth of the time that building takes. Any bytes may be given: nothing when
 // they are a mesh, else what is wrong with them, in words that follow "the mesh"; `mesh` is then of no use.

@@ -259,15 +259,14 @@ Result<BakedMeshReport> write_baked_mesh(const std::string& path, const PlacedMe
     std::vector<std::uint32_t> labels;
     if (!mesh.features.empty())
         for (const std::uint32_t triangle : lattice.triangle_of) labels.push_back(mesh.feature_of[triangle]);
+    // Groups by themselves have the numbers and the order that whoever reads the whole mesh finds.
+    StoredMesh stored;
     Result<std::vector<std::byte>> bytes =
         mesh_to_bytes({lattice_point(lattice.origin_m).steps, on_lattice.places, labels,
                        static_cast<std::uint32_t>(mesh.features.size()), graph,
-                       fingerprint_of(below.triangles, lattice.origin_m)});
+                       fingerprint_of(below.triangles, lattice.origin_m)},
+                      &stored);
     if (!bytes) return Error{bytes.error().kind, mesh.path, bytes.error().what};
-    // Groups by themselves have the numbers and the order that whoever reads the whole mesh finds.
-    StoredMesh stored;
-    if (const auto wrong = mesh_from_bytes(*bytes, stored))
-        return Error{ErrorKind::failed, mesh.path, "the mesh that was written " + *wrong};
     std::vector<VertexColour> colours;
     if (!mesh.colours.empty()) colours = stored_colours(mesh, lattice.vertex_of, on_lattice.places, stored);
     const StreamedBytes streamed = groups_of(stored, colours, below.cells, threads);
