@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace oro {
@@ -37,7 +38,9 @@ class RangeEncoder {
     bool bit(AdaptiveBit& likely, bool value);
     // 0 .. count - 1, all as likely; count: 1 .. 2^32 - 1.
     std::uint32_t uniform(std::uint32_t count, std::uint32_t value);
-    // All bytes; the encoder is then of no use.
+    // The bytes that no later one changes, but those that were taken before.
+    [[nodiscard]] std::vector<std::byte> take() { return std::exchange(bytes_, {}); }
+    // All bytes that were not taken; the encoder is then of no use.
     [[nodiscard]] std::vector<std::byte> finish();
 
   private:

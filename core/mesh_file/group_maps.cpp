@@ -4,7 +4,7 @@
 
 namespace oro {
 
-void GroupMaps::begin(std::span<const Triangle> triangles, const std::vector<char>& is_border) {
+void GroupMaps::begin(std::span<const Triangle> triangles, std::span<const char> is_border) {
     vertices_.clear(), stays_.clear();
     for (const Triangle& triangle : triangles)
         for (const std::uint32_t corner : triangle) {
@@ -145,7 +145,7 @@ void GroupMaps::code_clusters(Coder& coder, std::uint32_t made, std::vector<Left
 }
 
 template <class Coder>
-bool GroupMaps::code(Coder& coder, std::span<const Triangle> triangles, const std::vector<char>& is_border,
+bool GroupMaps::code(Coder& coder, std::span<const Triangle> triangles, std::span<const char> is_border,
                      std::uint32_t made, std::vector<Left>& left) {
     begin(triangles, is_border);
     std::vector<Left> source;
@@ -167,9 +167,9 @@ bool GroupMaps::code(Coder& coder, std::span<const Triangle> triangles, const st
     return is_right;
 }
 
-template bool GroupMaps::code(RangeEncoder&, std::span<const Triangle>, const std::vector<char>&,
-                              std::uint32_t, std::vector<Left>&);
-template bool GroupMaps::code(RangeDecoder&, std::span<const Triangle>, const std::vector<char>&,
-                              std::uint32_t, std::vector<Left>&);
+template bool GroupMaps::code(RangeEncoder&, std::span<const Triangle>, std::span<const char>, std::uint32_t,
+                              std::vector<Left>&);
+template bool GroupMaps::code(RangeDecoder&, std::span<const Triangle>, std::span<const char>, std::uint32_t,
+                              std::vector<Left>&);
 
 }  // namespace oro

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -24,18 +25,20 @@ class GroupMaps {
         std::uint32_t cluster;  // of those that the group made, from 0
     };
 
-    // vertices: of the mesh.
-    explicit GroupMaps(std::size_t vertices) : local_of_(vertices, gone) {}
+    // vertices: of the mesh. memory: for what is of their number.
+    explicit GroupMaps(std::size_t vertices,
+                       std::pmr::memory_resource* memory = std::pmr::new_delete_resource())
+        : local_of_(vertices, gone, memory) {}
 
     // triangles: what the group uses. is_border: of each vertex of the mesh, whether it stays. made: clusters
     // that come out. left: an encoder's are told, a decoder's are replaced. False where a decoder's bytes
     // tell no such group, or where an encoder's triangles are none that this can tell.
     template <class Coder>
-    bool code(Coder& coder, std::span<const Triangle> triangles, const std::vector<char>& is_border,
+    bool code(Coder& coder, std::span<const Triangle> triangles, std::span<const char> is_border,
               std::uint32_t made, std::vector<Left>& left);
 
   private:
-    void begin(std::span<const Triangle> triangles, const std::vector<char>& is_border);
+    void begin(std::span<const Triangle> triangles, std::span<const char> is_border);
     void find_ways(std::span<const Triangle> triangles, std::span<const Left> left);
     template <class Coder>
     void code_ways(Coder& coder);
@@ -45,9 +48,9 @@ class GroupMaps {
     void code_clusters(Coder& coder, std::uint32_t made, std::vector<Left>& left,
                        std::span<const Left> source);
 
-    std::vector<std::uint32_t> local_of_;  // by vertex of the mesh; `gone` between calls
-    std::vector<std::uint32_t> vertices_;  // of the group, as its triangles meet them
-    std::vector<char> stays_;              // on the border
+    std::pmr::vector<std::uint32_t> local_of_;  // by vertex of the mesh; `gone` between calls
+    std::vector<std::uint32_t> vertices_;       // of the group, as its triangles meet them
+    std::vector<char> stays_;                   // on the border
     std::vector<std::vector<std::uint32_t>> neighbours_;
     // Of each vertex: itself, the neighbour that it goes to, or gone; then where that way ends.
     std::vector<std::uint32_t> way_;

@@ -54,7 +54,7 @@ LeafCode::Recorded LeafCode::first_left(const LeafSource& source) const {
 }
 
 template <class Coder>
-void LeafCode::place(Coder& coder, const Side* side, const LatticeSteps* value, StoredMesh& mesh) {
+void LeafCode::place(Coder& coder, const Side* side, const LatticeSteps* value, CodedMesh<Coder>& mesh) {
     LatticeSteps at{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const auto above = [&](std::uint32_t known) {
@@ -78,7 +78,7 @@ void LeafCode::place(Coder& coder, const Side* side, const LatticeSteps* value, 
 template <class Coder>
 std::uint32_t LeafCode::vertex(Coder& coder, std::span<const std::uint32_t> known,
                                std::uint32_t source_vertex, std::span<const LatticeSteps> source_places,
-                               const Side* side, StoredMesh& mesh) {
+                               const Side* side, CodedMesh<Coder>& mesh) {
     const auto next = static_cast<std::uint32_t>(mesh.places.size());
     ends_.clear();
     for (const std::uint32_t one : known) sides_of_all_.ends_at(one, ends_);
@@ -137,8 +137,7 @@ void LeafCode::add_sides(const Triangle& corners, std::uint32_t label, bool has_
 
 template <class Coder>
 bool LeafCode::code(Coder& coder, std::uint32_t count, const LeafSource& source,
-                    std::span<const LatticeSteps> source_places, std::vector<Triangle>& triangles,
-                    StoredMesh& mesh) {
+                    std::span<const LatticeSteps> source_places, CodedMesh<Coder>& mesh) {
     begin(count, source);
     for (std::uint32_t done = 0; done < count;) {
         const bool is_first = open_.empty();
@@ -182,7 +181,7 @@ bool LeafCode::code(Coder& coder, std::uint32_t count, const LeafSource& source,
             if (std::find(local_.begin(), local_.end(), corner) == local_.end()) local_.push_back(corner);
         add_sides(corners, label, !is_first);
         sides_of_all_.add(corners);
-        triangles.push_back(corners);
+        triangles_of(mesh).push_back(corners);
         ++done;
         if constexpr (!Coder::writes)
             if (coder.is_wrong()) return false;
@@ -191,8 +190,8 @@ bool LeafCode::code(Coder& coder, std::uint32_t count, const LeafSource& source,
 }
 
 template bool LeafCode::code(RangeEncoder&, std::uint32_t, const LeafSource&, std::span<const LatticeSteps>,
-                             std::vector<Triangle>&, StoredMesh&);
+                             WrittenMesh&);
 template bool LeafCode::code(RangeDecoder&, std::uint32_t, const LeafSource&, std::span<const LatticeSteps>,
-                             std::vector<Triangle>&, StoredMesh&);
+                             StoredMesh&);
 
 }  // namespace oro

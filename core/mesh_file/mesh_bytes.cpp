@@ -22,6 +22,8 @@ namespace {
 
 constexpr std::uint32_t most_levels = 80, most_used_triangles = 4096;
 constexpr std::uint32_t has_ground = 1U << 31U;  // beside the number of levels
+// After so many what lies in scratch files is out of memory: some 100,000 triangles.
+constexpr std::uint32_t window_leaves = 1024, window_groups = 64;
 
 struct MeshNumbers {
     LatticeSteps origin{}, least{};
@@ -64,15 +66,16 @@ template <class Coder>
 class MeshBytesCode {
   public:
     MeshBytesCode(Coder& coder, const MeshNumbers& numbers, std::vector<std::uint32_t> groups,
-                  const MeshToStore* source, StoredMesh& mesh)
+                  const MeshToStore* source, CodedMesh<Coder>& mesh, ScratchMemory* scratch)
         : coder_(coder),
           numbers_(numbers),
           groups_(std::move(groups)),
           source_(source),
           mesh_(mesh),
-          leaf_(numbers.least, numbers.vertices, numbers.labels),
-          maps_(numbers.vertices),
-          counted_by_(numbers.vertices) {}
+          scratch_(scratch),
+          leaf_(numbers.least, numbers.vertices, numbers.labels, array_memory(scratch)),
+          maps_(numbers.vertices, array_memory(scratch)),
+          counted_by_(numbers.vertices, array_memory(scratch)) {}
 
     // "" where all is well.
     std::string code() {
@@ -82,21 +85,40 @@ class MeshBytesCode {
         }
         if (std::string wrong = leaves(); !wrong.empty()) return wrong;
         vertices_m_.reserve(mesh_.places.size());
-        for (std::uint32_t i = 0; i < mesh_.places.size(); ++i) vertices_m_.push_back(mesh_.from_origin_m(i));
+        for (const LatticeSteps& at : mesh_.places)
+            vertices_m_.push_back(
+                metres_of({at[0] - mesh_.origin[0], at[1] - mesh_.origin[1], at[2] - mesh_.origin[2]}));
         if (has_flat(0)) return "has a triangle without an area";
         for (std::uint32_t i = 0; i < numbers_.levels; ++i)
             if (std::string wrong = level(i); !wrong.empty()) return wrong;
-        if (graph().clusters.size() != numbers_.clusters ||
-            graph().triangles.size() != numbers_.graph_triangles)
+        if (graph().clusters.size() != numbers_.clusters || triangles().size() != numbers_.graph_triangles)
             return "has " + std::to_string(graph().clusters.size()) + " clusters of " +
-                   std::to_string(graph().triangles.size()) + " triangles, expected " +
+                   std::to_string(triangles().size()) + " triangles, expected " +
                    std::to_string(numbers_.clusters) + " of " + std::to_string(numbers_.graph_triangles);
         return "";
     }
 
   private:
-    [[nodiscard]] ClusterGraph& graph() { return mesh_.graph.clusters; }
+    [[nodiscard]] ClusterGraph& graph() { return graph_of(mesh_); }
+    [[nodiscard]] auto& triangles() const { return triangles_of(mesh_); }
+    [[nodiscard]] std::span<const VertexTriangle> triangles_in(const Cluster& cluster) const {
+        return std::span(triangles()).subspan(cluster.first_triangle, cluster.triangles);
+    }
+    [[nodiscard]] auto& originals() const { return originals_of(mesh_); }
     [[nodiscard]] const ClusterGraph& given() const { return source_->graph.clusters; }
+    static glm::dvec3 metres_of(const LatticeSteps& at) {
+        return {static_cast<double>(at[0]) / lattice_steps_per_m,
+                static_cast<double>(at[1]) / lattice_steps_per_m,
+                static_cast<double>(at[2]) / lattice_steps_per_m};
+    }
+    // An encoder's, now and then: what was told, and what was asked for it, is out of memory.
+    void end_window() {
+        if constexpr (Coder::writes) {
+            const std::vector<std::byte> some = coder_.take();
+            mesh_.bytes.insert(mesh_.bytes.end(), some.begin(), some.end());
+            if (scratch_ != nullptr) scratch_->drop_pages();
+        }
+    }
     [[nodiscard]] bool is_cut_off() const {
         if constexpr (Coder::writes)
             return false;
@@ -108,8 +130,8 @@ class MeshBytesCode {
     std::string used_by(std::size_t number, std::uint32_t groups_above, std::uint32_t first_above);
     std::string level(std::uint32_t number);
     void begin_groups(std::uint32_t number, std::uint32_t first_group);
-    std::vector<char> borders(std::uint32_t first_group) const;
-    std::string group(std::uint32_t number, const std::vector<char>& is_border, std::uint32_t groups_above,
+    std::pmr::vector<char> borders(std::uint32_t first_group);
+    std::string group(std::uint32_t number, std::span<const char> is_border, std::uint32_t groups_above,
                       std::uint32_t first_above);
     std::vector<GroupMaps::Left> left_of(std::uint32_t number,
                                          std::span<const std::uint32_t> originals) const;
@@ -119,7 +141,7 @@ class MeshBytesCode {
     [[nodiscard]] std::string too_full(const Cluster& cluster);
     // Whether a triangle of the graph, that or a later one, has no area.
     [[nodiscard]] bool has_flat(std::size_t first) const {
-        const std::vector<VertexTriangle>& all = mesh_.graph.clusters.triangles;
+        const auto& all = triangles();
         return std::any_of(all.begin() + static_cast<std::ptrdiff_t>(first), all.end(), [&](const auto& one) {
             return glm::cross(vertices_m_[one[1]] - vertices_m_[one[0]],
                               vertices_m_[one[2]] - vertices_m_[one[0]]) == glm::dvec3(0.0);
@@ -130,14 +152,16 @@ class MeshBytesCode {
     MeshNumbers numbers_;
     std::vector<std::uint32_t> groups_;  // by level
     const MeshToStore* source_;
-    StoredMesh& mesh_;
+    CodedMesh<Coder>& mesh_;
+    ScratchMemory* scratch_;
     LeafCode leaf_;
     GroupMaps maps_;
-    std::vector<std::uint32_t> counted_by_;  // by vertex: the last cluster that it was counted for; 0: none
-    std::vector<glm::dvec3> vertices_m_;
+    // By vertex: the last cluster that it was counted for; 0: none.
+    std::pmr::vector<std::uint32_t> counted_by_;
+    std::pmr::vector<glm::dvec3> vertices_m_{array_memory(scratch_)};
     // An encoder's, by triangles of the mesh: which it was given, and which of its corners comes first.
-    std::vector<std::uint32_t> given_original_;
-    std::vector<std::uint8_t> turn_;
+    std::pmr::vector<std::uint32_t> given_original_{array_memory(scratch_)};
+    std::pmr::vector<std::uint8_t> turn_{array_memory(scratch_)};
     SmallNumber leaf_room_, made_;
     NearZero user_;
     std::uint32_t last_user_{};
@@ -148,7 +172,7 @@ template <class Coder>
 std::string MeshBytesCode<Coder>::too_full(const Cluster& cluster) {
     const auto number = static_cast<std::uint32_t>(graph().clusters.size());  // of the next one
     std::uint32_t vertices = 0;
-    for (const VertexTriangle& triangle : graph().triangles_of(cluster))
+    for (const VertexTriangle& triangle : triangles_in(cluster))
         for (const std::uint32_t corner : triangle) {
             vertices += counted_by_[corner] == number ? 0U : 1U;
             counted_by_[corner] = number;
@@ -184,7 +208,7 @@ std::string MeshBytesCode<Coder>::leaf(std::uint32_t number) {
     if constexpr (Coder::writes) {
         const Cluster& cluster = given().clusters[number];
         count = cluster.triangles;
-        source.triangles = given().triangles_of(cluster);
+        source.triangles = source_->graph.triangles_of(cluster);
         if (numbers_.labels > 0)
             for (std::uint32_t i = 0; i < count; ++i)
                 labels.push_back(source_->labels[source_->graph.original_of[cluster.first_triangle + i]]);
@@ -194,19 +218,18 @@ std::string MeshBytesCode<Coder>::leaf(std::uint32_t number) {
     const std::uint32_t room = leaf_room_.code(coder_, most - count);
     if (room >= most) return "has an empty leaf";
     count = most - room;
-    const auto first = static_cast<std::uint32_t>(graph().triangles.size());
+    const auto first = static_cast<std::uint32_t>(triangles().size());
     if (count > numbers_.triangles - first) return "has more triangles in its leaves than it states";
     std::span<const LatticeSteps> places;
     if constexpr (Coder::writes) places = source_->places;
-    if (!leaf_.code(coder_, count, source, places, graph().triangles, mesh_))
-        return "has a triangle that is none";
-    for (std::uint32_t i = 0; i < count; ++i) mesh_.graph.original_of.push_back(first + i);
+    if (!leaf_.code(coder_, count, source, places, mesh_)) return "has a triangle that is none";
+    for (std::uint32_t i = 0; i < count; ++i) originals().push_back(first + i);
     if constexpr (Coder::writes)
         for (std::uint32_t i = 0; i < count; ++i) {
             const std::uint32_t number_there = given().clusters[number].first_triangle + leaf_.recorded()[i];
             given_original_.push_back(source_->graph.original_of[number_there]);
             std::uint8_t turn = 0;
-            while (leaf_.number_of(given().triangles[number_there][turn]) != graph().triangles[first + i][0])
+            while (leaf_.number_of(source_->graph.triangles[number_there][turn]) != triangles()[first + i][0])
                 ++turn;
             turn_.push_back(turn);
         }
@@ -221,10 +244,12 @@ std::string MeshBytesCode<Coder>::leaves() {
     for (std::uint32_t i = 0; i < numbers_.leaves; ++i) {
         if (std::string wrong = leaf(i); !wrong.empty()) return wrong;
         if (is_cut_off()) return "is cut off in its leaves";
+        if ((i + 1) % window_leaves == 0) end_window();
     }
-    leaf_.end();
-    if (graph().triangles.size() != numbers_.triangles || mesh_.places.size() != numbers_.vertices)
-        return "has " + std::to_string(graph().triangles.size()) + " triangles and " +
+    std::pmr::vector<std::uint32_t> given_vertex = leaf_.end();
+    if constexpr (Coder::writes) mesh_.given_vertex = std::move(given_vertex);
+    if (triangles().size() != numbers_.triangles || mesh_.places.size() != numbers_.vertices)
+        return "has " + std::to_string(triangles().size()) + " triangles and " +
                std::to_string(mesh_.places.size()) + " vertices, expected " +
                std::to_string(numbers_.triangles) + " and " + std::to_string(numbers_.vertices);
     return "";
@@ -242,24 +267,27 @@ void MeshBytesCode<Coder>::begin_groups(std::uint32_t number, std::uint32_t firs
         group.first_member = static_cast<std::uint32_t>(graph().members.size());
         group.members = static_cast<std::uint32_t>(of_group.size());
         graph().members.insert(graph().members.end(), of_group.begin(), of_group.end());
-        set_sphere(graph(), vertices_m_, mesh_.origin_ecef_m(), group);
+        set_sphere(graph(), triangles(), vertices_m_, metres_of(mesh_.origin), group);
         graph().groups.push_back(group);
+        if (graph().groups.size() % window_groups == 0) end_window();
     }
 }
 
 // Whether each vertex is one of several groups.
 template <class Coder>
-std::vector<char> MeshBytesCode<Coder>::borders(std::uint32_t first_group) const {
-    const ClusterGraph& all = mesh_.graph.clusters;
-    std::vector<std::uint32_t> seen(mesh_.places.size(), no_group);
-    std::vector<char> is_border(mesh_.places.size(), 0);
-    for (std::uint32_t i = first_group; i < all.groups.size(); ++i)
+std::pmr::vector<char> MeshBytesCode<Coder>::borders(std::uint32_t first_group) {
+    const ClusterGraph& all = graph();
+    std::pmr::vector<std::uint32_t> seen(mesh_.places.size(), no_group, array_memory(scratch_));
+    std::pmr::vector<char> is_border(mesh_.places.size(), 0, array_memory(scratch_));
+    for (std::uint32_t i = first_group; i < all.groups.size(); ++i) {
         for (const std::uint32_t member : all.members_of(all.groups[i]))
-            for (const VertexTriangle& triangle : all.triangles_of(all.clusters[member]))
+            for (const VertexTriangle& triangle : triangles_in(all.clusters[member]))
                 for (const std::uint32_t corner : triangle) {
                     if (seen[corner] != no_group && seen[corner] != i) is_border[corner] = 1;
                     seen[corner] = i;
                 }
+        if (i % window_groups == 0) end_window();
+    }
     return is_border;
 }
 
@@ -281,8 +309,8 @@ std::vector<GroupMaps::Left> MeshBytesCode<Coder>::left_of(std::uint32_t number,
             if (found == numbers.end() || found->first != original) return {};
             GroupMaps::Left one{found->second, {}, i};
             for (std::size_t corner = 0; corner < 3; ++corner)
-                one.corners[corner] =
-                    leaf_.number_of(given().triangles[k][(corner + turn_[originals[found->second]]) % 3]);
+                one.corners[corner] = leaf_.number_of(
+                    source_->graph.triangles[k][(corner + turn_[originals[found->second]]) % 3]);
             left.push_back(one);
         }
     }
@@ -315,11 +343,11 @@ std::string MeshBytesCode<Coder>::clusters_of(std::uint32_t number, std::uint32_
     std::vector<std::vector<std::uint32_t>> of_cluster(made);
     for (std::uint32_t i = 0; i < left.size(); ++i) of_cluster[left[i].cluster].push_back(i);
     for (const std::vector<std::uint32_t>& of_one : of_cluster) {
-        graph().clusters.push_back({static_cast<std::uint32_t>(graph().triangles.size()),
+        graph().clusters.push_back({static_cast<std::uint32_t>(triangles().size()),
                                     static_cast<std::uint32_t>(of_one.size()), 0, number, no_group});
         for (const std::uint32_t one : of_one) {
-            graph().triangles.push_back(left[one].corners);
-            mesh_.graph.original_of.push_back(originals[left[one].number]);
+            triangles().push_back(left[one].corners);
+            originals_of(mesh_).push_back(originals[left[one].number]);
         }
         if (std::string wrong = too_full(graph().clusters.back()); !wrong.empty()) return wrong;
     }
@@ -327,35 +355,35 @@ std::string MeshBytesCode<Coder>::clusters_of(std::uint32_t number, std::uint32_
 }
 
 template <class Coder>
-std::string MeshBytesCode<Coder>::group(std::uint32_t number, const std::vector<char>& is_border,
+std::string MeshBytesCode<Coder>::group(std::uint32_t number, std::span<const char> is_border,
                                         std::uint32_t groups_above, std::uint32_t first_above) {
     const std::string name = "has a group " + std::to_string(number) + " ";
-    std::vector<VertexTriangle> triangles;
-    std::vector<std::uint32_t> originals;
+    std::vector<VertexTriangle> used;
+    std::vector<std::uint32_t> used_originals;
     for (const std::uint32_t member : graph().members_of(graph().groups[number])) {
         const Cluster& cluster = graph().clusters[member];
-        const auto of_cluster = graph().triangles_of(cluster);
-        triangles.insert(triangles.end(), of_cluster.begin(), of_cluster.end());
+        const auto of_cluster = triangles_in(cluster);
+        used.insert(used.end(), of_cluster.begin(), of_cluster.end());
         for (std::uint32_t i = 0; i < cluster.triangles; ++i)
-            originals.push_back(mesh_.graph.original_of[cluster.first_triangle + i]);
+            used_originals.push_back(originals()[cluster.first_triangle + i]);
     }
-    if (triangles.empty() || triangles.size() > most_used_triangles)
-        return name + "of " + std::to_string(triangles.size()) + " triangles, expected 1 to 4,096";
+    if (used.empty() || used.size() > most_used_triangles)
+        return name + "of " + std::to_string(used.size()) + " triangles, expected 1 to 4,096";
     std::uint32_t made = 0;
     std::vector<GroupMaps::Left> left;
     if constexpr (Coder::writes) {
         made = given().groups[number].made;
-        left = left_of(number, originals);
+        left = left_of(number, used_originals);
         graph().groups[number].error_m = given().groups[number].error_m;
     }
     made = made_.code(coder_, made);
-    if (made > triangles.size()) return name + "of more clusters than triangles";
-    if (!maps_.code(coder_, triangles, is_border, made, left)) return name + "whose vertices lead nowhere";
+    if (made > used.size()) return name + "of more clusters than triangles";
+    if (!maps_.code(coder_, used, is_border, made, left)) return name + "whose vertices lead nowhere";
     const double least_m = largest_member_error_m(graph(), graph().groups[number]);
     if (std::string wrong = error(graph().groups[number], least_m); !wrong.empty()) return wrong;
     const std::size_t first = graph().clusters.size();
-    const std::size_t first_triangle = graph().triangles.size();
-    if (std::string wrong = clusters_of(number, made, left, originals); !wrong.empty()) return wrong;
+    const std::size_t first_triangle = triangles().size();
+    if (std::string wrong = clusters_of(number, made, left, used_originals); !wrong.empty()) return wrong;
     if (has_flat(first_triangle)) return name + "that made a triangle without an area";
     const std::size_t end = graph().clusters.size();
     for (std::size_t i = first; i < end; ++i)
@@ -367,30 +395,32 @@ template <class Coder>
 std::string MeshBytesCode<Coder>::level(std::uint32_t number) {
     const auto first_group = static_cast<std::uint32_t>(graph().groups.size());
     const auto first_cluster = static_cast<std::uint32_t>(graph().clusters.size());
-    const std::size_t first_triangle = graph().triangles.size();
+    const std::size_t first_triangle = triangles().size();
     begin_groups(number, first_group);
     GraphLevel facts;
     facts.groups = groups_[number];
-    const std::vector<char> is_border = borders(first_group);
+    const std::pmr::vector<char> is_border = borders(first_group);
     facts.locked = static_cast<std::size_t>(std::count(is_border.begin(), is_border.end(), 1));
     const std::uint32_t above = number + 1 < numbers_.levels ? groups_[number + 1] : 0;
     for (std::uint32_t i = first_group; i < first_group + facts.groups; ++i) {
-        const std::size_t before = graph().triangles.size();
+        const std::size_t before = triangles().size();
         if (std::string wrong = group(i, is_border, above, first_group + groups_[number]); !wrong.empty())
             return wrong;
-        if (is_cut_off() || graph().triangles.size() > numbers_.graph_triangles)
+        if (is_cut_off() || triangles().size() > numbers_.graph_triangles)
             return "is cut off in group " + std::to_string(i);
         std::size_t used = 0;
         for (const std::uint32_t member : graph().members_of(graph().groups[i]))
             used += graph().clusters[member].triangles;
-        const std::size_t out = graph().triangles.size() - before;
+        const std::size_t out = triangles().size() - before;
         facts.triangles_in += used, facts.triangles_out += out;
         facts.largest_group = std::max(facts.largest_group, used);
         facts.stuck_groups += static_cast<double>(out) > stuck_share * static_cast<double>(used) ? 1U : 0U;
         facts.clusters_out += graph().groups[i].made;
         facts.largest_error_m = std::max(facts.largest_error_m, graph().groups[i].error_m);
+        if (i % window_groups == 0) end_window();
     }
-    if (graph().triangles.size() - first_triangle > facts.triangles_in) return "grows from level to level";
+    end_window();
+    if (triangles().size() - first_triangle > facts.triangles_in) return "grows from level to level";
     graph().levels.push_back(facts);
     first_live_ = first_cluster;
     return "";
@@ -412,13 +442,13 @@ MeshNumbers numbers_of(const MeshToStore& mesh) {
         ++numbers.leaves, numbers.triangles += cluster.triangles;
     }
     numbers.levels = graph.groups.empty() ? 0 : graph.groups.back().level;
-    numbers.graph_triangles = static_cast<std::uint32_t>(graph.triangles.size());
+    numbers.graph_triangles = static_cast<std::uint32_t>(mesh.graph.triangles.size());
     return numbers;
 }
 
 }  // namespace
 
-Result<std::vector<std::byte>> mesh_to_bytes(const MeshToStore& mesh, StoredMesh* written) {
+Result<WrittenMesh> write_mesh(const MeshToStore& mesh, ScratchMemory* scratch) {
     const MeshNumbers numbers = numbers_of(mesh);
     if (const std::string wrong = implausible(numbers); !wrong.empty())
         return Error{ErrorKind::failed, "", "the mesh " + wrong};
@@ -430,22 +460,28 @@ Result<std::vector<std::byte>> mesh_to_bytes(const MeshToStore& mesh, StoredMesh
     visit_numbers(writer, stated);
     if (mesh.ground_fingerprint != 0) writer(mesh.ground_fingerprint);
     for (const std::uint32_t count : groups) writer(count);
-    RangeEncoder coder;
-    StoredMesh stored;
-    stored.origin = mesh.origin, stored.label_count = mesh.label_count;
-    stored.ground_fingerprint = mesh.ground_fingerprint;
+    WrittenMesh written(array_memory(scratch));
+    written.origin = mesh.origin, written.label_count = mesh.label_count;
+    written.ground_fingerprint = mesh.ground_fingerprint;
+    written.bytes.assign(writer.bytes.begin(), writer.bytes.end());
     // Vectors that grow to these would take twice as much for a moment.
-    stored.places.reserve(numbers.vertices);
-    stored.graph.clusters.triangles.reserve(numbers.graph_triangles);
-    stored.graph.clusters.clusters.reserve(numbers.clusters);
-    stored.graph.original_of.reserve(numbers.graph_triangles);
-    MeshBytesCode<RangeEncoder> code(coder, numbers, groups, &mesh, stored);
+    written.places.reserve(numbers.vertices);
+    written.triangles.reserve(numbers.graph_triangles), written.original_of.reserve(numbers.graph_triangles);
+    written.clusters.clusters.reserve(numbers.clusters);
+    written.clusters.groups.reserve(mesh.graph.clusters.groups.size());
+    written.clusters.members.reserve(mesh.graph.clusters.members.size());
+    RangeEncoder coder;
+    MeshBytesCode<RangeEncoder> code(coder, numbers, groups, &mesh, written, scratch);
     if (const std::string wrong = code.code(); !wrong.empty())
         return Error{ErrorKind::failed, "", "the mesh " + wrong};
-    const std::vector<std::byte> coded = coder.finish();
-    writer.bytes.insert(writer.bytes.end(), coded.begin(), coded.end());
-    if (written != nullptr) *written = std::move(stored);
-    return std::move(writer.bytes);
+    const std::vector<std::byte> rest = coder.finish();
+    written.bytes.insert(written.bytes.end(), rest.begin(), rest.end());
+    return Result<WrittenMesh>(std::move(written));
+}
+
+Result<std::vector<std::byte>> mesh_to_bytes(const MeshToStore& mesh) {
+    ORO_TRY(const WrittenMesh written, write_mesh(mesh, nullptr));
+    return std::vector<std::byte>(written.bytes.begin(), written.bytes.end());
 }
 
 std::optional<std::string> mesh_from_bytes(std::span<const std::byte> bytes, StoredMesh& mesh) {
@@ -464,7 +500,7 @@ std::optional<std::string> mesh_from_bytes(std::span<const std::byte> bytes, Sto
     }
     mesh.origin = numbers.origin, mesh.label_count = numbers.labels;
     RangeDecoder coder(reader.rest());
-    MeshBytesCode<RangeDecoder> code(coder, numbers, groups, nullptr, mesh);
+    MeshBytesCode<RangeDecoder> code(coder, numbers, groups, nullptr, mesh, nullptr);
     if (std::string wrong = code.code(); !wrong.empty()) return wrong;
     if (coder.is_wrong()) return "is cut off";
     if (!coder.at_end()) return "goes on after its last group";

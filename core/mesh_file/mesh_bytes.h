@@ -10,7 +10,10 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/base/scratch_memory.h"
 #include "core/mesh_file/stored_mesh.h"
+#include "core/mesh_file/written_mesh.h"
+#include "core/mesh_graph/grown_mesh_graph.h"
 
 namespace oro {
 
@@ -19,23 +22,39 @@ inline constexpr std::uint32_t most_stored_triangles = 20'000'000;
 // Of all levels together.
 inline constexpr std::uint32_t most_graph_triangles = 1U << 26U;
 
-// What is written: a graph as build_mesh_graph() makes it.
+// A graph as build_mesh_graph() or grow_mesh_graph() makes it, which outlives this.
+struct GraphToStore {
+    GraphToStore(const MeshGraph& graph)
+        : clusters(graph.clusters), triangles(graph.clusters.triangles), original_of(graph.original_of) {}
+    GraphToStore(const GrownMeshGraph& graph)
+        : clusters(graph.clusters), triangles(graph.triangles), original_of(graph.original_of) {}
+
+    const ClusterGraph& clusters;  // what it has of triangles is not asked
+    std::span<const VertexTriangle> triangles;
+    std::span<const std::uint32_t> original_of;
+    [[nodiscard]] std::span<const VertexTriangle> triangles_of(const Cluster& cluster) const {
+        return triangles.subspan(cluster.first_triangle, cluster.triangles);
+    }
+};
+
+// What is written.
 struct MeshToStore {
     LatticeSteps origin{};                  // the place that the graph was built around
     std::span<const LatticeSteps> places;   // of all vertices, within 2^32 - 1 steps of each other
     std::span<const std::uint32_t> labels;  // of each triangle of the mesh, below label_count; or empty
     std::uint32_t label_count{};
-    const MeshGraph& graph;
+    GraphToStore graph;
     std::uint64_t ground_fingerprint{};  // StoredMesh::ground_fingerprint
 };
 
 // The same mesh gives the same bytes. Told are the mesh's triangles and places, and of each group which of
 // its vertices go to which neighbours, in which clusters the rest lies, and its error: so what is read has no
-// crack between groups, whatever the bytes say. Spheres are reckoned from these. written: null, or takes what
-// mesh_from_bytes() reads of these bytes. Errors, in words: a graph above the limits, or one that no builder
-// makes.
-[[nodiscard]] Result<std::vector<std::byte>> mesh_to_bytes(const MeshToStore& mesh,
-                                                           StoredMesh* written = nullptr);
+// crack between groups, whatever the bytes say. Spheres are reckoned from these. scratch: where all that is
+// of the mesh's size lies, also of what comes out, which it outlives; null: in memory. Errors, in words: a
+// graph above the limits, or one that no builder makes.
+[[nodiscard]] Result<WrittenMesh> write_mesh(const MeshToStore& mesh, ScratchMemory* scratch);
+// Its bytes alone.
+[[nodiscard]] Result<std::vector<std::byte>> mesh_to_bytes(const MeshToStore& mesh);
 
 // The inverse, in one pass, a fortieth of the time that building takes. Any bytes may be given: nothing when
 // they are a mesh, else what is wrong with them, in words that follow "the mesh"; `mesh` is then of no use.

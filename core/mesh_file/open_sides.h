@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
 namespace oro {
@@ -13,6 +14,8 @@ class OpenSides {
   public:
     static constexpr std::size_t most_sides = 48;
 
+    explicit OpenSides(std::pmr::memory_resource* memory = std::pmr::new_delete_resource())
+        : first_(memory), sides_(memory) {}
     // Room for the sides of so many triangles. Of it, only what is used takes memory.
     void expect(std::size_t triangles) { sides_.reserve(6 * triangles); }
     void add(const std::array<std::uint32_t, 3>& triangle);
@@ -28,8 +31,8 @@ class OpenSides {
     static constexpr std::uint32_t none = ~std::uint32_t{0};
     void add(std::uint32_t from, std::uint32_t to);
 
-    std::vector<std::uint32_t> first_;  // by vertex
-    std::vector<Side> sides_;
+    std::pmr::vector<std::uint32_t> first_;  // by vertex
+    std::pmr::vector<Side> sides_;
 };
 
 }  // namespace oro

@@ -10,6 +10,7 @@
 #include "core/base/parallel.h"
 #include "core/mesh_graph/distance_cover.h"
 #include "core/mesh_graph/group_sphere.h"
+#include "core/mesh_graph/grown_mesh_graph.h"
 #include "core/mesh_graph/level_pieces.h"
 #include "core/mesh_graph/level_triangles.h"
 #include "core/mesh_graph/mesh_groups.h"
@@ -49,7 +50,7 @@ class MeshGraphBuilder {
         if (options.parts != nullptr) begin_parts(std::max(0, options.parts->depth - 1));
     }
 
-    MeshGraph build() {
+    GrownMeshGraph build() {
         assign(1);
         add_clusters();
         begin_pieces();
@@ -112,7 +113,7 @@ class MeshGraphBuilder {
     void add_clusters_of(std::span<const std::uint32_t> triangles, std::uint32_t user);
     void add_cluster(std::span<const std::uint32_t> triangles, std::uint32_t used_by);
     void end_level(std::size_t triangles_before);
-    MeshGraph finished();
+    GrownMeshGraph finished();
 
     static constexpr std::uint32_t unseen = ~std::uint32_t{0}, shared = unseen - 1;
 
@@ -140,10 +141,10 @@ class MeshGraphBuilder {
     std::vector<std::vector<PartBox>> on_the_ground_;  // that it dropped
     LevelPieces pieces_{options_.scratch};
     std::vector<std::vector<std::uint32_t>> members_;  // clusters that each group of the next level uses
-    // Of the graph, which has its own when it is done.
+    // Of the graph.
     std::pmr::vector<VertexTriangle> graph_triangles_{memory_};
     std::pmr::vector<std::uint32_t> original_of_{memory_};
-    MeshGraph graph_;
+    ClusterGraph graph_;  // without triangles
 };
 
 double MeshGraphBuilder::median_side_m() const {
@@ -261,7 +262,7 @@ void MeshGraphBuilder::assign(int level) {
 // The groups of a level as the graph has them, and what is on their borders.
 void MeshGraphBuilder::begin_groups(int level) {
     level_ = static_cast<std::uint32_t>(level);
-    ClusterGraph& graph = graph_.clusters;
+    ClusterGraph& graph = graph_;
     first_group_ = static_cast<std::uint32_t>(graph.groups.size());
     for (std::size_t i = 0; i < group_count_; ++i) {
         ClusterGroup group{};
@@ -287,7 +288,7 @@ std::vector<LevelTriangle> MeshGraphBuilder::simplified(std::size_t group, doubl
     for (const std::uint32_t triangle : triangles_of(group))
         triangles.push_back(live_.unpacked(triangle, vertices_));
     const std::size_t before = triangles.size();
-    const double below_m = graph_.clusters.groups[first_group_ + group].error_m;
+    const double below_m = graph_.groups[first_group_ + group].error_m;
     SimplifierLimits limits{below_m,
                             more * std::max(growth * below_m, first_share * spacing_m_),
                             std::min(0.01, 0.05 * spacing_m_),
@@ -345,7 +346,7 @@ void MeshGraphBuilder::simplify(double more) {
     }
     live_ = std::move(made);
     level.triangles_out = live_.size();
-    graph_.clusters.levels.push_back(level);
+    graph_.levels.push_back(level);
 }
 
 // Errors of what a level made, and who answers next for which part of the mesh.
@@ -373,7 +374,7 @@ void MeshGraphBuilder::measure(bool goes_on) {
 // Which groups answer for a place from here on, or that its piece lies on the ground.
 void MeshGraphBuilder::note_chains(std::span<const StoredPieces> handed, bool goes_on) const {
     MeshPlaceChains& chains = *options_.chains;
-    const auto next_group = static_cast<std::uint32_t>(graph_.clusters.groups.size());
+    const auto next_group = static_cast<std::uint32_t>(graph_.groups.size());
     const auto note = [&](std::uint32_t place, int user) {
         const std::uint32_t number = mesh_->number(place);
         if (user == on_ground)
@@ -410,7 +411,7 @@ double MeshGraphBuilder::measure_made(std::size_t group, double least_m, double&
 }
 
 void MeshGraphBuilder::measured(std::size_t number, StoredPieces& handed) {
-    ClusterGroup& group = graph_.clusters.groups[first_group_ + number];
+    ClusterGroup& group = graph_.groups[first_group_ + number];
     std::vector<std::array<glm::dvec3, 3>> made;
     std::vector<int> users;
     for (std::size_t i = first_made_[number]; i < first_made_[number + 1]; ++i) {
@@ -438,7 +439,7 @@ void MeshGraphBuilder::measured(std::size_t number, StoredPieces& handed) {
 // What each maker made, as clusters: those of one user after those of another.
 void MeshGraphBuilder::add_clusters() {
     members_.assign(group_count_, {});
-    ClusterGraph& graph = graph_.clusters;
+    ClusterGraph& graph = graph_;
     if (graph.groups.empty()) {
         for (std::uint32_t i = 0; i < group_count_; ++i) {
             add_clusters_of(triangles_of(i), i);
@@ -493,7 +494,7 @@ void MeshGraphBuilder::add_clusters_of(std::span<const std::uint32_t> triangles,
 }
 
 void MeshGraphBuilder::add_cluster(std::span<const std::uint32_t> triangles, std::uint32_t used_by) {
-    ClusterGraph& graph = graph_.clusters;
+    ClusterGraph& graph = graph_;
     Cluster cluster{};
     cluster.first_triangle = static_cast<std::uint32_t>(graph_triangles_.size());
     cluster.triangles = static_cast<std::uint32_t>(triangles.size());
@@ -515,7 +516,7 @@ void MeshGraphBuilder::add_cluster(std::span<const std::uint32_t> triangles, std
 }
 
 void MeshGraphBuilder::end_level(std::size_t triangles_before) {
-    ClusterGraph& graph = graph_.clusters;
+    ClusterGraph& graph = graph_;
     GraphLevel& level = graph.levels.back();
     level.triangles_in = triangles_before;
     for (std::size_t i = first_group_; i < graph.groups.size(); ++i) {
@@ -526,15 +527,12 @@ void MeshGraphBuilder::end_level(std::size_t triangles_before) {
     end_window(0);
 }
 
-// The graph with its triangles, once all else is given back.
-MeshGraph MeshGraphBuilder::finished() {
+// The graph, once all else is given back.
+GrownMeshGraph MeshGraphBuilder::finished() {
     mesh_.reset();
     pieces_ = LevelPieces(options_.scratch);
     live_ = LevelTriangles(memory_);
-    graph_.original_of.assign(original_of_.begin(), original_of_.end());
-    original_of_ = std::pmr::vector<std::uint32_t>(memory_);
-    graph_.clusters.triangles.assign(graph_triangles_.begin(), graph_triangles_.end());
-    return std::move(graph_);
+    return {std::move(graph_), std::move(graph_triangles_), std::move(original_of_)};
 }
 
 }  // namespace
@@ -548,6 +546,18 @@ double MeshGraph::largest_error_m() const {
 MeshGraph build_mesh_graph(std::span<const glm::dvec3> vertices,
                            std::span<const std::array<std::uint32_t, 3>> triangles,
                            const glm::dvec3& origin_ecef_m, const MeshGraphOptions& options) {
+    GrownMeshGraph grown = grow_mesh_graph(vertices, triangles, origin_ecef_m, options);
+    MeshGraph graph;
+    graph.clusters = std::move(grown.clusters);
+    graph.original_of.assign(grown.original_of.begin(), grown.original_of.end());
+    grown.original_of = std::pmr::vector<std::uint32_t>(grown.original_of.get_allocator());
+    graph.clusters.triangles.assign(grown.triangles.begin(), grown.triangles.end());
+    return graph;
+}
+
+GrownMeshGraph grow_mesh_graph(std::span<const glm::dvec3> vertices,
+                               std::span<const std::array<std::uint32_t, 3>> triangles,
+                               const glm::dvec3& origin_ecef_m, const MeshGraphOptions& options) {
     return MeshGraphBuilder(vertices, triangles, origin_ecef_m, options).build();
 }
 

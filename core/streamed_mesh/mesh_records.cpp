@@ -233,15 +233,14 @@ PayloadShape shape_of(const MeshRecords& records, std::span<const std::uint32_t>
 }
 
 // The triangles of some clusters by themselves.
-MeshPayload payload_in(const StoredMesh& mesh, std::span<const VertexColour> colours,
+MeshPayload payload_in(const StoredMeshView& mesh, std::span<const VertexColour> colours,
                        std::span<const std::uint32_t> clusters) {
     MeshPayload payload;
     std::vector<std::pair<std::uint32_t, std::uint16_t>>
         known;  // vertices of the mesh, and their numbers here
-    const ClusterGraph& graph = mesh.graph.clusters;
     std::vector<std::uint32_t> corners;
     for (const std::uint32_t one : clusters)
-        for (const VertexTriangle& triangle : graph.triangles_of(graph.clusters[one]))
+        for (const VertexTriangle& triangle : mesh.triangles_of(mesh.clusters.clusters[one]))
             corners.insert(corners.end(), triangle.begin(), triangle.end());
     std::vector<std::uint32_t> vertices = corners;
     std::ranges::sort(vertices);
@@ -261,15 +260,15 @@ MeshPayload payload_in(const StoredMesh& mesh, std::span<const VertexColour> col
     }
     if (mesh.label_count > 0)
         for (const std::uint32_t one : clusters) {
-            const Cluster& cluster = graph.clusters[one];
+            const Cluster& cluster = mesh.clusters.clusters[one];
             for (std::uint32_t i = 0; i < cluster.triangles; ++i)
-                payload.labels.push_back(mesh.labels[mesh.graph.original_of[cluster.first_triangle + i]]);
+                payload.labels.push_back(mesh.labels[mesh.original_of[cluster.first_triangle + i]]);
         }
     return payload;
 }
 
 // A stored mesh's records, without where its payloads lie.
-MeshRecords records_of(const StoredMesh& mesh, bool has_colours) {
+MeshRecords records_of(const StoredMeshView& mesh, bool has_colours) {
     MeshRecords records;
     records.origin = mesh.origin, records.label_count = mesh.label_count;
     records.has_colours = has_colours, records.ground_fingerprint = mesh.ground_fingerprint;
@@ -278,8 +277,8 @@ MeshRecords records_of(const StoredMesh& mesh, bool has_colours) {
     for (const LatticeSteps& at : mesh.places)
         for (std::size_t i = 0; i < 3; ++i) records.least[i] = std::min(records.least[i], at[i]);
     ClusterGraph& graph = records.graph.clusters;
-    graph.clusters = mesh.graph.clusters.clusters, graph.groups = mesh.graph.clusters.groups;
-    graph.members = mesh.graph.clusters.members, graph.levels = mesh.graph.clusters.levels;
+    graph.clusters = mesh.clusters.clusters, graph.groups = mesh.clusters.groups;
+    graph.members = mesh.clusters.members, graph.levels = mesh.clusters.levels;
     for (const Cluster& cluster : graph.clusters) {
         if (cluster.made_by != no_group) break;
         records.triangles += cluster.triangles;
@@ -331,9 +330,9 @@ std::vector<std::uint32_t> MeshRecords::clusters_of(std::uint32_t payload) const
     return numbers;
 }
 
-StreamedBytes streamed_bytes_of(const StoredMesh& mesh, std::span<const VertexColour> colours, int threads,
-                                const GroundCells* cells) {
-    StreamedBytes bytes;
+StreamedBytes streamed_bytes_of(const StoredMeshView& mesh, std::span<const VertexColour> colours,
+                                int threads, const GroundCells* cells, ScratchMemory* scratch) {
+    StreamedBytes bytes{{}, std::pmr::vector<std::byte>(array_memory(scratch))};
     MeshRecords records = records_of(mesh, !colours.empty());
     if (cells != nullptr) records.ground_cells = *cells;
     const auto count = static_cast<std::uint32_t>(records.payloads.size());
@@ -353,6 +352,7 @@ StreamedBytes streamed_bytes_of(const StoredMesh& mesh, std::span<const VertexCo
                                            xxh64(coded[i], first + i)};
             bytes.payloads.insert(bytes.payloads.end(), coded[i].begin(), coded[i].end());
         }
+        if (scratch != nullptr) scratch->drop_pages();
     }
     bytes.records = bytes_of_records(records);
     return bytes;

@@ -3,12 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/base/scratch_memory.h"
 #include "core/mesh_file/stored_mesh.h"
+#include "core/mesh_file/written_mesh.h"
 #include "core/seam/vertex_colour.h"
 #include "core/streamed_mesh/ground_cells.h"
 #include "core/streamed_mesh/mesh_payload.h"
@@ -58,12 +61,16 @@ struct MeshRecords {
 
 // A stored mesh as records and payloads. colours: of its vertices; empty: none. cells: of the ground that its
 // graph was built over; null: it was built over none. The same mesh gives the same bytes by any number of
-// threads. No group uses more triangles than StoredMesh's bytes may tell.
+// threads. No group uses more triangles than StoredMesh's bytes may tell. scratch: where payloads lie, which
+// it outlives, and the mesh; null: in memory.
 struct StreamedBytes {
-    std::vector<std::byte> records, payloads;
+    std::vector<std::byte> records;
+    std::pmr::vector<std::byte> payloads;
 };
-[[nodiscard]] StreamedBytes streamed_bytes_of(const StoredMesh& mesh, std::span<const VertexColour> colours,
-                                              int threads, const GroundCells* cells = nullptr);
+[[nodiscard]] StreamedBytes streamed_bytes_of(const StoredMeshView& mesh,
+                                              std::span<const VertexColour> colours, int threads,
+                                              const GroundCells* cells = nullptr,
+                                              ScratchMemory* scratch = nullptr);
 
 // Of any bytes: nothing when they are records of groups that are a graph, whose payloads have so many bytes
 // together; else what is wrong with them, in words that follow "the mesh". Errors and spheres grow from each

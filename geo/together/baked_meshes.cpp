@@ -14,6 +14,8 @@
 #include "core/base/scratch_memory.h"
 #include "core/mesh_file/mesh_bytes.h"
 #include "core/mesh_file/stored_mesh.h"
+#include "core/mesh_file/written_mesh.h"
+#include "core/mesh_graph/grown_mesh_graph.h"
 #include "core/mesh_graph/mesh_graph.h"
 #include "core/streamed_mesh/streamed_mesh.h"
 #include "core/terrain/page_on_net.h"
@@ -132,17 +134,12 @@ TriangleSum sum_of(const StoredMesh& stored) {
 }
 
 // scratch: where it grows; null: in memory.
-Result<MeshGraph> graph_over(const LatticeMesh& lattice, const MeshGround& ground, int threads,
-                             ScratchMemory* scratch) {
-    if (lattice.triangles.empty()) return MeshGraph();
+GrownMeshGraph graph_over(const LatticeMesh& lattice, const MeshGround& ground, int threads,
+                          ScratchMemory* scratch) {
+    if (lattice.triangles.empty()) return {};
     MeshGraphOptions options{threads};
     options.ground = &ground, options.scratch = scratch;
-    try {
-        return build_mesh_graph(lattice.vertices, lattice.triangles, lattice.origin_m, options);
-    } catch (const std::bad_alloc&) {
-        if (scratch != nullptr && scratch->error()) return *scratch->error();
-        throw;
-    }
+    return grow_mesh_graph(lattice.vertices, lattice.triangles, lattice.origin_m, options);
 }
 
 std::string folder_of(const std::string& path) {
@@ -162,9 +159,10 @@ struct BakedGround {
 };
 
 // A mesh group by group. cells: of the ground that its graph was built over, if any.
-StreamedBytes groups_of(const StoredMesh& stored, std::span<const VertexColour> colours,
-                        const GroundCells& cells, int threads) {
-    return streamed_bytes_of(stored, colours, threads, stored.ground_fingerprint != 0 ? &cells : nullptr);
+StreamedBytes groups_of(const StoredMeshView& stored, std::span<const VertexColour> colours,
+                        const GroundCells& cells, int threads, ScratchMemory* scratch = nullptr) {
+    return streamed_bytes_of(stored, colours, threads, stored.ground_fingerprint != 0 ? &cells : nullptr,
+                             scratch);
 }
 
 // Whether a file has a mesh group by group as these bytes have it.
@@ -234,6 +232,76 @@ Result<PlacedMesh> open_mesh_of(const std::shared_ptr<const Container>& containe
     return mesh;
 }
 
+// What is baked of a mesh. scratch: where all that is of its size lies; null: in memory.
+struct MeshBaking {
+    const PlacedMesh& mesh;
+    const UndulationField& undulation;
+    int threads;
+    const Region* ground;
+    ScratchMemory* scratch;
+
+    Result<BakedMeshReport> write(const std::string& path) const;
+
+  private:
+    // cells: become those of the ground that its graph is built over.
+    Result<WrittenMesh> whole(MeshOnLattice& on_lattice, BakedMeshReport& report, GroundCells& cells) const;
+    [[nodiscard]] std::vector<VertexColour> colours_of(const MeshOnLattice& on_lattice,
+                                                       const WrittenMesh& written) const;
+};
+
+Result<WrittenMesh> MeshBaking::whole(MeshOnLattice& on_lattice, BakedMeshReport& report,
+                                      GroundCells& cells) const {
+    const auto start = Clock::now();
+    LatticeMesh& lattice = on_lattice.lattice;
+    BakedGround below(lattice, ground);
+    const GrownMeshGraph graph = graph_over(lattice, below.triangles, threads, scratch);
+    cells = std::move(below.cells);
+    report.build_s = seconds_since(start);
+    report.triangles = lattice.triangles.size();
+    lattice.vertices = {}, lattice.triangles = {};
+    std::pmr::vector<std::uint32_t> labels(array_memory(scratch));
+    if (!mesh.features.empty()) {
+        labels.reserve(lattice.triangle_of.size());
+        for (const std::uint32_t triangle : lattice.triangle_of) labels.push_back(mesh.feature_of[triangle]);
+    }
+    return write_mesh({lattice_point(lattice.origin_m).steps, on_lattice.places, labels,
+                       static_cast<std::uint32_t>(mesh.features.size()), graph,
+                       fingerprint_of(below.triangles, lattice.origin_m)},
+                      scratch);
+}
+
+// As stored_colours().
+std::vector<VertexColour> MeshBaking::colours_of(const MeshOnLattice& on_lattice,
+                                                 const WrittenMesh& written) const {
+    if (mesh.colours.empty()) return {};
+    std::vector<VertexColour> colours;
+    colours.reserve(written.given_vertex.size());
+    for (const std::uint32_t given : written.given_vertex) {
+        const std::uint32_t vertex = on_lattice.lattice.vertex_of[given];
+        colours.push_back(vertex < mesh.colours.size() ? mesh.colours[vertex] : VertexColour{});
+    }
+    return colours;
+}
+
+Result<BakedMeshReport> MeshBaking::write(const std::string& path) const {
+    BakedMeshReport report;
+    MeshOnLattice on_lattice(mesh, undulation);
+    GroundCells cells;
+    const Result<WrittenMesh> written = whole(on_lattice, report, cells);
+    if (!written.ok()) return Error{written.error().kind, mesh.path, written.error().what};
+    std::vector<VertexColour> colours = colours_of(on_lattice, *written);
+    // Groups by themselves have the numbers and the order that whoever reads the whole mesh finds.
+    const StreamedBytes streamed = groups_of(*written, colours, cells, threads, scratch);
+    const std::vector<std::byte> facts = compressed(facts_to_bytes(mesh, std::move(colours)));
+    ORO_CHECK(write_container(path, facts, written->bytes, streamed));
+    report.graph_triangles = written->triangles.size();
+    report.levels = written->clusters.levels.size();
+    report.bytes = written->bytes.size();
+    report.group_bytes = streamed.records.size() + streamed.payloads.size();
+    report.fact_bytes = facts.size();
+    return report;
+}
+
 }  // namespace
 
 std::string path_of_mesh(const std::string& path, std::size_t number) {
@@ -244,40 +312,14 @@ Result<BakedMeshReport> write_baked_mesh(const std::string& path, const PlacedMe
                                          const UndulationField& undulation, int threads, const Region* ground,
                                          std::size_t most_in_memory) {
     ORO_CHECK(check_bake_memory(mesh.path, mesh.triangles.size()));
-    BakedMeshReport report;
-    const auto start = Clock::now();
-    MeshOnLattice on_lattice(mesh, undulation);
-    LatticeMesh& lattice = on_lattice.lattice;
     ScratchMemory scratch(folder_of(path));
-    const BakedGround below(lattice, ground);
-    const bool is_large = lattice.triangles.size() > most_in_memory;
-    ORO_TRY(const MeshGraph graph,
-            graph_over(lattice, below.triangles, threads, is_large ? &scratch : nullptr));
-    report.build_s = seconds_since(start);
-    report.triangles = lattice.triangles.size();
-    lattice.vertices = {}, lattice.triangles = {};
-    std::vector<std::uint32_t> labels;
-    if (!mesh.features.empty())
-        for (const std::uint32_t triangle : lattice.triangle_of) labels.push_back(mesh.feature_of[triangle]);
-    // Groups by themselves have the numbers and the order that whoever reads the whole mesh finds.
-    StoredMesh stored;
-    Result<std::vector<std::byte>> bytes =
-        mesh_to_bytes({lattice_point(lattice.origin_m).steps, on_lattice.places, labels,
-                       static_cast<std::uint32_t>(mesh.features.size()), graph,
-                       fingerprint_of(below.triangles, lattice.origin_m)},
-                      &stored);
-    if (!bytes) return Error{bytes.error().kind, mesh.path, bytes.error().what};
-    std::vector<VertexColour> colours;
-    if (!mesh.colours.empty()) colours = stored_colours(mesh, lattice.vertex_of, on_lattice.places, stored);
-    const StreamedBytes streamed = groups_of(stored, colours, below.cells, threads);
-    const std::vector<std::byte> facts = compressed(facts_to_bytes(mesh, std::move(colours)));
-    ORO_CHECK(write_container(path, facts, *bytes, streamed));
-    report.graph_triangles = graph.clusters.triangles.size();
-    report.levels = graph.clusters.levels.size();
-    report.bytes = bytes->size();
-    report.group_bytes = streamed.records.size() + streamed.payloads.size();
-    report.fact_bytes = facts.size();
-    return report;
+    ScratchMemory* const where = mesh.triangles.size() > most_in_memory ? &scratch : nullptr;
+    try {
+        return MeshBaking{mesh, undulation, threads, ground, where}.write(path);
+    } catch (const std::bad_alloc&) {
+        if (scratch.error()) return *scratch.error();
+        throw;
+    }
 }
 
 std::optional<BakedMeshReport> mesh_baked_before(const std::string& path, const PlacedMesh& mesh,

@@ -124,25 +124,33 @@ void expect_whole(const Packed& packed) {
     EXPECT_EQ(*again, packed.bytes);
 }
 
-// Numbers and order are those that a reader finds, to the bit.
+// Numbers and order are those that a reader finds, to the bit; the same from scratch files as from memory.
 TEST(MeshBytes, TheWriterKnowsWhatIsRead) {
+    ScratchMemory scratch(testing::TempDir());
     for (const SpaceMesh& mesh : {hilly_ball(24, 50.0), box_town(10), folded_sheet(30)}) {
         const Packed packed = packed_of(mesh);
-        constexpr std::uint64_t fingerprint = 77;
-        StoredMesh written, read;
-        const Result<std::vector<std::byte>> bytes =
-            mesh_to_bytes({origin, packed.places, packed.labels, 7, packed.graph, fingerprint}, &written);
-        ASSERT_TRUE(bytes.ok());
-        ASSERT_FALSE(mesh_from_bytes(*bytes, read));
-        EXPECT_EQ(written.origin, read.origin);
-        EXPECT_EQ(written.places, read.places);
-        EXPECT_EQ(written.labels, read.labels);
-        EXPECT_EQ(written.label_count, read.label_count);
-        EXPECT_EQ(written.ground_fingerprint, read.ground_fingerprint);
-        EXPECT_EQ(written.graph.original_of, read.graph.original_of);
-        EXPECT_EQ(written.graph.clusters.triangles, read.graph.clusters.triangles);
-        expect_same_groups(written.graph.clusters, read.graph.clusters);
+        for (ScratchMemory* const where : {static_cast<ScratchMemory*>(nullptr), &scratch}) {
+            constexpr std::uint64_t fingerprint = 77;
+            const Result<WrittenMesh> written =
+                write_mesh({origin, packed.places, packed.labels, 7, packed.graph, fingerprint}, where);
+            ASSERT_TRUE(written.ok());
+            StoredMesh read;
+            ASSERT_FALSE(mesh_from_bytes(written->bytes, read));
+            EXPECT_EQ(written->origin, read.origin);
+            EXPECT_TRUE(std::ranges::equal(written->places, read.places));
+            EXPECT_TRUE(std::ranges::equal(written->labels, read.labels));
+            EXPECT_EQ(written->label_count, read.label_count);
+            EXPECT_EQ(written->ground_fingerprint, read.ground_fingerprint);
+            EXPECT_TRUE(std::ranges::equal(written->original_of, read.graph.original_of));
+            EXPECT_TRUE(std::ranges::equal(written->triangles, read.graph.clusters.triangles));
+            expect_same_groups(written->clusters, read.graph.clusters);
+            ASSERT_EQ(written->given_vertex.size(), packed.places.size());
+            for (std::uint32_t i = 0; i < read.places.size(); ++i)
+                ASSERT_EQ(packed.places[written->given_vertex[i]], read.places[i]);
+        }
     }
+    EXPECT_GT(scratch.bytes().most_in_files, 0U);
+    EXPECT_EQ(scratch.bytes().in_files, 0U);
 }
 
 TEST(MeshBytes, AreReadAsTheyWereWritten) {
