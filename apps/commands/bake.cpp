@@ -330,6 +330,11 @@ Result<void> end_reading(const BakingOptions& options, const Region& region, con
     return {};
 }
 
+std::string folder_beside(const std::string& out) {
+    const std::string folder = fs::path(out).parent_path().string();
+    return folder.empty() ? "." : folder;
+}
+
 // options.out is on this machine, and place.path().
 Result<void> bake_at(const BakePlace& place, const BakePartOptions& options) {
     ORO_TRY(const Shard shard, parse_shard(options.shard));
@@ -340,7 +345,7 @@ Result<void> bake_at(const BakePlace& place, const BakePartOptions& options) {
     BakeResult baked;
     baked.file = place.shown(options.out);
     const auto reading = Clock::now();
-    ORO_TRY(Region region, open_region(request, bar.progress()));
+    ORO_TRY(Region region, open_region_in_scratch(request, bar.progress(), folder_beside(options.out)));
     if (options.mesh == "clusters") ORO_CHECK(check_clusters(region));
     ORO_CHECK(take_into_memory(region));
     ORO_CHECK(end_reading(options, region, shard));

@@ -47,7 +47,7 @@ std::string implausible(const MeshNumbers& numbers) {
         for (const std::int64_t step : at)
             if (step < -2 * most_steps || step > most_steps) return "lies outside of the Earth";
     if (numbers.triangles == 0 || numbers.triangles > most_stored_triangles)
-        return "has " + std::to_string(numbers.triangles) + " triangles, expected 1 to 20,000,000";
+        return "has " + std::to_string(numbers.triangles) + " triangles, expected 1 to 100,000,000";
     if (numbers.vertices < 3 || numbers.vertices > 3 * numbers.triangles)
         return "has " + std::to_string(numbers.vertices) + " vertices, which its triangles do not have";
     if (numbers.levels == 0 || numbers.levels > most_levels)
@@ -74,8 +74,8 @@ class MeshBytesCode {
           mesh_(mesh),
           scratch_(scratch),
           leaf_(numbers.least, numbers.vertices, numbers.labels, array_memory(scratch)),
-          maps_(numbers.vertices, array_memory(scratch)),
-          counted_by_(numbers.vertices, array_memory(scratch)) {}
+          maps_(0, array_memory(scratch)),
+          counted_by_(array_memory(scratch)) {}
 
     // "" where all is well.
     std::string code() {
@@ -84,6 +84,7 @@ class MeshBytesCode {
             given_original_.reserve(numbers_.triangles), turn_.reserve(numbers_.triangles);
         }
         if (std::string wrong = leaves(); !wrong.empty()) return wrong;
+        maps_ = GroupMaps(mesh_.places.size(), array_memory(scratch_));
         vertices_m_.reserve(mesh_.places.size());
         for (const LatticeSteps& at : mesh_.places)
             vertices_m_.push_back(
@@ -172,6 +173,8 @@ template <class Coder>
 std::string MeshBytesCode<Coder>::too_full(const Cluster& cluster) {
     const auto number = static_cast<std::uint32_t>(graph().clusters.size());  // of the next one
     std::uint32_t vertices = 0;
+    // No more of it than there are vertices so far: bytes may state any number of these.
+    counted_by_.resize(mesh_.places.size());
     for (const VertexTriangle& triangle : triangles_in(cluster))
         for (const std::uint32_t corner : triangle) {
             vertices += counted_by_[corner] == number ? 0U : 1U;

@@ -18,9 +18,9 @@
 namespace oro {
 
 // No mesh that is written has more, so none that is read asks for more memory.
-inline constexpr std::uint32_t most_stored_triangles = 20'000'000;
+inline constexpr std::uint32_t most_stored_triangles = 100'000'000;
 // Of all levels together.
-inline constexpr std::uint32_t most_graph_triangles = 1U << 26U;
+inline constexpr std::uint32_t most_graph_triangles = 1U << 29U;
 
 // A graph as build_mesh_graph() or grow_mesh_graph() makes it, which outlives this.
 struct GraphToStore {

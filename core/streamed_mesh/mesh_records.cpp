@@ -66,7 +66,7 @@ std::string implausible_numbers(const RecordNumbers& numbers) {
         for (const std::int64_t step : at)
             if (step < -2 * most_steps || step > most_steps) return "lies outside of the Earth";
     if (numbers.triangles == 0 || numbers.triangles > most_stored_triangles)
-        return "has " + std::to_string(numbers.triangles) + " triangles, expected 1 to 5,000,000";
+        return "has " + std::to_string(numbers.triangles) + " triangles, expected 1 to 100,000,000";
     if (numbers.levels == 0 || numbers.levels > most_record_levels)
         return "has " + std::to_string(numbers.levels) + " levels, expected 1 to 80";
     if (numbers.leaves == 0 || numbers.leaves > numbers.triangles || numbers.clusters < numbers.leaves ||

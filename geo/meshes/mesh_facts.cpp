@@ -88,7 +88,7 @@ void visit_rare_facts(Visit& visit, auto& mesh) {
 
 }  // namespace
 
-std::vector<std::byte> facts_to_bytes(const PlacedMesh& mesh, std::vector<VertexColour> colours) {
+std::vector<std::byte> facts_to_bytes(const PlacedMesh& mesh, ScratchVector<VertexColour> colours) {
     PlacedMesh facts;
     facts.path = std::filesystem::path(mesh.path).filename().string();
     facts.format = mesh.format, facts.crs = mesh.crs, facts.heights = mesh.heights, facts.note = mesh.note;

@@ -24,9 +24,12 @@ std::string mesh_ending(const std::string& path) {
 using MeshReader = Result<SourceMesh> (*)(std::string_view);
 MeshReader mesh_reader_for(const std::string& path) {
     const std::string ending = mesh_ending(path);
-    if (ending == "ply") return read_ply;
     if (ending == "stl") return read_stl;
     return ending == "xml" || ending == "landxml" ? read_landxml : nullptr;
+}
+
+bool is_ply_name(const std::string& path) {
+    return mesh_ending(path) == "ply";
 }
 
 bool is_city_name(const std::string& path) {
@@ -34,14 +37,24 @@ bool is_city_name(const std::string& path) {
     return mesh_ending(path) == "json" && mesh_ending(path.substr(0, path.size() - 5)) == "city";
 }
 
-Result<std::string> mesh_bytes(const std::string& path) {
+// An std::string, or a ScratchVector of letters.
+template <class Bytes>
+Result<Bytes> mesh_bytes(const std::string& path, Bytes bytes, std::size_t most = most_mesh_bytes) {
     ORO_TRY(const OpenFile file, OpenFile::open(path, OpenFile::Use::read));
     ORO_TRY(const std::uint64_t size, file.size());
-    if (size > most_mesh_bytes)
-        return Error{ErrorKind::failed, path, "is larger than 1 GiB; a mesh may have so much"};
-    std::string bytes(size, '\0');
+    if (size > most)
+        return Error{ErrorKind::failed, path,
+                     "is larger than " + std::to_string(most >> 30U) + " GiB; a mesh may have so much"};
+    bytes.resize(size);
     ORO_CHECK(file.read(0, std::as_writable_bytes(std::span(bytes))));
     return bytes;
+}
+
+// A copy of what was read in memory.
+template <class T>
+void put_into(const ScratchOfMesh& scratch, ScratchVector<T>& array) {
+    if (array.get_allocator().scratch() == scratch) return;
+    array = ScratchVector<T>(array.begin(), array.end(), scratch);
 }
 
 // With its slash; "" for where the program runs.
@@ -134,29 +147,38 @@ bool is_mesh_file(const std::string& path) {
 }
 
 bool is_mesh_name(const std::string& path) {
-    return mesh_reader_for(path) != nullptr || is_city_name(path) || is_gltf_name(path) || is_obj_name(path);
+    return mesh_reader_for(path) != nullptr || is_city_name(path) || is_gltf_name(path) ||
+           is_ply_name(path) || is_obj_name(path);
 }
 
-Result<SourceMesh> read_mesh(const std::string& path, const std::string& lod) {
+Result<SourceMesh> read_mesh(const std::string& path, const std::string& lod, const ScratchOfMesh& scratch) {
     const MeshReader reader = mesh_reader_for(path);
+    const bool is_ply = is_ply_name(path), is_obj = is_obj_name(path);
     const bool is_geopackage = mesh_ending(path) == "gpkg",
                is_city = is_city_name(path) || mesh_ending(path) == "json";
-    if (reader == nullptr && !is_geopackage && !is_city && !is_gltf_name(path) && !is_obj_name(path))
+    if (reader == nullptr && !is_geopackage && !is_city && !is_gltf_name(path) && !is_ply && !is_obj)
         return Error{
             ErrorKind::failed, path,
             "is no mesh by its name: .obj, .ply, .stl, .gltf, .glb, .xml, .landxml, .city.json, tileset.json "
             "and .gpkg are; of footprints --building-height FIELD tells how high buildings are"};
     const auto read_bytes = [&]() -> Result<SourceMesh> {
-        ORO_TRY(const std::string bytes, mesh_bytes(path));
-        const FileBeside beside = [&](const std::string& name) { return mesh_bytes(folder_of(path) + name); };
-        if (is_obj_name(path)) return read_obj(bytes, beside);
-        if (is_gltf_name(path)) return read_gltf(bytes, beside);
-        if (!is_city_name(path) && is_city && is_tileset(bytes)) return read_tileset(bytes, beside);
-        return is_city ? read_cityjson(bytes, lod) : reader(bytes);
+        const FileBeside beside = [&](const std::string& name) {
+            return mesh_bytes(folder_of(path) + name, std::string());
+        };
+        const bool may_be_larger = is_ply && scratch != nullptr;
+        ORO_TRY(const auto bytes, mesh_bytes(path, ScratchVector<char>(scratch),
+                                             may_be_larger ? most_scratch_mesh_bytes : most_mesh_bytes));
+        const std::string_view text(bytes.data(), bytes.size());
+        if (is_ply) return read_ply(text, scratch);
+        if (is_obj) return read_obj(text, beside, scratch);
+        if (is_gltf_name(path)) return read_gltf(text, beside);
+        if (!is_city_name(path) && is_city && is_tileset(text)) return read_tileset(text, beside);
+        return is_city ? read_cityjson(text, lod) : reader(text);
     };
     Result<SourceMesh> read = is_geopackage ? read_geopackage_mesh(path, geopackage_limit_s) : read_bytes();
     if (!read.ok()) return Error{read.error().kind, path, read.error().what};
     SourceMesh mesh = std::move(*read);
+    put_into(scratch, mesh.vertices), put_into(scratch, mesh.triangles), put_into(scratch, mesh.colours);
     mesh.path = path;
     if (mesh.triangles.empty())
         return Error{ErrorKind::failed, path,

@@ -1,6 +1,7 @@
 // Files of triangle meshes: OBJ, PLY, STL, glTF, 3D Tiles, LandXML, CityJSON and GeoPackage.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "core/base/result.h"
@@ -10,6 +11,8 @@ namespace oro {
 
 // The largest file that is read: 1 GiB.
 inline constexpr std::size_t most_mesh_bytes = std::size_t{1} << 30U;
+// ... of a PLY in scratch files: 16 GiB.
+inline constexpr std::size_t most_scratch_mesh_bytes = std::size_t{16} << 30U;
 
 // Whether a name ends as those of meshes do: .obj, .ply, .stl, .gltf, .glb, .xml, .landxml, .city.json,
 // .cityjson, in any letter case.
@@ -27,6 +30,9 @@ bool is_mesh_file(const std::string& path);
 // float in the file). Memory is taken after what a header promises was held against the file's length.
 // Errors: the file cannot be read, is larger than 1 GiB, is cut off or damaged (with the line or the byte),
 // has an index beyond its vertices, has no triangle, or none whose vertices are finite. From any thread.
-Result<SourceMesh> read_mesh(const std::string& path, const std::string& lod = {});
+// scratch: the file's bytes lie there where they are large, and so do the arrays of what comes out; of PLY
+// and OBJ from the beginning. Null: in memory. std::bad_alloc: its error() says why there is no room.
+Result<SourceMesh> read_mesh(const std::string& path, const std::string& lod = {},
+                             const std::shared_ptr<ScratchMemory>& scratch = nullptr);
 
 }  // namespace oro

@@ -28,17 +28,18 @@ std::optional<double> ground_H_m(const HeightField& field, double lat_deg, doubl
 std::optional<MeshOverGround> mesh_over_ground(const PlacedMesh& mesh,
                                                std::span<const HeightField* const> fields) {
     constexpr std::size_t most_asked = 10000;
-    std::vector<std::uint32_t> used;
+    std::vector<bool> is_used(mesh.vertices.size());
     const std::size_t own = mesh.not_added > 0 ? mesh.not_added : mesh.triangles.size();
     for (const SourceTriangle& triangle : std::span(mesh.triangles).first(own))
-        used.insert(used.end(), triangle.begin(), triangle.end());
-    std::ranges::sort(used);
-    used.erase(std::unique(used.begin(), used.end()), used.end());
+        for (const std::uint32_t corner : triangle) is_used[corner] = true;
+    const auto used = static_cast<std::size_t>(std::ranges::count(is_used, true));
     MeshOverGround over;
     std::vector<double> above_m;
-    const std::size_t stride = used.size() / most_asked + 1;
-    for (std::size_t i = 0; i < used.size(); i += stride) {
-        const PlacedVertex& vertex = mesh.vertices[used[i]];
+    const std::size_t stride = used / most_asked + 1;
+    std::size_t number = 0;  // among those that are used
+    for (std::size_t i = 0; i < is_used.size(); ++i) {
+        if (!is_used[i] || number++ % stride != 0) continue;
+        const PlacedVertex& vertex = mesh.vertices[i];
         for (const HeightField* const field : fields) {
             const std::optional<double> H_m = ground_H_m(*field, vertex.lat_deg, vertex.lon_deg);
             if (!H_m) continue;

@@ -1,10 +1,11 @@
 // One reader a format, over the bytes of a whole file. Each gives a mesh without its path, or an Error
 // without its place: the reason, with the line or the byte. Vertices that are not finite stay; read_mesh()
-// drops their triangles.
+// drops their triangles. scratch: where a mesh's arrays lie where they are large; null: in memory.
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,7 +19,8 @@ namespace oro {
 // has too many corners.
 const char* add_polygon(const std::vector<std::uint32_t>& corners, SourceMesh& mesh);
 
-Result<SourceMesh> read_ply(std::string_view bytes);
+using ScratchOfMesh = std::shared_ptr<ScratchMemory>;
+Result<SourceMesh> read_ply(std::string_view bytes, const ScratchOfMesh& scratch = nullptr);
 Result<SourceMesh> read_stl(std::string_view bytes);
 Result<SourceMesh> read_landxml(std::string_view bytes);
 // CityJSON 1.0 to 2.0: solids, multi and composite surfaces and templates, each object a feature. lod: "", or
@@ -28,7 +30,8 @@ Result<SourceMesh> read_cityjson(std::string_view bytes, const std::string& lod)
 using FileBeside = std::function<Result<std::string>(const std::string& name)>;
 // OBJ, with the colours of its materials (Kd, map_Kd); a vertex that several of them use is one for each.
 // beside: asked for files of materials and textures, by their path from the mesh's folder.
-Result<SourceMesh> read_obj(std::string_view bytes, const FileBeside& beside);
+Result<SourceMesh> read_obj(std::string_view bytes, const FileBeside& beside,
+                            const ScratchOfMesh& scratch = nullptr);
 // glTF 2.0 as text or GLB, without extensions that say how triangles are to be found but
 // KHR_mesh_quantization, EXT_meshopt_compression and CESIUM_RTC: the scene that is shown, its nodes'
 // transforms in double. y is up: east is x, north is -z. Colours are those of COLOR_0, times the colour of

@@ -94,7 +94,10 @@ struct ObjFault {
 
 class ObjReader {
   public:
-    explicit ObjReader(const FileBeside& beside) : beside_(beside) { mesh_.format = "OBJ"; }
+    ObjReader(const FileBeside& beside, const std::shared_ptr<ScratchMemory>& scratch) : beside_(beside) {
+        mesh_.format = "OBJ";
+        mesh_.lie_in(scratch);
+    }
 
     Result<SourceMesh> all(std::string_view bytes) {
         std::string joined;
@@ -109,7 +112,8 @@ class ObjReader {
             joined.clear();
         }
         if (!joined.empty()) return Error{ErrorKind::failed, "", "ends within a line that goes on"};
-        mesh_.colours = colours_.of_all(mesh_.vertices.size());
+        const std::vector<VertexColour> colours = colours_.of_all(mesh_.vertices.size());
+        mesh_.colours.assign(colours.begin(), colours.end());
         ORO_CHECK(read_libraries());
         ORO_CHECK(colour_by_materials());
         return std::move(mesh_);
@@ -388,8 +392,9 @@ class ObjReader {
 
 }  // namespace
 
-Result<SourceMesh> read_obj(std::string_view bytes, const FileBeside& beside) {
-    return ObjReader(beside).all(bytes);
+Result<SourceMesh> read_obj(std::string_view bytes, const FileBeside& beside,
+                            const std::shared_ptr<ScratchMemory>& scratch) {
+    return ObjReader(beside, scratch).all(bytes);
 }
 
 }  // namespace oro

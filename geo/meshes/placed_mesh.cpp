@@ -129,19 +129,33 @@ class VertexPlaces {
 class MeshPlacing {
   public:
     MeshPlacing(const SourceMesh& source, const VertexPlaces& places, bool with_colours,
-                std::size_t most_triangles)
-        : source_(source), places_(places), most_triangles_(most_triangles) {
-        at_.reserve(source.vertices.size());
-        for (const glm::dvec3& vertex : source.vertices) add(vertex);
+                std::size_t most_triangles, const std::shared_ptr<ScratchMemory>& scratch)
+        : source_(source),
+          places_(places),
+          most_triangles_(most_triangles),
+          of_(scratch),
+          at_(scratch),
+          placed_(scratch),
+          vertices_(scratch),
+          colours_(scratch),
+          ecef_(scratch) {
+        for (auto* const array : {&at_, &ecef_}) array->reserve(source.vertices.size());
+        placed_.reserve(source.vertices.size()), vertices_.reserve(source.vertices.size());
+        for (const glm::dvec3& vertex : source.vertices) {
+            add(vertex);
+            drop_pages_after(scratch.get(), at_.size());
+        }
         if (with_colours) colours_ = source.colours;
     }
 
     // Cuts what is longer, and leaves out what has no place.
     Result<void> cut(PlacedMesh& mesh) {
         if (fewest_pieces() > static_cast<double>(most_triangles_)) return too_many();
+        of_.reserve(source_.triangles.size()), mesh.triangles.reserve(source_.triangles.size());
         std::uint32_t feature = 0;
         for (std::size_t number = 0; number < source_.triangles.size(); ++number) {
             const SourceTriangle& triangle = source_.triangles[number];
+            drop_pages_after(of_.get_allocator().scratch().get(), number + 1);
             while (feature + 1 < source_.features.size() &&
                    source_.features[feature + 1].first_triangle <= number)
                 ++feature;
@@ -253,17 +267,16 @@ class MeshPlacing {
     const SourceMesh& source_;
     const VertexPlaces& places_;
     std::size_t most_triangles_;
-    std::vector<std::uint32_t> of_;
-    std::vector<glm::dvec3> at_;  // in the file's numbers
-    std::vector<char> placed_;
-    std::vector<PlacedVertex> vertices_;
-    std::vector<VertexColour> colours_;  // of these, or none
-    std::vector<glm::dvec3> ecef_;       // on the ellipsoid
+    ScratchVector<std::uint32_t> of_;
+    ScratchVector<glm::dvec3> at_;  // in the file's numbers
+    ScratchVector<char> placed_;
+    ScratchVector<PlacedVertex> vertices_;
+    ScratchVector<VertexColour> colours_;  // of these, or none
+    ScratchVector<glm::dvec3> ecef_;       // on the ellipsoid
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles_;
 };
 
-BoundingBox box_around(const std::vector<PlacedVertex>& vertices,
-                       const std::vector<SourceTriangle>& triangles) {
+BoundingBox box_around(std::span<const PlacedVertex> vertices, std::span<const SourceTriangle> triangles) {
     BoundingBox box{180.0, 90.0, -180.0, -90.0};
     for (const SourceTriangle& triangle : triangles) {
         for (const std::uint32_t i : triangle) {
@@ -302,8 +315,8 @@ Result<void> lift_heights(const std::string& crs, const StatedDatum& datum, doub
 
 using LatticeKey = std::array<std::int64_t, 3>;
 
-std::vector<LatticeKey> lattice_of(const UndulationField& undulation, const PlacedMesh& mesh) {
-    std::vector<LatticeKey> lattice;
+ScratchVector<LatticeKey> lattice_of(const UndulationField& undulation, const PlacedMesh& mesh) {
+    ScratchVector<LatticeKey> lattice(mesh.vertices.get_allocator());
     lattice.reserve(mesh.vertices.size());
     for (const PlacedVertex& vertex : mesh.vertices)
         lattice.push_back(lattice_point(ecef_from_geodetic(geodetic_of(vertex, undulation, 1.0)).m).steps);
@@ -311,7 +324,7 @@ std::vector<LatticeKey> lattice_of(const UndulationField& undulation, const Plac
 }
 
 // Whether each triangle has no corners on the lattice that an earlier one has, either way round.
-std::vector<char> are_first(const PlacedMesh& mesh, const std::vector<LatticeKey>& lattice) {
+ScratchVector<char> are_first(const PlacedMesh& mesh, std::span<const LatticeKey> lattice) {
     using Corners = std::array<LatticeKey, 3>;
     const auto corners = [&](std::uint32_t number) {
         Corners at{};
@@ -320,7 +333,8 @@ std::vector<char> are_first(const PlacedMesh& mesh, const std::vector<LatticeKey
         return at;
     };
     // By a number that all orders of the same corners have.
-    std::vector<std::pair<std::int64_t, std::uint32_t>> order(mesh.triangles.size());
+    const auto memory = mesh.vertices.get_allocator();
+    ScratchVector<std::pair<std::int64_t, std::uint32_t>> order(mesh.triangles.size(), memory);
     for (std::uint32_t i = 0; i < order.size(); ++i) {
         order[i] = {0, i};
         for (const std::uint32_t corner : mesh.triangles[i]) {
@@ -329,7 +343,7 @@ std::vector<char> are_first(const PlacedMesh& mesh, const std::vector<LatticeKey
         }
     }
     std::ranges::sort(order);
-    std::vector<char> first(order.size(), 1);
+    ScratchVector<char> first(order.size(), 1, memory);
     for (std::size_t i = 0; i < order.size(); ++i)
         for (std::size_t k = i; k > 0 && order[k - 1].first == order[i].first; --k)
             if (corners(order[k - 1].second) == corners(order[i].second)) {
@@ -355,8 +369,8 @@ class OnceEach {
 // Leaves out triangles without an area on the lattice, and those given again. of: which of the file's each is
 // a piece of.
 void drop_degenerate(const UndulationField& undulation, std::span<const std::uint32_t> of, PlacedMesh& mesh) {
-    const std::vector<LatticeKey> lattice = lattice_of(undulation, mesh);
-    const std::vector<char> first = are_first(mesh, lattice);
+    const ScratchVector<LatticeKey> lattice = lattice_of(undulation, mesh);
+    const ScratchVector<char> first = are_first(mesh, lattice);
     const auto has_area = [&](const SourceTriangle& triangle) {
         std::array<glm::dvec3, 3> at{};
         for (std::size_t i = 0; i < 3; ++i) {
@@ -434,6 +448,7 @@ std::uint64_t fingerprint_of(const SourceMesh& source, const std::string& crs, c
     return xxh64(std::as_bytes(std::span(source.colours)), all);
 }
 
+// Its arrays lie where those of the source do.
 Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, bool strict_datum,
                           const UndulationField& undulation) {
     const std::string crs = request.crs.empty() ? source.crs : request.crs;
@@ -446,7 +461,9 @@ Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, 
         return Error{places.error().kind,
                      request.crs.empty() ? source.path + ": " + crs : "--mesh-crs " + crs,
                      places.error().what};
+    const std::shared_ptr<ScratchMemory> scratch = source.vertices.get_allocator().scratch();
     PlacedMesh mesh;
+    mesh.lie_in(scratch);
     mesh.path = source.path, mesh.format = source.format, mesh.kind = source.kind;
     mesh.crs = places->name(), mesh.note = scale.note;
     mesh.heights = is_ecef(crs) ? "the WGS84 ellipsoid" : "sea level (EGM96)";
@@ -459,7 +476,7 @@ Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, 
     mesh.not_finite = source.not_finite;
     mesh.fingerprint = fingerprint_of(source, crs, request.unit);
     MeshPlacing placing(source, *places, request.look.empty() || request.look == "ground",
-                        request.most_triangles);
+                        request.most_triangles, scratch);
     ORO_CHECK(placing.cut(mesh));
     if (mesh.triangles.empty())
         return Error{ErrorKind::failed, source.path,
@@ -519,7 +536,7 @@ std::string note_of_mesh(const PlacedMesh& mesh) {
 
 Result<std::shared_ptr<const std::vector<PlacedMesh>>> open_meshes(
     const MeshRequest& request, bool strict_datum, const UndulationField& undulation,
-    std::span<const HeightField* const> ground) {
+    std::span<const HeightField* const> ground, const std::shared_ptr<ScratchMemory>& scratch) {
     auto meshes = std::make_shared<std::vector<PlacedMesh>>();
     bool has_footprints = false;
     for (const std::string& file : request.files) {
@@ -540,11 +557,12 @@ Result<std::shared_ptr<const std::vector<PlacedMesh>>> open_meshes(
             meshes->push_back(std::move(mesh));
             continue;
         }
-        ORO_TRY(const SourceMesh source, read_mesh(file, request.lod));
+        ORO_TRY(const SourceMesh source, read_mesh(file, request.lod, scratch));
         ORO_TRY(PlacedMesh mesh, placed(source, request, strict_datum, undulation));
         mesh.not_added = mesh.triangles.size();
         lengthen_walls(ground, mesh);
         meshes->push_back(std::move(mesh));
+        if (scratch != nullptr) scratch->drop_pages();
     }
     if (!request.building_height.empty() && !has_footprints)
         return Error{ErrorKind::usage, "--building-height " + request.building_height,

@@ -55,23 +55,23 @@ struct PlacedMesh {
     MeshKind kind{MeshKind::unknown};
     std::string crs;      // "EPSG:2056 CH1903+ / LV95"
     std::string heights;  // what its heights are above: "sea level (EGM96)", "EPSG:5728 LN02 height"
-    std::vector<PlacedVertex> vertices;
-    std::vector<SourceTriangle> triangles;
+    ScratchVector<PlacedVertex> vertices;
+    ScratchVector<SourceTriangle> triangles;
     // Of the vertices, as the file states them; those beyond its end have none. Empty where the file states
     // none, or where another look was asked for.
-    std::vector<VertexColour> colours;
+    ScratchVector<VertexColour> colours;
     // Of the triangles, in the place of all other colours: what they are a part of (MeshParts). Empty: not
     // asked for.
     std::vector<VertexColour> part_colours;
     std::vector<MeshFeature> features;
-    std::vector<std::uint32_t> feature_of;  // number of each triangle's feature; empty where there are none
-    std::uint32_t look{};                   // gpu::mesh_look_..., but for features whose type says another
-    bool has_look_by_type{};                // ... as types of CityJSON do (look_of_type())
-    std::vector<RimWall> rim_walls;         // of one that the terrain is cut out under
-    std::size_t not_added{};                // triangles that are the file's; those behind them were added
-    std::size_t lengthened{};               // features whose walls were led down to the terrain,
-    double most_lengthened_m{};             // ... the longest by so much
-    std::size_t in_file{};                  // triangles of the file
+    ScratchVector<std::uint32_t> feature_of;  // number of each triangle's feature; empty where there are none
+    std::uint32_t look{};                     // gpu::mesh_look_..., but for features whose type says another
+    bool has_look_by_type{};                  // ... as types of CityJSON do (look_of_type())
+    std::vector<RimWall> rim_walls;           // of one that the terrain is cut out under
+    std::size_t not_added{};                  // triangles that are the file's; those behind them were added
+    std::size_t lengthened{};                 // features whose walls were led down to the terrain,
+    double most_lengthened_m{};               // ... the longest by so much
+    std::size_t in_file{};                    // triangles of the file
     std::size_t
         not_placed{};  // ... left out: the CRS has no place for a vertex, or none near where it is made for
     std::size_t not_finite{};     // ... left out: a vertex of the file is no finite number
@@ -81,6 +81,11 @@ struct PlacedMesh {
     // Where triangles meet at a smaller angle they share the light: the normal at their common vertex.
     double crease_deg{default_crease_deg};
     std::shared_ptr<const BakedMesh> baked;  // null: it was not
+    // Before it has any of these: where its arrays will lie. Null: in ordinary memory.
+    void lie_in(const std::shared_ptr<ScratchMemory>& scratch) {
+        vertices = ScratchVector<PlacedVertex>(scratch), triangles = ScratchVector<SourceTriangle>(scratch);
+        colours = ScratchVector<VertexColour>(scratch), feature_of = ScratchVector<std::uint32_t>(scratch);
+    }
     // What `baked` has of them; null: nothing.
     [[nodiscard]] const StoredMesh* stored() const { return baked ? baked->stored.get() : nullptr; }
     [[nodiscard]] const StreamedMesh* streamed() const { return baked ? baked->streamed.get() : nullptr; }
@@ -102,16 +107,17 @@ std::string note_of_mesh(const PlacedMesh& mesh);
 // one that is straight in space.
 inline constexpr double longest_side_m = 200.0;
 // Triangles of a mesh that is baked; others have MeshRequest::most_triangles.
-inline constexpr std::size_t most_baked_triangles = 20'000'000;
+inline constexpr std::size_t most_baked_triangles = 100'000'000;
 
 // Reads and places the meshes that a request names. undulation: N of the region; empty: N is 0. A vertex's
 // place is that of PROJ to within 1 um, its height to within 0.3 mm up to 4 km (heights of another datum are
 // float32 on their way). Heights without a stated datum are above sea level. Errors: those of read_mesh(); a
 // file that states no CRS where the request names none; a CRS or a unit that is unknown (usage); with
 // strict_datum a vertical datum that there is no way from; no triangle that has a place; too many triangles.
-// ground: of the region, the best first: footprints stand on it.
+// ground: of the region, the best first: footprints stand on it. scratch: where arrays of meshes of more than
+// some 250,000 triangles lie while they are read, and stay; null: in memory. A further error: no room there.
 Result<std::shared_ptr<const std::vector<PlacedMesh>>> open_meshes(
     const MeshRequest& request, bool strict_datum, const UndulationField& undulation,
-    std::span<const HeightField* const> ground = {});
+    std::span<const HeightField* const> ground = {}, const std::shared_ptr<ScratchMemory>& scratch = nullptr);
 
 }  // namespace oro

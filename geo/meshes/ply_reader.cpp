@@ -80,7 +80,10 @@ double ply_number(const char* from, PlyType type) {
 
 class PlyReader {
   public:
-    explicit PlyReader(std::string_view bytes) : bytes_(bytes), rest_(bytes) {}
+    PlyReader(std::string_view bytes, const ScratchOfMesh& scratch)
+        : bytes_(bytes), rest_(bytes), corners_(scratch), counts_(scratch) {
+        mesh_.lie_in(scratch);
+    }
 
     Result<SourceMesh> all() {
         mesh_.format = "PLY";
@@ -102,6 +105,7 @@ class PlyReader {
             }
             if (const char* const fault = add_polygon(polygon, mesh_))
                 return Error{ErrorKind::failed, "", fault};
+            drop_pages_after(corners_.get_allocator().scratch().get(), mesh_.triangles.size());
         }
         return std::move(mesh_);
     }
@@ -271,6 +275,7 @@ class PlyReader {
             }
             if (is_vertex) mesh_.vertices.push_back(place);
             if (is_coloured) mesh_.colours.push_back(colour);
+            drop_pages_after(corners_.get_allocator().scratch().get(), i + 1);
             cut += is_cut ? 1 : 0;
         }
         if (cut > 0)
@@ -297,7 +302,7 @@ class PlyReader {
     std::string_view bytes_, rest_;
     PlyLayout layout_{PlyLayout::text};
     std::vector<PlyElement> elements_;
-    std::vector<std::uint32_t> corners_, counts_;  // of the faces, and how many of each
+    ScratchVector<std::uint32_t> corners_, counts_;  // of the faces, and how many of each
     SourceMesh mesh_;
 };
 
@@ -305,8 +310,8 @@ class PlyReader {
 
 static_assert(std::endian::native == std::endian::little);
 
-Result<SourceMesh> read_ply(std::string_view bytes) {
-    return PlyReader(bytes).all();
+Result<SourceMesh> read_ply(std::string_view bytes, const ScratchOfMesh& scratch) {
+    return PlyReader(bytes, scratch).all();
 }
 
 }  // namespace oro

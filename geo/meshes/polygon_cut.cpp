@@ -21,7 +21,7 @@ using FlatRing = std::vector<FlatCorner>;
 // The normal of a ring's area, twice as long as the area is large.
 // Source: I. Sutherland, R. Sproull, R. Schumacker, A characterization of ten hidden-surface algorithms, ACM
 // Computing Surveys 6(1), 1974 (M. Newell).
-glm::dvec3 area_normal(const std::vector<glm::dvec3>& vertices, const std::vector<std::uint32_t>& ring) {
+glm::dvec3 area_normal(std::span<const glm::dvec3> vertices, const std::vector<std::uint32_t>& ring) {
     glm::dvec3 sum(0.0);
     const glm::dvec3 first = vertices[ring.front()];
     for (std::size_t i = 2; i < ring.size(); ++i)
@@ -106,7 +106,7 @@ bool within(const glm::dvec2& at, const glm::dvec2& a, const glm::dvec2& b, cons
 // Cuts ears off an anticlockwise ring until a triangle is left. False: once there was none.
 class EarCut {
   public:
-    EarCut(FlatRing ring, std::vector<SourceTriangle>& triangles)
+    EarCut(FlatRing ring, ScratchVector<SourceTriangle>& triangles)
         : ring_(std::move(ring)), triangles_(triangles), before_(ring_.size()), after_(ring_.size()) {
         for (std::size_t i = 0; i < ring_.size(); ++i) {
             before_[i] = (i + ring_.size() - 1) % ring_.size();
@@ -154,14 +154,14 @@ class EarCut {
     }
 
     FlatRing ring_;
-    std::vector<SourceTriangle>& triangles_;
+    ScratchVector<SourceTriangle>& triangles_;
     std::vector<std::size_t> before_, after_;
 };
 
 }  // namespace
 
-bool cut_polygon(const std::vector<glm::dvec3>& vertices, const PolygonRings& rings,
-                 std::vector<SourceTriangle>& triangles) {
+bool cut_polygon(std::span<const glm::dvec3> vertices, const PolygonRings& rings,
+                 ScratchVector<SourceTriangle>& triangles) {
     const std::vector<std::uint32_t>& corners = rings.front();
     if (rings.size() == 1 && corners.size() == 3) {
         triangles.push_back({corners[0], corners[1], corners[2]});

@@ -23,7 +23,7 @@ using PolygonRings = std::vector<std::vector<std::uint32_t>>;
 // ring, and the last ones may overlap. It costs up to the square of the corners' number. From any thread.
 // Source: G. Meisters, Polygons have ears, Am. Math. Monthly 82(6), 1975; holes: D. Eberly, Triangulation by
 // ear clipping, 2002.
-bool cut_polygon(const std::vector<glm::dvec3>& vertices, const PolygonRings& rings,
-                 std::vector<SourceTriangle>& triangles);
+bool cut_polygon(std::span<const glm::dvec3> vertices, const PolygonRings& rings,
+                 ScratchVector<SourceTriangle>& triangles);
 
 }  // namespace oro

@@ -5,10 +5,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/base/scratch_vector.h"
 #include "core/seam/vertex_colour.h"
 
 namespace oro {
@@ -56,12 +58,12 @@ struct SourceMesh {
     std::string format;  // "OBJ", "PLY", "STL", "glTF", "LandXML", "GeoPackage", "GeoPackage TIN" (nothing
                          // else is in it), "CityJSON", "3D Tiles", "footprints"
     MeshKind kind{MeshKind::unknown};
-    std::vector<glm::dvec3> vertices;   // east (x), north (y), height, in the file's units
-    std::vector<VertexColour> colours;  // of each vertex; empty: the file states none
-    std::vector<MeshTexture> textures;  // that some of these colours are means of
-    double texels{};                    // that triangles cover of them
-    std::size_t textured_vertices{};    // that have such a colour
-    std::vector<SourceTriangle> triangles;
+    ScratchVector<glm::dvec3> vertices;   // east (x), north (y), height, in the file's units
+    ScratchVector<VertexColour> colours;  // of each vertex; empty: the file states none
+    std::vector<MeshTexture> textures;    // that some of these colours are means of
+    double texels{};                      // that triangles cover of them
+    std::size_t textured_vertices{};      // that have such a colour
+    ScratchVector<SourceTriangle> triangles;
     std::vector<MeshPart> parts;
     std::vector<MeshFeature> features;  // none, or every triangle belongs to one
     std::string unit;                   // as the file names it: "foot"; "" where it names none
@@ -72,6 +74,12 @@ struct SourceMesh {
     std::size_t invisible{};          // triangles left out: the file says that they are not to be seen
     std::size_t polygons_cut{};       // polygons of more than three corners, cut into triangles
     std::size_t polygons_crossing{};  // ... of which no cut is sound: they cross themselves, or have no area
+
+    // Before it has anything: where its arrays will lie. Null: in ordinary memory.
+    void lie_in(const std::shared_ptr<ScratchMemory>& scratch) {
+        vertices = ScratchVector<glm::dvec3>(scratch), triangles = ScratchVector<SourceTriangle>(scratch);
+        colours = ScratchVector<VertexColour>(scratch);
+    }
 };
 
 }  // namespace oro

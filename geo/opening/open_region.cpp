@@ -12,6 +12,7 @@
 
 #include "core/base/files_of_job.h"
 #include "core/base/files_read.h"
+#include "core/base/scratch_memory.h"
 #include "core/base/system_room.h"
 #include "geo/files/library_faults.h"
 #include "geo/files/raster_library.h"
@@ -79,15 +80,17 @@ Result<void> take_baked_meshes(const std::string& path, const RegionRequest& req
     return {};
 }
 
-// The meshes on a region, and what is to be told of them.
-Result<void> open_meshes_of(const RegionRequest& request, Region& region) {
+using Scratch = std::shared_ptr<ScratchMemory>;
+
+// The meshes on a region, and what is to be told of them. scratch: where large ones lie; null: in memory.
+Result<void> open_meshes_of(const RegionRequest& request, const Scratch& scratch, Region& region) {
     std::vector<const RegionGrid*> grids;
     for (const RegionGrid& grid : region.grids) grids.push_back(&grid);
     std::ranges::stable_sort(grids, {}, [](const RegionGrid* grid) { return grid->rank; });
     std::vector<const HeightField*> fields;
     for (const RegionGrid* const grid : grids) fields.push_back(&grid->field);
-    ORO_TRY(const auto opened,
-            open_meshes(request.meshes, request.strict_datum, region.grids.front().field.undulation, fields));
+    ORO_TRY(const auto opened, open_meshes(request.meshes, request.strict_datum,
+                                           region.grids.front().field.undulation, fields, scratch));
     RegionGrid& first = region.grids.front();
     std::vector<PlacedMesh> inside = *opened;
     leave_outside_out(request.box, inside, first);
@@ -124,7 +127,8 @@ Result<void> check_height_unit(const RegionRequest& request, std::span<const Cho
 }
 
 // The five steps. Of grids over each other one may lack all height: the others have ground.
-Result<Region> read_region(const RegionRequest& request, const Progress& progress, MeshReading meshes) {
+Result<Region> read_region(const RegionRequest& request, const Progress& progress, MeshReading meshes,
+                           const Scratch& scratch = nullptr) {
     ORO_TRY(const RegionFiles files, find_files(request));
     const bool is_baked = !files.baked.empty();
     if (!is_baked) start_gdal();
@@ -160,7 +164,7 @@ Result<Region> read_region(const RegionRequest& request, const Progress& progres
     Region region = describe_region(std::move(grids), empty, is_baked);
     if (request.feather_m > 0.0 && region.grids.size() > 1) ORO_CHECK(feather(region, request.feather_m));
     if (is_baked) ORO_CHECK(take_baked_meshes(files.baked, request, meshes, region));
-    if (!request.meshes.files.empty()) ORO_CHECK(open_meshes_of(request, region));
+    if (!request.meshes.files.empty()) ORO_CHECK(open_meshes_of(request, scratch, region));
     return region;
 }
 
@@ -254,9 +258,10 @@ void keep(const RegionRequest& request, MeshReading meshes, const Region& region
     keeping().last = KeptRegion{request, meshes, region, files_read_so_far()};
 }
 
-Result<Region> read_or_kept(const RegionRequest& request, const Progress& progress, MeshReading meshes) {
+Result<Region> read_or_kept(const RegionRequest& request, const Progress& progress, MeshReading meshes,
+                            const Scratch& scratch) {
     RegionKeeping& kept = keeping();
-    if (!kept.keeps) return read_region(request, progress, meshes);
+    if (!kept.keeps) return read_region(request, progress, meshes, scratch);
     if (kept.last && kept.last->meshes == meshes && asks_for_same(kept.last->request, request) &&
         are_unchanged(*kept.last->files)) {
         remember_again(*kept.last->files);
@@ -264,7 +269,27 @@ Result<Region> read_or_kept(const RegionRequest& request, const Progress& progre
     }
     kept.last.reset();
     ++kept.read;
-    return read_region(request, progress, meshes);
+    return read_region(request, progress, meshes, scratch);
+}
+
+Result<Region> opened_region(const RegionRequest& request, const Progress& progress, MeshReading meshes,
+                             const Scratch& scratch) {
+    try {
+        ORO_CHECK(check_west_and_east(request));
+        Result<Region> region = read_or_kept(request, progress, meshes, scratch);
+        if (region.ok()) ORO_CHECK(libraries_are_sound());
+        // Also where it could not be read: a file that is being rewritten is not damaged.
+        ORO_CHECK(check_files_unchanged());
+        if (!region.ok()) return with_order_of_box(region.error(), request);
+        if (keeping().keeps && !keeping().last) keep(request, meshes, *region);
+        return region;
+    } catch (const std::bad_alloc&) {
+        if (scratch != nullptr && scratch->error()) return *scratch->error();
+        return Error{ErrorKind::failed, "region too large",
+                     "not enough memory for its posts; narrow it with --bbox"};
+    } catch (const std::exception& fault) {
+        return Error{ErrorKind::failed, "reading a region", fault.what()};
+    }
 }
 
 }  // namespace
@@ -286,21 +311,12 @@ Result<Region> open_region(const RegionRequest& request, const Progress& progres
 }
 
 Result<Region> open_region(const RegionRequest& request, const Progress& progress, MeshReading meshes) {
-    try {
-        ORO_CHECK(check_west_and_east(request));
-        Result<Region> region = read_or_kept(request, progress, meshes);
-        if (region.ok()) ORO_CHECK(libraries_are_sound());
-        // Also where it could not be read: a file that is being rewritten is not damaged.
-        ORO_CHECK(check_files_unchanged());
-        if (!region.ok()) return with_order_of_box(region.error(), request);
-        if (keeping().keeps && !keeping().last) keep(request, meshes, *region);
-        return region;
-    } catch (const std::bad_alloc&) {
-        return Error{ErrorKind::failed, "region too large",
-                     "not enough memory for its posts; narrow it with --bbox"};
-    } catch (const std::exception& fault) {
-        return Error{ErrorKind::failed, "reading a region", fault.what()};
-    }
+    return opened_region(request, progress, meshes, nullptr);
+}
+
+Result<Region> open_region_in_scratch(const RegionRequest& request, const Progress& progress,
+                                      const std::string& folder) {
+    return opened_region(request, progress, MeshReading::whole, std::make_shared<ScratchMemory>(folder));
 }
 
 }  // namespace oro

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "core/base/progress.h"
 #include "core/base/result.h"
@@ -27,6 +28,11 @@ Result<Region> open_region(const RegionRequest& request, const Progress& progres
 // them group by group (PlacedMesh::streamed), unless a box or --cut-under has to know them.
 enum class MeshReading { whole, streamed };
 Result<Region> open_region(const RegionRequest& request, const Progress& progress, MeshReading meshes);
+
+// open_region() for a bake: of meshes of more than some 250,000 triangles all that is of their size lies in
+// scratch files in that folder, and stays there as long as the region. A further error: no room for them.
+Result<Region> open_region_in_scratch(const RegionRequest& request, const Progress& progress,
+                                      const std::string& folder);
 
 // From now on the region that was opened last is kept, and open_region() gives a copy of it to whoever asks
 // for the same while its files stay what they were: for one job after the other. Regions whose posts would

@@ -92,7 +92,9 @@ std::vector<glm::dvec3> vertices_of_mesh(const PlacedMesh& mesh, const Undulatio
 std::vector<MeshThing> things_of_mesh(const PlacedMesh& mesh, std::size_t number,
                                       std::span<const glm::dvec3> vertices_m) {
     const bool has_features = !mesh.feature_of.empty();
-    const std::vector<std::uint32_t> of = has_features ? mesh.feature_of : joined_by_vertices(mesh);
+    const std::vector<std::uint32_t> of =
+        has_features ? std::vector<std::uint32_t>(mesh.feature_of.begin(), mesh.feature_of.end())
+                     : joined_by_vertices(mesh);
     constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
     std::vector<std::size_t> place(has_features ? mesh.features.size() : mesh.vertices.size(), none);
     std::vector<MeshThing> things;

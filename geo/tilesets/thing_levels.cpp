@@ -253,7 +253,7 @@ std::optional<ThingLevels> levels_of_thing(std::span<const glm::dvec3> places_m,
     levels.tiles = ThingTiles(mesh, *parts, request).take();
     levels.places_m.reserve(mesh.vertex_of.size());
     for (const std::uint32_t place : mesh.vertex_of) levels.places_m.push_back(places_m[place]);
-    levels.place_of = mesh.vertex_of;
+    levels.place_of.assign(mesh.vertex_of.begin(), mesh.vertex_of.end());
     for (int depth = 0; request.normals && depth <= levels.depth; ++depth)
         add_level_normals(levels, depth, request.crease_deg);
     return levels;

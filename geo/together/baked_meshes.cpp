@@ -63,18 +63,18 @@ void add_triangles(std::shared_ptr<const StoredMesh> stored, const UndulationFie
         if (cluster.made_by != no_group) break;
         for (const VertexTriangle& triangle : graph.triangles_of(cluster)) mesh.triangles.push_back(triangle);
     }
-    mesh.feature_of = stored->labels;
+    mesh.feature_of.assign(stored->labels.begin(), stored->labels.end());
     mesh.not_added = mesh.triangles.size();
     mesh.baked = std::make_shared<const BakedMesh>(BakedMesh{std::move(stored), nullptr, 0});
 }
 
 // Colours of the vertices of a mesh as its bytes number them. Vertices at one place have that of the first.
 // vertex_of: of the mesh, for each of those places.
-std::vector<VertexColour> stored_colours(const PlacedMesh& mesh, std::span<const std::uint32_t> vertex_of,
-                                         std::span<const LatticeSteps> places, const StoredMesh& stored) {
+ScratchVector<VertexColour> stored_colours(const PlacedMesh& mesh, std::span<const std::uint32_t> vertex_of,
+                                           std::span<const LatticeSteps> places, const StoredMesh& stored) {
     std::map<LatticeSteps, std::uint32_t> vertex_at;
     for (std::size_t i = 0; i < places.size(); ++i) vertex_at.emplace(places[i], vertex_of[i]);
-    std::vector<VertexColour> colours(stored.places.size());
+    ScratchVector<VertexColour> colours(stored.places.size());
     for (std::size_t i = 0; i < colours.size(); ++i) {
         const auto found = vertex_at.find(stored.places[i]);
         if (found != vertex_at.end() && found->second < mesh.colours.size())
@@ -99,10 +99,13 @@ struct TriangleSum {
 // A mesh as its graph is built over it.
 struct MeshOnLattice {
     LatticeMesh lattice;
-    std::vector<LatticeSteps> places;  // of its vertices
-    MeshOnLattice(const PlacedMesh& mesh, const UndulationField& undulation) {
-        const std::vector<glm::dvec3> places_m = drawn_places_m(mesh, undulation, 1.0);
-        lattice = lattice_mesh(places_m, mesh.triangles);
+    std::pmr::vector<LatticeSteps> places;  // of its vertices
+    // scratch: where it lies, which it outlives; null: in memory.
+    MeshOnLattice(const PlacedMesh& mesh, const UndulationField& undulation, ScratchMemory* scratch = nullptr)
+        : lattice(array_memory(scratch)), places(array_memory(scratch)) {
+        std::pmr::vector<glm::dvec3> places_m(mesh.vertices.size(), array_memory(scratch));
+        drawn_places_m(mesh, undulation, 1.0, places_m);
+        lattice = lattice_mesh(places_m, mesh.triangles, scratch);
         places.reserve(lattice.vertex_of.size());
         for (const std::uint32_t vertex : lattice.vertex_of)
             places.push_back(lattice_point(places_m[vertex]).steps);
@@ -151,9 +154,10 @@ std::string folder_of(const std::string& path) {
 struct BakedGround {
     GroundCells cells;
     MeshGround triangles;
-    BakedGround(const LatticeMesh& mesh, const Region* region) {
+    // scratch: where what is of the mesh's size lies; null: in memory.
+    BakedGround(const LatticeMesh& mesh, const Region* region, ScratchMemory* scratch = nullptr) {
         if (region == nullptr) return;
-        cells = ground_cells_below_parts(mesh.vertices, mesh.triangles, mesh.origin_m, *region);
+        cells = ground_cells_below_parts(mesh.vertices, mesh.triangles, mesh.origin_m, *region, scratch);
         triangles = ground_in_cells(cells, mesh.origin_m, *region, 1.0);
     }
 };
@@ -245,20 +249,21 @@ struct MeshBaking {
   private:
     // cells: become those of the ground that its graph is built over.
     Result<WrittenMesh> whole(MeshOnLattice& on_lattice, BakedMeshReport& report, GroundCells& cells) const;
-    [[nodiscard]] std::vector<VertexColour> colours_of(const MeshOnLattice& on_lattice,
-                                                       const WrittenMesh& written) const;
+    [[nodiscard]] ScratchVector<VertexColour> colours_of(const MeshOnLattice& on_lattice,
+                                                         const WrittenMesh& written) const;
 };
 
 Result<WrittenMesh> MeshBaking::whole(MeshOnLattice& on_lattice, BakedMeshReport& report,
                                       GroundCells& cells) const {
     const auto start = Clock::now();
     LatticeMesh& lattice = on_lattice.lattice;
-    BakedGround below(lattice, ground);
+    BakedGround below(lattice, ground, scratch);
     const GrownMeshGraph graph = graph_over(lattice, below.triangles, threads, scratch);
     cells = std::move(below.cells);
     report.build_s = seconds_since(start);
     report.triangles = lattice.triangles.size();
-    lattice.vertices = {}, lattice.triangles = {};
+    lattice.vertices = std::pmr::vector<glm::dvec3>(array_memory(scratch));
+    lattice.triangles = std::pmr::vector<SourceTriangle>(array_memory(scratch));
     std::pmr::vector<std::uint32_t> labels(array_memory(scratch));
     if (!mesh.features.empty()) {
         labels.reserve(lattice.triangle_of.size());
@@ -271,10 +276,10 @@ Result<WrittenMesh> MeshBaking::whole(MeshOnLattice& on_lattice, BakedMeshReport
 }
 
 // As stored_colours().
-std::vector<VertexColour> MeshBaking::colours_of(const MeshOnLattice& on_lattice,
-                                                 const WrittenMesh& written) const {
+ScratchVector<VertexColour> MeshBaking::colours_of(const MeshOnLattice& on_lattice,
+                                                   const WrittenMesh& written) const {
     if (mesh.colours.empty()) return {};
-    std::vector<VertexColour> colours;
+    ScratchVector<VertexColour> colours(mesh.colours.get_allocator());
     colours.reserve(written.given_vertex.size());
     for (const std::uint32_t given : written.given_vertex) {
         const std::uint32_t vertex = on_lattice.lattice.vertex_of[given];
@@ -285,11 +290,13 @@ std::vector<VertexColour> MeshBaking::colours_of(const MeshOnLattice& on_lattice
 
 Result<BakedMeshReport> MeshBaking::write(const std::string& path) const {
     BakedMeshReport report;
-    MeshOnLattice on_lattice(mesh, undulation);
+    MeshOnLattice on_lattice(mesh, undulation, scratch);
+    const std::shared_ptr<ScratchMemory> of_mesh = mesh.vertices.get_allocator().scratch();
+    if (of_mesh != nullptr) of_mesh->drop_pages();
     GroundCells cells;
     const Result<WrittenMesh> written = whole(on_lattice, report, cells);
     if (!written.ok()) return Error{written.error().kind, mesh.path, written.error().what};
-    std::vector<VertexColour> colours = colours_of(on_lattice, *written);
+    ScratchVector<VertexColour> colours = colours_of(on_lattice, *written);
     // Groups by themselves have the numbers and the order that whoever reads the whole mesh finds.
     const StreamedBytes streamed = groups_of(*written, colours, cells, threads, scratch);
     const std::vector<std::byte> facts = compressed(facts_to_bytes(mesh, std::move(colours)));
@@ -340,7 +347,7 @@ std::optional<BakedMeshReport> mesh_baked_before(const std::string& path, const 
     const BakedGround below(now.lattice, ground);
     if (stored.ground_fingerprint != fingerprint_of(below.triangles, now.lattice.origin_m))
         return std::nullopt;
-    std::vector<VertexColour> colours;
+    ScratchVector<VertexColour> colours;
     if (!mesh.colours.empty()) colours = stored_colours(mesh, now.lattice.vertex_of, now.places, stored);
     const StreamedBytes streamed = groups_of(stored, colours, below.cells, thread_count());
     if (!has_streamed_bytes(**container, 0, streamed)) return std::nullopt;

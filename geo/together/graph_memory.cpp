@@ -8,8 +8,9 @@ namespace oro {
 namespace {
 
 constexpr std::uint64_t bytes_besides = 100'000'000;
-// Measured over scans: docs/notes/2026-11-30-baking-meshes-by-boxes.md.
-constexpr std::uint64_t graph_bytes_a_triangle = 750, bake_bytes_a_triangle = 200;
+// Measured over scans: docs/notes/2026-11-30-baking-meshes-by-boxes.md,
+// 2026-11-30-writing-meshes-from-files.md.
+constexpr std::uint64_t graph_bytes_a_triangle = 750, bake_bytes_a_triangle = 12;
 
 // what: is done; advice: where there is too little memory for it.
 Result<void> check(const std::string& path, std::uint64_t triangles, std::uint64_t memory_bytes,

@@ -10,7 +10,8 @@ namespace oro {
 
 // What building takes at most where all of it is in memory, all else that is in memory then with it.
 std::uint64_t graph_bytes(std::uint64_t triangles);
-// What baking takes at most, where the graph grows in scratch files (write_baked_mesh()).
+// What baking takes at most of the process's own memory, where all that is of the mesh's size lies in scratch
+// files (write_baked_mesh(), open_region_in_scratch()).
 std::uint64_t bake_bytes(std::uint64_t triangles);
 
 // Errors: that is more than three quarters of the machine's memory; it tells both. path: of the mesh.

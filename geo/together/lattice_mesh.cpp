@@ -11,9 +11,11 @@ namespace {
 constexpr std::uint32_t no_vertex = ~std::uint32_t{0};
 
 // For each place that triangles have the first one that lies there; no_vertex for others.
-std::vector<std::uint32_t> firsts_at(std::span<const glm::dvec3> places,
-                                     std::span<const SourceTriangle> triangles) {
-    std::vector<std::uint32_t> order, first(places.size(), no_vertex);
+std::pmr::vector<std::uint32_t> firsts_at(std::span<const glm::dvec3> places,
+                                          std::span<const SourceTriangle> triangles,
+                                          std::pmr::memory_resource* memory) {
+    std::pmr::vector<std::uint32_t> order(memory), first(places.size(), no_vertex, memory);
+    order.reserve(places.size());
     for (const SourceTriangle& triangle : triangles)
         for (const std::uint32_t corner : triangle)
             if (first[corner] == no_vertex) {
@@ -29,12 +31,17 @@ std::vector<std::uint32_t> firsts_at(std::span<const glm::dvec3> places,
 
 }  // namespace
 
-LatticeMesh lattice_mesh(std::span<const glm::dvec3> places_m, std::span<const SourceTriangle> triangles) {
-    const std::vector<std::uint32_t> first = firsts_at(places_m, triangles);
-    LatticeMesh mesh;
+LatticeMesh lattice_mesh(std::span<const glm::dvec3> places_m, std::span<const SourceTriangle> triangles,
+                         ScratchMemory* scratch) {
+    std::pmr::memory_resource* const memory = array_memory(scratch);
+    const std::pmr::vector<std::uint32_t> first = firsts_at(places_m, triangles, memory);
+    LatticeMesh mesh(memory);
+    mesh.triangles.reserve(triangles.size()), mesh.triangle_of.reserve(triangles.size());
+    mesh.vertices.reserve(places_m.size()), mesh.vertex_of.reserve(places_m.size());
     mesh.origin_m = places_m[triangles.front()[0]];
-    std::vector<std::uint32_t> number(places_m.size(), no_vertex);
+    std::pmr::vector<std::uint32_t> number(places_m.size(), no_vertex, memory);
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        drop_pages_after(scratch, i + std::size_t{1});
         std::array<glm::dvec3, 3> at{};
         for (std::size_t k = 0; k < 3; ++k) at[k] = places_m[triangles[i][k]];
         if (glm::cross(at[1] - at[0], at[2] - at[0]) == glm::dvec3(0.0)) continue;

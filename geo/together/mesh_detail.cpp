@@ -77,8 +77,8 @@ MeshDetail::Graph MeshDetail::graph_of(const PlacedMesh& mesh, const UndulationF
         lattice.triangles.empty()
             ? MeshGraph()
             : build_mesh_graph(lattice.vertices, lattice.triangles, lattice.origin_m, options));
-    graph.vertex_of = std::move(lattice.vertex_of);
-    graph.triangle_of = std::move(lattice.triangle_of);
+    graph.vertex_of.assign(lattice.vertex_of.begin(), lattice.vertex_of.end());
+    graph.triangle_of.assign(lattice.triangle_of.begin(), lattice.triangle_of.end());
     return graph;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory_resource>
 #include <numbers>
 #include <numeric>
 #include <optional>
@@ -28,8 +29,8 @@ using PartPlaces = std::vector<std::vector<Geodetic>>;
 
 PartPlaces places_of_parts(std::span<const glm::dvec3> vertices,
                            std::span<const std::array<std::uint32_t, 3>> triangles,
-                           const glm::dvec3& origin_m) {
-    std::vector<std::uint32_t> part_of(vertices.size());
+                           const glm::dvec3& origin_m, std::pmr::memory_resource* memory) {
+    std::pmr::vector<std::uint32_t> part_of(vertices.size(), memory);
     std::iota(part_of.begin(), part_of.end(), 0U);
     const auto first = [&](std::uint32_t vertex) {
         while (part_of[vertex] != vertex) vertex = part_of[vertex] = part_of[part_of[vertex]];
@@ -40,10 +41,11 @@ PartPlaces places_of_parts(std::span<const glm::dvec3> vertices,
             const std::uint32_t one = first(a), two = first(other);
             part_of[std::max(one, two)] = std::min(one, two);
         }
-    std::vector<std::uint32_t> count(vertices.size(), 0);
+    std::pmr::vector<std::uint32_t> count(vertices.size(), 0, memory);
     for (const auto& triangle : triangles) ++count[first(triangle[0])];
     PartPlaces parts;
-    std::vector<std::uint32_t> number(vertices.size(), std::numeric_limits<std::uint32_t>::max());
+    std::pmr::vector<std::uint32_t> number(vertices.size(), std::numeric_limits<std::uint32_t>::max(),
+                                           memory);
     for (std::uint32_t i = 0; i < vertices.size(); ++i) {
         const std::uint32_t part = first(i);
         if (count[part] == 0 || count[part] > most_part_triangles) continue;
@@ -245,9 +247,10 @@ PartMesh mesh_of(const StoredMesh& mesh) {
 
 GroundCells ground_cells_below_parts(std::span<const glm::dvec3> vertices,
                                      std::span<const std::array<std::uint32_t, 3>> triangles,
-                                     const glm::dvec3& origin_ecef_m, const Region& region) {
+                                     const glm::dvec3& origin_ecef_m, const Region& region,
+                                     ScratchMemory* scratch) {
     if (cuts_ground_out(region)) return {};
-    const PartPlaces parts = places_of_parts(vertices, triangles, origin_ecef_m);
+    const PartPlaces parts = places_of_parts(vertices, triangles, origin_ecef_m, array_memory(scratch));
     if (parts.empty()) return {};
     constexpr double far_deg = std::numeric_limits<double>::infinity();
     GroundCells cells{far_deg, -far_deg, far_deg, -far_deg, {}};

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 #include <span>
 
+#include "core/base/scratch_memory.h"
 #include "core/mesh_graph/mesh_ground.h"
 #include "core/streamed_mesh/ground_cells.h"
 #include "geo/region/region.h"
@@ -18,10 +19,11 @@ struct StoredMesh;
 // have at most 1,152 triangles; a cell more on each side. No grids where there are no such parts, where any
 // mesh of the region cuts ground out, and where there would be more than 500,000 cells of one grid, or more
 // than most_ground_cells. vertices: metres from `origin`, ECEF. The result does not depend on the order of
-// triangles.
+// triangles. scratch: where what is of the mesh's size lies; null: in memory.
 [[nodiscard]] GroundCells ground_cells_below_parts(std::span<const glm::dvec3> vertices,
                                                    std::span<const std::array<std::uint32_t, 3>> triangles,
-                                                   const glm::dvec3& origin_ecef_m, const Region& region);
+                                                   const glm::dvec3& origin_ecef_m, const Region& region,
+                                                   ScratchMemory* scratch = nullptr);
 // The same of a mesh that was baked.
 [[nodiscard]] GroundCells ground_cells_below_parts(const StoredMesh& mesh, const Region& region);
 

@@ -140,10 +140,15 @@ void add_rim_wall(const RimWall& wall, const std::vector<SeamCorner>& corners, s
 std::vector<glm::dvec3> drawn_places_m(const PlacedMesh& mesh, const UndulationField& undulation,
                                        double exaggeration) {
     std::vector<glm::dvec3> places(mesh.vertices.size());
-    in_chunks(places.size(), thread_count(), [&](std::size_t i) {
-        places[i] = drawn_vertex(mesh.vertices[i], undulation, exaggeration).at.m;
-    });
+    drawn_places_m(mesh, undulation, exaggeration, places);
     return places;
+}
+
+void drawn_places_m(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration,
+                    std::span<glm::dvec3> places_m) {
+    in_chunks(places_m.size(), thread_count(), [&](std::size_t i) {
+        places_m[i] = drawn_vertex(mesh.vertices[i], undulation, exaggeration).at.m;
+    });
 }
 
 PlacedVertex vertex_on_lattice(const LatticeSteps& at, const UndulationField& undulation) {

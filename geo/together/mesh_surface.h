@@ -18,6 +18,10 @@ namespace oro {
 std::vector<glm::dvec3> drawn_places_m(const PlacedMesh& mesh, const UndulationField& undulation,
                                        double exaggeration);
 
+// The same into an array of as many.
+void drawn_places_m(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration,
+                    std::span<glm::dvec3> places_m);
+
 // The vertex that is drawn at that place where nothing is exaggerated.
 PlacedVertex vertex_on_lattice(const LatticeSteps& at, const UndulationField& undulation);
 

@@ -79,7 +79,7 @@ TEST(Gltf, NodesAreMultipliedInDouble) {
         EXPECT_EQ(mesh->vertices[0], glm::dvec3(2600000.125, 1200000.5, 504.25));
         EXPECT_EQ(mesh->vertices[1], glm::dvec3(2600002.125, 1200000.5, 504.25));
         EXPECT_EQ(mesh->vertices[2], glm::dvec3(2600000.125, 1200002.5, 504.25));
-        EXPECT_EQ(mesh->triangles, (std::vector<SourceTriangle>{{2, 1, 0}}));
+        EXPECT_EQ(mesh->triangles, (ScratchVector<SourceTriangle>{{2, 1, 0}}));
         EXPECT_EQ(mesh->format, "glTF");
         EXPECT_EQ(mesh->parts.at(0).name, "yard");
         EXPECT_EQ(mesh->crs, "");
@@ -118,9 +118,9 @@ TEST(Gltf, StripsAndFansTurnAsTheyAreDrawn) {
     };
     const auto strip = read("5"), fan = read("6"), lines = read("1");
     ASSERT_TRUE(strip.ok()) << strip.error().line();
-    EXPECT_EQ(strip->triangles, (std::vector<SourceTriangle>{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}}));
+    EXPECT_EQ(strip->triangles, (ScratchVector<SourceTriangle>{{0, 1, 2}, {1, 3, 2}, {2, 3, 4}}));
     ASSERT_TRUE(fan.ok()) << fan.error().line();
-    EXPECT_EQ(fan->triangles, (std::vector<SourceTriangle>{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
+    EXPECT_EQ(fan->triangles, (ScratchVector<SourceTriangle>{{0, 1, 2}, {0, 2, 3}, {0, 3, 4}}));
     ASSERT_FALSE(lines.ok());
     EXPECT_EQ(lines.error().what, "no triangles");
 }

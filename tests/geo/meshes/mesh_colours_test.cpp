@@ -46,13 +46,13 @@ std::string three_of(const std::string& type, const std::string& prefix = "") {
     return text;
 }
 
-std::vector<VertexColour> colours_in(const std::string& name, const std::string& bytes) {
+ScratchVector<VertexColour> colours_in(const std::string& name, const std::string& bytes) {
     const auto read = read_mesh(coloured_file(name, bytes));
     EXPECT_TRUE(read.ok()) << read.error().line();
-    return read.ok() ? read->colours : std::vector<VertexColour>();
+    return read.ok() ? read->colours : ScratchVector<VertexColour>();
 }
 
-const std::vector<VertexColour> red_green_grey{{255, 0, 0, 1}, {0, 255, 0, 1}, {128, 128, 128, 1}};
+const ScratchVector<VertexColour> red_green_grey{{255, 0, 0, 1}, {0, 255, 0, 1}, {128, 128, 128, 1}};
 
 // The largest number of a whole type is full light, and so is 1 of a real one. 128/255 = 32896/65535.
 TEST(FileColours, OfPlyAreReadInEachType) {
@@ -81,7 +81,7 @@ TEST(FileColours, OfPlyBeyondTheirTypeAreCounted) {
     const auto lying = read_mesh(
         coloured_file("lying.ply", coloured_ply(three_of("uchar"), {"300 0 0", "0 255 0", "nan -5 128"})));
     ASSERT_TRUE(lying.ok()) << lying.error().line();
-    EXPECT_EQ(lying->colours, (std::vector<VertexColour>{{255, 0, 0, 1}, {0, 255, 0, 1}, {0, 0, 128, 1}}));
+    EXPECT_EQ(lying->colours, (ScratchVector<VertexColour>{{255, 0, 0, 1}, {0, 255, 0, 1}, {0, 0, 128, 1}}));
     EXPECT_EQ(lying->notes,
               (std::vector<std::string>{"colours of 2 of its 3 vertices are beyond what their type "
                                         "may hold, and are cut"}));
@@ -123,7 +123,7 @@ TEST(FileColours, OfObjAreReadInBothRanges) {
         red_green_grey);
     EXPECT_EQ(colours_in("codes.obj", "v 0 0 0 255 0 0\nv 1 0 0 0 255 0\nv 0 1 0 128 128 128\n" + face),
               red_green_grey);
-    const std::vector<VertexColour> one_without{{255, 0, 0, 1}, {}, {0, 0, 255, 1}};
+    const ScratchVector<VertexColour> one_without{{255, 0, 0, 1}, {}, {0, 0, 255, 1}};
     EXPECT_EQ(colours_in("some.obj", "v 0 0 0 1 0 0\nv 1 0 0\nv 0 1 0 0 0 1\n" + face), one_without);
     EXPECT_TRUE(colours_in("weights.obj", "v 0 0 0 1.0\nv 1 0 0 0.5\nv 0 1 0 1\n" + face).empty());
     const auto bad = read_mesh(coloured_file("bad.obj", "v 0 0 0 1 0 0\nv 1 0 0 1 x 0\nv 0 1 0\n" + face));

@@ -78,7 +78,7 @@ TEST(MeshFile, ObjKeepsDoubles) {
     const auto mesh = read_mesh(mesh_written("square.OBJ", square_obj));
     ASSERT_TRUE(mesh.ok()) << mesh.error().line();
     EXPECT_EQ(mesh->vertices[0], glm::dvec3(2600000.001, 1200000.002, 431.003));
-    const std::vector<SourceTriangle> triangles{{0, 1, 2}, {0, 2, 3}};
+    const ScratchVector<SourceTriangle> triangles{{0, 1, 2}, {0, 2, 3}};
     EXPECT_EQ(mesh->triangles, triangles);
     ASSERT_EQ(mesh->parts.size(), 1U);
     EXPECT_EQ(mesh->parts[0].name, "yard");
@@ -95,7 +95,7 @@ TEST(MeshFile, PlyOfBothByteOrdersAndOfTextIsTheSame) {
         ASSERT_TRUE(mesh.ok()) << mesh.error().line();
         ASSERT_EQ(mesh->vertices.size(), 3U);
         EXPECT_EQ(mesh->vertices[0], glm::dvec3(5212345.678, 2606172.839, 1.5));
-        EXPECT_EQ(mesh->triangles, (std::vector<SourceTriangle>{{0, 1, 2}}));
+        EXPECT_EQ(mesh->triangles, (ScratchVector<SourceTriangle>{{0, 1, 2}}));
     }
 }
 
@@ -119,7 +119,7 @@ TEST(MeshFile, LandXmlHasItsOrderAndInvisibleFaces) {
         read_mesh(mesh_written("eg.xml", landxml("<F n=\"0 0 0\">1 a 7</F><F i=\"1\">7 a 1</F>")));
     ASSERT_TRUE(mesh.ok()) << mesh.error().line();
     EXPECT_EQ(mesh->vertices[0], glm::dvec3(2600000.001, 1200000.002, 431.5));
-    EXPECT_EQ(mesh->triangles, (std::vector<SourceTriangle>{{0, 1, 2}}));
+    EXPECT_EQ(mesh->triangles, (ScratchVector<SourceTriangle>{{0, 1, 2}}));
     EXPECT_EQ(mesh->invisible, 1U);
     EXPECT_EQ(mesh->crs, "EPSG:2056");
     EXPECT_EQ(mesh->parts.at(0).name, "EG");

@@ -260,7 +260,7 @@ TEST_F(MeshTextures, SeamsAreAveragedWithinAMaterial) {
     // Of two materials the vertices lie apart: an edge between them stays sharp.
     const SourceMesh apart = read("b.obj", seam + "usemtl b\nf 1/4 3/5 4/6\n");
     expect_codes(apart, {red, red, red, blue, blue, blue}, 0);
-    EXPECT_EQ(apart.triangles, (std::vector<SourceTriangle>{{0, 1, 2}, {4, 5, 3}}));
+    EXPECT_EQ(apart.triangles, (ScratchVector<SourceTriangle>{{0, 1, 2}, {4, 5, 3}}));
     EXPECT_EQ(apart.vertices.at(4), apart.vertices.at(0));
 }
 

@@ -15,7 +15,7 @@ namespace oro {
 namespace {
 
 double area_of_triangles(const std::vector<glm::dvec3>& vertices,
-                         const std::vector<SourceTriangle>& triangles) {
+                         const ScratchVector<SourceTriangle>& triangles) {
     double sum = 0.0;
     for (const SourceTriangle& t : triangles)
         sum +=
@@ -36,7 +36,7 @@ TEST(PolygonCut, AnAngleIsNoFan) {
     for (std::size_t first = 0; first < 4; ++first) {
         std::vector<std::uint32_t> ring = ring_of(0, 4);
         std::ranges::rotate(ring, ring.begin() + static_cast<std::ptrdiff_t>(first));
-        std::vector<SourceTriangle> triangles;
+        ScratchVector<SourceTriangle> triangles;
         ASSERT_TRUE(cut_polygon(upright, {ring}, triangles));
         ASSERT_EQ(triangles.size(), 2U);
         // The area by the shoelace formula: (0*0 - 2*0 + 2*0.5 - 0.5*0 + 0.5*2 - 0*0.5 + 0) / 2 = 1.
@@ -48,7 +48,7 @@ TEST(PolygonCut, TrianglesTurnAsThePolygonDoes) {
     const std::vector<glm::dvec3> square{{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
     for (const std::vector<std::uint32_t>& ring :
          {std::vector<std::uint32_t>{0, 1, 2, 3}, std::vector<std::uint32_t>{3, 2, 1, 0}}) {
-        std::vector<SourceTriangle> triangles;
+        ScratchVector<SourceTriangle> triangles;
         ASSERT_TRUE(cut_polygon(square, {ring}, triangles));
         for (const SourceTriangle& t : triangles) {
             const double up = glm::cross(square[t[1]] - square[t[0]], square[t[2]] - square[t[0]]).z;
@@ -65,7 +65,7 @@ TEST(PolygonCut, HolesStayOpen) {
         for (const glm::dvec2 at : {glm::dvec2(0, 0), glm::dvec2(1, 0), glm::dvec2(1, 2), glm::dvec2(0, 2)})
             vertices.emplace_back(x + at.x, y + at.y, 0.0);
     }
-    std::vector<SourceTriangle> triangles;
+    ScratchVector<SourceTriangle> triangles;
     ASSERT_TRUE(cut_polygon(vertices, rings, triangles));
     EXPECT_EQ(triangles.size(), 16U + 2U * 3U - 2U);
     EXPECT_NEAR(area_of_triangles(vertices, triangles), 81.0 - 3.0 * 2.0, 1.0e-12) << "m2";
@@ -97,7 +97,7 @@ TEST(PolygonCut, StarsByChance) {
             const glm::dvec2 &a = flat[i], &b = flat[(i + 1) % corners];
             area += 0.5 * (a.x * b.y - a.y * b.x);
         }
-        std::vector<SourceTriangle> triangles;
+        ScratchVector<SourceTriangle> triangles;
         EXPECT_TRUE(cut_polygon(vertices, {ring_of(0, corners)}, triangles)) << round;
         EXPECT_EQ(triangles.size(), corners - 2);
         EXPECT_NEAR(area_of_triangles(vertices, triangles), area, 1.0e-6 * area) << round;
@@ -111,7 +111,7 @@ TEST(PolygonCut, CrossingAndFlatPolygonsEnd) {
     for (const std::vector<std::uint32_t>& ring :
          {std::vector<std::uint32_t>{0, 1, 2, 3}, std::vector<std::uint32_t>{0, 0, 0, 0},
           std::vector<std::uint32_t>{0, 1, 0, 1}, std::vector<std::uint32_t>{0, 1, 6, 3}}) {
-        std::vector<SourceTriangle> triangles;
+        ScratchVector<SourceTriangle> triangles;
         EXPECT_FALSE(cut_polygon(vertices, {ring}, triangles));
         EXPECT_EQ(triangles.size(), ring.size() - 2);
     }
@@ -121,7 +121,7 @@ TEST(PolygonCut, CrossingAndFlatPolygonsEnd) {
     for (int round = 0; round < 2000; ++round) {
         std::vector<std::uint32_t> ring(3 + random() % 12);
         for (std::uint32_t& corner : ring) corner = static_cast<std::uint32_t>(random() % vertices.size());
-        std::vector<SourceTriangle> triangles;
+        ScratchVector<SourceTriangle> triangles;
         cut_polygon(vertices, {ring}, triangles);
         EXPECT_EQ(triangles.size(), ring.size() - 2);
     }

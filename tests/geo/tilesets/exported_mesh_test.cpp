@@ -131,7 +131,7 @@ TEST(ExportedMesh, OfAModelLiesAroundItsOrigin) {
     EXPECT_LT(glm::distance(read->vertices[0], middle), 1.0e-8);
     EXPECT_LT(glm::distance(read->vertices[1], middle + axes * glm::dvec3(2000.0, 0.0, 30.0)), 1.0e-8);
     EXPECT_LT(glm::distance(read->vertices[2], middle + axes * glm::dvec3(0.0, 1500.0, 10.0)), 1.0e-8);
-    const std::vector<VertexColour> expected{{255, 0, 0, 1}, {0, 255, 0, 1}, {0, 0, 255, 1}};
+    const ScratchVector<VertexColour> expected{{255, 0, 0, 1}, {0, 255, 0, 1}, {0, 0, 255, 1}};
     EXPECT_EQ(read->colours, expected);
 }
 
