@@ -41,7 +41,7 @@ class ScratchAllocator {
         else
             std::allocator<T>().deallocate(array, count);
     }
-    [[nodiscard]] const std::shared_ptr<ScratchMemory>& scratch() const { return scratch_; }
+    [[nodiscard]] std::shared_ptr<ScratchMemory> scratch() const { return scratch_; }
     template <class Other>
     bool operator==(const ScratchAllocator<Other>& other) const {
         return scratch_ == other.scratch();
