@@ -10,6 +10,7 @@
 
 #include "core/earth/ellipsoid.h"
 #include "core/growth/covering_pages.h"
+#include "core/growth/tree_reach.h"
 #include "core/growth/tree_sites.h"
 
 namespace oro::gpu {
@@ -254,8 +255,7 @@ bool is_whole_picture(const Camera& camera, const Tile& tile) {
 GrowthPlan plan_growth(const PostGrid& grid, std::span<const PageIndex> page_indices,
                        const GroundRangeOf& ground, const GrowthView& view) {
     GrowthPlan plan;
-    const double pixels_per_tangent = 0.5 * view.camera.height_px / view.camera.half_fov_tangent().y;
-    plan.reach_m = gpu::tree_reach_m(static_cast<float>(pixels_per_tangent), static_cast<float>(view.tau_px));
+    plan.reach_m = static_cast<float>(reach_of_trees_m(view.camera, view.tau_px));
     if (page_indices.empty()) return plan;
     FramedGround framed{grid, page_indices, ground, ground(0)};
     for (std::size_t i = 1; i < page_indices.size(); ++i) {
@@ -271,6 +271,12 @@ GrowthPlan plan_growth(const PostGrid& grid, std::span<const PageIndex> page_ind
     if (plan.tiles.empty() && !is_whole_picture(view.camera, view.tile))
         plan.tiles = seen({0, 0, view.camera.width_px, view.camera.height_px}, 1);
     return plan;
+}
+
+double reach_of_trees_m(const Camera& camera, double tau_px) {
+    const double per_tangent = 0.5 * camera.height_px / camera.half_fov_tangent().y;
+    return static_cast<double>(
+        gpu::tree_reach_m(static_cast<float>(per_tangent), static_cast<float>(tau_px)));
 }
 
 int canopy_rise_px(const Camera& camera, double tau_px) {
