@@ -78,7 +78,7 @@ Result<std::optional<PictureDifference>> check_pixels(const CompareOptions& opti
     std::vector<std::uint8_t> strip;
     if (view.legend) {
         ORO_TRY(const auto middle, place_in_middle(view, ground));
-        ORO_TRY(strip, legend_strip(view, region, style, middle));
+        ORO_TRY(strip, legend_strip(view, region, style, middle, ground));
     }
     ORO_TRY(const PictureDifference found,
             compare_pixels(options.view_file, view, ground.ground(), gpu, scene, path, style, strip,

@@ -102,18 +102,36 @@ ColourKey key_of_materials(const gpu::MaterialTable& materials) {
     return key;
 }
 
-// The classes that the files of land cover hold.
-ColourKey key_of_cover(const CoverMap& cover) {
+// The classes that are shown, or where that is not known those that the files hold; then what a rule makes of
+// ground of which no file knows.
+ColourKey key_of_cover(const CoverMap& cover, const gpu::MaterialTable& materials, const ShownGround* shown) {
     ColourKey key;
     key.shape = KeyShape::names;
-    key.title = "Land cover; where none is known, by a rule";
-    for (const CoverClass& one : cover.table().classes) {
-        const bool is_there = std::ranges::any_of(cover.sources(), [&](const CoverSource& source) {
-            return std::ranges::any_of(one.codes, [&](int code) { return source.codes.contains(code); });
-        });
-        if (is_there)
+    const auto has = [&](int code) {
+        if (shown) return shown->codes.contains(code);
+        return std::ranges::any_of(cover.sources(),
+                                   [&](const CoverSource& source) { return source.codes.contains(code); });
+    };
+    for (const CoverClass& one : cover.table().classes)
+        if (std::ranges::any_of(one.codes, has))
             key.names.push_back({StripColour{one.colour[0], one.colour[1], one.colour[2]}, one.name});
+    if (shown && !shown->by_rule) {
+        key.title = "Land cover";
+        return key.names.empty() ? ColourKey{} : key;
     }
+    const ColourKey rule = materials.on != 0 ? key_of_materials(materials) : ColourKey{};
+    if (shown && key.names.empty() && !rule.names.empty()) return rule;
+    key.title = rule.names.empty() ? "Land cover; where none is known, by a rule"
+                                   : "Land cover; then, where none is known, ground by a rule";
+    key.names.insert(key.names.end(), rule.names.begin(), rule.names.end());
+    return key;
+}
+
+// Nothing but images has its colours in the picture.
+ColourKey key_of_images() {
+    ColourKey key;
+    key.shape = KeyShape::names;
+    key.title = "The ground has the colours of an image";
     return key;
 }
 
@@ -154,11 +172,14 @@ StripColour ColourKey::colour(double value) const {
     return mixed;
 }
 
-ColourKey colour_key(const View& view, const Region& region, const Style& style, int every) {
+ColourKey colour_key(const View& view, const Region& region, const Style& style, int every,
+                     const ShownGround* shown) {
     if (view.shows_mesh_parts) return key_of_mesh_parts(*view.show, mesh_levels(region));
     if (view.show) return key_of_show(*view.show, view.mesh == "clusters", region, every);
+    if (shown && shown->under_images) return key_of_images();
     const gpu::FrameStyle& frame = style.frame;
-    if (view.cover && frame.colour_by == gpu::colour_by_cover) return key_of_cover(*view.cover);
+    if (view.cover && frame.colour_by == gpu::colour_by_cover)
+        return key_of_cover(*view.cover, frame.materials, shown);
     if (frame.materials.on != 0) return key_of_materials(frame.materials);
     ColourKey key;
     key.stops.assign(frame.tints, frame.tints + frame.tint_count);

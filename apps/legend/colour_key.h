@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/legend/shown_ground.h"
 #include "apps/legend/strip.h"
 #include "apps/view/style.h"
 #include "apps/view/view.h"
@@ -33,7 +34,9 @@ struct ColourKey {
 // map's latitude. None where a style has one colour alone,
 // or colours that nobody tells apart between the region's lowest and highest ground. Of a view that shows its
 // own making (--show), what that has: `every` is 1, or which posts alone are drawn, every so many-th along
-// rows and columns.
-ColourKey colour_key(const View& view, const Region& region, const Style& style, int every = 1);
+// rows and columns. `shown`: what of land cover and of a rule's ground to name, and whether images hide all
+// of it; null: not known, all that files and the rule may have is named.
+ColourKey colour_key(const View& view, const Region& region, const Style& style, int every = 1,
+                     const ShownGround* shown = nullptr);
 
 }  // namespace oro

@@ -20,8 +20,8 @@ constexpr StripColour paper = legend_paper, ink = legend_ink, quiet = legend_qui
 class LegendPage {
   public:
     LegendPage(const View& view, const Region& region, const Style& style,
-               const std::optional<SeenPlace>& middle, const TextFace& face)
-        : view_(view), middle_(middle), face_(face), key_(colour_key(view, region, style)) {
+               const std::optional<SeenPlace>& middle, const ShownGround& shown, const TextFace& face)
+        : view_(view), middle_(middle), face_(face), key_(colour_key(view, region, style, 1, &shown)) {
         width_px_ = view.camera.width_px;
         em_ = std::clamp(width_px_ / 92.0, 11.0, 26.0);
         margin_ = 1.4 * em_;
@@ -29,15 +29,21 @@ class LegendPage {
 
     Result<std::vector<std::uint8_t>> draw(const std::vector<std::string>& lines) {
         ORO_TRY(const std::vector<std::string> text, wrapped(face_, lines, em_, width_px_ - 2.0 * margin_));
-        const double figure_px = 4.6 * em_, line_px = 1.5 * em_;
         const bool in_one_row = width_px_ >= 52.0 * em_;
+        const double scale_room_px = in_one_row ? 20.0 * em_ : width_px_ - 2.0 * margin_ - scale_em * em_;
+        ORO_TRY(const std::vector<std::string> caption,
+                wrapped(face_, {scale_caption()}, 0.9 * em_, scale_room_px));
+        const double figure_px = (4.6 + caption_line_em * static_cast<double>(caption.size() - 1)) * em_;
+        const double line_px = 1.5 * em_;
         const glm::dvec2 key_at =
             in_one_row ? glm::dvec2(margin_ + 28.0 * em_, margin_) : glm::dvec2(margin_, margin_ + figure_px);
         double key_px = key_.shape == KeyShape::none ? 0.0 : figure_px;
         PlacedNames names;
         if (key_.shape == KeyShape::names) {
             ORO_TRY(names, place_names(face_, key_, key_at, width_px_ - margin_, em_));
-            key_px = std::max(key_px, names.bottom_px - key_at.y + 0.3 * em_);
+            // A title alone needs a line.
+            key_px = key_.names.empty() ? 1.3 * em_ * static_cast<double>(names.title.size())
+                                        : std::max(key_px, names.bottom_px - key_at.y + 0.3 * em_);
         }
         const double figures_px = in_one_row ? std::max(figure_px, key_px) : figure_px + key_px;
         const double height =
@@ -45,7 +51,7 @@ class LegendPage {
         Strip strip(width_px_, static_cast<int>(std::ceil(height)), paper);
         strip.fill({0.0, 0.0}, {static_cast<double>(width_px_), std::max(1.0, std::round(em_ / 12.0))}, rule);
         ORO_CHECK(draw_north(strip, {margin_, margin_}));
-        ORO_CHECK(draw_scale(strip, {margin_ + 7.0 * em_, margin_}));
+        ORO_CHECK(draw_scale(strip, {margin_ + scale_em * em_, margin_}, scale_room_px, caption));
         ORO_CHECK(key_.shape == KeyShape::names ? draw_names(strip, face_, key_, names)
                                                 : draw_key(strip, key_at));
         double base = margin_ + figures_px + 0.9 * em_ + 0.8 * em_;
@@ -57,12 +63,15 @@ class LegendPage {
     }
 
   private:
-    // A needle: its north half dark, its south half outlined, N at its end; turned as north is.
+    static constexpr double scale_em = 7.0, caption_line_em = 1.2;  // from the left margin; of line to line
+
+    // A needle: its north half dark, its south half outlined, N at its end; turned as north is around a point
+    // half way from the needle's south end to that of the letter, so that both stay within 2.25 em of it.
     Result<void> draw_north(Strip& strip, glm::dvec2 at) const {
         const double turn = north_in_picture_deg(view_, middle_) * std::numbers::pi / 180.0;
         const glm::dvec2 north(std::sin(turn), -std::cos(turn)), across(-north.y, north.x);
         const double reach = 1.75 * em_, half = 0.42 * em_;
-        const glm::dvec2 centre = at + glm::dvec2(2.3 * em_, 2.1 * em_);
+        const glm::dvec2 centre = at + glm::dvec2(2.3 * em_, 2.25 * em_) - 0.5 * em_ * north;
         const auto in_needle = [&](glm::dvec2 place, double sign, double shrink) {
             const glm::dvec2 off = place - centre;
             const double along = sign * glm::dot(off, north), side = std::abs(glm::dot(off, across));
@@ -79,14 +88,31 @@ class LegendPage {
         return strip.write(face_, "N", {letter.x, letter.y + 0.365 * em_}, em_, ink, Strip::From::middle);
     }
 
+    [[nodiscard]] bool has_scale() const { return metres_a_pixel(view_, middle_).value_or(0.0) > 0.0; }
+
+    [[nodiscard]] std::string scale_caption() const {
+        if (!has_scale()) return "the middle shows the sky: no scale";
+        if (view_.map) return "at the map's middle";
+        return "at the picture's middle" +
+               (middle_ ? ", " + distance_text(middle_->seen_distance_m) + " away" : "");
+    }
+
+    Result<void> write_caption(Strip& strip, glm::dvec2 base, const std::vector<std::string>& caption) const {
+        for (const std::string& line : caption) {
+            ORO_CHECK(strip.write(face_, line, base, 0.9 * em_, quiet));
+            base.y += caption_line_em * em_;
+        }
+        return {};
+    }
+
     // A bar of a round length, as long as that is across the picture in its middle.
-    Result<void> draw_scale(Strip& strip, glm::dvec2 at) const {
-        const std::string where = view_.map ? "at the map's middle" : "at the picture's middle";
-        const auto metres = metres_a_pixel(view_, middle_);
-        if (!metres || !(*metres > 0.0))
-            return strip.write(face_, "the middle shows the sky: no scale", {at.x, at.y + 2.5 * em_},
-                               0.9 * em_, quiet);
-        const double length_m = round_length(13.0 * em_ * *metres), length_px = length_m / *metres;
+    Result<void> draw_scale(Strip& strip, glm::dvec2 at, double room_px,
+                            const std::vector<std::string>& caption) const {
+        if (!has_scale()) return write_caption(strip, {at.x, at.y + 2.5 * em_}, caption);
+        const double metres = *metres_a_pixel(view_, middle_);
+        // The figure at its end stands half beyond it.
+        const double longest_px = std::min(13.0 * em_, room_px - 1.5 * em_);
+        const double length_m = round_length(longest_px * metres), length_px = length_m / metres;
         const double top = at.y + 1.9 * em_, tall = std::max(3.0, std::round(0.42 * em_));
         strip.fill({at.x, top}, {length_px, tall}, ink);
         const double line = std::max(1.0, std::round(em_ / 14.0));
@@ -96,9 +122,7 @@ class LegendPage {
         ORO_CHECK(strip.write(face_, "0", {at.x, top - 0.5 * em_}, 0.9 * em_, ink, Strip::From::middle));
         ORO_CHECK(strip.write(face_, length, {at.x + length_px, top - 0.5 * em_}, 0.9 * em_, ink,
                               Strip::From::middle));
-        const std::string away =
-            view_.map || !middle_ ? "" : ", " + distance_text(middle_->seen_distance_m) + " away";
-        return strip.write(face_, where + away, {at.x, top + tall + 1.3 * em_}, 0.9 * em_, quiet);
+        return write_caption(strip, {at.x, top + tall + 1.3 * em_}, caption);
     }
 
     // A bar or a wheel.
@@ -172,20 +196,23 @@ bool has_own_legend(const View& view) {
 }
 
 Result<std::vector<std::uint8_t>> legend_strip(const View& view, const Region& region, const Style& style,
-                                               const std::optional<SeenPlace>& middle) {
+                                               const std::optional<SeenPlace>& middle,
+                                               const RegionGround& ground) {
     if (view.camera.width_px < least_legend_px)
         return refused("--legend", "", "needs a picture at least 200 px wide");
     ORO_TRY(const TextFace face, TextFace::open());
-    LegendPage page(view, region, style, middle, face);
-    return page.draw(legend_lines(view, region, style));
+    ORO_TRY(const ShownGround shown, ground_shown(view, ground));
+    LegendPage page(view, region, style, middle, shown, face);
+    return page.draw(legend_lines(view, region, style, &shown));
 }
 
 Result<std::vector<std::uint8_t>> strip_of(View& view, const Region& region, const Style& style,
-                                           const std::optional<SeenPlace>& middle) {
+                                           const std::optional<SeenPlace>& middle,
+                                           const RegionGround& ground) {
     view.legend_px = 0;
     std::vector<std::uint8_t> strip;
     if (!view.legend) return strip;
-    ORO_TRY(strip, legend_strip(view, region, style, middle));
+    ORO_TRY(strip, legend_strip(view, region, style, middle, ground));
     view.legend_px = static_cast<int>(strip.size() / (3 * static_cast<std::size_t>(view.camera.width_px)));
     return strip;
 }

@@ -11,13 +11,18 @@
 #include "apps/report/figures.h"
 #include "apps/report/region_json.h"
 #include "apps/view/trees_of_view.h"
+#include "core/growth/near_trees.h"
+#include "core/growth/tree_reach.h"
 #include "core/terrain/ground.h"
 #include "geo/canopy/raised_region.h"
 #include "geo/refined/refined_region.h"
 #include "shaders/shared_growth.h"
+#include "shaders/shared_meadow.h"
 
 namespace oro {
 namespace {
+
+constexpr double highest_grass_m = 1.5;
 
 template <class... Values>
 std::string text_of(const char* format, Values... values) {
@@ -119,24 +124,44 @@ std::string cover_line(const View& view) {
     return line;
 }
 
-}  // namespace
+// Whether a picture may show something that is drawn within so much of the eye and is so high at most: on a
+// map nothing of the kind is drawn.
+bool may_show_within(double reach_m, double tall_m, const View& view, const ShownGround* shown) {
+    if (view.map) return false;
+    return !shown || shown->nearest_m <= reach_m || shown->eye_over_ground_m <= tall_m * view.exaggeration;
+}
 
-std::vector<std::string> legend_lines(const View& view, const Region& region, const Style& style) {
-    std::vector<std::string> lines{view.map ? map_line(view) : eye_line(view, region)};
-    if (style.frame.light != gpu::light_none) lines.push_back(sun_line(style));
-    if (style.frame.colour_by == gpu::colour_by_cover)
+// What covers the ground and is not in the data.
+void add_invented_ground(const View& view, const Style& style, const ShownGround* shown,
+                         std::vector<std::string>& lines) {
+    const gpu::uint on = style.frame.materials.on;
+    const bool hidden = shown && shown->under_images;
+    if (style.frame.colour_by == gpu::colour_by_cover && !hidden)
         lines.emplace_back(view.cover ? "Ground cover: of " + view.cover->table().title +
                                             "; where that holds nothing invented, by a rule"
                                       : "Ground cover: invented, by a rule of height, slope and latitude");
-    if (style.frame.materials.on != 0)
+    if (on != 0 && !hidden)
         lines.emplace_back(view.cover ? "Colours within a class, and clefts of rock: invented, by a rule"
                                       : "Fields with hedges, and clefts of rock: invented, by a rule");
-    if ((style.frame.materials.on & gpu::materials_with_trees) != 0)
-        lines.emplace_back("Trees: invented, by a rule, where the ground cover is forest");
-    else if (const std::string why = why_without_trees(view); !why.empty() && style.frame.materials.on != 0)
+    if ((on & gpu::materials_with_trees) != 0) {
+        if (may_show_within(reach_of_trees_m(view.camera, view.tau_px), highest_tree_m, view, shown))
+            lines.emplace_back("Trees: invented, by a rule, where the ground cover is forest");
+    } else if (const std::string why = why_without_trees(view); !why.empty() && on != 0) {
         lines.emplace_back("Trees: " + why);
-    if ((style.frame.materials.on & gpu::materials_with_grass) != 0)
+    }
+    const auto meadow_m = static_cast<double>(gpu::meadow_reach_m);
+    if ((on & gpu::materials_with_grass) != 0 && !hidden &&
+        may_show_within(meadow_m, highest_grass_m, view, shown))
         lines.emplace_back("Grass within 60 m: invented, by a rule, where the ground cover is meadow");
+}
+
+}  // namespace
+
+std::vector<std::string> legend_lines(const View& view, const Region& region, const Style& style,
+                                      const ShownGround* shown) {
+    std::vector<std::string> lines{view.map ? map_line(view) : eye_line(view, region)};
+    if (style.frame.light != gpu::light_none) lines.push_back(sun_line(style));
+    add_invented_ground(view, style, shown, lines);
     if (style.frame.contours.interval_m > 0.0F)
         lines.push_back(text_of("Contour lines: every %.6g m, every fifth thicker",
                                 static_cast<double>(style.frame.contours.interval_m)));
@@ -166,20 +191,15 @@ std::optional<double> metres_a_pixel(const View& view, const std::optional<SeenP
 
 double north_in_picture_deg(const View& view, const std::optional<SeenPlace>& middle) {
     const Camera& camera = view.camera;
-    double north_deg = -camera.attitude.heading_deg;
+    // A compass before the viewer is level, and leans as the horizon does.
+    double north_deg = -camera.attitude.heading_deg - (view.map ? 0.0 : camera.attitude.roll_deg);
     if (!view.map && middle) {
-        // A step to the north, as the eye sees it.
-        const double step_deg = deg_from_radians(Radians{0.001 * middle->seen_distance_m / wgs84_a_m});
-        const double side = middle->lat_deg > 89.9 ? -1.0 : 1.0;
-        const glm::dmat3 view_from_ecef = camera.view_from_ecef();
-        const auto seen = [&](double lat_deg) {
-            const glm::dvec3 at =
-                view_from_ecef *
-                (ecef_from_geodetic({lat_deg, middle->lon_deg, middle->h_m}).m - camera.eye_ecef().m);
-            return glm::dvec2(at.x, at.y) / -at.z;
-        };
-        const glm::dvec2 step = side * (seen(middle->lat_deg + side * step_deg) - seen(middle->lat_deg));
-        if (glm::length(step) > 0.0) north_deg = deg_from_radians(Radians{std::atan2(step.x, step.y)});
+        const glm::dmat3 view_from_enu =
+            camera.view_from_ecef() * ecef_from_enu(middle->lat_deg, middle->lon_deg);
+        const glm::dvec3 &north = view_from_enu[1], &up = view_from_enu[2];
+        // The eye looks along -z: that is how far above the level plane it stands, as a sine.
+        if (up.z >= std::sin(radians_from_deg(least_seen_level_deg).rad))
+            north_deg = deg_from_radians(Radians{std::atan2(north.x, north.y)});
     }
     return north_deg - 360.0 * std::floor(north_deg / 360.0);
 }

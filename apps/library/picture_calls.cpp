@@ -250,7 +250,7 @@ Result<void> answer_shot(const OpenRegion& open, const std::vector<std::string>&
     ORO_TRY(shot.middle, oro::place_in_middle(shot.view, *prepared->ground.grids));
     // What --tolerance chooses changes what the strip says, and not its height.
     ORO_TRY(std::vector<std::uint8_t> strip,
-            oro::strip_of(shot.view, shot.region, prepared->style, shot.middle));
+            oro::strip_of(shot.view, shot.region, prepared->style, shot.middle, *prepared->ground.grids));
     ORO_CHECK(buffer.begin(shot.view.camera.width_px, shot.view.camera.height_px + shot.view.legend_px));
     const std::lock_guard lock(drawing());
     ORO_TRY(const auto gpu, oro::Gpu::create(oro::gpu_options_from_environment()));
@@ -260,7 +260,8 @@ Result<void> answer_shot(const OpenRegion& open, const std::vector<std::string>&
     oro::Scene& scene = drawn.whole.scene;
     ORO_CHECK(oro::check_in_view(shot, "", scene));
     if (prepared->options.view.tolerance) {
-        ORO_TRY(strip, oro::strip_of(shot.view, shot.region, prepared->style, shot.middle));
+        ORO_TRY(strip,
+                oro::strip_of(shot.view, shot.region, prepared->style, shot.middle, *prepared->ground.grids));
     }
     return draw_rows(*prepared, *gpu, scene, strip, buffer, progress);
 }

@@ -68,7 +68,7 @@ Result<void> write_picture_of(Viewer& viewer, const PictureChoice& choice) {
     ORO_TRY(const RegionGround* const ground, ground_of(viewer));
     ORO_TRY(const auto middle, place_in_middle(view, *ground));
     ORO_CHECK(fit_to_view(viewer.style, view, viewer.region.grids.front().field));
-    ORO_TRY(const auto strip, strip_of(view, viewer.region, viewer.style, middle));
+    ORO_TRY(const auto strip, strip_of(view, viewer.region, viewer.style, middle, *ground));
     ORO_TRY(const std::unique_ptr<Scene> measured, scene_of_picture(viewer, view));
     const auto written = write_with_poses(viewer, files, view, *ground, middle, strip, choice.poses,
                                           measured ? *measured : *viewer.scene);

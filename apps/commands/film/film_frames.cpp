@@ -106,7 +106,7 @@ Result<DrawnPicture> FilmFrames::draw(const std::string& file, bool overwrite, V
     ORO_CHECK(scene_ ? choose_meshes(view) : make_scene(view.camera));
     ORO_TRY(const Style style, load_style(view, region_.grids.front().field));
     ORO_TRY(const auto middle, place_in_middle(view, *ground_));
-    ORO_TRY(const std::vector<std::uint8_t> strip, strip_of(view, region_, style, middle));
+    ORO_TRY(const std::vector<std::uint8_t> strip, strip_of(view, region_, style, middle, *ground_));
     return draw_picture(picture_files(file), overwrite, view, region_, *ground_, middle, gpu_, *scene_, style,
                         strip, progress);
 }

@@ -170,7 +170,8 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
     const auto nothing = nothing_in_view(shot.view, shot.region, options.view_file);
     ORO_CHECK(check_in_view(shot, options.view_file, scene));
     ORO_TRY(shot.middle, place_in_middle(shot.view, ground));
-    ORO_TRY(const std::vector<std::uint8_t> strip, strip_of(shot.view, shot.region, style, shot.middle));
+    ORO_TRY(const std::vector<std::uint8_t> strip,
+            strip_of(shot.view, shot.region, style, shot.middle, ground));
     const bool checks = is_check(options, files);
     RepeatedPicture repeated(checks ? files.picture : "", shot.view);
     ORO_TRY(DrawnPicture picture,

@@ -52,6 +52,31 @@ TEST(LegendNorth, IsForeshortenedAsTheGroundIs) {
     EXPECT_NEAR(north_in_picture_deg(view, {}), 315.0, 1e-9) << "no ground in the middle";
 }
 
+// From 5 m over a valley at N 46.62 E 8.04 up to a slope in the south-west, at 23.8 degrees: the plane
+// through the slope is seen from below. North is then where a compass in the hand has it, behind the viewer
+// to the right. With the camera 10 degrees clockwise the horizon leans the other way, and the compass, too.
+TEST(LegendNorth, IsThatOfACompassWhereTheMiddleIsAboveTheEye) {
+    View view;
+    view.camera = {{46.62, 8.04, 1020.0}, {215.0, 23.8, 0.0}, 45.0, 640, 360};
+    auto slope = place(46.58, 8.0, 5900.0);
+    slope.h_m = 3400.0;
+    EXPECT_NEAR(north_in_picture_deg(view, slope), 145.0, 1e-9);
+    view.camera.attitude.roll_deg = 10.0;
+    EXPECT_NEAR(north_in_picture_deg(view, slope), 135.0, 1e-9);
+    view.camera.attitude = {0.0, 23.8, 0.0};
+    EXPECT_NEAR(north_in_picture_deg(view, slope), 0.0, 1e-9) << "a view to the north";
+}
+
+// At 12 degrees down, to N 30 E: north leans atan(tan(30) / sin(12)) = 70.2 degrees to the left; at 8 degrees
+// it would be 76.4, and a compass says 30.
+TEST(LegendNorth, IsThatOfACompassAtGrazingAngles) {
+    View view;
+    view.camera = {{45.0, 7.0, 100.0}, {30.0, -12.0, 0.0}, 45.0, 400, 300};
+    EXPECT_NEAR(north_in_picture_deg(view, place(45.004, 7.003, 500.0)), 360.0 - 70.2, 0.1);
+    view.camera.attitude.pitch_deg = -8.0;
+    EXPECT_NEAR(north_in_picture_deg(view, place(45.004, 7.003, 500.0)), 330.0, 1e-9);
+}
+
 // 2 tan(22.5 degrees) = 0.828427 of the distance fills 400 rows.
 TEST(LegendScale, IsThatOfThePicturesMiddle) {
     EXPECT_NEAR(*metres_a_pixel(straight_down(0.0), place(46.0, 8.0, 10000.0)), 20.7107, 1e-4);
@@ -60,6 +85,54 @@ TEST(LegendScale, IsThatOfThePicturesMiddle) {
     EXPECT_EQ(round_length(2000.0), 2000.0);
     EXPECT_EQ(round_length(7300.0), 5000.0);
     EXPECT_EQ(round_length(0.3), 0.2);
+}
+
+// Of a narrow picture, straight down from 10 km; its em is 11 px, its margin 15.4 px.
+struct NarrowStrip {
+    int width_px;
+    std::vector<std::uint8_t> rgb;
+    // Whether a row has nothing but paper in some columns.
+    [[nodiscard]] bool is_paper(int row, int from, int to) const {
+        for (int column = from; column < to; ++column)
+            if (rgb[3 * static_cast<std::size_t>(row * width_px + column)] != 250) return false;
+        return true;
+    }
+    [[nodiscard]] bool has_ink(int first_row, int end_row, int from, int to) const {
+        for (int row = first_row; row < end_row; ++row)
+            if (!is_paper(row, from, to)) return true;
+        return false;
+    }
+};
+NarrowStrip narrow_strip(int width_px, double heading_deg) {
+    View view = straight_down(heading_deg);
+    view.camera.width_px = width_px;
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::made_field(46.5, 7.5, 20.0, 20, 20, [](double, double) { return 0.0F; });
+    Style style{};
+    style.frame.colour_by = gpu::colour_by_slope;
+    style.frame.tint_count = 2;
+    style.frame.tints[1] = {60.0F, gpu::vec3(1.0F)};
+    const auto ground = RegionGround::of(region, 1.0);
+    EXPECT_TRUE(ground.ok());
+    auto strip = legend_strip(view, region, style, place(46.0, 8.0, 10000.0), **ground);
+    EXPECT_TRUE(strip.ok()) << strip.error().line();
+    return {width_px, std::move(strip).value()};
+}
+
+// The title of the key begins 4.6 em below the margin, at 66 px, its letters 2 px farther down; where the
+// needle pointed down, N reached to 68 px.
+TEST(LegendStrip, LeavesRoomForTheNeedlesLetter) {
+    const NarrowStrip south = narrow_strip(400, 180.0);
+    EXPECT_TRUE(south.has_ink(56, 64, 0, 80)) << "N";
+    EXPECT_TRUE(south.is_paper(66, 0, 80));
+    EXPECT_TRUE(south.has_ink(68, 76, 0, 80)) << "the title";
+}
+
+TEST(LegendStrip, KeepsTheScalesCaptionOffItsRim) {
+    const NarrowStrip strip = narrow_strip(least_legend_px, 0.0);
+    for (int row = 2; row < 85; ++row) EXPECT_TRUE(strip.is_paper(row, 187, 200)) << row;
+    // On more lines than one: something is written where one line would have ended, 4.6 em below the margin.
+    EXPECT_TRUE(strip.has_ink(66, 80, 92, 187));
 }
 
 TEST(LegendLines, SayEyeSunAndData) {
