@@ -5,10 +5,11 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <utility>
 
-#include "geo/drape/raster_opening.h"
 #include "geo/drape/pixel_values.h"
+#include "geo/drape/raster_opening.h"
 #include "geo/drape/shared_raster.h"
 
 namespace oro {
@@ -22,6 +23,25 @@ std::string file_name_of(const std::string& path) {
 int code_of_value(double value) {
     constexpr double low = std::numeric_limits<int>::min(), high = std::numeric_limits<int>::max();
     return std::isnan(value) ? 0 : static_cast<int>(std::lround(std::clamp(value, low, high)));
+}
+
+// Why several files have no table together: each may have one that is another's.
+Error without_table(const std::vector<CoverSource>& sources, const std::vector<CoverTable>& tables,
+                    const Error& together) {
+    std::optional<std::size_t> first_number;
+    std::string first_file, all_files;
+    for (const CoverSource& source : sources) {
+        all_files += (all_files.empty() ? "" : ", ") + source.file;
+        const Result<std::size_t> number = table_of_codes(tables, source.codes);
+        if (!number.ok()) continue;
+        if (!first_number) first_number = *number, first_file = source.file;
+        if (*first_number == *number) continue;
+        return {ErrorKind::failed, source.file,
+                "its codes are those of " + tables[*number].name + ", and those of " +
+                    file_name_of(first_file) + " are of " + tables[*first_number].name +
+                    ": files that are given together need one table"};
+    }
+    return with_file(all_files, together);
 }
 
 Result<CoverTable> chosen_table(const std::vector<CoverSource>& sources,
@@ -43,7 +63,7 @@ Result<CoverTable> chosen_table(const std::vector<CoverSource>& sources,
     std::set<int> codes;
     for (const CoverSource& source : sources) codes.insert(source.codes.begin(), source.codes.end());
     const Result<std::size_t> number = table_of_codes(tables, codes);
-    if (!number.ok()) return with_file(sources.front().file, number.error());
+    if (!number.ok()) return without_table(sources, tables, number.error());
     return tables[*number];
 }
 

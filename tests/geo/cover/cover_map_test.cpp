@@ -140,6 +140,33 @@ TEST(CoverMap, LaterFilesLieOverEarlierOnesAndKnowNothingOfNothing) {
     EXPECT_EQ(map->name_of(no_cover_code), "");
 }
 
+// One table is for all files; the line put the second one's codes on the first.
+TEST(CoverMap, FilesOfTwoTablesAreNamedWithBoth) {
+    const auto table = [](const std::string& name, std::vector<int> codes) {
+        CoverTable made{name, name, {0}, {}};
+        for (const int code : codes)
+            made.classes.push_back(
+                {.codes = {code}, .name = "class", .colour = {0, 0, 0}, .materials = {Material::meadow}});
+        return made;
+    };
+    const auto source = [](const std::string& file, std::set<int> codes) {
+        CoverSource made;
+        made.file = file, made.codes = std::move(codes);
+        return made;
+    };
+    const std::vector<CoverTable> tables{table("tens", {10, 20, 30}), table("ones", {1, 2, 3})};
+    const auto why = [&](std::vector<CoverSource> sources) {
+        const auto map = CoverMap::of(std::move(sources), tables, nullptr);
+        return map.ok() ? "" : map.error().line();
+    };
+    EXPECT_EQ(why({source("/a/x.tif", {10, 20}), source("/b/y.tif", {1, 2})}),
+              "/b/y.tif: its codes are those of ones, and those of x.tif are of tens: files that are given "
+              "together need one table");
+    EXPECT_EQ(
+        why({source("x.tif", {10, 20}), source("y.tif", {7})}).find("x.tif, y.tif: its codes (7, 10, 20)"),
+        0U);
+}
+
 TEST(CoverMap, RefusesWhatHoldsNoClasses) {
     const auto folder = test::scratch_folder();
     test::WrittenImage image{8, 8, {8.0, 0.01, 0.0, 47.0, 0.0, -0.01}};
