@@ -21,7 +21,7 @@ Result<std::optional<DetailChoice>> detail_choice_from(const std::string& text) 
         if (!read_whole(std::string_view(text).substr(comma + 1), radius_km) ||
             !(radius_km >= least_detail_km && radius_km <= most_detail_km))
             return refused("--detail", text,
-                           "the radius must be in km, " + between_words(least_detail_km, most_detail_km));
+                           "the radius in km " + between_words(least_detail_km, most_detail_km));
         choice.radius_km = radius_km;
     }
     if (halvings == 0) return std::optional<DetailChoice>();

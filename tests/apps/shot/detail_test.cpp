@@ -109,6 +109,8 @@ TEST_F(ShotDetail, OfTooMuchIsRefusedInOneLine) {
     expect_refusal(run_orograph(shot({"--detail", "7"}, "p.png")), usage, {"--detail 7", "0 to 6"});
     expect_refusal(run_orograph(shot({"--detail", "few"}, "p.png")), usage, {"--detail few"});
     expect_refusal(run_orograph(shot({"--detail", "2,0"}, "p.png")), usage, {"--detail 2,0", "km"});
+    expect_refusal(run_orograph(shot({"--detail", "3,"}, "p.png")), usage,
+                   {"--detail 3,: the radius in km must be between 0.05 and 500"});
     expect_refusal(run_orograph(shot({"--detail", "2,nan"}, "p.png")), usage, {"--detail 2,nan"});
     expect_refusal(run_orograph(shot({"--detail", "6,20"}, "p.png")), usage,
                    {"--detail", "million posts", "would fit"});
