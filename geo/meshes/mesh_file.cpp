@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/open_file.h"
+#include "geo/files/unread_formats.h"
 #include "geo/meshes/mesh_readers.h"
 #include "geo/meshes/polygon_cut.h"
 
@@ -156,6 +157,8 @@ Result<SourceMesh> read_mesh(const std::string& path, const std::string& lod, co
     const bool is_ply = is_ply_name(path), is_obj = is_obj_name(path);
     const bool is_geopackage = mesh_ending(path) == "gpkg",
                is_city = is_city_name(path) || mesh_ending(path) == "json";
+    if (const std::string why = why_unread(path, path); !why.empty())
+        return Error{ErrorKind::failed, path, why};
     if (reader == nullptr && !is_geopackage && !is_city && !is_gltf_name(path) && !is_ply && !is_obj)
         return Error{
             ErrorKind::failed, path,

@@ -16,6 +16,7 @@
 #include "geo/files/guarded_files.h"
 #include "geo/files/letter_case.h"
 #include "geo/files/raster_library.h"
+#include "geo/files/unread_formats.h"
 #include "geo/sources/elevation_band.h"
 #include "geo/sources/height_unit.h"
 #include "geo/sources/raster_content.h"
@@ -103,18 +104,28 @@ bool should_open(const SourcePath& path) {
     return GDALIdentifyDriverEx(path.file.c_str(), GDAL_OF_RASTER, trusted_drivers(), nullptr) != nullptr;
 }
 
+// Whether a GeoPackage holds no raster of heights: such one names their kind near its beginning.
+bool is_geopackage_of_vectors(const std::string& name, const std::string& file) {
+    constexpr std::size_t looked_at = std::size_t{1} << 20U;
+    VSILFILE* const stream = name.ends_with(".gpkg") ? VSIFOpenL(file.c_str(), "rb") : nullptr;
+    if (stream == nullptr) return false;
+    std::string head(looked_at, '\0');
+    head.resize(VSIFReadL(head.data(), 1, head.size(), stream));
+    VSIFCloseL(stream);
+    return head.starts_with("SQLite format 3") && head.find("gpkg_geometry_columns") != std::string::npos &&
+           head.find("2d-gridded-coverage") == std::string::npos;
+}
+
 // What a file that is no raster is for, by its name; "" where that says nothing.
-std::string use_of_other_file(const std::string& path) {
-    const std::string name = lower_case(path);
-    for (const char* const ending : {".gpx", ".geojson", ".topojson", ".kml", ".kmz", ".csv", ".shp"})
-        if (name.ends_with(ending))
+std::string use_of_other_file(const SourcePath& path) {
+    const std::string name = lower_case(path.name);
+    const bool is_of_vectors = is_geopackage_of_vectors(name, path.file);
+    for (const char* const ending : {".gpx", ".geojson", ".topojson", ".kml", ".kmz", ".csv", ".shp", ".fgb"})
+        if (is_of_vectors || name.ends_with(ending))
             return "holds no elevation raster but tracks, points or areas: --overlay draws them, --names "
                    "reads "
                    "names of places";
-    for (const char* const ending : {".gml", ".citygml"})
-        if (name.ends_with(ending))
-            return "is GML: CityGML is not read; citygml-tools turns it into CityJSON";
-    return "";
+    return why_unread(name, path.file);
 }
 
 Result<Opened> open_source(const SourcePath& path, const GdalMessages& messages) {
@@ -132,7 +143,7 @@ Result<Opened> open_source(const SourcePath& path, const GdalMessages& messages)
             return Error{ErrorKind::failed, "",
                          "cannot be opened as a raster: " + messages.last("unknown format")};
         std::string why = mark_words(path.file);
-        if (why.empty()) why = use_of_other_file(path.name);
+        if (why.empty()) why = use_of_other_file(path);
         if (why.empty())
             why = "is not a raster in an accepted format (" + trusted_formats() +
                   "): in others a file that is cut short may pass unnoticed; gdal_translate converts them to "

@@ -216,6 +216,16 @@ TEST(RefusedOptions, WhatIsSomethingElse) {
     oro::test::expect_refusal(
         run_orograph({"plan", file("town.gml")}), 1,
         {"town.gml: is GML: CityGML is not read; citygml-tools turns it into CityJSON"});
+    oro::test::write_bytes(folder / "town.xml", "<core:CityModel/>");
+    oro::test::expect_refusal(run_orograph({"info", file("town.xml")}), 1,
+                              {"town.xml: CityGML is not read; citygml-tools turns it into CityJSON"});
+    oro::test::write_bytes(folder / "scan.las", "LASF");
+    oro::test::expect_refusal(run_orograph({"info", file("scan.las")}), 1,
+                              {"scan.las: is a point cloud, and these are not read"});
+    oro::test::write_bytes(folder / "town.gpkg",
+                           "SQLite format 3" + std::string(1, '\0') + "CREATE TABLE gpkg_geometry_columns");
+    oro::test::expect_refusal(run_orograph({"info", file("town.gpkg")}), 1,
+                              {"town.gpkg: holds no elevation raster but tracks, points or areas: "});
     std::filesystem::create_directory(folder / "meshes");
     for (const char* const name : {"meshes/a.obj", "meshes/b.ply"})
         oro::test::write_bytes(folder / name, "v 0 0 0\n");

@@ -159,7 +159,7 @@ TEST(MeshFile, RefusesBadInputInOneLine) {
     EXPECT_EQ(refusal("f.obj", "v 0 0 nan\nf 1 1 1\n"),
               "no triangles: each has a vertex that is no finite place");
     EXPECT_EQ(refusal("g.xml", landxml("<F>1 a 8</F>")), "line 3: there is no point 8");
-    EXPECT_EQ(refusal("h.xml", "<CityModel/>"), "is no LandXML: it is CityModel");
+    EXPECT_EQ(refusal("h.xml", "<CityMap/>"), "is no LandXML: it is CityMap");
     EXPECT_EQ(refusal("i.stl", binary_stl(4294967295U, 1)),
               "is no whole STL: its header promises 4294967295 triangles, which take 214748364834 bytes; the "
               "file has 134");
