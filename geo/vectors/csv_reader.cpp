@@ -42,12 +42,13 @@ using WrittenGeometry = std::unique_ptr<std::remove_pointer_t<OGRGeometryH>, Des
 
 class CsvReader {
   public:
-    CsvReader(CsvRecords records, std::string name, std::string crs, FileWatch& watch, VectorFile& file,
-              LeftOut& left_out)
+    CsvReader(CsvRecords records, std::string name, std::string crs, const VectorCrs& asked, FileWatch& watch,
+              VectorFile& file, LeftOut& left_out)
         : records_(std::move(records)),
           columns_(coordinate_columns(records_.headings())),
           name_(std::move(name)),
           crs_(std::move(crs)),
+          asked_(asked),
           watch_(watch),
           file_(file),
           left_out_(left_out) {}
@@ -123,7 +124,7 @@ class CsvReader {
         if (layers_.size() == most_csv_crs)
             return csv_fault("names more than " + std::to_string(most_csv_crs) +
                              " coordinate reference systems, which is the limit");
-        ORO_TRY(ShapeSplitter splitter, splitter_for(crs));
+        ORO_TRY(ShapeSplitter splitter, splitter_as_asked(asked_, file_, [&] { return splitter_for(crs); }));
         const std::string name = crs.empty() ? name_ : name_ + " (" + crs + ")";
         auto layer = std::make_unique<LayerBuilder>(name, std::move(splitter));
         order_.push_back(crs);
@@ -235,6 +236,7 @@ class CsvReader {
     CsvRecords records_;
     CoordinateColumns columns_;
     std::string name_, crs_;
+    const VectorCrs& asked_;
     FileWatch& watch_;
     VectorFile& file_;
     LeftOut& left_out_;
@@ -254,9 +256,9 @@ bool is_csv(std::string_view text) {
 }
 
 Result<void> read_csv(std::string_view text, const std::string& name, const std::string& crs,
-                      FileWatch& watch, VectorFile& file, LeftOut& left_out) {
+                      const VectorCrs& asked, FileWatch& watch, VectorFile& file, LeftOut& left_out) {
     ORO_TRY(CsvRecords records, CsvRecords::of(text));
-    return CsvReader(std::move(records), name, crs, watch, file, left_out).all();
+    return CsvReader(std::move(records), name, crs, asked, watch, file, left_out).all();
 }
 
 }  // namespace oro

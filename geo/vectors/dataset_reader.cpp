@@ -28,10 +28,11 @@ using Feature = std::unique_ptr<std::remove_pointer_t<OGRFeatureH>, FreeFeature>
 // A file that OGR has open, while it is read.
 class DatasetReader {
   public:
-    DatasetReader(DatasetFormat format, GDALDatasetH dataset, FileWatch& watch, const GdalMessages& messages,
-                  VectorFile& file, LeftOut& left_out)
+    DatasetReader(DatasetFormat format, GDALDatasetH dataset, const VectorCrs& asked, FileWatch& watch,
+                  const GdalMessages& messages, VectorFile& file, LeftOut& left_out)
         : format_(format),
           dataset_(dataset),
+          asked_(asked),
           watch_(watch),
           messages_(messages),
           file_(file),
@@ -54,7 +55,8 @@ class DatasetReader {
             left_out_.add("layers without geometries");
             return {};
         }
-        auto splitter = ShapeSplitter::of(OGR_L_GetSpatialRef(handle));
+        auto splitter =
+            splitter_as_asked(asked_, file_, [&] { return ShapeSplitter::of(OGR_L_GetSpatialRef(handle)); });
         if (!splitter.ok()) return dataset_fault("layer '" + layer.name + "': " + splitter.error().what);
         for (int i = 0; i < OGR_FD_GetFieldCount(definition); ++i)
             layer.fields.push_back(foreign_text(OGR_Fld_GetNameRef(OGR_FD_GetFieldDefn(definition, i))));
@@ -115,6 +117,7 @@ class DatasetReader {
 
     DatasetFormat format_;
     GDALDatasetH dataset_;
+    const VectorCrs& asked_;
     FileWatch& watch_;
     const GdalMessages& messages_;
     VectorFile& file_;
@@ -135,8 +138,9 @@ const char* const* open_options_of(DatasetFormat format) {
 
 }  // namespace
 
-Result<void> read_dataset(const std::string& name, DatasetFormat format, FileWatch& watch,
-                          const GdalMessages& messages, VectorFile& file, LeftOut& left_out) {
+Result<void> read_dataset(const std::string& name, DatasetFormat format, const VectorCrs& asked,
+                          FileWatch& watch, const GdalMessages& messages, VectorFile& file,
+                          LeftOut& left_out) {
     const std::array<const char*, 2> driver{dataset_driver(format), nullptr};
     const Dataset dataset(GDALOpenEx(name.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR,
                                      driver.data(), open_options_of(format), nullptr));
@@ -145,7 +149,7 @@ Result<void> read_dataset(const std::string& name, DatasetFormat format, FileWat
                              "): " + messages.last("unknown format"));
     // OGR goes on with WGS84 where it does not know a CRS.
     if (!messages.last("").empty()) return dataset_fault("cannot be read: " + messages.last(""));
-    return DatasetReader(format, dataset.get(), watch, messages, file, left_out).all();
+    return DatasetReader(format, dataset.get(), asked, watch, messages, file, left_out).all();
 }
 
 }  // namespace oro

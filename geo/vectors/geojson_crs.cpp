@@ -2,7 +2,9 @@
 
 #include <ogr_spatialref.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdio>
 #include <string>
 #include <string_view>
 
@@ -44,6 +46,20 @@ Result<ShapeSplitter> splitter_of_geojson(const JsonValue& root) {
     if (words.empty() && !code.is(JsonValue::Kind::null)) words = "EPSG:" + code.words();
     return words.empty() ? Result<ShapeSplitter>(unknown_crs(std::string(crs.source())))
                          : splitter_of_words(words);
+}
+
+Result<ShapeSplitter> splitter_as_asked(const VectorCrs& asked, VectorFile& file,
+                                        const std::function<Result<ShapeSplitter>()>& stated) {
+    ORO_TRY(ShapeSplitter splitter, asked.crs.empty() ? stated() : splitter_of_words(asked.crs));
+    if (!asked.unit_m) return splitter;
+    const double scale = splitter.take_unit(*asked.unit_m);
+    if (scale == 1.0) return splitter;
+    char text[120];
+    std::snprintf(text, sizeof text, "its coordinates are taken times %.9g, from its unit to that of the CRS",
+                  scale);
+    const std::string note = file.file + ": " + text;
+    if (std::ranges::find(file.notes, note) == file.notes.end()) file.notes.push_back(note);
+    return splitter;
 }
 
 Result<ShapeSplitter> splitter_of_words(const std::string& words) {

@@ -198,8 +198,10 @@ class GeoJsonReader {
                 has_geometry = true;
                 geometry(value, to);
             } else if (name == "properties") {
-                for (const auto& [field, said] : value.members())
+                for (const auto& [field, said] : value.members()) {
+                    if (!field.empty()) layer_.number_of(field);  // one that is null is a field, too
                     layer_.say(field, said.is(Kind::number) ? without_power(said.words()) : said.words());
+                }
             } else {
                 leave_out_misplaced(name, value);
             }
@@ -318,8 +320,8 @@ std::size_t value_begin(std::string_view text) {
 
 }  // namespace
 
-Result<void> read_geojson(std::string_view text, const std::string& name, FileWatch& watch, VectorFile& file,
-                          LeftOut& left_out) {
+Result<void> read_geojson(std::string_view text, const std::string& name, const VectorCrs& asked,
+                          FileWatch& watch, VectorFile& file, LeftOut& left_out) {
     const auto fault = [](const std::string& what) { return Error{ErrorKind::failed, "", what}; };
     const std::size_t first = value_begin(text);
     ORO_TRY(const std::size_t end, check_json(text, first));
@@ -331,14 +333,15 @@ Result<void> read_geojson(std::string_view text, const std::string& name, FileWa
     if (!root.is(Kind::object)) return fault("is JSON, but no GeoJSON: it is no object");
     const Members members = root.members();
     if (const JsonValue* const type = member(members, "type"); type && type->text() == "Topology")
-        return read_topojson(root, watch, file, left_out);
+        return read_topojson(root, asked, watch, file, left_out);
     static constexpr std::array known{"features", "geometry", "coordinates", "geometries"};
     if (std::ranges::none_of(known, [&](const char* one) { return member(members, one) != nullptr; })) {
         const JsonValue* const type = member(members, "type");
         return fault("is JSON, but no GeoJSON" +
                      (type ? ": its type is '" + foreign_text(type->text()) + "'" : std::string()));
     }
-    ORO_TRY(ShapeSplitter splitter, splitter_of_geojson(root));
+    ORO_TRY(ShapeSplitter splitter,
+            splitter_as_asked(asked, file, [&] { return splitter_of_geojson(root); }));
     const JsonValue* const own = member(members, "name");
     const std::string layer_name = own && own->is(Kind::text) ? own->text() : name;
     LayerBuilder layer(layer_name, std::move(splitter));

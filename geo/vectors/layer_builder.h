@@ -25,14 +25,19 @@ class LayerBuilder {
     // Adds what the next record says in a field; the first that says something counts, and "" is nothing.
     void say(std::string_view field, std::string_view text) {
         if (text.empty() || field.empty()) return;
+        const std::size_t number = number_of(field);
+        if (std::exchange(said_by_[number], number_) != number_)
+            record_.push_back({number, foreign_text(text)});
+    }
+    // The number of a field, which the layer has from then on.
+    std::size_t number_of(std::string_view field) {
         const std::string name = foreign_text(field);
         const auto [known, is_new] = numbers_.try_emplace(name, layer_.fields.size());
         if (is_new) {
             layer_.fields.push_back(name);
             said_by_.push_back(0);
         }
-        if (std::exchange(said_by_[known->second], number_) != number_)
-            record_.push_back({known->second, foreign_text(text)});
+        return known->second;
     }
     // Where shapes of the next record go.
     [[nodiscard]] ShapeTarget target(HeightAbove heights, LeftOut& left_out) {

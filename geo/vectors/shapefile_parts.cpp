@@ -160,14 +160,14 @@ Result<std::uint64_t> checked_records(const std::string& file) {
 
 }  // namespace
 
-Result<ShapefileParts> shapefile_parts(const std::string& file, const std::string& shown) {
+Result<ShapefileParts> shapefile_parts(const std::string& file, const std::string& shown, bool needs_prj) {
     ShapefileParts parts;
     const std::string shx = part_beside(file, ".shx", ".SHX"), dbf = part_beside(file, ".dbf", ".DBF"),
                       prj = part_beside(file, ".prj", ".PRJ"), cpg = part_beside(file, ".cpg", ".CPG");
     for (const auto& [part, what] :
          {std::pair{&shx, ".shx, which says where each shape stands"},
           {&prj, ".prj, which says in which coordinate reference system its places are"}})
-        if (part->empty())
+        if (part->empty() && (part != &prj || needs_prj))
             return shapefile_fault("is a shapefile without its " + std::string(what) +
                                    ": put it beside the .shp, under the same name");
     ORO_TRY(const std::uint64_t shape_file_bytes, checked_length(file, ".shp"));

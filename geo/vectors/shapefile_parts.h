@@ -15,8 +15,10 @@ struct ShapefileParts {
 
 // Finds what belongs to a .shp beside it, in small or in capital letters, and compares the lengths that these
 // files tell with those that they have. `file` is one of this machine, or in GDAL's memory (memory_files.h),
-// `shown` what notes call it. Errors (a reason, without the file's name): a .shx or .prj that is
-// not there; a .shp, .shx or .dbf that is cut. Source: ESRI Shapefile Technical Description, July 1998.
-Result<ShapefileParts> shapefile_parts(const std::string& file, const std::string& shown);
+// `shown` what notes call it. Errors (a reason, without the file's name): a .shx that is
+// not there, or a .prj that is needed; a .shp, .shx or .dbf that is cut. Source: ESRI Shapefile Technical
+// Description, July 1998.
+Result<ShapefileParts> shapefile_parts(const std::string& file, const std::string& shown,
+                                       bool needs_prj = true);
 
 }  // namespace oro

@@ -128,8 +128,14 @@ struct Arc {
 
 class TopologyReader {
   public:
-    TopologyReader(const JsonValue& root, FileWatch& watch, VectorFile& file, LeftOut& left_out)
-        : root_(root), topology_(root.members()), watch_(watch), file_(file), left_out_(left_out) {}
+    TopologyReader(const JsonValue& root, const VectorCrs& asked, FileWatch& watch, VectorFile& file,
+                   LeftOut& left_out)
+        : root_(root),
+          asked_(asked),
+          topology_(root.members()),
+          watch_(watch),
+          file_(file),
+          left_out_(left_out) {}
 
     Result<void> all() {
         ORO_TRY(quantization_, quantization_in(topology_));
@@ -138,7 +144,8 @@ class TopologyReader {
         if (objects == nullptr || !objects->is(JsonValue::Kind::object))
             return topology_fault("is TopoJSON without objects");
         for (const auto& [name, object] : objects->members()) {
-            ORO_TRY(ShapeSplitter splitter, splitter_of_geojson(root_));
+            ORO_TRY(ShapeSplitter splitter,
+                    splitter_as_asked(asked_, file_, [&] { return splitter_of_geojson(root_); }));
             LayerBuilder layer(name, std::move(splitter));
             layer_ = &layer;
             top(object);
@@ -369,6 +376,7 @@ class TopologyReader {
     }
 
     const JsonValue& root_;
+    const VectorCrs& asked_;
     const TopologyMembers topology_;
     FileWatch& watch_;
     VectorFile& file_;
@@ -383,8 +391,9 @@ class TopologyReader {
 
 }  // namespace
 
-Result<void> read_topojson(const JsonValue& root, FileWatch& watch, VectorFile& file, LeftOut& left_out) {
-    return TopologyReader(root, watch, file, left_out).all();
+Result<void> read_topojson(const JsonValue& root, const VectorCrs& asked, FileWatch& watch, VectorFile& file,
+                           LeftOut& left_out) {
+    return TopologyReader(root, asked, watch, file, left_out).all();
 }
 
 }  // namespace oro

@@ -1,4 +1,4 @@
-#include "geo/vectors/vector_file.h"
+#include "geo/vectors/vector_crs.h"
 
 #include <sys/stat.h>
 
@@ -169,8 +169,17 @@ struct VectorText {
     std::function<Result<std::string>()> crs_of_table;
 };
 
+// GPX and KML are in WGS84, whatever is asked.
+Result<void> check_is_of_wgs84(const VectorCrs& asked, std::string_view root) {
+    if (asked.crs.empty()) return {};
+    ORO_TRY(const ShapeSplitter splitter, splitter_of_words(asked.crs));
+    if (splitter.is_of_wgs84()) return {};
+    return fault(std::string(root == "gpx" ? "GPX" : "KML") +
+                 " is in latitudes and longitudes of WGS84, not in " + asked.crs);
+}
+
 // Reads what a text holds: its root says which format it has. Gives what was left out.
-Result<std::string> read_text(VectorText from, VectorFile& file, FileWatch& watch) {
+Result<std::string> read_text(VectorText from, const VectorCrs& asked, VectorFile& file, FileWatch& watch) {
     const auto unknown = [](const std::string& why) {
         return fault("is not a vector file in an accepted format (" + trusted_vector_formats() + "): " + why);
     };
@@ -183,6 +192,7 @@ Result<std::string> read_text(VectorText from, VectorFile& file, FileWatch& watc
         if (!xml.ok()) return fault(xml.error().what);
         const std::string_view root = local_name(xml->root());
         static constexpr std::array kml_roots{"kml", "Document", "Folder", "Placemark"};
+        ORO_CHECK(check_is_of_wgs84(asked, root));
         if (root == "gpx") {
             ORO_CHECK(read_gpx(*xml, text, watch, file, left_out));
         } else if (std::ranges::find(kml_roots, root) != kml_roots.end()) {
@@ -201,25 +211,25 @@ Result<std::string> read_text(VectorText from, VectorFile& file, FileWatch& watc
             return records.ok() ? unknown(no_columns) : records.error();
         }
         ORO_TRY(const std::string crs, from.crs_of_table());
-        ORO_CHECK(read_csv(text, stem, crs, watch, file, left_out));
+        ORO_CHECK(read_csv(text, stem, crs, asked, watch, file, left_out));
     } else {
-        const Result<void> read = read_geojson(text, stem, watch, file, left_out);
+        const Result<void> read = read_geojson(text, stem, asked, watch, file, left_out);
         if (!read.ok()) return may_be_json ? read.error() : unknown("unknown format");
     }
     return noted(left_out, from.shown, text, file);
 }
 
 // Reads a file that OGR reads, by the name by which GDAL opens it. Gives what was left out.
-Result<std::string> read_with_ogr(const std::string& name, DatasetFormat format, VectorFile& file,
-                                  FileWatch& watch, const GdalMessages& messages) {
+Result<std::string> read_with_ogr(const std::string& name, DatasetFormat format, const VectorCrs& asked,
+                                  VectorFile& file, FileWatch& watch, const GdalMessages& messages) {
     if (format == DatasetFormat::shapefile) {
-        ORO_TRY(ShapefileParts parts, shapefile_parts(name, file.file));
+        ORO_TRY(ShapefileParts parts, shapefile_parts(name, file.file, asked.crs.empty()));
         if (name == file.file) file.files = std::move(parts.files);
         for (std::string& note : parts.notes) file.notes.push_back(std::move(note));
     }
     if (format == DatasetFormat::flatgeobuf) ORO_CHECK(check_flatgeobuf_end(name));
     LeftOut left_out;
-    ORO_CHECK(read_dataset(name, format, watch, messages, file, left_out));
+    ORO_CHECK(read_dataset(name, format, asked, watch, messages, file, left_out));
     return noted(left_out, file.file, "", file);
 }
 
@@ -260,8 +270,8 @@ std::vector<std::string> unread_words(const VectorArchive& archive,
 }
 
 // Reads the main file of a KMZ, and those that network links lead to within it, each once.
-Result<std::string> read_kmz(VectorArchive& archive, const ArchiveEntry& main, VectorFile& file,
-                             FileWatch& watch) {
+Result<std::string> read_kmz(VectorArchive& archive, const ArchiveEntry& main, const VectorCrs& asked,
+                             VectorFile& file, FileWatch& watch) {
     std::vector<const ArchiveEntry*> entries{&main};
     std::set<std::string> beyond;  // the limit: files that are linked and not read
     std::string left_out;
@@ -280,7 +290,7 @@ Result<std::string> read_kmz(VectorArchive& archive, const ArchiveEntry& main, V
             return true;
         };
         ORO_TRY(text.bytes, archive.unpack(entry));
-        const Result<std::string> read = read_text(std::move(text), file, watch);
+        const Result<std::string> read = read_text(std::move(text), asked, file, watch);
         if (!read.ok()) return i == 0 ? read.error() : of_entry(entry, read.error());
         if (!read->empty()) left_out += (left_out.empty() ? "" : "; ") + *read;
         if (places_in(file) > most_vector_places)
@@ -294,18 +304,18 @@ Result<std::string> read_kmz(VectorArchive& archive, const ArchiveEntry& main, V
     return left_out;
 }
 
-Result<std::string> read_packed_text(VectorArchive& archive, const ArchiveEntry& entry, VectorFile& file,
-                                     FileWatch& watch) {
+Result<std::string> read_packed_text(VectorArchive& archive, const ArchiveEntry& entry,
+                                     const VectorCrs& asked, VectorFile& file, FileWatch& watch) {
     VectorText text{entry.name, file.file, "", {}, [&] { return crs_in_archive(archive, entry); }};
     ORO_TRY(text.bytes, archive.unpack(entry));
-    const Result<std::string> read = read_text(std::move(text), file, watch);
+    const Result<std::string> read = read_text(std::move(text), asked, file, watch);
     return read.ok() ? read : of_entry(entry, read.error());
 }
 
 // It is unpacked into memory, with the other files of a shapefile.
 Result<std::string> read_packed_dataset(VectorArchive& archive, const ArchiveEntry& entry,
-                                        DatasetFormat format, VectorFile& file, FileWatch& watch,
-                                        const GdalMessages& messages) {
+                                        DatasetFormat format, const VectorCrs& asked, VectorFile& file,
+                                        FileWatch& watch, const GdalMessages& messages) {
     const std::filesystem::path path(entry.name);
     const std::string stem = path.stem().string();
     MemoryFiles memory;
@@ -317,35 +327,36 @@ Result<std::string> read_packed_dataset(VectorArchive& archive, const ArchiveEnt
         ORO_TRY(std::string bytes_of_part, archive.unpack(*part));
         memory.add(stem + ending, std::move(bytes_of_part));
     }
-    const Result<std::string> read = read_with_ogr(name, format, file, watch, messages);
+    const Result<std::string> read = read_with_ogr(name, format, asked, file, watch, messages);
     return read.ok() ? read : of_entry(entry, read.error());
 }
 
-Result<std::string> read_packed(VectorFile& file, FileWatch& watch, const GdalMessages& messages) {
+Result<std::string> read_packed(const VectorCrs& asked, VectorFile& file, FileWatch& watch,
+                                const GdalMessages& messages) {
     ORO_TRY(VectorArchive archive, VectorArchive::open(file.file));
     if (const ArchiveEntry* const main = archive.main_kml(); main != nullptr)
-        return read_kmz(archive, *main, file, watch);
+        return read_kmz(archive, *main, asked, file, watch);
     ORO_TRY(const ArchiveEntry* const only, archive.only_vector_file());
     for (const auto& [ending, format] : {std::pair{".shp", DatasetFormat::shapefile},
                                          {".gpkg", DatasetFormat::geopackage},
                                          {".fgb", DatasetFormat::flatgeobuf}})
         if (lower_case(only->name).ends_with(ending))
-            return read_packed_dataset(archive, *only, format, file, watch, messages);
-    return read_packed_text(archive, *only, file, watch);
+            return read_packed_dataset(archive, *only, format, asked, file, watch, messages);
+    return read_packed_text(archive, *only, asked, file, watch);
 }
 
 // Gives what was left out.
-Result<std::string> read_all(VectorFile& file, const Look& look, FileWatch& watch,
+Result<std::string> read_all(const VectorCrs& asked, VectorFile& file, const Look& look, FileWatch& watch,
                              const GdalMessages& messages) {
     switch (look.form) {
         case Look::Form::database:
-            return read_with_ogr(file.file, DatasetFormat::geopackage, file, watch, messages);
+            return read_with_ogr(file.file, DatasetFormat::geopackage, asked, file, watch, messages);
         case Look::Form::shapefile:
-            return read_with_ogr(file.file, DatasetFormat::shapefile, file, watch, messages);
+            return read_with_ogr(file.file, DatasetFormat::shapefile, asked, file, watch, messages);
         case Look::Form::flat:
-            return read_with_ogr(file.file, DatasetFormat::flatgeobuf, file, watch, messages);
+            return read_with_ogr(file.file, DatasetFormat::flatgeobuf, asked, file, watch, messages);
         case Look::Form::packed:
-            return read_packed(file, watch, messages);
+            return read_packed(asked, file, watch, messages);
         case Look::Form::text:
             break;
     }
@@ -353,7 +364,7 @@ Result<std::string> read_all(VectorFile& file, const Look& look, FileWatch& watc
     Result<std::string> bytes = bytes_of_file(file.file);
     if (!bytes.ok()) return fault(bytes.error().what);
     text.bytes = std::move(*bytes);
-    return read_text(std::move(text), file, watch);
+    return read_text(std::move(text), asked, file, watch);
 }
 
 }  // namespace
@@ -383,6 +394,10 @@ std::size_t VectorFile::count(VectorKind kind) const {
 }
 
 Result<VectorFile> read_vectors(const std::string& name, double limit_s) {
+    return read_vectors_in(name, {}, limit_s);
+}
+
+Result<VectorFile> read_vectors_in(const std::string& name, const VectorCrs& asked, double limit_s) {
     start_vectors();
     const GdalMessages messages;
     VectorFile file;
@@ -392,7 +407,7 @@ Result<VectorFile> read_vectors(const std::string& name, double limit_s) {
     const Result<Look> look = probe(name, file.notes);
     if (!look.ok()) return with_name(look.error());
     FileWatch watch(limit_s + static_cast<double>(look->bytes >> 20U));
-    const Result<std::string> left_out = read_all(file, *look, watch, messages);
+    const Result<std::string> left_out = read_all(asked, file, *look, watch, messages);
     if (!watch.fault().empty()) return Error{ErrorKind::failed, name, watch.fault()};
     if (!left_out.ok()) return with_name(left_out.error());
     if (file.layers.empty())

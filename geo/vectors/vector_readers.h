@@ -11,6 +11,7 @@
 #include "geo/files/raster_library.h"
 #include "geo/vectors/json_text.h"
 #include "geo/vectors/left_out.h"
+#include "geo/vectors/vector_crs.h"
 #include "geo/vectors/vector_file.h"
 #include "geo/vectors/vector_shapes.h"
 #include "geo/vectors/xml_text.h"
@@ -21,15 +22,16 @@ namespace oro {
 // where the text has none. What cannot be drawn goes to `left_out`, with all its places. Errors (a reason,
 // without the file's name): text that is no JSON, with the line; a CRS that is not known; too many places;
 // the watch's time is spent.
-Result<void> read_geojson(std::string_view text, const std::string& name, FileWatch& watch, VectorFile& file,
-                          LeftOut& left_out);
+Result<void> read_geojson(std::string_view text, const std::string& name, const VectorCrs& asked,
+                          FileWatch& watch, VectorFile& file, LeftOut& left_out);
 
 // Appends a layer for each object of a topology to `file`, with its arcs put together. `root` is the whole
 // file. What cannot be drawn goes to `left_out`, with all its places, which are counted as often as a line or
 // polygon has them; those of an arc that nothing names, once. Errors (a reason, without the file's name): a
 // CRS that is not known; too many places; the watch's time is spent. Source: the TopoJSON Format
 // Specification, version 1.
-Result<void> read_topojson(const JsonValue& root, FileWatch& watch, VectorFile& file, LeftOut& left_out);
+Result<void> read_topojson(const JsonValue& root, const VectorCrs& asked, FileWatch& watch, VectorFile& file,
+                           LeftOut& left_out);
 
 // Whether a text's first line names columns of coordinates, so that read_csv() takes it.
 bool is_csv(std::string_view text);
@@ -39,12 +41,18 @@ bool is_csv(std::string_view text);
 // places. Errors (a reason, without the file's name): those of CsvRecords; metres
 // without a CRS; a CRS that is not known; too many places; the watch's time is spent.
 Result<void> read_csv(std::string_view text, const std::string& name, const std::string& crs,
-                      FileWatch& watch, VectorFile& file, LeftOut& left_out);
+                      const VectorCrs& asked, FileWatch& watch, VectorFile& file, LeftOut& left_out);
 
 // What turns coordinates, x or longitude first, of a CRS as PROJ takes one (EPSG:2056, a name, WKT) into
 // WGS84's. Errors (a reason, without the file's name): one that PROJ does not know, or that is tied to no
 // place on the Earth.
 Result<ShapeSplitter> splitter_of_words(const std::string& words);
+
+// What turns coordinates into WGS84's: by what is asked, and by what the file states (stated()) where no CRS
+// is asked. Where coordinates are scaled by it, a note of `file` tells it, once. Errors: those of
+// splitter_of_words(), and of stated().
+Result<ShapeSplitter> splitter_as_asked(const VectorCrs& asked, VectorFile& file,
+                                        const std::function<Result<ShapeSplitter>()>& stated);
 
 // What turns a file's coordinates into WGS84's: by its member "crs", as GeoJSON had one before RFC 7946 (a
 // name, or the number of an EPSG code), or WGS84 where there is none. Errors (a reason, without the file's
@@ -79,8 +87,9 @@ const char* dataset_driver(DatasetFormat format);
 // `left_out`. `messages` are GDAL's from before the call. Errors (a reason, without the file's name): a file
 // that the format's driver does not open, or cannot read to its end; a layer without a CRS, or with one that
 // PROJ does not know; too many places; the watch's time is spent.
-Result<void> read_dataset(const std::string& name, DatasetFormat format, FileWatch& watch,
-                          const GdalMessages& messages, VectorFile& file, LeftOut& left_out);
+Result<void> read_dataset(const std::string& name, DatasetFormat format, const VectorCrs& asked,
+                          FileWatch& watch, const GdalMessages& messages, VectorFile& file,
+                          LeftOut& left_out);
 
 // All formats of vectors that this program reads, for people.
 std::string trusted_vector_formats();

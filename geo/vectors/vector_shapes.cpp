@@ -66,6 +66,7 @@ Result<ShapeSplitter> ShapeSplitter::of(OGRSpatialReferenceH crs) {
         return fault("its coordinate reference system (" + foreign_text(name ? name : "") +
                      ") is tied to no place on the Earth");
     ShapeSplitter splitter;
+    if (OSRIsProjected(crs) != 0) splitter.axis_m_ = OSRGetLinearUnits(crs, nullptr);
     const SpatialReference horizontal = horizontal_part(crs);
     if (!is_wgs84(horizontal.get())) {
         const SpatialReference wgs84 = wgs84_degrees();
@@ -79,6 +80,13 @@ Result<ShapeSplitter> ShapeSplitter::of(OGRSpatialReferenceH crs) {
         splitter.metres_per_unit_ = datum->metres_per_unit;
     }
     return splitter;
+}
+
+double ShapeSplitter::take_unit(double unit_m) {
+    constexpr double least_difference = 1.0e-12;
+    if (axis_m_ > 0.0 && std::abs(unit_m / axis_m_ - 1.0) >= least_difference)
+        coordinate_scale_ = unit_m / axis_m_;
+    return coordinate_scale_;
 }
 
 TextPath ShapeSplitter::path_of(OGRGeometryH geometry, HeightAbove heights) {
@@ -96,6 +104,8 @@ TextPath ShapeSplitter::path_of(OGRGeometryH geometry, HeightAbove heights) {
 void ShapeSplitter::transform(const TextPath& path) {
     const std::size_t count = path.size();
     x_ = path.x, y_ = path.y;
+    if (coordinate_scale_ != 1.0)
+        for (std::size_t i = 0; i < count; ++i) x_[i] *= coordinate_scale_, y_[i] *= coordinate_scale_;
     done_.assign(count, 1);
     if (!to_wgs84_ || count == 0) return;
     for (std::size_t i = 0; i < count; ++i) {

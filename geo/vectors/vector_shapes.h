@@ -29,6 +29,7 @@ class ShapeSplitter {
     static Result<ShapeSplitter> of(OGRSpatialReferenceH crs);
     // For longitudes and latitudes of WGS84.
     static ShapeSplitter of_wgs84() { return {}; }
+    [[nodiscard]] bool is_of_wgs84() const { return to_wgs84_ == nullptr; }
 
     // Appends the shapes of a geometry, and counts what has no place. Takes curves, too.
     void split(OGRGeometryH geometry, const ShapeTarget& to);
@@ -38,6 +39,10 @@ class ShapeSplitter {
     void add_point(const TextPath& point, const ShapeTarget& to);
     void add_line(const TextPath& line, const ShapeTarget& to);
     void add_polygon(const std::vector<TextPath>& rings, const ShapeTarget& to);
+
+    // Takes coordinates as being in another unit than that of the CRS, where that is projected. Gives what
+    // they are taken times.
+    double take_unit(double unit_m);
 
     // What heights count from as the CRS says it; nothing where it says nothing.
     [[nodiscard]] HeightAbove heights() const { return heights_; }
@@ -63,6 +68,8 @@ class ShapeSplitter {
     CoordinateTransformation to_wgs84_;  // null: they are WGS84's already
     HeightAbove heights_{HeightAbove::nothing};
     double metres_per_unit_{1.0};
+    double axis_m_{0.0};  // metres of a projected CRS's unit; 0: it is in degrees
+    double coordinate_scale_{1.0};
     std::size_t places_{};
     std::size_t ring_ends_{};
     std::vector<double> x_, y_;
