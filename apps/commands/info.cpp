@@ -119,7 +119,11 @@ Result<void> run_info(const InfoOptions& options) {
     const RegionGrid& first = region.grids.front();
     if (options.json) {
         nlohmann::ordered_json json = info_json(region, options.check);
-        if (region.meshes) json["meshes"] = baked_meshes_json(region);
+        if (region.meshes) {
+            json["meshes"] = baked_meshes_json(region);
+            ORO_TRY(const nlohmann::ordered_json others, meshes_on_ground_json(region, options.region));
+            for (const auto& mesh : others) json["meshes"].push_back(mesh);
+        }
         json["passed_over"] = files_json(listing.files, false);
         std::printf("%s\n", json_text(json, true).c_str());
         return {};

@@ -15,6 +15,7 @@
 #include "apps/view/mesh_request.h"
 #include "core/base/one_line.h"
 #include "core/base/parallel.h"
+#include "geo/coordinates/crs_places.h"
 #include "geo/files/letter_case.h"
 #include "geo/meshes/mesh_census.h"
 #include "geo/meshes/mesh_file.h"
@@ -30,7 +31,15 @@ std::size_t part_triangles(const SourceMesh& mesh, std::size_t part) {
     return end - mesh.parts[part].first_triangle;
 }
 
+// What is wrong with the CRS that a file states; "" where nothing is.
+std::string fault_of_crs(const std::string& crs) {
+    return crs.empty() || crs == ecef_crs || CrsPlaces::of(crs).ok() ? "" : ", which PROJ does not know";
+}
+
 nlohmann::ordered_json mesh_json(const SourceMesh& mesh, const MeshCensus& census) {
+    std::vector<std::string> notes = mesh.notes;
+    if (const std::string fault = fault_of_crs(mesh.crs); !fault.empty())
+        notes.push_back("its CRS is " + mesh.crs + fault);
     nlohmann::ordered_json parts = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < mesh.parts.size(); ++i)
         parts.push_back(json_object("name", mesh.parts[i].name, "triangles", part_triangles(mesh, i)));
@@ -54,7 +63,12 @@ nlohmann::ordered_json mesh_json(const SourceMesh& mesh, const MeshCensus& censu
                        census.degenerate, "duplicates", census.duplicates, "not_finite", mesh.not_finite,
                        "invisible", mesh.invisible, "polygons_cut", mesh.polygons_cut, "polygons_crossing",
                        mesh.polygons_crossing, "features", mesh.features.size(), "textures",
-                       std::move(textures), "texels_per_vertex", texels, "notes", mesh.notes);
+                       std::move(textures), "texels_per_vertex", texels, "notes", notes);
+}
+
+// Of a part: names of nothing but blanks are none.
+std::string name_in_words(const std::string& name) {
+    return name.find_first_not_of(" \t\r\n") == std::string::npos ? "without a name" : one_line(name);
 }
 
 void print_range(const char* what, double least, double most) {
@@ -81,14 +95,15 @@ void print_mesh(const SourceMesh& mesh, const MeshCensus& census) {
                 counted(census.vertices, "vertex", "vertices").c_str());
     constexpr std::size_t most_parts = 20;
     for (std::size_t i = 0; i < std::min(most_parts, mesh.parts.size()); ++i)
-        std::printf("  part:          %s, %s\n", one_line(mesh.parts[i].name).c_str(),
+        std::printf("  part:          %s, %s\n", name_in_words(mesh.parts[i].name).c_str(),
                     counted(part_triangles(mesh, i), "triangle", "triangles").c_str());
     if (mesh.parts.size() > most_parts) std::printf("  and %zu more parts\n", mesh.parts.size() - most_parts);
     if (!mesh.features.empty())
         std::printf("  features:      %zu, the first %s\n", mesh.features.size(),
                     words_of(mesh.features.front()).c_str());
-    std::printf("  CRS:           %s\n",
-                mesh.crs.empty() ? "the file states none" : one_line(mesh.crs).c_str());
+    std::printf("  CRS:           %s\n", mesh.crs.empty()
+                                             ? "the file states none"
+                                             : (one_line(mesh.crs) + fault_of_crs(mesh.crs)).c_str());
     std::printf("  unit:          %s\n",
                 mesh.unit.empty() ? "the file states none" : one_line(mesh.unit).c_str());
     print_range("east:", census.least.x, census.most.x);
@@ -170,6 +185,28 @@ nlohmann::ordered_json placed_json(const PlacedMesh& mesh) {
                        "not_placed", mesh.not_placed, "note", mesh.note);
 }
 
+// What is known of a mesh on a region's ground: of footprints, which are made for that ground, less.
+Result<nlohmann::ordered_json> mesh_on_ground_json(const PlacedMesh& mesh, const RegionOptions& options) {
+    nlohmann::ordered_json json = json_object("path", mesh.path, "format", mesh.format, "crs", mesh.crs,
+                                              "triangles", mesh.in_file, "features", mesh.features.size());
+    if (options.building_height.empty() || is_mesh_file(mesh.path)) {
+        ORO_TRY(const SourceMesh source, read_mesh(mesh.path, options.mesh_lod));
+        json = mesh_json(source, census_of(source, options.mesh_crs));
+    }
+    json["placed"] = placed_json(mesh);
+    return json;
+}
+
+// --lod is of one format.
+Result<void> check_lod_of(const RegionOptions& region) {
+    const auto may_have_levels = [&](const std::string& path) {
+        const Result<SourceMesh> mesh = read_mesh(path);
+        return !mesh.ok() || mesh->kind == MeshKind::city_model;
+    };
+    if (region.mesh_lod.empty() || std::ranges::any_of(region.paths, may_have_levels)) return {};
+    return refused("--lod", region.mesh_lod, "is of CityJSON, and no mesh is in that format");
+}
+
 void print_placed(const PlacedMesh& mesh) {
     constexpr const char* sea_level = "sea level (EGM96)";
     const PlacedExtent extent = extent_of(mesh);
@@ -193,8 +230,20 @@ bool names_meshes(const std::vector<std::string>& paths) {
     });
 }
 
+Result<nlohmann::ordered_json> meshes_on_ground_json(const Region& region, const RegionOptions& options) {
+    nlohmann::ordered_json meshes = nlohmann::ordered_json::array();
+    if (!region.meshes) return meshes;
+    for (const PlacedMesh& mesh : *region.meshes) {
+        if (mesh.stored() || mesh.streamed()) continue;
+        ORO_TRY(nlohmann::ordered_json one, mesh_on_ground_json(mesh, options));
+        meshes.push_back(std::move(one));
+    }
+    return meshes;
+}
+
 Result<void> run_mesh_info(const InfoOptions& options) {
     ORO_CHECK(check_of_meshes(options.region));
+    ORO_CHECK(check_lod_of(options.region));
     nlohmann::ordered_json meshes = nlohmann::ordered_json::array();
     for (const std::string& path : options.region.paths) {
         ORO_TRY(const SourceMesh mesh, read_mesh(path, options.region.mesh_lod));

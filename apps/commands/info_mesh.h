@@ -19,6 +19,9 @@ bool names_meshes(const std::vector<std::string>& paths);
 // options.check; an option of elevation data is given (usage); the first mesh that cannot be read.
 Result<void> run_mesh_info(const InfoOptions& options);
 
+// The same, and where it lies, of each mesh on the ground of a region that is in no baked file. Of footprints
+// there is less: how many triangles and features, and where. Errors: one that cannot be read again.
+Result<nlohmann::ordered_json> meshes_on_ground_json(const Region& region, const RegionOptions& options);
 // The same of the meshes in a baked region (Region::meshes), which have their graphs.
 std::string baked_meshes_text(const Region& region);
 nlohmann::ordered_json baked_meshes_json(const Region& region);

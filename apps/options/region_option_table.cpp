@@ -92,7 +92,7 @@ void add_meshes(RegionRows& rows) {
         "Take coordinates and heights of meshes in this unit: m, ft, us-ft, cm, dm or mm. Needs --mesh-file.",
         {"m", "ft", "us-ft", "cm", "dm", "mm"});
     add(rows, {"--lod LEVEL", no_trait, "the highest that each object has"}, &RegionOptions::mesh_lod,
-        "Level of detail to take from CityJSON: 1, 2, 2.2 ... Needs --mesh-file.");
+        "Level of detail to take from CityJSON: 1, 2, 2.2 ... Needs --mesh-file of a CityJSON.");
     add(rows, {"--mesh-look LOOK", no_trait, "by what a file is of"}, &RegionOptions::mesh_look,
         "Colour meshes in the style natural as ground (LandXML and TINs of a GeoPackage are), as built: "
         "walls of plaster and roofs (CityJSON and footprints are), or plain: grey (others are). Files that "
@@ -110,11 +110,12 @@ void add_meshes(RegionRows& rows) {
     add(rows, {"--building-height FIELD", no_trait}, &RegionOptions::building_height,
         "Raise buildings from the polygons of a vector file (--mesh-file), whose field FIELD has the height "
         "of "
-        "each over its base, in metres. Walls go down to the lowest ground under the footprint.");
+        "each over its base, in metres or in --mesh-unit. Walls go down to the lowest ground under the "
+        "footprint.");
     add(rows, {"--building-base FIELD", no_trait, "the lowest ground under the footprint"},
         &RegionOptions::building_base,
-        "Height above sea level of each building's base, in metres, or above the vertical datum that "
-        "--mesh-crs names. Needs --building-height.");
+        "Height above sea level of each building's base, in metres or in --mesh-unit, or above the "
+        "vertical datum that --mesh-crs names, in its unit. Needs --building-height.");
 }
 
 RegionRows made_region_table() {

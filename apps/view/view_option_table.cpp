@@ -352,7 +352,8 @@ void add_triangles(Rows detail) {
     detail.setting({"--mesh-level N", no_trait, "", "mesh_level", {0, 80}}, &ViewOptions::mesh_level,
                    &View::mesh_level,
                    "Draw the clusters of one level of the graph, wherever the eye is: 0 is the original, "
-                   "beyond the last the coarsest are drawn. Needs a file that was baked with clusters. Not "
+                   "80 the most; beyond the last level of a graph its coarsest are drawn. Needs a file that "
+                   "was baked with clusters. Not "
                    "with --tau, which asks for the clusters that a view needs.");
 }
 

@@ -120,6 +120,10 @@ class CityJsonReader {
             order_.push_back(name);
         }
         for (const std::string& name : order_) ORO_CHECK(draw(name));
+        if (mesh_.triangles.empty() && without_level_ > 0)
+            return Error{ErrorKind::usage, "",
+                         "has nothing in the level of detail " + shown_word(lod_) + " (--lod): it has " +
+                             levels_in_words()};
         tell();
         return std::move(mesh_);
     }
@@ -407,18 +411,27 @@ class CityJsonReader {
         return ring;
     }
 
-    void tell() {
-        const auto note = [&](std::size_t many, const std::string& what) {
-            if (many > 0) mesh_.notes.push_back(std::to_string(many) + " " + what);
-        };
-        note(without_surfaces_, "geometries of points or lines, without surfaces, left out");
-        note(short_rings_, "surfaces of fewer than three corners left out");
-        note(in_parts_, "objects drawn by their parts alone, which are there in more detail");
-        if (without_level_ == 0) return;
+    // "1.2, 2.2": the levels of detail that its objects have.
+    [[nodiscard]] std::string levels_in_words() const {
         std::string words;
-        for (const std::string& level : levels_) words += (words.empty() ? "" : ", ") + shown_word(level);
-        note(without_level_, "objects without the level of detail " + shown_word(lod_) +
-                                 " left out (the file has " + words + ")");
+        for (const std::string& level : levels_)
+            words += (words.empty() ? "" : ", ") + (level.empty() ? "one without a name" : shown_word(level));
+        return words;
+    }
+
+    void tell() {
+        const auto note = [&](std::size_t many, const char* one, const char* several,
+                              const std::string& what) {
+            if (many > 0)
+                mesh_.notes.push_back(std::to_string(many) + " " + (many == 1 ? one : several) + what);
+        };
+        note(without_surfaces_, "geometry", "geometries", " of points or lines, without surfaces, left out");
+        note(short_rings_, "surface", "surfaces", " of fewer than three corners left out");
+        note(in_parts_, "object drawn by its parts alone, which are",
+             "objects drawn by their parts alone, which are", " there in more detail");
+        note(without_level_, "object", "objects",
+             " without the level of detail " + shown_word(lod_) + " left out (the file has " +
+                 levels_in_words() + ")");
     }
 
     static constexpr std::size_t most_vertices = 100'000'000;

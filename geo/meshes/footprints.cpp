@@ -10,6 +10,8 @@
 #include <type_traits>
 
 #include "geo/meshes/ground_below.h"
+#include "geo/meshes/mesh_file.h"
+#include "geo/meshes/mesh_over_ground.h"
 #include "geo/meshes/mesh_words.h"
 #include "geo/meshes/polygon_cut.h"
 
@@ -18,16 +20,25 @@ namespace {
 
 using PlaceRings = std::vector<std::vector<VectorPlace>>;
 
-// A height as files have it: a number, and "m" behind it or nothing. Nothing for any other text.
-std::optional<double> height_in(std::string_view text) {
+// A height as files have it: a number of units, or of metres where "m" stands behind it. Nothing for any
+// other text. Downwards where unit_m is negative.
+std::optional<double> height_in_m(std::string_view text, double unit_m) {
     const std::string_view number = take_word(text), unit = take_word(text);
     double value = 0.0;
     std::string_view digits = number;
-    if (unit.empty() && digits.ends_with('m')) digits.remove_suffix(1);
-    const bool is_metres = (unit.empty() || unit == "m") && take_word(text).empty();
-    if (!is_metres || digits.empty() || !mesh_number(digits, value) || !std::isfinite(value))
+    const bool has_suffix = unit.empty() && digits.ends_with('m');
+    if (has_suffix) digits.remove_suffix(1);
+    const bool is_sound = (unit.empty() || unit == "m") && take_word(text).empty();
+    if (!is_sound || digits.empty() || !mesh_number(digits, value) || !std::isfinite(value))
         return std::nullopt;
-    return value;
+    return value * (has_suffix || unit == "m" ? std::copysign(1.0, unit_m) : unit_m);
+}
+
+// Whether a height is one that no building has, and stands for "not known".
+bool stands_for_none(double height_m, double unit_m) {
+    constexpr double shortest_foot_m = 0.3;
+    const double most_m = least_height_of_none * (unit_m > shortest_foot_m ? std::min(unit_m, 1.0) : 1.0);
+    return height_m <= 0.0 || height_m >= most_m;
 }
 
 struct FreeShape {
@@ -104,13 +115,15 @@ class FootprintReader {
     void layer(const VectorLayer& layer) {
         for (const VectorShape& shape : layer.shapes) {
             if (shape.kind != VectorKind::polygon || shape.paths.empty()) continue;
-            const std::optional<double> height_m = height_in(layer.text(shape, fields_.height));
-            if (!height_m || *height_m <= 0.0 || *height_m >= least_height_of_none_m) {
+            const std::optional<double> height_m =
+                height_in_m(layer.text(shape, fields_.height), fields_.height_unit_m);
+            if (!height_m || stands_for_none(*height_m, fields_.height_unit_m)) {
                 ++counts_.without_height;
                 continue;
             }
             std::optional<double> base_m = 0.0;
-            if (!fields_.base.empty()) base_m = height_in(layer.text(shape, fields_.base));
+            if (!fields_.base.empty())
+                base_m = height_in_m(layer.text(shape, fields_.base), fields_.base_unit_m);
             if (!base_m) {
                 ++counts_.without_base;
                 continue;
@@ -144,6 +157,30 @@ class FootprintReader {
     Counts& counts_;
 };
 
+// How bases lie to the lowest ground below each.
+class BasesOverGround {
+  public:
+    void add(double above_m, const VectorPlace& place, std::span<const HeightField* const> ground) {
+        if (above_m_.empty())
+            for (const HeightField* const field : ground) {
+                if (field->undulation.N_m.empty()) continue;
+                over_.N_m = field->undulation.at_m(place.lat_deg, place.lon_deg);
+                break;
+            }
+        above_m_.push_back(above_m);
+    }
+    [[nodiscard]] std::string in_words() {
+        const auto middle = above_m_.begin() + static_cast<std::ptrdiff_t>(above_m_.size() / 2);
+        std::nth_element(above_m_.begin(), middle, above_m_.end());
+        over_.median_m = *middle, over_.vertices = above_m_.size();
+        return words_of(over_, "the geoid", "its bases lie");
+    }
+
+  private:
+    MeshOverGround over_;
+    std::vector<double> above_m_;
+};
+
 // Roof and walls, outside to the right of where the outer ring goes.
 void add_building(const Footprint& footprint, double bottom_H_m, double roof_H_m, SourceMesh& mesh) {
     PolygonRings rings;
@@ -169,13 +206,24 @@ void add_building(const Footprint& footprint, double bottom_H_m, double roof_H_m
 
 Result<void> check_field(const VectorFile& file, const char* option, const std::string& field) {
     std::string known;
+    bool is_known = false;
     for (const VectorLayer& layer : file.layers) {
-        if (layer.field_number(field) >= 0) return {};
+        if (layer.field_number(field) >= 0) {
+            is_known = true;
+            if (std::ranges::any_of(layer.shapes, [&](const VectorShape& shape) {
+                    return shape.kind == VectorKind::polygon && !layer.text(shape, field).empty();
+                }))
+                return {};
+        }
         for (const std::string& name : layer.fields) {
             constexpr std::size_t most_listed = 300;
             if (known.size() < most_listed) known += (known.empty() ? "" : ", ") + name;
         }
     }
+    if (is_known)
+        return Error{
+            ErrorKind::usage, std::string(option) + " " + field,
+            "has no value in any footprint of " + std::filesystem::path(file.file).filename().string()};
     return Error{ErrorKind::usage, std::string(option) + " " + field,
                  "is no field of " + std::filesystem::path(file.file).filename().string() +
                      (known.empty() ? ": it has none" : ": it has " + known)};
@@ -194,22 +242,33 @@ Result<void> lift_bases(const BaseLift& lift, std::vector<Footprint>& footprints
 }
 
 void tell(const Counts& counts, SourceMesh& mesh) {
-    const auto note = [&](std::size_t count, const std::string& what) {
-        if (count > 0) mesh.notes.push_back(std::to_string(count) + " " + what);
+    const auto note = [&](std::size_t count, const char* one, const char* several, const char* what) {
+        if (count > 0)
+            mesh.notes.push_back(std::to_string(count) + " " + (count == 1 ? one : several) + what);
     };
-    note(counts.without_height, "footprints left out, without a height above 0 and below 9,999 m");
-    note(counts.without_base, "footprints left out, whose base is no number");
-    note(counts.invalid, "footprints left out, which cross themselves and cannot be made valid");
-    note(counts.without_ground, "footprints left out, without ground below");
-    note(counts.mended, "footprints that crossed themselves made valid");
-    note(counts.very_high, "buildings higher than 1,000 m: are their heights in metres?");
+    const auto left_out = [&](std::size_t count, const char* why) {
+        note(count, "footprint left out, ", "footprints left out, ", why);
+    };
+    left_out(counts.without_height, "without a height above 0 and below 9,999 m");
+    left_out(counts.without_base, "whose base is no number");
+    note(counts.invalid, "footprint left out, which crosses itself",
+         "footprints left out, which cross themselves", " and cannot be made valid");
+    left_out(counts.without_ground, "without ground below");
+    note(counts.mended, "footprint that crossed itself", "footprints that crossed themselves", " made valid");
+    note(counts.very_high, "building higher than 1,000 m: is its height",
+         "buildings higher than 1,000 m: are their heights", " in metres?");
 }
 
 }  // namespace
 
+bool is_of_footprints(const MeshRequest& request, const std::string& file) {
+    return !request.building_height.empty() && !is_mesh_file(file);
+}
+
 Result<SourceMesh> buildings_on_footprints(const std::string& path, const FootprintFields& fields,
-                                           std::span<const HeightField* const> ground, const BaseLift& lift) {
-    ORO_TRY(const VectorFile file, read_vectors(path));
+                                           std::span<const HeightField* const> ground, const BaseLift& lift,
+                                           const VectorCrs& asked) {
+    ORO_TRY(const VectorFile file, read_vectors_in(path, asked));
     if (file.count(VectorKind::polygon) == 0)
         return Error{ErrorKind::failed, path, "has no polygons, which footprints are"};
     ORO_CHECK(check_field(file, "--building-height", fields.height));
@@ -220,6 +279,7 @@ Result<SourceMesh> buildings_on_footprints(const std::string& path, const Footpr
     if (!fields.base.empty()) ORO_CHECK(lift_bases(lift, reader.footprints));
     SourceMesh mesh;
     mesh.path = path, mesh.format = "footprints", mesh.kind = MeshKind::built, mesh.crs = "EPSG:4326";
+    BasesOverGround bases;
     for (const Footprint& footprint : reader.footprints) {
         const std::optional<double> lowest_H_m = lowest_ground_H_m(footprint.rings, ground);
         if (!lowest_H_m) {
@@ -227,14 +287,18 @@ Result<SourceMesh> buildings_on_footprints(const std::string& path, const Footpr
             continue;
         }
         const double base_H_m = fields.base.empty() ? *lowest_H_m : footprint.base_H_m;
+        bases.add(base_H_m - *lowest_H_m, footprint.rings.front().front(), ground);
         add_building(footprint, std::min(base_H_m, *lowest_H_m - wall_below_ground_m),
                      base_H_m + footprint.height_m, mesh);
     }
-    mesh.notes = file.notes;
+    for (const std::string& note : file.notes)  // those of a mesh stand behind its file's name
+        mesh.notes.push_back(note.starts_with(path + ": ") ? note.substr(path.size() + 2) : note);
     tell(counts, mesh);
+    if (!fields.base.empty() && !mesh.triangles.empty()) mesh.notes.push_back(bases.in_words());
     if (!mesh.triangles.empty()) return mesh;
     std::string why;
     for (const std::string& note : mesh.notes) why += (why.empty() ? ": " : "; ") + note;
+    if (counts.without_ground > 0 && !asked.crs.empty()) why += "; is --mesh-crs right?";
     return Error{ErrorKind::failed, path, "has no building" + why};
 }
 

@@ -65,11 +65,12 @@ bool is_over_ground_swapped(const PlacedMesh& mesh, std::span<const HeightField*
            });
 }
 
-std::string words_of(const std::optional<MeshOverGround>& over, const std::string& geoid) {
+std::string words_of(const std::optional<MeshOverGround>& over, const std::string& geoid,
+                     const std::string& what_lies) {
     if (!over) return "no vertex of it lies over terrain";
     char text[200];
-    std::snprintf(text, sizeof text, "it lies %.1f m %s the terrain in the median", std::abs(over->median_m),
-                  over->median_m < 0.0 ? "under" : "over");
+    std::snprintf(text, sizeof text, "%s %.1f m %s the terrain in the median", what_lies.c_str(),
+                  std::abs(over->median_m), over->median_m < 0.0 ? "under" : "over");
     constexpr double like_N_m = 2.0, least_N_m = 5.0;
     const bool floats = std::abs(over->median_m - over->N_m) < like_N_m,
                is_sunk = std::abs(over->median_m + over->N_m) < like_N_m;

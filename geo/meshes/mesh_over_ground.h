@@ -24,8 +24,9 @@ std::optional<MeshOverGround> mesh_over_ground(const PlacedMesh& mesh,
 // Whether the first vertex of a mesh would lie over ground with latitude and longitude swapped.
 bool is_over_ground_swapped(const PlacedMesh& mesh, std::span<const HeightField* const> fields);
 
-// One line: "lies 1.2 m over the terrain in the median". Where that is within 2 m of N, or of -N, it names
+// One line: "it lies 1.2 m over the terrain in the median". Where that is within 2 m of N, or of -N, it names
 // the geoid: its heights are then most likely above the ellipsoid, or the other way round.
-std::string words_of(const std::optional<MeshOverGround>& over, const std::string& geoid);
+std::string words_of(const std::optional<MeshOverGround>& over, const std::string& geoid,
+                     const std::string& what_lies = "it lies");
 
 }  // namespace oro

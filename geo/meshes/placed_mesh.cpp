@@ -39,17 +39,18 @@ struct MeshScale {
     std::string note;
 };
 
+// Metres of the unit that is asked; nothing where none is.
+Result<std::optional<double>> asked_unit_m(const std::string& asked_unit) {
+    if (asked_unit.empty()) return std::optional<double>();
+    const std::optional<double> unit_m = metres_in(asked_unit);
+    if (unit_m) return unit_m;
+    return Error{ErrorKind::usage, "--mesh-unit " + asked_unit, "is none of m, ft, us-ft, cm, dm, mm"};
+}
+
 Result<MeshScale> scale_of(const SourceMesh& mesh, const std::string& crs, const std::string& asked_unit) {
     MeshScale scale;
-    std::optional<double> unit_m;
-    if (!asked_unit.empty()) {
-        unit_m = metres_in(asked_unit);
-        if (!unit_m)
-            return Error{ErrorKind::usage, "--mesh-unit " + asked_unit,
-                         "is none of m, ft, us-ft, cm, dm, mm"};
-    } else if (!mesh.unit.empty()) {
-        unit_m = mesh.metres_per_unit;
-    }
+    ORO_TRY(std::optional<double> unit_m, asked_unit_m(asked_unit));
+    if (!unit_m && !mesh.unit.empty()) unit_m = mesh.metres_per_unit;
     if (!unit_m) return scale;
     scale.height_m = *unit_m;
     const std::optional<double> axis_m = crs_unit_m(crs);
@@ -84,12 +85,27 @@ class VertexPlaces {
     }
     // at: finite. Nothing where it has no place, or is more than 100 km high or deep.
     [[nodiscard]] std::optional<PlacedVertex> vertex(const glm::dvec3& at) const {
-        constexpr double most_height_m = 1.0e5;
-        if (!by_crs_) return on_earth(at, most_height_m);
+        if (!by_crs_) return on_earth(at);
         const Result<Place> place = by_crs_->place(at.x * scale_.plane, at.y * scale_.plane);
         const double height_m = at.z * scale_.height_m;
         if (!place.ok() || std::abs(height_m) > most_height_m) return std::nullopt;
         return PlacedVertex{place->lat_deg, place->lon_deg, height_m};
+    }
+    // The first vertex of a triangle that is too high or too deep: "the height at 2683530, 1247000 is
+    // 1e+09 m, beyond 100 km"; "" where none is.
+    [[nodiscard]] std::string too_high_in(const SourceMesh& mesh) const {
+        if (!by_crs_) return "";
+        for (const SourceTriangle& triangle : mesh.triangles)
+            for (const std::uint32_t corner : triangle) {
+                const glm::dvec3& at = mesh.vertices[corner];
+                const double height_m = at.z * scale_.height_m;
+                if (!(std::abs(height_m) > most_height_m)) continue;
+                char text[160];
+                std::snprintf(text, sizeof text, "the height at %.10g, %.10g is %.10g m, beyond 100 km", at.x,
+                              at.y, height_m);
+                return text;
+            }
+        return "";
     }
     // Why the first vertex of a mesh has no place, and what would give it one.
     [[nodiscard]] std::string why_none(const glm::dvec3& first) const {
@@ -98,19 +114,18 @@ class VertexPlaces {
         const Result<Place> why = by_crs_->place(first.x * scale_.plane, first.y * scale_.plane);
         const bool is_swapped =
             !why.ok() && by_crs_->place(first.y * scale_.plane, first.x * scale_.plane).ok();
-        const std::string reason = !why.ok() ? why.error().what
-                                   : std::abs(first.z * scale_.height_m) > 1.0e5
-                                       ? "its heights are beyond 100 km"
-                                       : "its CRS has none for some part of each";
+        const std::string reason = !why.ok() ? why.error().what : "its CRS has none for some part of each";
         return reason +
                (is_swapped ? "; with x and y swapped they have: x is the easting" : "; is --mesh-crs right?");
     }
 
   private:
+    static constexpr double most_height_m = 1.0e5;
+
     VertexPlaces(const MeshScale& scale, const UndulationField& undulation)
         : scale_(scale), undulation_(undulation) {}
 
-    [[nodiscard]] std::optional<PlacedVertex> on_earth(const glm::dvec3& at, double most_height_m) const {
+    [[nodiscard]] std::optional<PlacedVertex> on_earth(const glm::dvec3& at) const {
         const glm::dvec3 at_m = at * scale_.height_m;
         constexpr double innermost_m = 6.0e6, outermost_m = 7.0e6;
         if (glm::length(at_m) < innermost_m || glm::length(at_m) > outermost_m) return std::nullopt;
@@ -421,18 +436,21 @@ Result<void> check_reach(const PlacedMesh& mesh) {
 // Heights of bases in the vertical datum that --mesh-crs names: sea level where it names none.
 struct Bases {
     const std::string& crs;
+    const std::optional<StatedDatum>& datum;
     bool strict_datum;
     const UndulationField& undulation;
 
-    [[nodiscard]] Result<void> lift(std::span<const VectorPlace> places, std::span<double> bases_H_m) const {
-        const std::optional<StatedDatum> datum = crs.empty() ? std::nullopt : stated_datum(crs);
+    // note: what was said of the way from the datum.
+    [[nodiscard]] Result<void> lift(std::span<const VectorPlace> places, std::span<double> bases_H_m,
+                                    std::string& note) const {
         if (!datum) return {};
         PlacedMesh each;  // lifted as meshes are: a triangle of one vertex a base
         for (std::uint32_t i = 0; i < places.size(); ++i) {
             each.vertices.push_back({places[i].lat_deg, places[i].lon_deg, bases_H_m[i]});
             each.triangles.push_back({i, i, i});
         }
-        ORO_CHECK(lift_heights(crs, *datum, 1.0, strict_datum, undulation, each));
+        ORO_CHECK(lift_heights(crs, *datum, datum->metres_per_unit, strict_datum, undulation, each));
+        note = each.note;
         for (std::size_t i = 0; i < places.size(); ++i) bases_H_m[i] = each.vertices[i].H_m;
         return {};
     }
@@ -458,7 +476,7 @@ Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, 
     ORO_TRY(const MeshScale scale, scale_of(source, crs, request.unit));
     const Result<VertexPlaces> places = VertexPlaces::of(crs, scale, undulation);
     if (!places.ok())
-        return Error{places.error().kind,
+        return Error{request.crs.empty() ? ErrorKind::failed : places.error().kind,
                      request.crs.empty() ? source.path + ": " + crs : "--mesh-crs " + crs,
                      places.error().what};
     const std::shared_ptr<ScratchMemory> scratch = source.vertices.get_allocator().scratch();
@@ -478,10 +496,13 @@ Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, 
     MeshPlacing placing(source, *places, request.look.empty() || request.look == "ground",
                         request.most_triangles, scratch);
     ORO_CHECK(placing.cut(mesh));
+    const std::string too_high = mesh.not_placed > 0 ? places->too_high_in(source) : "";
     if (mesh.triangles.empty())
         return Error{ErrorKind::failed, source.path,
                      "none of its triangles has a place: " +
-                         places->why_none(source.vertices[source.triangles.front()[0]])};
+                         (too_high.empty() ? places->why_none(source.vertices[source.triangles.front()[0]])
+                                           : too_high + "; is its unit right (--mesh-unit)?")};
+    add_note(mesh, too_high);
     ORO_CHECK(check_reach(mesh));
     const std::optional<StatedDatum> datum = is_ecef(crs) ? std::nullopt : stated_datum(crs);
     if (datum) ORO_CHECK(lift_heights(crs, *datum, scale.height_m, strict_datum, undulation, mesh));
@@ -489,6 +510,53 @@ Result<PlacedMesh> placed(const SourceMesh& source, const MeshRequest& request, 
     if (mesh.triangles.empty())
         return Error{ErrorKind::failed, source.path, "no triangle has an area: is --mesh-unit right?"};
     return mesh;
+}
+
+// Buildings on the footprints of a vector file, placed.
+Result<PlacedMesh> placed_footprints(const std::string& file, const MeshRequest& request, bool strict_datum,
+                                     const UndulationField& undulation,
+                                     std::span<const HeightField* const> ground) {
+    ORO_TRY(const std::optional<double> unit_m, asked_unit_m(request.unit));
+    std::optional<StatedDatum> datum;
+    std::string crs_name;
+    if (!request.crs.empty()) {
+        const Result<CrsPlaces> by_crs = CrsPlaces::of(request.crs);
+        if (!by_crs.ok()) return Error{by_crs.error().kind, "--mesh-crs " + request.crs, by_crs.error().what};
+        crs_name = by_crs->name();
+        if (!request.building_base.empty()) datum = stated_datum(request.crs);
+    }
+    FootprintFields fields{request.building_height, request.building_base, unit_m.value_or(1.0),
+                           unit_m.value_or(1.0)};
+    if (datum) fields.base_unit_m = datum->metres_per_unit;
+    const Bases bases{request.crs, datum, strict_datum, undulation};
+    std::string note;
+    ORO_TRY(const SourceMesh source,
+            buildings_on_footprints(file, fields, ground,
+                                    [&](std::span<const VectorPlace> places, std::span<double> bases_H_m) {
+                                        return bases.lift(places, bases_H_m, note);
+                                    },
+                                    {request.crs, unit_m}));
+    MeshRequest as_placed = request;
+    as_placed.crs.clear(), as_placed.unit.clear();
+    ORO_TRY(PlacedMesh mesh, placed(source, as_placed, strict_datum, undulation));
+    if (!crs_name.empty()) mesh.crs = crs_name;
+    if (datum) mesh.heights = datum->name;
+    add_note(mesh, note);
+    return mesh;
+}
+
+// Options of kinds of files that no file is of.
+Result<void> check_kinds(const MeshRequest& request, const std::vector<PlacedMesh>& meshes) {
+    const bool has_footprints = std::ranges::any_of(
+        request.files, [&](const std::string& file) { return is_of_footprints(request, file); });
+    if (!request.building_height.empty() && !has_footprints)
+        return Error{ErrorKind::usage, "--building-height " + request.building_height,
+                     "is of footprints, and no --mesh-file holds any"};
+    const bool has_city = std::ranges::find(meshes, MeshKind::city_model, &PlacedMesh::kind) != meshes.end();
+    if (!request.lod.empty() && !has_city)
+        return Error{ErrorKind::usage, "--lod " + request.lod,
+                     "is of CityJSON, and no mesh is in that format"};
+    return {};
 }
 
 }  // namespace
@@ -538,21 +606,9 @@ Result<std::shared_ptr<const std::vector<PlacedMesh>>> open_meshes(
     const MeshRequest& request, bool strict_datum, const UndulationField& undulation,
     std::span<const HeightField* const> ground, const std::shared_ptr<ScratchMemory>& scratch) {
     auto meshes = std::make_shared<std::vector<PlacedMesh>>();
-    bool has_footprints = false;
     for (const std::string& file : request.files) {
-        const bool are_footprints = !request.building_height.empty() && !is_mesh_file(file);
-        has_footprints = has_footprints || are_footprints;
-        if (are_footprints) {
-            const Bases bases{request.crs, strict_datum, undulation};
-            ORO_TRY(const SourceMesh source,
-                    buildings_on_footprints(
-                        file, {request.building_height, request.building_base}, ground,
-                        [&](std::span<const VectorPlace> places, std::span<double> bases_H_m) {
-                            return bases.lift(places, bases_H_m);
-                        }));
-            MeshRequest as_placed = request;
-            as_placed.crs.clear(), as_placed.unit.clear();
-            ORO_TRY(PlacedMesh mesh, placed(source, as_placed, strict_datum, undulation));
+        if (is_of_footprints(request, file)) {
+            ORO_TRY(PlacedMesh mesh, placed_footprints(file, request, strict_datum, undulation, ground));
             mesh.not_added = mesh.triangles.size();
             meshes->push_back(std::move(mesh));
             continue;
@@ -564,9 +620,7 @@ Result<std::shared_ptr<const std::vector<PlacedMesh>>> open_meshes(
         meshes->push_back(std::move(mesh));
         if (scratch != nullptr) scratch->drop_pages();
     }
-    if (!request.building_height.empty() && !has_footprints)
-        return Error{ErrorKind::usage, "--building-height " + request.building_height,
-                     "is of footprints, and no --mesh-file holds any"};
+    ORO_CHECK(check_kinds(request, *meshes));
     return std::shared_ptr<const std::vector<PlacedMesh>>(std::move(meshes));
 }
 

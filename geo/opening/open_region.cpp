@@ -16,6 +16,7 @@
 #include "core/base/system_room.h"
 #include "geo/files/library_faults.h"
 #include "geo/files/raster_library.h"
+#include "geo/meshes/footprints.h"
 #include "geo/meshes/mesh_in_box.h"
 #include "geo/meshes/mesh_over_ground.h"
 #include "geo/meshes/placed_mesh.h"
@@ -95,6 +96,11 @@ Result<void> open_meshes_of(const RegionRequest& request, const Scratch& scratch
     std::vector<PlacedMesh> inside = *opened;
     leave_outside_out(request.box, inside, first);
     for (const PlacedMesh& mesh : inside) {
+        // Made for the ground below: its own note says how bases lie.
+        if (is_of_footprints(request.meshes, mesh.path)) {
+            first.notes.push_back(note_of_mesh(mesh));
+            continue;
+        }
         const std::optional<MeshOverGround> over = mesh_over_ground(mesh, fields);
         const bool is_swapped = !over && is_over_ground_swapped(mesh, fields);
         first.notes.push_back(

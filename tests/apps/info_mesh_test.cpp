@@ -82,4 +82,45 @@ TEST_F(InfoOfMeshes, WithoutTheOptionNothingIsPlacedAndOthersAreRefused) {
     expect_refusal(run_orograph({"info", ply_, "--mesh-unit", "ft"}), oro::test::failed, {"--mesh-crs"});
 }
 
+// A part of an OBJ whose name is blank, a CRS that is none, and --lod of what has no levels.
+TEST_F(InfoOfMeshes, SaysWhatIsNamelessOrUnknown) {
+    const std::string obj = (folder_ / "part.obj").string(), town = (folder_ / "b.city.json").string();
+    oro::test::write_bytes(obj, "v 0 0 0\nv 9 0 0\nv 0 9 0\ng  \nf 1 2 3\ng a\nf 1 3 2\n");
+    oro::test::write_bytes(
+        town,
+        R"({"type":"CityJSON","version":"1.0","metadata":{"referenceSystem":"urn:ogc:def:crs:EPSG::999999"},)"
+        R"("CityObjects":{"b":{"type":"Building","geometry":[{"type":"MultiSurface",)"
+        R"("lod":"1","boundaries":[[[0,1,2]]]}]}},"vertices":[[0,0,0],[9,0,0],[0,9,0]]})");
+    const Outcome text = run_orograph({"info", town});
+    EXPECT_TRUE(says(text.out, "  CRS:           EPSG:999999, which PROJ does not know\n")) << text.out;
+    const auto said = oro::test::object_said_by({"info", town, "--json"});
+    EXPECT_EQ(said["meshes"][0]["notes"][0], "its CRS is EPSG:999999, which PROJ does not know");
+    expect_refusal(run_orograph({"info", obj, "--lod", "2"}), usage, {"--lod 2: is of CityJSON"});
+    expect_refusal(run_orograph({"info", town, "--lod", "9"}), usage, {"level of detail 9", "it has 1"});
+}
+
+// The text had notes of them; JSON had an empty list.
+TEST_F(InfoOfMeshes, OfATerrainSaysWhatIsKnownOfThoseOnIt) {
+    const std::string obj = (folder_ / "a.obj").string(), areas = (folder_ / "a.geojson").string();
+    oro::test::write_bytes(obj,
+                           "v -84.176 36.604 700\nv -84.175 36.604 700\nv -84.176 36.605 710\nf 1 2 3\n");
+    oro::test::write_bytes(areas,
+                           R"({"type":"Feature","properties":{"height":70},"geometry":{"type":"Polygon",)"
+                           R"("coordinates":[[[-84.1765,36.604],[-84.1755,36.604],[-84.1755,36.606],)"
+                           R"([-84.1765,36.604]]]}})");
+    const auto said =
+        oro::test::object_said_by({"info", oro::test::bundled(), "--mesh-file", obj, "--mesh-file", areas,
+                                   "--building-height", "height", "--mesh-crs", "EPSG:4326", "--json"});
+    ASSERT_EQ(said["meshes"].size(), 2U);
+    EXPECT_EQ(said["meshes"][0]["format"], "OBJ");
+    EXPECT_EQ(said["meshes"][0]["rim_edges"], 3);
+    EXPECT_EQ(said["meshes"][0]["placed"]["highest_m"], 710.0);
+    EXPECT_EQ(said["meshes"][1]["format"], "footprints");
+    EXPECT_EQ(said["meshes"][1]["triangles"], 7) << "a roof and two for each of three walls";
+    EXPECT_NEAR(said["meshes"][1]["placed"]["south_deg"].get<double>(), 36.604, 1.0e-9);
+    const std::string notes = said["region"]["notes"].dump();
+    EXPECT_TRUE(says(notes, "a.obj: a mesh of 1 triangle")) << notes;
+    EXPECT_TRUE(says(notes, "a.geojson: a mesh of 7 triangles")) << notes;
+}
+
 }  // namespace

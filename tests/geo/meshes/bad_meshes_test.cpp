@@ -138,6 +138,51 @@ TEST(BadMeshes, AWrongUnitHasNoPlace) {
               std::string::npos);
 }
 
+// The CRS was blamed.
+TEST(BadMeshes, AHeightBeyondAllIsNamed) {
+    const std::string one = "v 2600000 1200000 500\nv 2600100 1200000 1000000500\nv 2600000 1200100 501\n";
+    EXPECT_EQ(placing_of(one + "f 1 2 3\n", "EPSG:2056").refusal,
+              "none of its triangles has a place: the height at 2600100, 1200000 is 1000000500 m, beyond 100 "
+              "km; is its unit right (--mesh-unit)?");
+    const Placing rest = placing_of(one + lv95_corners + "f 1 2 3\nf 4 5 6\n", "EPSG:2056");
+    EXPECT_EQ(rest.refusal, "");
+    EXPECT_EQ(rest.mesh.note, "the height at 2600100, 1200000 is 1000000500 m, beyond 100 km");
+}
+
+// A file that names a CRS that is none is a bad file, not bad usage.
+TEST(BadMeshes, ACrsThatTheFileMakesUpIsTheFiles) {
+    MeshRequest request;
+    request.files = {bad_written(
+        "crs.city.json",
+        R"({"type":"CityJSON","version":"1.0","metadata":{"referenceSystem":"urn:ogc:def:crs:EPSG::999999"},)"
+        R"("CityObjects":{"b":{"type":"Building","geometry":[{"type":"MultiSurface",)"
+        R"("lod":"1","boundaries":[[[0,1,2]]]}]}},"vertices":[[0,0,0],[9,0,0],[0,9,0]]})")};
+    const auto of_file = open_meshes(request, false, {});
+    ASSERT_FALSE(of_file.ok());
+    EXPECT_EQ(of_file.error().kind, ErrorKind::failed);
+    EXPECT_NE(of_file.error().line().find("EPSG:999999"), std::string::npos);
+    request.crs = "EPSG:999999";
+    EXPECT_EQ(open_meshes(request, false, {}).error().kind, ErrorKind::usage);
+}
+
+TEST(BadMeshes, LevelsOfDetailAreOfCityJson) {
+    MeshRequest request;
+    request.files = {bad_written("flat.obj", lv95_corners + "f 1 2 3\n")}, request.crs = "EPSG:2056";
+    request.lod = "2";
+    const auto meshes = open_meshes(request, false, {});
+    ASSERT_FALSE(meshes.ok());
+    EXPECT_EQ(meshes.error().kind, ErrorKind::usage);
+    EXPECT_EQ(meshes.error().line(), "--lod 2: is of CityJSON, and no mesh is in that format");
+}
+
+TEST(BadMeshes, FormatsThatAreNotReadNameTheWay) {
+    const std::string citygml = "<?xml version=\"1.0\"?><core:CityModel xmlns:core=\"x\"/>";
+    EXPECT_EQ(why_not_read("t.gml", citygml),
+              "is GML: CityGML is not read; citygml-tools turns it into CityJSON");
+    EXPECT_EQ(why_not_read("t.xml", citygml), "CityGML is not read; citygml-tools turns it into CityJSON");
+    EXPECT_EQ(why_not_read("t.las", "LASF").find("is a point cloud, and these are not read: "), 0U);
+}
+
 TEST(BadMeshes, SwappedAxesAreNamed) {
     const std::string swapped =
         "v 1200000 2600000 500\nv 1200000 2600100 500\nv 1200100 2600000 501\nf 1 2 3\n";

@@ -78,7 +78,7 @@ TEST(CityJson, PartsKnowTheirBuilding) {
     EXPECT_EQ(mesh->features[0].attributes, attributes) << "its own first";
     EXPECT_EQ(mesh->features[1].first_triangle, 12U);
     ASSERT_EQ(mesh->notes.size(), 1U);
-    EXPECT_EQ(mesh->notes[0], "1 objects drawn by their parts alone, which are there in more detail");
+    EXPECT_EQ(mesh->notes[0], "1 object drawn by its parts alone, which are there in more detail");
 }
 
 TEST(CityJson, ALevelOfDetailIsTakenWhereAskedFor) {
@@ -91,10 +91,11 @@ TEST(CityJson, ALevelOfDetailIsTakenWhereAskedFor) {
     ASSERT_TRUE(flat.ok()) << flat.error().line();
     EXPECT_EQ(flat->triangles.size(), 2U);
     ASSERT_EQ(flat->notes.size(), 1U);
-    EXPECT_EQ(flat->notes[0], "1 objects without the level of detail 0 left out (the file has 0, 1, 2.2)");
+    EXPECT_EQ(flat->notes[0], "1 object without the level of detail 0 left out (the file has 0, 1, 2.2)");
     const auto none = read_town(text, "3");
     ASSERT_FALSE(none.ok());
-    EXPECT_EQ(none.error().what, "no triangles");
+    EXPECT_EQ(none.error().kind, ErrorKind::usage);
+    EXPECT_EQ(none.error().what, "has nothing in the level of detail 3 (--lod): it has 0, 1, 2.2");
 }
 
 // A square of 10 m with a hole of 4 corners: 4 + 4 + 2 - 2 triangles.

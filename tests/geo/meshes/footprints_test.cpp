@@ -105,6 +105,45 @@ TEST(Footprints, RoofsAndWallsAreWhereFieldsSay) {
     EXPECT_EQ(on_base->vertices[9].z, 399.5);
 }
 
+// 0.3048 m a foot; "m" behind a number means metres in any case.
+TEST(Footprints, AUnitScalesHeightsAndBases) {
+    const HeightField field = plain_400();
+    const HeightField* const fields[] = {&field};
+    const std::string path = test::written(
+        "feet.geojson", test::collection(footprint(0.0002, R"("height":100,"floor":1300)") + "," +
+                                         footprint(0.0003, R"("height":"7 m","floor":"405 m")")));
+    const auto in_feet = buildings_on_footprints(path, {"height", "floor", 0.3048, 0.3048}, fields, no_lift);
+    ASSERT_TRUE(in_feet.ok()) << in_feet.error().line();
+    EXPECT_NEAR(in_feet->vertices[0].z, 426.72, 1.0e-9) << "m: 1,400 ft";
+    EXPECT_NEAR(in_feet->vertices[1].z, 396.24, 1.0e-9) << "m: 1,300 ft, below the ground";
+    EXPECT_NEAR(in_feet->vertices[8].z, 412.0, 1.0e-9) << "m";
+    const std::string other =
+        test::written("other.geojson", test::collection(footprint(0.0002, R"("height":12000)") + "," +
+                                                        footprint(0.0002, R"("height":9999)")));
+    const auto in_mm = buildings_on_footprints(other, {"height", "", 0.001}, fields, no_lift);
+    ASSERT_TRUE(in_mm.ok()) << in_mm.error().line();
+    EXPECT_NEAR(in_mm->vertices[0].z, 412.0, 1.0e-9) << "m";
+    EXPECT_EQ(in_mm->features.size(), 2U) << "9,999 mm are a height";
+    EXPECT_FALSE(buildings_on_footprints(other, {"height", "", 0.3048}, fields, no_lift).ok())
+        << "9,999 ft stand for none, and so do 12,000";
+}
+
+// Bases of 402 and 406 m over ground of 400 m.
+TEST(Footprints, HowBasesLieIsTold) {
+    const HeightField field = plain_400();
+    const HeightField* const fields[] = {&field};
+    const std::string path = test::written(
+        "bases.geojson", test::collection(footprint(0.0002, R"("height":10,"floor":402)") + "," +
+                                          footprint(0.0003, R"("height":10,"floor":402)") + "," +
+                                          footprint(0.0003, R"("height":10,"floor":406)")));
+    const auto on_base = buildings_on_footprints(path, {"height", "floor"}, fields, no_lift);
+    ASSERT_TRUE(on_base.ok()) << on_base.error().line();
+    EXPECT_EQ(on_base->notes,
+              (std::vector<std::string>{"its bases lie 2.0 m over the terrain in the median"}));
+    EXPECT_TRUE(buildings_on_footprints(path, {"height", ""}, fields, no_lift)->notes.empty())
+        << "they lie on the ground";
+}
+
 TEST(Footprints, WhatHasNoHeightIsLeftOutAndCounted) {
     const HeightField field = plain_400();
     const HeightField* const fields[] = {&field};
@@ -120,8 +159,8 @@ TEST(Footprints, WhatHasNoHeightIsLeftOutAndCounted) {
         return std::ranges::find(mesh->notes, note) != mesh->notes.end();
     };
     EXPECT_TRUE(has("6 footprints left out, without a height above 0 and below 9,999 m"));
-    EXPECT_TRUE(has("1 footprints left out, without ground below"));
-    EXPECT_TRUE(has("1 buildings higher than 1,000 m: are their heights in metres?"));
+    EXPECT_TRUE(has("1 footprint left out, without ground below"));
+    EXPECT_TRUE(has("1 building higher than 1,000 m: is its height in metres?"));
 }
 
 // A bow tie becomes two triangles; a line that goes there and back nothing.
@@ -155,9 +194,16 @@ TEST(Footprints, ErrorsAreToldInOneLine) {
     EXPECT_NE(why(test::collection(footprint(0.0002, R"("hoehe":5,"name":"a")")), {"height", ""})
                   .find("--building-height height: is no field of e.geojson: it has hoehe, name"),
               std::string::npos);
-    EXPECT_NE(why(test::collection(footprint(0.0002, R"("height":0)")), {"height", ""})
-                  .find("has no building: 1 footprints left out"),
+    EXPECT_NE(why(test::collection(footprint(0.0002, R"("height":null,"name":"a")")), {"height", ""})
+                  .find("--building-height height: has no value in any footprint of e.geojson"),
               std::string::npos);
+    EXPECT_NE(why(test::collection(footprint(0.0002, R"("height":0)")), {"height", ""})
+                  .find("has no building: 1 footprint left out"),
+              std::string::npos);
+    const auto elsewhere = buildings_on_footprints(
+        test::written("e.geojson", test::collection(footprint(0.0002, R"("height":5)"))), {"height", ""},
+        fields, no_lift, {"EPSG:2056", {}});
+    EXPECT_NE(elsewhere.error().line().find("without ground below; is --mesh-crs right?"), std::string::npos);
     EXPECT_NE(why(test::collection(test::feature("Point", "[8,47]", R"("height":5)")), {"height", ""})
                   .find("has no polygons"),
               std::string::npos);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,7 @@
 
 #include "core/earth/ellipsoid.h"
 #include "geo/meshes/mesh_in_box.h"
+#include "tests/support/rough_terrain.h"
 
 namespace oro {
 namespace {
@@ -73,6 +75,37 @@ TEST(PlacedMesh, HeightsAboveTheEllipsoidAreLessByN) {
     const PlacedMesh& mesh = (*meshes)->front();
     EXPECT_NEAR(mesh.vertices[0].lat_deg, 46.9, 1.0e-10);
     EXPECT_NEAR(mesh.vertices[0].H_m, 450.0, 1.0e-3) << "m";
+}
+
+// N of 50 m: a base at 480 m above the ellipsoid is one at 430 m.
+TEST(PlacedMesh, BasesOfFootprintsCountFromTheDatumThatIsAsked) {
+    HeightField field = test::rough_field(47.0, 8.0, 90, 90);
+    std::ranges::fill(field.H_m, 400.0F);
+    const HeightField* const ground[] = {&field};
+    UndulationField fifty_m;
+    fifty_m.lat = {1.0, 0.0, 48, -1, 3};
+    fifty_m.lon = {1.0, 0.0, 6, +1, 3};
+    fifty_m.N_m.assign(9, 50.0F);
+    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "bases.geojson";
+    std::ofstream(path) << R"({"type":"Feature","properties":{"height":10,"floor":480},"geometry":)"
+                           R"({"type":"Polygon","coordinates":[[[8.03,46.97],[8.031,46.97],[8.031,46.971],)"
+                           R"([8.03,46.97]]]}})";
+    MeshRequest request;
+    request.files = {path.string()}, request.crs = "EPSG:4979";
+    request.building_height = "height", request.building_base = "floor";
+    const auto meshes = open_meshes(request, true, fifty_m, ground);
+    ASSERT_TRUE(meshes.ok()) << meshes.error().line();
+    const PlacedMesh& mesh = (*meshes)->front();
+    EXPECT_NEAR(mesh.vertices[0].H_m, 440.0, 1.0e-3) << "m";
+    EXPECT_NE(mesh.heights.find("WGS 84"), std::string::npos) << mesh.heights;
+    EXPECT_EQ(mesh.crs, "EPSG:4326 WGS 84") << "its horizontal part, as of other meshes";
+    request.unit = "ft", request.building_base = "", request.crs = "";
+    const auto feet = open_meshes(request, true, fifty_m, ground);
+    ASSERT_TRUE(feet.ok()) << feet.error().line();
+    EXPECT_NEAR((*feet)->front().vertices[0].H_m, 403.048, 1.0e-9) << "m: 10 ft over the ground";
+    request.lod = "2";
+    EXPECT_EQ(open_meshes(request, true, fifty_m, ground).error().line(),
+              "--lod 2: is of CityJSON, and no mesh is in that format");
 }
 
 // Sides of neighbours are cut alike: each edge inside has two triangles.
