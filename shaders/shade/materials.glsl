@@ -1,11 +1,11 @@
 // Ground of materials, whose borders are broken by noise: FrameStyle.materials. Needs cover.glsl. Which materials a place has is said by their
 // shares: here by a rule of height, slope, hollows and latitude. What says it otherwise (a map of land cover) gives such shares, too.
 #ifdef IN_AIR
+#include "shaders/shared_growth.h"
 #include "shaders/shade/ground_noise.glsl"
 #include "shaders/shade/parcels.glsl"
 #include "shaders/shade/rock_relief.glsl"
 #include "shaders/shared_meadow.h"
-#include "shaders/shared_growth.h"
 #include "shaders/growth/reach.glsl"
 #include "shaders/shade/forest_light.glsl"
 #include "shaders/growth/meadow_reach.glsl"
