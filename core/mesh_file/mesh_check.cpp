@@ -3,11 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <map>
 #include <span>
-#include <unordered_map>
-#include <unordered_set>
-#include <utility>
 #include <vector>
 
 #include "core/base/parallel.h"
@@ -23,17 +19,11 @@ using Corners = std::array<glm::dvec3, 3>;
 // What a polygon so small is off by need not be known.
 constexpr double slack_m = 1.0e-4, least_m = 1.0e-3;
 
-// Which ground a group may have handed places to: that near all it uses, or near those parts of it that it
-// made nothing of. Who a place goes to depends on that, and which it was the builder does not tell; that each
-// place is near enough by either proves the errors.
-enum class GroundNear { all_used, dropped_parts };
-
 class ErrorCheck {
   public:
-    ErrorCheck(const StoredMesh& mesh, int threads, const MeshGround* ground, GroundNear near)
+    ErrorCheck(const StoredMesh& mesh, int threads, const MeshGround* ground)
         : graph_(mesh.graph.clusters),
           threads_(threads),
-          near_(near),
           vertices_m_(vertices_of(mesh)),
           original_of_(mesh.graph.original_of),
           mesh_(leaves()) {
@@ -75,8 +65,6 @@ class ErrorCheck {
         return all;
     }
     void begin_pieces();
-    [[nodiscard]] std::vector<PartBox> boxes_of_used(const ClusterGroup& group) const;
-    [[nodiscard]] std::vector<PartBox> boxes_of_dropped(const ClusterGroup& group) const;
     void add_ground(const ClusterGroup& group, double reach_m, std::vector<Corners>& made,
                     std::vector<int>& users) const;
     void hand_over(const std::vector<HandedPieces>& handed, std::size_t groups_above);
@@ -85,7 +73,6 @@ class ErrorCheck {
 
     const ClusterGraph& graph_;
     int threads_;
-    GroundNear near_;
     std::vector<glm::dvec3> vertices_m_;
     std::span<const std::uint32_t> original_of_;
     NearestTriangles mesh_;
@@ -110,61 +97,17 @@ void ErrorCheck::begin_pieces() {
     for (OriginalPieces& of_group : pieces_) join_whole_pieces(mesh_, of_group.whole);
 }
 
-std::vector<PartBox> ErrorCheck::boxes_of_used(const ClusterGroup& group) const {
+// The ground that what a group uses may have been dropped onto.
+void ErrorCheck::add_ground(const ClusterGroup& group, double reach_m, std::vector<Corners>& made,
+                            std::vector<int>& users) const {
+    if (!ground_) return;
     std::vector<PartBox> boxes;
     for (const std::uint32_t member : graph_.members_of(group)) {
         PartBox& box = boxes.emplace_back();
         for (const VertexTriangle& triangle : graph_.triangles_of(graph_.clusters[member]))
             for (const std::uint32_t corner : triangle) box.add(vertices_m_[corner]);
     }
-    return boxes;
-}
-
-// Around what hangs together and has no triangle that any of what the group made began as.
-std::vector<PartBox> ErrorCheck::boxes_of_dropped(const ClusterGroup& group) const {
-    std::unordered_set<std::uint32_t> made;
-    for (std::uint32_t i = group.first_made; i < group.first_made + group.made; ++i) {
-        const Cluster& cluster = graph_.clusters[i];
-        for (std::uint32_t k = 0; k < cluster.triangles; ++k)
-            made.insert(original_of_[cluster.first_triangle + k]);
-    }
-    std::unordered_map<std::uint32_t, std::uint32_t> part_of;
-    const auto first = [&](std::uint32_t vertex) {
-        while (part_of.try_emplace(vertex, vertex).first->second != vertex) vertex = part_of[vertex];
-        return vertex;
-    };
-    const auto each = [&](const auto& visit) {
-        for (const std::uint32_t member : graph_.members_of(group)) {
-            const Cluster& cluster = graph_.clusters[member];
-            for (std::uint32_t k = 0; k < cluster.triangles; ++k) visit(cluster.first_triangle + k);
-        }
-    };
-    each([&](std::uint32_t triangle) {
-        const VertexTriangle& corners = graph_.triangles[triangle];
-        for (const std::size_t k : {1U, 2U}) {
-            const std::uint32_t a = first(corners[0]), b = first(corners[k]);
-            part_of[std::max(a, b)] = std::min(a, b);
-        }
-    });
-    std::map<std::uint32_t, std::pair<PartBox, bool>> parts;  // and whether any of it is left
-    each([&](std::uint32_t triangle) {
-        auto& [box, is_left] = parts[first(graph_.triangles[triangle][0])];
-        for (const glm::dvec3& corner : corners_of(triangle)) box.add(corner);
-        for (const glm::dvec3& corner : corners_of(original_of_[triangle])) box.add(corner);
-        is_left = is_left || made.contains(original_of_[triangle]);
-    });
-    std::vector<PartBox> boxes;
-    for (const auto& [number, part] : parts)
-        if (!part.second) boxes.push_back(part.first);
-    return boxes;
-}
-
-// The ground that what a group uses may have been dropped onto.
-void ErrorCheck::add_ground(const ClusterGroup& group, double reach_m, std::vector<Corners>& made,
-                            std::vector<int>& users) const {
-    if (!ground_) return;
-    const bool of_all = near_ == GroundNear::all_used;
-    add_ground_near(*ground_, of_all ? boxes_of_used(group) : boxes_of_dropped(group), reach_m, made, users);
+    add_ground_near(*ground_, boxes, reach_m, made, users);
 }
 
 std::string ErrorCheck::group(std::size_t number, std::size_t first, std::size_t next_first,
@@ -248,10 +191,7 @@ void ErrorCheck::hand_over(const std::vector<HandedPieces>& handed, std::size_t 
 }  // namespace
 
 std::optional<std::string> understated_error(const StoredMesh& mesh, int threads, const MeshGround* ground) {
-    const auto wrong = ErrorCheck(mesh, threads, ground, GroundNear::all_used).run();
-    if (!wrong || ground == nullptr || ground->triangles.empty()) return wrong;
-    const auto otherwise = ErrorCheck(mesh, threads, ground, GroundNear::dropped_parts).run();
-    return otherwise ? wrong : otherwise;
+    return ErrorCheck(mesh, threads, ground).run();
 }
 
 }  // namespace oro
