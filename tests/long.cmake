@@ -838,6 +838,7 @@ set_tests_properties(
   TiledPictures.MirrorWhatOtherTilesShow
   TiledPictures.OfTheLakeOfBrienzAreThoseOfOneTile
   TiledPictures.RaiseForestsWhereTilesHaveNoTrees
+  TimesOfPasses.AreThoseOfShadingByMeshShaders
   Town.LayersKnowFeatures
   Town.PickingNamesTheBuilding
   Town.SightPassesARoofsEdgeToACentimetre
