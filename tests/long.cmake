@@ -411,6 +411,7 @@ set_tests_properties(
   SightCommand.WhatIsWrongIsSaidInOneLine
   SkyBands.AreBrokenUpByDither
   StreamedMeshes.AreMeasuredAsTheWholeMeshIs
+  StreamedMeshes.ArePicturesOfTheWholeMesh
   StreamedMeshes.ThatLieAreRefused
   StreamedTown.IsDrawnAsTheWholeMeshIsInOtherWays
   StreamedTown.WhoseGroundLiesIsRefusedOrReadWhole
