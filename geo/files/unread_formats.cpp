@@ -1,11 +1,6 @@
 #include "geo/files/unread_formats.h"
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-
-#include "core/base/open_file.h"
+#include "geo/files/file_begin.h"
 #include "geo/files/letter_case.h"
 
 namespace oro {
@@ -13,13 +8,7 @@ namespace {
 
 // Whether the first bytes of a file of XML hold CityGML's first element, which has a prefix of any name.
 bool begins_as_citygml(const std::string& path) {
-    constexpr std::uint64_t looked_at = 4096;
-    const Result<OpenFile> file = OpenFile::open(path, OpenFile::Use::read);
-    if (!file.ok()) return false;
-    const Result<std::uint64_t> size = file->size();
-    if (!size.ok()) return false;
-    std::string head(std::min(*size, looked_at), '\0');
-    if (!file->read(0, std::as_writable_bytes(std::span(head))).ok()) return false;
+    const std::string head = begin_of_file(path, 4096);
     return head.find("<CityModel") != std::string::npos || head.find(":CityModel") != std::string::npos;
 }
 

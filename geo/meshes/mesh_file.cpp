@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/open_file.h"
+#include "geo/files/file_begin.h"
 #include "geo/files/unread_formats.h"
 #include "geo/meshes/mesh_readers.h"
 #include "geo/meshes/polygon_cut.h"
@@ -135,13 +136,7 @@ const char* add_polygon(const std::vector<std::uint32_t>& corners, SourceMesh& m
 bool is_mesh_file(const std::string& path) {
     const std::string ending = mesh_ending(path);
     if (is_city_name(path) || (ending != "xml" && ending != "json")) return is_mesh_name(path);
-    constexpr std::uint64_t most_looked_at = 65536;
-    const Result<OpenFile> file = OpenFile::open(path, OpenFile::Use::read);
-    if (!file.ok()) return false;
-    const Result<std::uint64_t> size = file->size();
-    if (!size.ok()) return false;
-    std::string bytes(std::min(*size, most_looked_at), '\0');
-    if (!file->read(0, std::as_writable_bytes(std::span(bytes))).ok()) return false;
+    const std::string bytes = begin_of_file(path, 65536);
     if (ending == "xml") return first_element(bytes) == "LandXML";
     return bytes.find("\"CityJSON\"") != std::string::npos ||
            bytes.find("\"CityObjects\"") != std::string::npos || is_tileset(bytes);
