@@ -1,4 +1,5 @@
 #include "render/device/pass_times.h"
+#include "render/device/timestamps.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -6,15 +7,8 @@
 namespace oro {
 
 Result<PassTimes> PassTimes::create(const Gpu& gpu) {
-    VkQueryPoolCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
-    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-    info.queryCount = most_passes + 1;
-    VkQueryPool handle{};
-    ORO_VK(vkCreateQueryPool(gpu.device(), &info, nullptr, &handle));
-    gpu.name(VK_OBJECT_TYPE_QUERY_POOL, handle, "pass times");
     PassTimes times;
-    times.timestamps_ = OwnedQueryPool(gpu.device(), handle);
+    ORO_TRY(times.timestamps_, create_timestamps(gpu, most_passes + 1, "pass times"));
     return times;
 }
 

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <utility>
 
+#include "render/device/timestamps.h"
 #include "render/frame/frame_layout.h"
 #include "shaders/shared_heights.h"
 #include "shaders/shared_mesh_pages.h"
@@ -15,17 +16,6 @@ namespace oro {
 namespace {
 
 constexpr std::uint32_t timestamp_count = 6;  // the last two with images over the ground alone
-
-Result<OwnedQueryPool> create_timestamps(const Gpu& gpu) {
-    VkQueryPoolCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
-    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-    info.queryCount = timestamp_count;
-    VkQueryPool handle{};
-    ORO_VK(vkCreateQueryPool(gpu.device(), &info, nullptr, &handle));
-    gpu.name(VK_OBJECT_TYPE_QUERY_POOL, handle, "frame times");
-    return OwnedQueryPool(gpu.device(), handle);
-}
 
 // Ids of triangles go on from one grid to the next, and then over the tiles of trees and grass of each: these
 // are others to all grids.
@@ -113,7 +103,7 @@ Result<FrameRenderer> FrameRenderer::create(const Gpu& gpu, const FrameRendererO
 Result<void> FrameRenderer::create_slot(Slot& slot) const {
     if (slot.counts_read.handle) return {};
     ORO_TRY(slot.commands, Commands::create(*gpu_, "frame"));
-    ORO_TRY(slot.timestamps, create_timestamps(*gpu_));
+    ORO_TRY(slot.timestamps, create_timestamps(*gpu_, timestamp_count, "frame times"));
     if (options_.time_passes) {
         ORO_TRY(PassTimes passes, PassTimes::create(*gpu_));
         slot.passes = std::make_unique<PassTimes>(std::move(passes));

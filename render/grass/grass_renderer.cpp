@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "render/device/timestamps.h"
 #include "render/grass/grass_pipelines.h"
 #include "render/pipelines/pipeline_parts.h"
 #include "render/pipelines/pipelines.h"
@@ -53,17 +54,6 @@ MeshGroupLimits mesh_group_limits(const Gpu& gpu) {
     return {mesh.maxMeshWorkGroupTotalCount, mesh.maxMeshWorkGroupCount[0], mesh.maxMeshWorkGroupCount[1]};
 }
 
-Result<OwnedQueryPool> create_stamps(const Gpu& gpu) {
-    VkQueryPoolCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
-    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-    info.queryCount = stamp_count;
-    VkQueryPool handle{};
-    ORO_VK(vkCreateQueryPool(gpu.device(), &info, nullptr, &handle));
-    gpu.name(VK_OBJECT_TYPE_QUERY_POOL, handle, "grass timestamps");
-    return OwnedQueryPool(gpu.device(), handle);
-}
-
 }  // namespace
 
 std::string name_of(GrassWay way) {
@@ -90,7 +80,7 @@ Result<GrassRenderer> GrassRenderer::create(const Gpu& gpu, const gpu::GrassFiel
     ORO_CHECK(renderer.create_layout());
     ORO_TRY(renderer.place_, create_clump_placer(gpu, renderer.layout_.get()));
     ORO_TRY(renderer.cull_, create_clump_cull(gpu, renderer.layout_.get()));
-    ORO_TRY(renderer.timestamps_, create_stamps(gpu));
+    ORO_TRY(renderer.timestamps_, create_timestamps(gpu, stamp_count, "grass timestamps"));
     ORO_TRY(renderer.commands_, Commands::create(gpu, "grass"));
     const gpu::GrassFrame frame = renderer.frame_for({});
     ORO_CHECK(renderer.commands_.run(gpu, [&](VkCommandBuffer commands) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/made/made_heights.h"
+#include "render/device/timestamps.h"
 #include "render/pipelines/pipeline_parts.h"
 #include "spirv/post_heights_comp.h"
 
@@ -44,14 +45,7 @@ Result<void> MadePosts::create_program() {
     ORO_TRY(layout_,
             create_push_layout(*gpu_, VK_SHADER_STAGE_COMPUTE_BIT, sizeof(PostWork), "post heights"));
     ORO_TRY(program_, create_plain_compute(*gpu_, layout_.get(), post_heights_comp_spirv, "post heights"));
-    VkQueryPoolCreateInfo stamps{};
-    stamps.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
-    stamps.queryType = VK_QUERY_TYPE_TIMESTAMP;
-    stamps.queryCount = 2;
-    VkQueryPool pool{};
-    ORO_VK(vkCreateQueryPool(gpu_->device(), &stamps, nullptr, &pool));
-    gpu_->name(VK_OBJECT_TYPE_QUERY_POOL, pool, "timestamps of made posts");
-    timestamps_ = OwnedQueryPool(gpu_->device(), pool);
+    ORO_TRY(timestamps_, create_timestamps(*gpu_, 2, "timestamps of made posts"));
     return {};
 }
 

@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "core/earth/ellipsoid.h"
+#include "render/device/timestamps.h"
 #include "render/patches/patch_pipelines.h"
 #include "render/pipelines/pipeline_parts.h"
 #include "render/pipelines/pipelines.h"
@@ -79,14 +80,7 @@ Result<FixedPatches> FixedPatches::create(const Gpu& gpu, const MadeTerrain& ter
     ORO_CHECK(made.create_buffers());
     ORO_CHECK(made.create_layout());
     ORO_TRY(made.choose_, create_patch_choice(gpu, made.layout_.get()));
-    VkQueryPoolCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
-    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-    info.queryCount = patch_stamps;
-    VkQueryPool pool{};
-    ORO_VK(vkCreateQueryPool(gpu.device(), &info, nullptr, &pool));
-    gpu.name(VK_OBJECT_TYPE_QUERY_POOL, pool, "timestamps of patches");
-    made.timestamps_ = OwnedQueryPool(gpu.device(), pool);
+    ORO_TRY(made.timestamps_, create_timestamps(gpu, patch_stamps, "timestamps of patches"));
     ORO_TRY(made.commands_, Commands::create(gpu, "patches"));
     return made;
 }

@@ -18,6 +18,7 @@
 #include "core/made/made_heights.h"
 #include "core/made_pages/made_pages.h"
 #include "core/made_pages/page_sources.h"
+#include "render/device/timestamps.h"
 #include "render/frame/frame_renderer.h"
 #include "render/made/gpu_post_maker.h"
 #include "render/scene/scene.h"
@@ -93,13 +94,8 @@ Result<double> gpu_us(const Gpu& gpu, const RegionPages& pages, std::size_t coun
                         {page / across, page % across, 0}, source);
         std::memcpy(sources.mapped + i * sizeof source, &source, sizeof source);
     }
-    VkQueryPoolCreateInfo stamps{};
-    stamps.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
-    stamps.queryType = VK_QUERY_TYPE_TIMESTAMP;
-    stamps.queryCount = 2;
-    VkQueryPool pool{};
-    ORO_VK(vkCreateQueryPool(gpu.device(), &stamps, nullptr, &pool));
-    const OwnedQueryPool timestamps(gpu.device(), pool);
+    ORO_TRY(const OwnedQueryPool timestamps, create_timestamps(gpu, 2, "timestamps of pages"));
+    const VkQueryPool pool = timestamps.get();
     ORO_TRY(Commands commands, Commands::create(gpu, "heights of pages"));
     std::vector<double> us;
     for (int frame = 0; frame < frames; ++frame) {
