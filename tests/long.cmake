@@ -1054,7 +1054,6 @@ set_tests_properties(
   ScanLevels.OfAnAirborneScanAreWithinTheirErrors
   SeenLines.LieWhereTheirPlacesAreSeenAndNowhereElse
   SeenPoints.AreThoseThatAWalkAlongTheSightLineSees
-  Shape.FunctionsAreShort
   SharedBake.HasTheBytesOfOneMachine
   StoredValues.OfAllRealFilesAreThoseOfGdal
   StreamedChoices.ComeToTheWholeCut

@@ -19,6 +19,9 @@ using Corners = std::array<glm::dvec3, 3>;
 // What a polygon so small is off by need not be known.
 constexpr double slack_m = 1.0e-4, least_m = 1.0e-3;
 
+// Where a cover begins to look closer: at the error below, as the builder does, or at what is stated.
+enum class Begin { below, stated };
+
 class ErrorCheck {
   public:
     ErrorCheck(const StoredMesh& mesh, int threads, const MeshGround* ground)
@@ -32,7 +35,8 @@ class ErrorCheck {
         ground_off_m_ = ground->off_m;
     }
 
-    std::optional<std::string> run() {
+    std::optional<std::string> run(Begin begin) {
+        begin_ = begin;
         begin_pieces();
         for (std::size_t first = 0; first < graph_.groups.size();) {
             std::size_t end = first;
@@ -65,8 +69,6 @@ class ErrorCheck {
         return all;
     }
     void begin_pieces();
-    void add_ground(const ClusterGroup& group, double reach_m, std::vector<Corners>& made,
-                    std::vector<int>& users) const;
     void hand_over(const std::vector<HandedPieces>& handed, std::size_t groups_above);
     std::string level(std::size_t first, std::size_t end);
     std::string group(std::size_t number, std::size_t first, std::size_t next_first, HandedPieces& handed);
@@ -78,6 +80,7 @@ class ErrorCheck {
     NearestTriangles mesh_;
     std::optional<NearestTriangles> ground_;
     double ground_off_m_{};
+    Begin begin_{};
     std::vector<OriginalPieces> pieces_;  // that each group of the level answers for
 };
 
@@ -95,19 +98,6 @@ void ErrorCheck::begin_pieces() {
         for (std::uint32_t i = 0; i < mesh_.blocks()[block].count; ++i)
             pieces_[user[mesh_.number(4 * block + i)]].whole.push_back(WholePiece::triangle(4 * block + i));
     for (OriginalPieces& of_group : pieces_) join_whole_pieces(mesh_, of_group.whole);
-}
-
-// The ground that what a group uses may have been dropped onto.
-void ErrorCheck::add_ground(const ClusterGroup& group, double reach_m, std::vector<Corners>& made,
-                            std::vector<int>& users) const {
-    if (!ground_) return;
-    std::vector<PartBox> boxes;
-    for (const std::uint32_t member : graph_.members_of(group)) {
-        PartBox& box = boxes.emplace_back();
-        for (const VertexTriangle& triangle : graph_.triangles_of(graph_.clusters[member]))
-            for (const std::uint32_t corner : triangle) box.add(vertices_m_[corner]);
-    }
-    add_ground_near(*ground_, boxes, reach_m, made, users);
 }
 
 std::string ErrorCheck::group(std::size_t number, std::size_t first, std::size_t next_first,
@@ -147,9 +137,11 @@ std::string ErrorCheck::group(std::size_t number, std::size_t first, std::size_t
         std::snprintf(text, sizeof text, "has a group %zu that made nothing", number);
         return text;
     }
-    add_ground(group, most_m, made, users);
     const NearestTriangles tree(made);
-    DistanceCover from_mesh(tree, begin_m(most_m - ground_off_m_), users);
+    DistanceCover from_mesh(
+        tree,
+        begin_ == Begin::below ? largest_member_error_m(graph_, group) : begin_m(most_m - ground_off_m_),
+        users);
     if (ground_) from_mesh.put_on_ground_first(*ground_);
     handed = hand_on(mesh_, pieces, from_mesh, {});
     const double found_m = handed.bound_m + ground_off_m_;
@@ -191,7 +183,11 @@ void ErrorCheck::hand_over(const std::vector<HandedPieces>& handed, std::size_t 
 }  // namespace
 
 std::optional<std::string> understated_error(const StoredMesh& mesh, int threads, const MeshGround* ground) {
-    return ErrorCheck(mesh, threads, ground).run();
+    ErrorCheck check(mesh, threads, ground);
+    auto wrong = check.run(Begin::below);
+    // Either way that ends well is a proof. Files of older programs went another way than the first.
+    if (wrong && !check.run(Begin::stated)) wrong.reset();
+    return wrong;
 }
 
 }  // namespace oro

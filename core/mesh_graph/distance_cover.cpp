@@ -25,12 +25,21 @@ int DistanceCover::user_of(std::uint32_t place) const {
     return users_.empty() ? 0 : users_[set_.number(place)];
 }
 
-// Any triangle that is near enough will do: mostly a neighbour's.
+// Of the nearest triangle; and of the ground, where that is not near enough.
+DistanceCover::Corner DistanceCover::exact_corner(const glm::dvec3& at, std::uint32_t hint) const {
+    const NearestTriangles::Near nearest = set_.nearest(at, hint);
+    Corner exact{at, nearest.distance2, nearest.place, true};
+    const double enough2 = accepted_m() * accepted_m();
+    if (ground_ == nullptr || exact.distance2 <= enough2) return exact;
+    const NearestTriangles::Near below =
+        ground_->within(at, enough2, exact.distance2, NearestTriangles::nothing);
+    if (below.place != NearestTriangles::nothing) exact.ground2 = below.distance2;
+    return exact;
+}
+
+// Any triangle that is near enough will do where there is no ground: mostly a neighbour's.
 DistanceCover::Corner DistanceCover::corner(const glm::dvec3& at, std::uint32_t hint) const {
-    if (ground_ != nullptr) {
-        const NearestTriangles::Near nearest = set_.nearest(at, hint);
-        return {at, nearest.distance2, nearest.place, true};
-    }
+    if (ground_ != nullptr) return exact_corner(at, hint);
     const double accepted = accepted_m();
     const NearestTriangles::Near near =
         set_.within(at, accepted * accepted, std::numeric_limits<double>::infinity(), hint);
@@ -39,8 +48,8 @@ DistanceCover::Corner DistanceCover::corner(const glm::dvec3& at, std::uint32_t 
 
 // A corner that is not accepted was measured to the nearest triangle.
 void DistanceCover::note(const Corner& corner) {
-    const double accepted = accepted_m();
-    if (corner.distance2 > accepted * accepted) found_m_ = std::sqrt(corner.distance2);
+    const double accepted = accepted_m(), distance2 = std::min(corner.distance2, corner.ground2);
+    if (distance2 > accepted * accepted) found_m_ = std::sqrt(distance2);
 }
 
 void DistanceCover::make_exact(Polygon& polygon) const {
@@ -96,9 +105,9 @@ int DistanceCover::accept(double bound_m, std::uint32_t place) {
     return user_of(place);
 }
 
-DistanceCover::Plane DistanceCover::where_to_cut(const Polygon& polygon, const Best& best, const Reach& reach,
-                                                 int depth) const {
-    const std::array<glm::dvec3, 3> sides = set_.triangle(best.place);
+DistanceCover::Plane DistanceCover::where_to_cut(const Polygon& polygon,
+                                                 const std::array<glm::dvec3, 3>& sides, std::size_t worst,
+                                                 const Reach& reach, int depth) {
     const double size = std::max({glm::distance(sides[0], sides[1]), glm::distance(sides[1], sides[2]),
                                   glm::distance(sides[2], sides[0])});
     Plane plane;
@@ -110,7 +119,7 @@ DistanceCover::Plane DistanceCover::where_to_cut(const Polygon& polygon, const B
             const double length = glm::length(out);
             if (!(length > 0.0)) continue;
             out /= length;
-            const double beyond = glm::dot(polygon.corners[best.worst].at - sides[k], out);
+            const double beyond = glm::dot(polygon.corners[worst].at - sides[k], out);
             if (beyond <= std::max(most, 0.02 * reach.radius_m)) continue;
             double least = beyond;
             for (std::size_t i = 0; i < polygon.count; ++i)
@@ -160,20 +169,24 @@ int DistanceCover::cover(Polygon& polygon, int depth, std::uint32_t triangle) {
         best = best_of_corners(polygon);
     }
     if (best.distance2 <= accepted2()) return accept(std::sqrt(best.distance2), best.place);
+    Best below{std::numeric_limits<double>::infinity(), 0, 0};
+    if (ground_ != nullptr) below = best_on_ground(polygon);
+    if (below.distance2 <= accepted2()) return accept_on_ground(std::sqrt(below.distance2));
     const Reach reach = reach_of(polygon);
-    const NearestTriangles::Near near = set_.nearest(reach.middle, best.place);
-    note({reach.middle, near.distance2, near.place, true});
-    const Best of_middle = by_triangle(polygon, near.place, std::numeric_limits<double>::infinity());
+    const Corner middle = exact_corner(reach.middle, best.place);
+    note(middle);
+    const Best of_middle = by_triangle(polygon, middle.place, std::numeric_limits<double>::infinity());
     if (of_middle.distance2 < best.distance2 || depth % 3 == 2) best = of_middle;
     if (best.distance2 <= accepted2()) return accept(std::sqrt(best.distance2), best.place);
-    const double as_ball = std::sqrt(near.distance2) + reach.radius_m;
-    if (as_ball <= accepted_m()) return accept(as_ball, near.place);
-    if (reach.radius_m < smallest_radius_m || depth > most_cuts_deep) {
-        const double by_corners = std::sqrt(best.distance2);
-        return by_corners < as_ball ? accept(by_corners, best.place) : accept(as_ball, near.place);
-    }
+    if (std::sqrt(std::min(middle.distance2, middle.ground2)) + reach.radius_m <= accepted_m() ||
+        reach.radius_m < smallest_radius_m || depth > most_cuts_deep)
+        return end(best, middle, reach.radius_m);
+    const bool is_by_ground = below.distance2 < best.distance2;
     Polygon inside, outside;
-    cut(polygon, where_to_cut(polygon, best, reach, depth), best.place, inside, outside);
+    cut(polygon,
+        where_to_cut(polygon, is_by_ground ? ground_->triangle(below.place) : set_.triangle(best.place),
+                     is_by_ground ? below.worst : best.worst, reach, depth),
+        best.place, inside, outside);
     const int one = inside.count >= 3 ? cover(inside, depth + 1, triangle) : none;
     const int other = outside.count >= 3 ? cover(outside, depth + 1, triangle) : none;
     if (one == none || one == other) return other;
@@ -181,6 +194,14 @@ int DistanceCover::cover(Polygon& polygon, int depth, std::uint32_t triangle) {
     if (one != in_parts) take(inside, triangle, one);
     if (other != in_parts) take(outside, triangle, other);
     return in_parts;
+}
+
+// The user of a polygon that is not cut any more: of what bounds it best.
+int DistanceCover::end(const Best& best, const Corner& middle, double radius_m) {
+    const double by_corners_m = std::sqrt(best.distance2), as_ball_m = std::sqrt(middle.distance2) + radius_m,
+                 on_ground_m = std::sqrt(middle.ground2) + radius_m;
+    if (on_ground_m < std::min(by_corners_m, as_ball_m)) return accept_on_ground(on_ground_m);
+    return by_corners_m < as_ball_m ? accept(by_corners_m, best.place) : accept(as_ball_m, middle.place);
 }
 
 void DistanceCover::take(const Polygon& polygon, std::uint32_t triangle, int user) {
@@ -193,27 +214,38 @@ void DistanceCover::take(const Polygon& polygon, std::uint32_t triangle, int use
     taken_.push_back(taken);
 }
 
-// Whether one triangle of the ground is near enough to all corners.
-bool DistanceCover::lies_on_ground(const OriginalPart& part) {
+DistanceCover::Best DistanceCover::best_on_ground(const Polygon& polygon) const {
+    constexpr double endless = std::numeric_limits<double>::infinity();
     const double accepted2 = accepted_m() * accepted_m();
-    for (std::size_t i = 0; i < part.count; ++i) {
+    Best best{endless, 0, 0};
+    for (std::size_t i = 0; i < polygon.count && best.distance2 > accepted2; ++i) {
         const NearestTriangles::Near near =
-            ground_->within(part.corners[i], 0.0, accepted2, NearestTriangles::nothing);
-        if (near.place == NearestTriangles::nothing) return false;
-        double most2 = near.distance2;
-        for (std::size_t k = 0; k < part.count && most2 <= accepted2; ++k)
-            most2 = std::max(most2, ground_->distance2(near.place, part.corners[k]));
-        if (most2 > accepted2) continue;
-        bound_m_ = std::max(bound_m_, std::sqrt(most2));
-        return true;
+            ground_->within(polygon.corners[i].at, 0.0, accepted2, NearestTriangles::nothing);
+        if (near.place == NearestTriangles::nothing) return {endless, 0, 0};
+        Best one{near.distance2, near.place, i};
+        for (std::size_t k = 0; k < polygon.count && one.distance2 < best.distance2; ++k) {
+            const double d2 = ground_->distance2(near.place, polygon.corners[k].at);
+            if (d2 > one.distance2) one.distance2 = d2, one.worst = k;
+        }
+        if (one.distance2 < best.distance2) best = one;
     }
-    return false;
+    return best;
+}
+
+int DistanceCover::accept_on_ground(double bound_m) {
+    bound_m_ = std::max(bound_m_, bound_m);
+    return on_ground;
 }
 
 int DistanceCover::cover(const OriginalPart& part) {
-    if (ground_ != nullptr && lies_on_ground(part)) return on_ground;
     Polygon polygon;
     polygon.count = part.count, polygon.has_marked = part.has_marked;
+    for (std::size_t i = 0; i < part.count; ++i) polygon.corners[i].at = part.corners[i];
+    if (ground_ != nullptr) {
+        const Best below = best_on_ground(polygon);
+        if (below.distance2 <= accepted_m() * accepted_m())
+            return accept_on_ground(std::sqrt(below.distance2));
+    }
     for (std::size_t i = 0; i < part.count; ++i) {
         polygon.corners[i] = corner(part.corners[i], hint_);
         hint_ = polygon.corners[i].place;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -39,9 +40,9 @@ class DistanceCover {
     DistanceCover(const NearestTriangles& set, double accepted_m, std::span<const int> users = {})
         : set_(set), users_(users), found_m_(accepted_m) {}
 
-    // What is near enough to the ground goes to on_ground (core/mesh_graph/mesh_ground.h), whole; the rest to
-    // the user of the nearest triangle, not of any that is near enough, so that what belongs together stays
-    // together. ground outlives this.
+    // What is near enough to the ground goes to on_ground (core/mesh_graph/mesh_ground.h): whole polygons,
+    // and parts that the set is not near enough to. The rest goes to the user of the nearest triangle, not of
+    // any that is near enough, so that what belongs together stays together. ground outlives this.
     void put_on_ground_first(const NearestTriangles& ground) { ground_ = &ground; }
 
     // Covers a polygon. Gives its user; or in_parts, when take(part, user) was called for each part.
@@ -69,6 +70,7 @@ class DistanceCover {
         double distance2{};
         std::uint32_t place{};
         bool is_exact{};
+        double ground2{std::numeric_limits<double>::infinity()};  // where the set is not near enough
     };
     struct Polygon {
         std::array<Corner, OriginalPart::most_corners> corners;
@@ -92,16 +94,20 @@ class DistanceCover {
 
     [[nodiscard]] double accepted_m() const;
     [[nodiscard]] int user_of(std::uint32_t place) const;
-    Corner corner(const glm::dvec3& at, std::uint32_t hint) const;
-    [[nodiscard]] bool lies_on_ground(const OriginalPart& part);
+    [[nodiscard]] Corner exact_corner(const glm::dvec3& at, std::uint32_t hint) const;
+    [[nodiscard]] Corner corner(const glm::dvec3& at, std::uint32_t hint) const;
+    // The least bound by one triangle of the ground; endless where some corner is farther than is accepted.
+    [[nodiscard]] Best best_on_ground(const Polygon& polygon) const;
+    int accept_on_ground(double bound_m);
+    int end(const Best& best, const Corner& middle, double radius_m);
     void note(const Corner& corner);
     void make_exact(Polygon& polygon) const;
     [[nodiscard]] Best by_triangle(const Polygon& polygon, std::uint32_t place, double stop2) const;
     [[nodiscard]] Best best_of_corners(const Polygon& polygon) const;
     [[nodiscard]] static Reach reach_of(const Polygon& polygon);
     [[nodiscard]] int accept(double bound_m, std::uint32_t place);
-    [[nodiscard]] Plane where_to_cut(const Polygon& polygon, const Best& best, const Reach& reach,
-                                     int depth) const;
+    [[nodiscard]] static Plane where_to_cut(const Polygon& polygon, const std::array<glm::dvec3, 3>& sides,
+                                            std::size_t worst, const Reach& reach, int depth);
     void cut(const Polygon& polygon, const Plane& plane, std::uint32_t hint, Polygon& inside,
              Polygon& outside) const;
     int cover(Polygon& polygon, int depth, std::uint32_t triangle);

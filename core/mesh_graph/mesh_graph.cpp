@@ -106,7 +106,7 @@ class MeshGraphBuilder {
     std::vector<LevelTriangle> simplified(std::size_t group, double more);
     void measure(bool goes_on);
     void measured(std::size_t group, StoredPieces& handed);
-    double measure_made(std::size_t group, double least_m, double& found_m);
+    double measure_made(std::size_t group, double least_m);
     void note_chains(std::span<const StoredPieces> handed, bool goes_on) const;
     void add_clusters();
     void add_clusters_of_maker(std::size_t first, std::size_t last);
@@ -135,10 +135,9 @@ class MeshGraphBuilder {
     std::pmr::vector<std::uint32_t> seen_{memory_};      // by vertex: the group that has it, or shared
     std::uint32_t first_group_{};                        // the level's
     std::uint32_t level_{};
-    std::vector<std::size_t> first_made_;              // of each group of the level, in live_, and the end
-    std::vector<double> believed_m_;                   // of each
-    std::vector<double> least_error_m_;                // that it is to have, for what it dropped
-    std::vector<std::vector<PartBox>> on_the_ground_;  // that it dropped
+    std::vector<std::size_t> first_made_;  // of each group of the level, in live_, and the end
+    std::vector<double> believed_m_;       // of each
+    std::vector<double> least_error_m_;    // that it is to have, for what it dropped
     LevelPieces pieces_{options_.scratch};
     std::vector<std::vector<std::uint32_t>> members_;  // clusters that each group of the next level uses
     // Of the graph.
@@ -305,7 +304,6 @@ std::vector<LevelTriangle> MeshGraphBuilder::simplified(std::size_t group, doubl
         SpaceSimplifier simplifier(vertices_, *mesh_, limits);
         simplifier.simplify(std::move(triangles), stays, aim);
         believed_m_[group] = simplifier.reached_m(), least_error_m_[group] = simplifier.least_error_m();
-        on_the_ground_[group] = simplifier.on_the_ground();
         made = simplifier.take();
     }
     for (LevelTriangle& triangle : made) triangle.made_by = first_group_ + static_cast<std::uint32_t>(group);
@@ -322,7 +320,6 @@ std::size_t bytes_of(std::span<const std::vector<LevelTriangle>> triangles) {
 
 void MeshGraphBuilder::simplify(double more) {
     believed_m_.assign(group_count_, 0.0), least_error_m_.assign(group_count_, 0.0);
-    on_the_ground_.assign(group_count_, {});
     GraphLevel level;
     level.groups = group_count_;
     LevelTriangles made(memory_);
@@ -390,8 +387,8 @@ void MeshGraphBuilder::note_chains(std::span<const StoredPieces> handed, bool go
     }
 }
 
-// The largest distance of what a group made from the mesh, at least least_m. found_m: by its corners.
-double MeshGraphBuilder::measure_made(std::size_t group, double least_m, double& found_m) {
+// The largest distance of what a group made from the mesh, at least least_m.
+double MeshGraphBuilder::measure_made(std::size_t group, double least_m) {
     double most_m = least_m;
     DistanceCover to_mesh(*mesh_, std::max(most_m, believed_m_[group]));
     for (std::size_t i = first_made_[group]; i < first_made_[group + 1]; ++i) {
@@ -406,7 +403,6 @@ double MeshGraphBuilder::measure_made(std::size_t group, double least_m, double&
         }
         most_m = std::max(most_m, live_[i].from_original_m);
     }
-    found_m = to_mesh.found_m();
     return most_m;
 }
 
@@ -418,14 +414,10 @@ void MeshGraphBuilder::measured(std::size_t number, StoredPieces& handed) {
         made.push_back(corners_of(live_[i].corners));
         users.push_back(static_cast<int>(group_[i]));
     }
-    double found_m = 0.0;
-    const double most_m = measure_made(number, group.error_m, found_m);
-    // What was dropped lies on the ground.
-    const double believed_m = std::max(most_m, found_m);
-    if (!on_the_ground_[number].empty())
-        add_ground_near(*ground_, on_the_ground_[number], believed_m, made, users);
+    const double most_m = measure_made(number, group.error_m);
     const NearestTriangles tree(made);
-    DistanceCover from_mesh(tree, believed_m, users);
+    // By nothing that is not in the graph itself: whoever checks it goes the same way (understated_error()).
+    DistanceCover from_mesh(tree, group.error_m, users);
     if (ground_) from_mesh.put_on_ground_first(*ground_);
     const double bound_m = hand_on(
         *mesh_, pieces_.whole_of(number), pieces_.parts_of(number),

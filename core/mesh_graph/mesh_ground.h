@@ -5,10 +5,7 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <limits>
-#include <span>
 #include <vector>
-
-#include "core/mesh_graph/nearest_triangles.h"
 
 namespace oro {
 
@@ -30,10 +27,5 @@ struct PartBox {
     void add(const glm::dvec3& place);
     [[nodiscard]] double diagonal_m() const;
 };
-
-// Adds those triangles of the ground to `made` that may be within reach_m of a box, on_ground to `users` for
-// each. Each is added once, in the order of the tree.
-void add_ground_near(const NearestTriangles& ground, std::span<const PartBox> boxes, double reach_m,
-                     std::vector<std::array<glm::dvec3, 3>>& made, std::vector<int>& users);
 
 }  // namespace oro

@@ -17,6 +17,10 @@ struct Corners {
     void hold(const glm::dvec3& at) { low = glm::min(low, at), high = glm::max(high, at); }
 };
 
+bool is_less(const glm::dvec3& one, const glm::dvec3& other) {
+    return one.x != other.x ? one.x < other.x : one.y != other.y ? one.y < other.y : one.z < other.z;
+}
+
 int longest_axis(const glm::dvec3& size) {
     return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
 }
@@ -31,10 +35,27 @@ struct NearestTriangles::Making {
     std::pmr::vector<std::uint32_t> order;
     ScratchMemory* scratch{};
 
+    // Its least corner first.
     [[nodiscard]] std::array<glm::dvec3, 3> triangle(std::uint32_t number) const {
-        if (by_vertices.empty()) return triangles[number];
-        const auto& [a, b, c] = by_vertices[number];
-        return {vertices[a], vertices[b], vertices[c]};
+        std::array<glm::dvec3, 3> corners;
+        if (by_vertices.empty()) {
+            corners = triangles[number];
+        } else {
+            const auto& [a, b, c] = by_vertices[number];
+            corners = {vertices[a], vertices[b], vertices[c]};
+        }
+        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end(), is_less),
+                    corners.end());
+        return corners;
+    }
+
+    // By middles, then by corners; by numbers where two triangles lie in one place.
+    [[nodiscard]] bool is_before(std::uint32_t a, std::uint32_t b) const {
+        if (middles[a] != middles[b]) return is_less(middles[a], middles[b]);
+        const std::array<glm::dvec3, 3> one = triangle(a), other = triangle(b);
+        for (std::size_t i = 0; i < 3; ++i)
+            if (one[i] != other[i]) return is_less(one[i], other[i]);
+        return a < b;
     }
 
     // Halves what lies between two numbers of the order, at a whole block.
@@ -46,7 +67,7 @@ struct NearestTriangles::Making {
         std::nth_element(order.begin() + first, order.begin() + half, order.begin() + last,
                          [&](std::uint32_t a, std::uint32_t b) {
                              const double one = middles[a][axis], other = middles[b][axis];
-                             return one != other ? one < other : a < b;
+                             return one != other ? one < other : is_before(a, b);
                          });
         return half;
     }
@@ -139,7 +160,8 @@ std::uint32_t NearestTriangles::make_block(Making& making, std::uint32_t first, 
                                            std::uint32_t parent) {
     std::array<std::uint32_t, 4> numbers{};
     const auto count = static_cast<int>(last - first);
-    std::sort(making.order.begin() + first, making.order.begin() + last);
+    std::sort(making.order.begin() + first, making.order.begin() + last,
+              [&](std::uint32_t a, std::uint32_t b) { return making.is_before(a, b); });
     std::copy(making.order.begin() + first, making.order.begin() + last, numbers.begin());
     std::array<std::array<glm::dvec3, 3>, 4> triangles{};
     for (int i = 0; i < count; ++i)

@@ -15,7 +15,8 @@
 namespace oro {
 
 // Triangles are asked for by their places in the tree: four times the number of a block, and which of its
-// four.
+// four. The tree depends on where they lie alone, not on the order that they are given in, nor on the corner
+// that each begins with; but for numbers of triangles that lie in one place.
 class NearestTriangles {
   public:
     static constexpr std::uint32_t nothing = ~std::uint32_t{0};
@@ -60,6 +61,7 @@ class NearestTriangles {
     [[nodiscard]] double distance2(std::uint32_t place, const glm::dvec3& at) const {
         return blocks_[place / 4].triangles.distance2(static_cast<int>(place % 4), at);
     }
+    // Its least corner first, by x, y and z.
     [[nodiscard]] std::array<glm::dvec3, 3> triangle(std::uint32_t place) const {
         return blocks_[place / 4].triangles.triangle(static_cast<int>(place % 4));
     }

@@ -483,7 +483,6 @@ void SpaceSimplifier::drop_onto_ground(double next_m, std::size_t aim) {
             for (const std::uint32_t vertex : triangles_[triangle].corners)
                 gone_[vertex] = 1, around_[vertex].clear();
         }
-        on_the_ground_.push_back(drop.box);
         drops_.pop_back(), --parts_left_;
     }
 }

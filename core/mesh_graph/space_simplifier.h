@@ -60,8 +60,7 @@ class SpaceSimplifier {
     [[nodiscard]] std::vector<LevelTriangle> take();
     // The largest distance that the order believes in.
     [[nodiscard]] double reached_m() const { return reached_m_; }
-    // Boxes around what was dropped onto the ground, and the least error that this is to have.
-    [[nodiscard]] const std::vector<PartBox>& on_the_ground() const { return on_the_ground_; }
+    // The least error that what was dropped onto the ground is to have.
     [[nodiscard]] double least_error_m() const { return least_error_m_; }
 
   private:
@@ -143,7 +142,6 @@ class SpaceSimplifier {
     Parts parts_;                    // where there is ground, as they were at first
     std::vector<GroundDrop> drops_;  // the dearest first
     std::size_t parts_left_{};
-    std::vector<PartBox> on_the_ground_;
     double least_error_m_{};
 };
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 namespace oro::test {
 
@@ -127,6 +128,58 @@ SpaceMesh walled_hills(std::uint32_t n) {
         }
     }
     return mesh;
+}
+
+namespace {
+
+double hill_m(double x, double y) {
+    return 40.0 *
+           (std::sin(0.009 * x) * std::cos(0.005 * y) + 0.3 * std::sin(0.041 * x + 0.3 * std::cos(0.03 * y)));
+}
+
+MeshGround hills(double side_m) {
+    MeshGround ground;
+    ground.off_m = 0.01;
+    constexpr double step_m = 90.0;
+    const int steps = static_cast<int>(side_m / step_m) + 3;
+    for (int i = -1; i < steps; ++i)
+        for (int k = -1; k < steps; ++k) {
+            const int parts = i < steps / 2 ? 1 : 3;
+            const auto at = [&](int part, int other) {
+                const double x = step_m * i + step_m / parts * part, y = step_m * k + step_m / parts * other;
+                return glm::dvec3(x, y, hill_m(x, y));
+            };
+            for (int a = 0; a < parts; ++a)
+                for (int b = 0; b < parts; ++b) {
+                    ground.triangles.push_back({at(a, b), at(a + 1, b), at(a + 1, b + 1)});
+                    ground.triangles.push_back({at(a, b), at(a + 1, b + 1), at(a, b + 1)});
+                }
+        }
+    return ground;
+}
+
+}  // namespace
+
+TownOnHills town_on_hills(int houses, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<> share(0.0, 1.0);
+    const SpaceMesh box = box_town(1);
+    const double side_m = 22.0 * std::sqrt(houses);
+    TownOnHills town{{}, hills(side_m)};
+    for (int i = 0; i < houses; ++i) {
+        const double x = side_m * share(random), y = side_m * share(random);
+        const double width = 6.0 + 20.0 * std::pow(share(random), 2),
+                     depth = 6.0 + 14.0 * std::pow(share(random), 2),
+                     height = 3.0 + 40.0 * std::pow(share(random), 4), base = hill_m(x, y) - 3.0;
+        const auto first = static_cast<std::uint32_t>(town.houses.vertices.size());
+        for (const glm::dvec3& corner : box.vertices)
+            town.houses.vertices.push_back(
+                on_lattice({x + (corner.x > 0.0 ? width : 0.0), y + (corner.y > 0.0 ? depth : 0.0),
+                            base + (corner.z > 0.0 ? height : 0.0)}));
+        for (const auto& [a, b, c] : box.triangles)
+            town.houses.triangles.push_back({first + a, first + b, first + c});
+    }
+    return town;
 }
 
 }  // namespace oro::test

@@ -22,4 +22,12 @@ SpaceMesh walled_hills(std::uint32_t n);
 // Hills of a metre below and around box_town(rows), in triangles of 12 m: houses stand in them.
 MeshGround hills_below_town(std::uint32_t rows);
 
+// Boxes of many sizes anywhere on hills of 40 m, and the hills: in triangles of 90 m, beyond the middle of 30
+// m.
+struct TownOnHills {
+    SpaceMesh houses;
+    MeshGround ground;
+};
+TownOnHills town_on_hills(int houses, unsigned seed);
+
 }  // namespace oro::test

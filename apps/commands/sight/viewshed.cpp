@@ -207,6 +207,17 @@ void say_walls(const Standpoints& standpoints, const ViewshedQuestion& question,
     }
 }
 
+// Which posts the file has, where it is not plain.
+void say_posts(const ViewshedReport& report, const SightGround& ground, bool quiet) {
+    if (ground.ground().grids() > 1)
+        say(quiet, "note: the file has the posts of " + source_of_posts(report, *ground.grids) +
+                       "; where other grids are the ground, it is their ground that is looked at");
+    const PostGrid& grid = ground.ground().surface(report.grid).field().grid;
+    if (const std::string sides = sides_beyond(report, grid); !sides.empty())
+        say(quiet, "note: the circle reaches beyond the data (" + sides +
+                       "): what is seen there is not in the file");
+}
+
 }  // namespace
 
 Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptions& realisations,
@@ -261,13 +272,7 @@ Result<void> run_viewshed(const ViewshedOptions& options, const RealisationOptio
     for (const std::string& note : observers.notes) say(options.quiet, "note: " + note);
     say_canopy_notes(*ground, options.quiet);
     say_walls(standpoints, question, options.quiet);
-    if (ground->ground().grids() > 1)
-        say(options.quiet, "note: the file has the posts of " + source_of_posts(report, *ground->grids) +
-                               "; where other grids are the ground, it is their ground that is looked at");
-    const PostGrid& grid = ground->ground().surface(report.grid).field().grid;
-    if (const std::string sides = sides_beyond(report, grid); !sides.empty())
-        say(options.quiet, "note: the circle reaches beyond the data (" + sides +
-                               "): what is seen there is not in the file");
+    say_posts(report, *ground, options.quiet);
     tell(options, report, standpoints, *ground, probability, observers);
     return {};
 }
