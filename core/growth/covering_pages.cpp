@@ -38,7 +38,10 @@ std::optional<gpu::GrowthTile> growth_tile(const PostGrid& grid, const CoveringP
     const glm::dvec2 beyond = 0.02 * (high - low);
     low -= beyond;
     high += beyond;
-    if (!(low.x >= 0.0 && low.y >= 0.0 && high.x < grid.rows() - 1 && high.y < grid.columns() - 1)) return {};
+    const glm::dvec2 end(grid.rows() - 1, grid.columns() - 1);
+    if (!(high.x > 0.0 && high.y > 0.0 && low.x < end.x && low.y < end.y)) return {};
+    low = glm::max(low, glm::dvec2(0.0));
+    high = glm::min(high, end - 0.5);
     const auto page = pages.find(glm::ivec2(low), glm::ivec2(high));
     if (!page) return {};
     gpu::GrowthTile tile{row, column, *page, {}, {}};

@@ -28,8 +28,8 @@ class CoveringPages {
 // Corners of a tile in posts (row, column): south-west, south-east, north-west, north-east.
 using TileCorners = std::array<glm::dvec2, 4>;
 
-// A tile of a lattice on the grid, by its row and column in that; nothing where not all of it, and of what
-// may stand a little beside it, is there or no page covers it.
+// A tile of a lattice on the grid, by its row and column in that; nothing where no part of it is there, or no
+// page covers what is. What of it is beyond the grid has no ground (shaders/growth/growth.glsl).
 std::optional<gpu::GrowthTile> growth_tile(const PostGrid& grid, const CoveringPages& pages,
                                            std::uint32_t row, std::uint32_t column,
                                            const TileCorners& corners);

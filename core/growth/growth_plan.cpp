@@ -61,7 +61,7 @@ std::array<PostNumber, 4> corners_of(const PostGrid& grid, const TileRow& row, s
     return {{{row.south_post, west}, {row.south_post, east}, {row.north_post, west}, {row.north_post, east}}};
 }
 
-// A tile of the lattice on the grid; none where not all of it is there.
+// A tile of the lattice on the grid; none where no part of it is there.
 std::optional<gpu::GrowthTile> tile_on_grid(const PostGrid& grid, const CoveringPages& pages,
                                             const TileRow& lattice_row, std::uint32_t row,
                                             std::uint32_t column) {

@@ -33,7 +33,7 @@ struct GroundRange {
 };
 using GroundRangeOf = std::function<GroundRange(std::size_t page)>;
 
-// The tiles within reach (shaders/growth/reach.glsl) of the eye that may show and lie wholly in the grid, at
+// The tiles within reach (shaders/growth/reach.glsl) of the eye that may show and have a part in the grid, at
 // most gpu::growth_tiles_max, the nearest. A tile belongs to the finest of the frame's pages that covers all
 // of it; without one it is left out. page_indices: of the frame, in its order. Errors: none; an eye near a
 // pole or far from the grid has no tiles.

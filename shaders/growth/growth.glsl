@@ -46,6 +46,7 @@ bool place_in_tile(GrowthTile tile, vec2 at, out SitePlace place) {
     vec2 off = mix(mix(tile.corners[0], tile.corners[1], at.x), mix(tile.corners[2], tile.corners[3], at.x), at.y), posts = floor(off);
     place.whole = ivec2(tile.post[0], tile.post[1]) + ivec2(posts);
     place.part = off - posts;
+    if (any(lessThan(place.whole, ivec2(0))) || any(greaterThanEqual(place.whole, ivec2(FRAME.last_row, FRAME.last_column)))) return false;
     place.page = finest_page(tile.page, place.whole);
     FramePage page = frame_pages().at[place.page];
     PageBlocks block = PageBlocks(page.block);

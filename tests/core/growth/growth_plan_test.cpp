@@ -136,6 +136,20 @@ TEST(GrowthPlan, LeavesOutNoTileThatShows) {
     EXPECT_GT(inside, 1500U);
 }
 
+// Trees stand up to where the data end: a tile is taken that has a part beyond.
+TEST(GrowthPlan, TakesTilesAcrossTheRimOfTheGrid) {
+    GrowthView view = from_above(0.0);
+    view.camera.eye.lat_deg = 47.495;
+    const auto row_of_rim = static_cast<gpu::uint>(site_tile_row_at(47.5));
+    ASSERT_LT(site_tile_south_deg(row_of_rim), 47.5 - 1.0e-5);
+    ASSERT_GT(site_tile_south_deg(row_of_rim + 1), 47.5 + 1.0e-5);
+    const auto tiles = planned(alps(), view).tiles;
+    EXPECT_TRUE(
+        std::ranges::any_of(tiles, [&](const gpu::GrowthTile& tile) { return tile.row == row_of_rim; }));
+    EXPECT_TRUE(
+        std::ranges::none_of(tiles, [&](const gpu::GrowthTile& tile) { return tile.row > row_of_rim; }));
+}
+
 TEST(GrowthPlan, HasNoneOffTheGridOrAtAPole) {
     GrowthView view = from_above(0.0);
     view.camera.eye = {52.0, 8.0, 300.0};

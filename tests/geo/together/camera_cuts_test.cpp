@@ -67,29 +67,42 @@ std::vector<VertexTriangle> triangles_of(const ClusterGraph& graph,
     return all;
 }
 
-// Of a graph's leaves, which are the mesh: vertices where it is not closed, and edges of three triangles and
-// more.
+struct Crowding {
+    std::uint64_t edges{};  // of three triangles and more
+    int most{2};
+    explicit Crowding(std::span<const CountedEdge> all) {
+        for (const auto& [edge, triangles] : all)
+            edges += triangles > 2 ? 1U : 0U, most = std::max(most, triangles);
+    }
+};
+
+// Of a graph's leaves, which are the mesh: vertices where it is not closed, and how many triangles meet in
+// edges.
 struct WholeMesh {
     std::set<std::uint32_t> rim;
-    std::set<Edge> crowded;
+    std::optional<Crowding> crowding;
     explicit WholeMesh(const ClusterGraph& graph) {
         std::vector<VertexTriangle> leaves;
         for (const Cluster& cluster : graph.clusters)
             if (cluster.made_by == no_group)
                 for (const VertexTriangle& triangle : graph.triangles_of(cluster)) leaves.push_back(triangle);
-        for (const auto& [edge, triangles] : edges_of(leaves)) {
+        const auto edges = edges_of(leaves);
+        for (const auto& [edge, triangles] : edges)
             if (triangles != 2) rim.insert(edge.first), rim.insert(edge.second);
-            if (triangles > 2) crowded.insert(edge);
-        }
+        crowding.emplace(edges);
     }
-    // Counts what is drawn that the mesh has not: edges of one triangle within it, and of three and more.
+    // Counts what is drawn that the mesh has not: edges of one triangle within it; and more edges of three
+    // and more than it has, as these may move (SpaceSimplifier), or more triangles in one.
     void check(std::span<const VertexTriangle> drawn, Found& found) const {
-        for (const auto& [edge, triangles] : edges_of(drawn)) {
+        const auto edges = edges_of(drawn);
+        for (const auto& [edge, triangles] : edges) {
             const bool is_on_rim = rim.contains(edge.first) && rim.contains(edge.second);
             ++found.edges;
             found.open += triangles == 1 && !is_on_rim ? 1U : 0U;
-            found.crowded += triangles > 2 && !crowded.contains(edge) ? 1U : 0U;
         }
+        const Crowding here(edges);
+        found.crowded += here.edges > crowding->edges ? here.edges - crowding->edges : 0U;
+        found.crowded += here.most > crowding->most ? 1U : 0U;
     }
 };
 
