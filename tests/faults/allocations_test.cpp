@@ -42,7 +42,7 @@ TEST_P(FailedAllocations, OneInSix) {
     expect_order(runs, fault, 5, runs_asked_for() / 2);
 }
 
-std::string name_of(const testing::TestParamInfo<Command (*)()>& info) {
+std::string name_of_loss(const testing::TestParamInfo<Command (*)()>& info) {
     const std::vector<std::string> names{"Info",        "Bake",         "Shot",
                                          "ShotOfBaked", "Viewshed",     "ViewshedOfTable",
                                          "InfoOfMesh",  "BakeWithMesh", "InfoOfBakedMesh"};
@@ -78,13 +78,13 @@ TEST(FailedAllocationsOfFreetype, ForLabels) {
 INSTANTIATE_TEST_SUITE_P(Commands, FailedAllocationsOfC,
                          testing::Values(oro::test::info_of_tiles, oro::test::bake_new,
                                          oro::test::shot_of_tiles),
-                         name_of);
+                         name_of_loss);
 INSTANTIATE_TEST_SUITE_P(Commands, FailedAllocations,
                          testing::Values(oro::test::info_of_tiles, oro::test::bake_new,
                                          oro::test::shot_of_tiles, oro::test::shot_of_baked,
                                          oro::test::viewshed_of_tiles, oro::test::viewshed_of_table,
                                          oro::test::info_of_mesh, oro::test::bake_with_mesh,
                                          oro::test::info_of_baked_mesh),
-                         name_of);
+                         name_of_loss);
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace oro::test {
 namespace fs = std::filesystem;
 namespace {
 
-std::string bytes_of(const fs::path& file) {
+std::string bytes_in(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     std::ostringstream bytes;
     bytes << stream.rdbuf();
@@ -43,7 +43,7 @@ const std::string& tile() {
                   CE_None);
         GDALClose(corner);
         GDALClose(whole);
-        return bytes_of(to);
+        return bytes_in(to);
     }();
     return bytes;
 }
@@ -60,7 +60,7 @@ Files made(const std::vector<std::string>& words, const Files& inputs) {
     Files files;
     for (const auto& entry : fs::directory_iterator(folder))
         if (!inputs.contains(entry.path().filename().string()))
-            files[entry.path().filename().string()] = bytes_of(entry.path());
+            files[entry.path().filename().string()] = bytes_in(entry.path());
     return files;
 }
 

@@ -79,7 +79,7 @@ TEST(FailedQuestions, LetNoInputBeReplaced) {
     EXPECT_GT(fault.number, 10);
 }
 
-std::string name_of(const testing::TestParamInfo<Command (*)()>& info) {
+std::string name_of_calls(const testing::TestParamInfo<Command (*)()>& info) {
     const std::vector<std::string> names{"Info",
                                          "InfoOfBaked",
                                          "Bake",
@@ -104,6 +104,6 @@ INSTANTIATE_TEST_SUITE_P(Commands, FailedSystemCalls,
                                          oro::test::horizon_of_tiles, oro::test::viewshed_of_table,
                                          oro::test::info_of_mesh, oro::test::bake_with_mesh,
                                          oro::test::info_of_baked_mesh),
-                         name_of);
+                         name_of_calls);
 
 }  // namespace

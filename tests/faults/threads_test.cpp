@@ -28,13 +28,13 @@ TEST_P(FailedThreads, EachAndAllFromOneOn) {
     std::printf("%s\n", runs.summary().c_str());
 }
 
-std::string name_of(const testing::TestParamInfo<Command (*)()>& info) {
+std::string name_of_start(const testing::TestParamInfo<Command (*)()>& info) {
     const std::vector<std::string> names{"Info", "Bake", "Shot", "ShotOfBaked"};
     return names[info.index];
 }
 INSTANTIATE_TEST_SUITE_P(Commands, FailedThreads,
                          testing::Values(oro::test::info_of_tiles, oro::test::bake_new,
                                          oro::test::shot_of_tiles, oro::test::shot_of_baked),
-                         name_of);
+                         name_of_start);
 
 }  // namespace
