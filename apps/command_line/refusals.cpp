@@ -29,18 +29,18 @@ class RefusedValue final : public CLI::ParseError {
 };
 
 // With its dashes, of hidden options, too, of which the parser gives none.
-std::string name_of(const CLI::Option& option) {
+std::string option_name(const CLI::Option& option) {
     return (option.nonpositional() ? option.get_lnames().empty() ? "-" : "--" : "") +
            option.get_single_name();
 }
 
 [[noreturn]] void refuse(const CLI::Option& option, const std::string& value, const std::string& what) {
-    throw RefusedValue(refused(name_of(option), value, what));
+    throw RefusedValue(refused(option_name(option), value, what));
 }
 
 // "a value must follow: --above METRES"
 std::string missing_words(const CLI::Option& option) {
-    return "a value must follow: " + name_of(option) + " " + option.get_option_text();
+    return "a value must follow: " + option_name(option) + " " + option.get_option_text();
 }
 
 // " (orograph plan --help lists them)"
@@ -90,7 +90,7 @@ std::vector<std::string> listed_commands(const CLI::App& app) {
 std::vector<std::string> listed_options(const CLI::App& command) {
     std::vector<std::string> names;
     for (const CLI::Option* option : command.get_options()) {
-        if (option->nonpositional() && !option->get_group().empty()) names.push_back(name_of(*option));
+        if (option->nonpositional() && !option->get_group().empty()) names.push_back(option_name(*option));
     }
     return names;
 }
@@ -121,7 +121,7 @@ Error of_left_over(const CLI::App& app) {
 std::pair<std::string, std::string> excluded(const CLI::App& command) {
     for (const CLI::Option* option : command.get_options()) {
         for (const CLI::Option* other : option->get_excludes()) {
-            if (option->count() > 0 && other->count() > 0) return {name_of(*option), name_of(*other)};
+            if (option->count() > 0 && other->count() > 0) return {option_name(*option), option_name(*other)};
         }
     }
     return {};
@@ -132,7 +132,7 @@ Error of_count(const CLI::App& command, const std::vector<std::string>& words) {
     for (const CLI::Option* option : command.get_options()) {
         if (option->results().size() >
             static_cast<std::size_t>(std::max(1, option->get_items_expected_max())))
-            return refused(name_of(*option), "", "is given more than once");
+            return refused(option_name(*option), "", "is given more than once");
     }
     const CLI::Option* const last = command.get_option_no_throw(words.back());
     return refused(words.back(), "", last ? missing_words(*last) : "a value must follow");
@@ -148,7 +148,7 @@ Error of_no_command(const std::string& word, const std::vector<std::string>& nam
 Error of_missing(const CLI::App& command) {
     for (const CLI::Option* option : command.get_options()) {
         if (option->get_required() && option->count() == 0)
-            return refused(name_of(*option), "", "is missing" + see(command, "tells what it is"));
+            return refused(option_name(*option), "", "is missing" + see(command, "tells what it is"));
     }
     return refused("", "", "an argument is missing" + see(command, "tells more"));
 }

@@ -1,5 +1,4 @@
 // The calls of the library that draw: shot and panorama.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -15,6 +14,7 @@
 #include "apps/commands/coordinates.h"
 #include "apps/commands/named_places.h"
 #include "apps/commands/panorama/panorama_asked.h"
+#include "apps/commands/parsed_line.h"
 #include "apps/commands/shot/shot_scene.h"
 #include "apps/drawing/mesh_cut.h"
 #include "apps/drawing/pipeline_choice.h"
@@ -113,19 +113,10 @@ std::mutex& drawing() {
 // The words as the command line takes them, for a region that is open.
 Result<std::unique_ptr<oro::CommandLine>> command_line_of(const char* command,
                                                           const std::vector<std::string>& given) {
-    auto line = std::make_unique<oro::CommandLine>();
-    CLI::App app{"", "orograph"};
-    oro::add_commands(app, *line);
     std::vector<std::string> words{"orograph", command, "region"};
     words.insert(words.end(), given.begin(), given.end());
-    try {
-        // The parser takes them from the last to the first.
-        app.parse(std::vector<std::string>(words.rbegin(), words.rend() - 1));
-    } catch (const CLI::ParseError& refused) {
-        if (refused.get_exit_code() == 0)
-            return oro::bad_argument("options", "--help and --version are for the program");
-        return oro::refusal_of(app, refused, words);
-    }
+    ORO_TRY(auto line, oro::parsed_line(
+                           words, oro::bad_argument("options", "--help and --version are for the program")));
     ORO_CHECK(oro::take_coordinates(*line));
     ORO_CHECK(oro::take_named_places(*line));
     return line;
