@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <regex>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/apps/program.h"
+#include "tests/support/found_texts.h"
 #include "tests/support/test_data.h"
 
 namespace {
@@ -126,7 +126,7 @@ TEST(ShellScripts, FishCompletes) {
     const auto ask = [&](const std::string& line) {
         const Outcome outcome =
             run_program({"fish", "--no-config", "-c", "source script; complete -C '" + line + "'"}, there);
-        return std::regex_replace(outcome.out, std::regex("\t[^\n]*"), "");
+        return oro::test::replaced_texts(outcome.out, "\t[^\n]*", "");
     };
     EXPECT_EQ(lines_in(ask("orograph shot --sty")), WordSet{"--style"});
     EXPECT_TRUE(lines_in(ask("orograph shot --style re")).contains("relief"));
@@ -144,18 +144,16 @@ TEST(ShellScripts, WhatIsNoShellOrPageIsRefused) {
 std::set<std::string> options_of(const std::string& command) {
     std::set<std::string> options;
     const std::string help = printed_by({command, "--help", "all"});
-    const std::regex option("\n  (?:-q, |-h, )?(--[a-z-]+)");
-    for (std::sregex_iterator at(help.begin(), help.end(), option), end; at != end; ++at)
-        options.insert((*at)[1]);
+    for (const auto& found : oro::test::found_texts(help, "\n  (?:-q, |-h, )?(--[a-z-]+)"))
+        options.insert(found[1]);
     return options;
 }
 
 // The commands whose pages the program's page names.
 std::vector<std::string> commands_in(const std::string& page) {
     std::vector<std::string> named;
-    const std::regex name("\n\\.BR orograph\\\\-([a-z]+) \\(1\\)");
-    for (std::sregex_iterator at(page.begin(), page.end(), name), end; at != end; ++at)
-        named.push_back((*at)[1]);
+    for (const auto& found : oro::test::found_texts(page, "\n\\.BR orograph\\\\-([a-z]+) \\(1\\)"))
+        named.push_back(found[1]);
     return named;
 }
 
@@ -163,8 +161,7 @@ TEST(Manual, HasEachOptionOfHelp) {
     const std::vector<std::string> pages = commands_in(printed_by({"manual"}));
     EXPECT_GE(pages.size(), 13U);
     for (const std::string& command : pages) {
-        const std::string page =
-            std::regex_replace(printed_by({"manual", command}), std::regex("\\\\-"), "-");
+        const std::string page = oro::test::replaced_texts(printed_by({"manual", command}), "\\\\-", "-");
         const auto options = options_of(command);
         EXPECT_GE(options.size(), 2U) << command;
         for (const std::string& option : options)

@@ -8,7 +8,6 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <regex>
 #include <set>
 #include <span>
 #include <string>
@@ -31,6 +30,7 @@
 #include "spirv/texture_tile_feedback_comp.h"
 #include "spirv/triangles_comp.h"
 #include "tests/render/shared_members.h"
+#include "tests/support/found_texts.h"
 #include "tests/support/test_data.h"
 
 namespace oro {
@@ -91,10 +91,8 @@ std::set<std::string> shared_structs() {
         std::ifstream file(test::bundled_data().parent_path() / name);
         text += std::string((std::istreambuf_iterator<char>(file)), {});
     }
-    static const std::regex definition(R"(struct\s+(\w+)\s*\{)");
     std::set<std::string> names;
-    for (std::sregex_iterator at(text.begin(), text.end(), definition), end; at != end; ++at)
-        names.insert((*at)[1]);
+    for (const auto& found : test::found_texts(text, R"(struct\s+(\w+)\s*\{)")) names.insert(found[1]);
     return names;
 }
 

@@ -3,12 +3,12 @@
 // specifications alone: none of the project's own code is used. Each rule names its section.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <set>
 #include <string>
 #include <vector>
@@ -30,8 +30,11 @@ class BrokenRules {
 
 // Concepts, Identifiers: letters, digits and underscores, not first a digit.
 inline bool is_identifier(const std::string& text) {
-    static const std::regex identifier("[a-zA-Z_][a-zA-Z0-9_]*");
-    return std::regex_match(text, identifier);
+    const auto is_letter = [](char c) {
+        return c == '_' || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    };
+    return !text.empty() && is_letter(text.front()) &&
+           std::ranges::all_of(text, [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); });
 }
 
 // Schemas, Property, Component Type: the bytes of each.

@@ -5,13 +5,13 @@
 #include <cstdio>
 #include <map>
 #include <optional>
-#include <regex>
 #include <set>
 #include <variant>
 
 #include "apps/view/view_option_table.h"
 #include "core/terrain/ground.h"
 #include "core/truth/oracle.h"
+#include "tests/support/found_texts.h"
 
 namespace oro::test {
 namespace fs = std::filesystem;
@@ -48,10 +48,9 @@ struct Corner {
     auto operator<=>(const Corner&) const = default;
 };
 std::optional<Corner> corner_of(const fs::path& file) {
-    static const std::regex name(R"(([NS])(\d\d)([EW])(\d\d\d)\..*hgt.*)");
-    std::smatch found;
-    const std::string text = file.filename().string();
-    if (!std::regex_match(text, found, name)) return std::nullopt;
+    const auto names = found_texts(file.filename().string(), R"(^([NS])(\d\d)([EW])(\d\d\d)\..*hgt.*$)");
+    if (names.empty()) return std::nullopt;
+    const std::vector<std::string>& found = names.front();
     const int lat = std::stoi(found[2]), lon = std::stoi(found[4]);
     return Corner{found[1] == "N" ? lat : -lat, found[3] == "E" ? lon : -lon};
 }

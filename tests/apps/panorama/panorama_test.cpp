@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <regex>
 #include <string>
 #include <vector>
 
 #include "tests/apps/picture_pixels.h"
 #include "tests/apps/program.h"
 #include "tests/apps/said_json.h"
+#include "tests/support/found_texts.h"
 #include "tests/support/test_data.h"
 
 namespace {
@@ -72,13 +72,8 @@ class Panorama : public testing::Test {
 
 // Elements of an SVG by a regular expression, each with what its brackets hold.
 std::vector<std::vector<std::string>> found(const std::string& svg, const std::string& expression) {
-    std::vector<std::vector<std::string>> all;
-    const std::regex wanted(expression);
-    for (std::sregex_iterator at(svg.begin(), svg.end(), wanted), end; at != end; ++at) {
-        std::vector<std::string> parts;
-        for (std::size_t i = 1; i < at->size(); ++i) parts.push_back((*at)[i].str());
-        all.push_back(std::move(parts));
-    }
+    std::vector<std::vector<std::string>> all = oro::test::found_texts(svg, expression);
+    for (std::vector<std::string>& parts : all) parts.erase(parts.begin());
     return all;
 }
 
