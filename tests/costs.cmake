@@ -54,56 +54,114 @@ set_tests_properties(
   Footprint.HoldsForRandomViews
   PROPERTIES COST 10)
 set_tests_properties(
-  All/TrustedFormats
+  ExportCommand
+  FetchCommand
+  MeshLevels
+  MeshOnTerrain
+  MovingChoice
+  PageHeightsOnGpu
+  PROPERTIES COST 15)
+set_tests_properties(
+  CulledGrowth
+  Made/PagesOfPictureOf
+  MadeTerrain
+  MaterialPictures
+  MeshColoursSeen
+  Paths/Occluded
+  Paths/StreamedClusters
+  ScratchMeshes
+  StreamedTown
+  StreamedTowns
+  StreamedTriangles
+  TiledPictures
+  PROPERTIES COST 10)
+set_tests_properties(
+  Batch
+  CanopyCommand
+  Commands/FailedAllocations.OneInSix/Info
+  FetchFile
+  FetchPlaces
+  Film
+  GrassRule
+  GroundTileset
+  LatticeNoise
+  MeshClusters
+  MeshRecords
+  MeshWindows
+  Mutated.Rasters
+  Paths/DrawnChoice
+  Paths/FramesInFlight
+  Paths/OccludedScene
+  QgisPlugin
+  ShotOrtho
+  StreamedMeshes
+  TableObservers
+  TilesetSchema
+  TimesOfPasses
+  TreePictures
+  TreesOfShots
+  PROPERTIES COST 6)
+set_tests_properties(
+  AirTables
+  BackgroundPyramidBuild
   BadInput
-  Bake
-  DisplayText
-  Plan
-  PROPERTIES COST 30)
-set_tests_properties(
-  Accuracy
-  ComparedPixels
-  DamagedGeoid
-  DeviceChoice
-  GridsOverEachOther
-  HatchToTheHorizon
-  Help
-  HostileInput
-  Region
-  Shape
-  Shot
-  ShotLayers
-  Verify
-  Window
-  PROPERTIES COST 20)
-set_tests_properties(
-  BakedRegion
-  ClusterFile
+  BakedMeshes
+  ChoiceOfPages
+  ClusterCut
+  ClusterGraph
   Clusters
-  Environment
-  ExtremeMeasures
+  ClustersReported
+  Contours
+  CylinderTiles
+  DamagedArchive
+  ExportLayers
+  ExportedCover
+  FarForestPictures
+  Feather
+  FetchMissing
+  FetchWithKey
   FingerprintsOfViews
-  GridClip
-  GridsUnderImages
-  Hgt
-  Jacksboro/GoldenPicture
+  HorizonCommand
+  Install
+  Labels
+  Library.OptionWords
+  LibraryCalls
+  LyingClusterFile
+  Made/MadePagesTest
+  MadeSource
+  MeshBake
+  MeshGraph
+  MeshGround
+  MeshLook
+  Mutated.ViewsAndPictures
+  NamedPlaces
   NetBake
+  NetworkOutputs
   OnSummit
-  OrthoMaps
-  OwnPostsOfShots
-  Panorama
   Paths/Choice
+  Paths/ClusterCuts
   Paths/ClustersByPath
   Paths/Cracks
-  Paths/GroundErrorOfPictures
+  Paths/Frame
+  Paths/GridsTogether
   Paths/Models
-  Paths/Occluded
-  Paths/ShownParts
-  Paths/StreamedClusters
-  RecordedView
-  RegionWords
-  ResamplingReported
-  ShotLegend
-  SunOfAShot
-  Triangles/FullLists
-  PROPERTIES COST 12)
+  Pipeline
+  Plan
+  ProbableViewshed
+  Programs
+  QuantizedTiles
+  RefusedOptions
+  ReliefLightTest
+  SeveralViews
+  ShadowsOfPictures
+  ShotDetail
+  ShotLandcover
+  Slopes
+  TerrainTiles
+  Town
+  Untold
+  Vectors
+  ViewshedOfGdal
+  WindowFaults
+  WrittenFrame
+  PROPERTIES COST 4)

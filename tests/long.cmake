@@ -657,6 +657,7 @@ set_tests_properties(
   ExtremeSurfaces.WallEdgeOn
   FarForestPictures.IsAsHighAsItsTrees
   FarForestPictures.IsTheSameByBothWaysOfDrawing
+  FarForestPictures.IsTheSameInTiles
   Footprint.HoldsForMaps
   Footprint.HoldsForRandomViews
   Footprint.HoldsOnTurnedRows
@@ -715,6 +716,7 @@ set_tests_properties(
   Paths/ClustersByPath.ThePictureIsTheSameAgain/mesh
   Paths/ClustersByPath.WithoutAnErrorAreTheOriginal/compute
   Paths/ClustersByPath.WithoutAnErrorAreTheOriginal/mesh
+  Paths/DrawnChoice.HasTheTrianglesOfTheProcessorsPlan/mesh
   Paths/ClustersShaded.AsAMap/compute
   Paths/ClustersShaded.AsAMap/mesh
   Paths/ClustersShaded.InAir/compute
@@ -759,6 +761,7 @@ set_tests_properties(
   Paths/Models.DrawnDepthsLieOnTheModelsSurface/mesh
   Paths/Models.LookingDownShowsNoGap/compute
   Paths/Models.LookingDownShowsNoGap/mesh
+  Paths/Occluded.AnEyeThatRestsHasAllThatFits/compute
   Paths/Occluded.AWrongPyramidIsNoticed/mesh
   Paths/Occluded.FramesHoldWhileDataStreamIn/compute
   Paths/Occluded.FramesHoldWhileDataStreamIn/mesh
@@ -800,6 +803,7 @@ set_tests_properties(
   Paths/StreamedClusters.AreCoarserWithTooLittleMemory/mesh
   Paths/StreamedClusters.BringWhatShowsBeforeWhatIsHidden/compute
   Paths/StreamedClusters.BringWhatShowsBeforeWhatIsHidden/mesh
+  Paths/StreamedClusters.FallBackToBlocksWhereTheCutLacksSome/compute
   Paths/StreamedClusters.HaveNoCracksAndEndAsThoseThatAreWaitedFor/compute
   Paths/StreamedClusters.HaveNoCracksAndEndAsThoseThatAreWaitedFor/mesh
   Paths/StreamedClusters.HoldNoMoreGroupsThanTheyMayOrAFrameNeeds/compute
@@ -997,6 +1001,7 @@ set_tests_properties(
   LyingGroups.SpheresThatAreTooSmall
   LyingGroups.SpheresThatHideTheirGroups
   LyingGroups.WithNoLieAreDrawn
+  Made/PagesOfPictureOf.DrawTheNodesOfPagesForAnyPicture/1
   MeadowReference.HoldsShareLightAndThinning
   MeshForecasts.AreTheSameOfPostsReadPageByPage
   ModelView.TheHorizonHidesNothingThatBentLightShows
