@@ -15,13 +15,13 @@
 namespace oro {
 namespace {
 
-constexpr std::uint32_t side_px = 96;
+constexpr std::uint32_t shown_side_px = 96;
 
 class ShownParts : public test::GpuTest, public ::testing::WithParamInterface<RasterPath> {
   protected:
     Result<FrameRenderer> renderer_showing(gpu::uint show) {
         FrameRendererOptions options;
-        options.extent = {side_px, side_px};
+        options.extent = {shown_side_px, shown_side_px};
         options.path = GetParam();
         options.show = show;
         return FrameRenderer::create(*gpu_, options);
@@ -41,7 +41,7 @@ Camera camera_over(const HeightField& field) {
     Camera camera;
     camera.eye = {46.75, 8.2, *ground_h_m(field, 46.75, 8.2) + 300.0};
     camera.attitude = {40.0, -5.0, 0.0};
-    camera.width_px = camera.height_px = side_px;
+    camera.width_px = camera.height_px = shown_side_px;
     return camera;
 }
 
@@ -61,11 +61,11 @@ TEST_P(ShownParts, HaveTheColoursOfTheirNumbersAndLevels) {
          {gpu::show_visible, gpu::show_levels, gpu::show_meshlets, gpu::show_triangles}) {
         auto renderer = renderer_showing(show);
         ASSERT_TRUE(renderer.ok()) << renderer.error().line();
-        auto plan = scene->settled_plan({camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 1.0});
+        auto plan = scene->settled_plan({camera, {0, 0, shown_side_px, shown_side_px, {0.5, 0.5}}, 1.0});
         ASSERT_TRUE(plan.ok()) << plan.error().line();
         ASSERT_TRUE(renderer->draw(*plan, {}).ok());
-        const std::vector<std::uint32_t> ids = *renderer->read_ids(side_px, side_px);
-        const std::vector<std::uint8_t> rgba = *renderer->read_picture(side_px, side_px);
+        const std::vector<std::uint32_t> ids = *renderer->read_ids(shown_side_px, shown_side_px);
+        const std::vector<std::uint8_t> rgba = *renderer->read_picture(shown_side_px, shown_side_px);
         std::size_t ground = 0, wrong = 0, orange = 0;
         for (std::size_t i = 0; i < ids.size(); ++i) {
             wrong += (rgba[4 * i + 3] != 0) != (ids[i] != 0);
@@ -105,17 +105,17 @@ TEST_P(ShownParts, OfClustersHaveTheColoursOfTheGraph) {
     Camera camera;
     camera.eye = {46.85, 8.12, *ground_h_m(terrain.field, 46.85, 8.12) + 900.0};
     camera.attitude = {40.0, -12.0, 0.0};
-    camera.width_px = camera.height_px = side_px;
+    camera.width_px = camera.height_px = shown_side_px;
     std::set<gpu::uint> levels;
     for (const gpu::uint show :
          {gpu::show_levels, gpu::show_meshlets, gpu::show_triangles, gpu::show_clusters, gpu::show_groups}) {
         auto renderer = renderer_showing(show);
         ASSERT_TRUE(renderer.ok()) << renderer.error().line();
-        auto plan = scene->settled_plan({camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 2.0});
+        auto plan = scene->settled_plan({camera, {0, 0, shown_side_px, shown_side_px, {0.5, 0.5}}, 2.0});
         ASSERT_TRUE(plan.ok()) << plan.error().line();
         ASSERT_TRUE(renderer->draw(*plan, {}).ok());
-        const std::vector<std::uint32_t> ids = *renderer->read_ids(side_px, side_px);
-        const std::vector<std::uint8_t> rgba = *renderer->read_picture(side_px, side_px);
+        const std::vector<std::uint32_t> ids = *renderer->read_ids(shown_side_px, shown_side_px);
+        const std::vector<std::uint8_t> rgba = *renderer->read_picture(shown_side_px, shown_side_px);
         std::size_t ground = 0, wrong = 0;
         for (std::size_t i = 0; i < ids.size(); ++i) {
             if (ids[i] == 0) continue;
@@ -138,14 +138,14 @@ TEST_P(ShownParts, OfClustersTellOfRounds) {
     Camera camera;
     camera.eye = {46.85, 8.12, *ground_h_m(terrain.field, 46.85, 8.12) + 900.0};
     camera.attitude = {40.0, -12.0, 0.0};
-    camera.width_px = camera.height_px = side_px;
+    camera.width_px = camera.height_px = shown_side_px;
     auto renderer = renderer_showing(gpu::show_visible);
     ASSERT_TRUE(renderer.ok()) << renderer.error().line();
-    auto plan = scene->settled_plan({camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 1.0});
+    auto plan = scene->settled_plan({camera, {0, 0, shown_side_px, shown_side_px, {0.5, 0.5}}, 1.0});
     ASSERT_TRUE(plan.ok()) << plan.error().line();
     ASSERT_TRUE(renderer->draw(*plan, {}).ok());
-    const std::vector<std::uint32_t> ids = *renderer->read_ids(side_px, side_px);
-    const std::vector<std::uint8_t> rgba = *renderer->read_picture(side_px, side_px);
+    const std::vector<std::uint32_t> ids = *renderer->read_ids(shown_side_px, shown_side_px);
+    const std::vector<std::uint8_t> rgba = *renderer->read_picture(shown_side_px, shown_side_px);
     std::size_t before = 0, last = 0, wrong = 0;
     for (std::size_t i = 0; i < ids.size(); ++i) {
         if (ids[i] == 0) continue;
@@ -172,17 +172,17 @@ TEST_P(ShownParts, ALevelOfClustersIsDrawnAlone) {
     camera.eye = {46.89, 8.13, 12000.0};
     camera.attitude.pitch_deg = -90.0;
     camera.vertical_fov_deg = 30.0;
-    camera.width_px = camera.height_px = side_px;
+    camera.width_px = camera.height_px = shown_side_px;
     std::uint64_t last = ~std::uint64_t{0};
     for (const std::uint32_t level : {0U, 2U, 6U, 80U}) {
         test::draw_by_clusters(*gpu_, terrain, *scene, std::uint64_t{64} << 20U, level);
         auto renderer = renderer_showing(gpu::show_colours);
         ASSERT_TRUE(renderer.ok()) << renderer.error().line();
-        auto plan = scene->settled_plan({camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 1.0});
+        auto plan = scene->settled_plan({camera, {0, 0, shown_side_px, shown_side_px, {0.5, 0.5}}, 1.0});
         ASSERT_TRUE(plan.ok()) << plan.error().line();
         const auto drawn = renderer->draw(*plan, {});
         ASSERT_TRUE(drawn.ok()) << drawn.error().line();
-        const std::vector<std::uint32_t> ids = *renderer->read_ids(side_px, side_px);
+        const std::vector<std::uint32_t> ids = *renderer->read_ids(shown_side_px, shown_side_px);
         EXPECT_EQ(std::ranges::count(ids, 0U), 0) << "level " << level;
         for (const gpu::DrawnCluster& cluster : plan->grids[0].clusters.drawn)
             EXPECT_EQ(cluster.counts >> 16U,
@@ -199,15 +199,15 @@ TEST_P(ShownParts, OverdrawCountsTriangles) {
     const auto picture_of = [&](const HeightField& field, const Camera& camera, RasterPath path) {
         auto scene = Scene::create(*gpu_, pages_in_memory(field, 1.0, 2), {std::uint64_t{64} << 20U, 0});
         FrameRendererOptions options;
-        options.extent = {side_px, side_px};
+        options.extent = {shown_side_px, shown_side_px};
         options.path = path;
         options.show = gpu::show_overdraw;
         options.occlusion = OcclusionUse::off;
         auto renderer = FrameRenderer::create(*gpu_, options);
         EXPECT_TRUE(renderer.ok()) << renderer.error().line();
-        auto plan = scene->settled_plan({camera, {0, 0, side_px, side_px, {0.5, 0.5}}, 1.0});
+        auto plan = scene->settled_plan({camera, {0, 0, shown_side_px, shown_side_px, {0.5, 0.5}}, 1.0});
         for (int frame = 0; frame < 2; ++frame) EXPECT_TRUE(renderer->draw(*plan, {}).ok());
-        return *renderer->read_picture(side_px, side_px);
+        return *renderer->read_picture(shown_side_px, shown_side_px);
     };
     const auto code = [](gpu::uint triangles) {
         return static_cast<int>(std::lround(255.0F * colour_of_overdraw(triangles).x));
@@ -217,7 +217,7 @@ TEST_P(ShownParts, OverdrawCountsTriangles) {
     Camera camera;
     camera.eye = {46.88, 8.12, 3000.0};
     camera.attitude = {10.0, -90.0, 0.0};
-    camera.width_px = camera.height_px = side_px;
+    camera.width_px = camera.height_px = shown_side_px;
     const std::vector<std::uint8_t> even = picture_of(level, camera, GetParam());
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < even.size(); i += 4) wrong += std::abs(even[i] - code(1)) > 1;
@@ -232,8 +232,8 @@ TEST_P(ShownParts, OverdrawCountsTriangles) {
         differ += one[i] != other[i];
         several += one[i + 3] != 0 && std::abs(one[i] - code(1)) > 1;
     }
-    EXPECT_LT(differ, std::size_t{side_px} * side_px / 50);
-    EXPECT_GT(several, std::size_t{side_px} * side_px / 8);
+    EXPECT_LT(differ, std::size_t{shown_side_px} * shown_side_px / 50);
+    EXPECT_GT(several, std::size_t{shown_side_px} * shown_side_px / 8);
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths, ShownParts, ::testing::Values(RasterPath::mesh, RasterPath::compute),

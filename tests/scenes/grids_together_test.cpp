@@ -70,7 +70,7 @@ class GridsTogether : public test::GpuTest, public ::testing::WithParamInterface
         return *renderer_->read_depths(width, height);
     }
     // Over a random place of a rim, or of anything near the middle.
-    Camera camera_over_rim(std::mt19937& random, int side_px, double highest_m) const {
+    Camera camera_over_rim(std::mt19937& random, int picture_side_px, double highest_m) const {
         const auto between = [&](double a, double b) {
             return std::uniform_real_distribution<double>(a, b)(random);
         };
@@ -90,7 +90,7 @@ class GridsTogether : public test::GpuTest, public ::testing::WithParamInterface
         camera.eye = {lat_deg, lon_deg, ground_m + std::exp(between(std::log(3.0), std::log(highest_m)))};
         camera.attitude = {between(0, 360), between(-90, -45), between(-180, 180)};
         camera.vertical_fov_deg = 35.0;
-        camera.width_px = camera.height_px = side_px;
+        camera.width_px = camera.height_px = picture_side_px;
         return camera;
     }
 
@@ -252,12 +252,12 @@ std::vector<test::NearTriangle> all_triangles(const Region& region, const Region
 // pixel may show what its neighbour does.
 TEST_P(GridsTogether, AreWhatBruteForceFinds) {
     constexpr unsigned seed = 82;
-    constexpr int side_px = 40;
+    constexpr int picture_side_px = 40;
     std::mt19937 random(seed);
     open(test::three_grids(90));
     std::size_t pixels = 0, off = 0, beyond = 0;
     for (int i = 0; i < 12; ++i) {
-        Camera camera = camera_over_rim(random, side_px, 1500.0);
+        Camera camera = camera_over_rim(random, picture_side_px, 1500.0);
         camera.attitude.pitch_deg = std::uniform_real_distribution<double>(-60.0, 5.0)(random);
         const std::vector<float> drawn = depths(camera, 0.0);
         const std::vector<test::NearTriangle> all = all_triangles(region_, cuts_, seam_, camera.eye_ecef().m);
@@ -266,18 +266,18 @@ TEST_P(GridsTogether, AreWhatBruteForceFinds) {
             if (std::isinf(true_m) || std::isinf(depth_m)) return std::isinf(true_m) && std::isinf(depth_m);
             return std::abs(depth_m - true_m) <= 0.02 + 1.0e-3 * true_m;
         };
-        for (int y = 0; y < side_px; ++y) {
-            for (int x = 0; x < side_px; ++x, ++pixels) {
-                const float depth = drawn[static_cast<std::size_t>(y * side_px + x)];
+        for (int y = 0; y < picture_side_px; ++y) {
+            for (int x = 0; x < picture_side_px; ++x, ++pixels) {
+                const float depth = drawn[static_cast<std::size_t>(y * picture_side_px + x)];
                 const double m = depth > 0.0F ? near_m_ / static_cast<double>(depth)
                                               : std::numeric_limits<double>::infinity();
-                if (agrees(m, truth[static_cast<std::size_t>(y * side_px + x)])) continue;
+                if (agrees(m, truth[static_cast<std::size_t>(y * picture_side_px + x)])) continue;
                 ++off;
                 bool near = false;
                 double low = std::numeric_limits<double>::infinity(), high = 0.0;
-                for (int v = std::max(0, y - 1); v <= std::min(side_px - 1, y + 1); ++v) {
-                    for (int u = std::max(0, x - 1); u <= std::min(side_px - 1, x + 1); ++u) {
-                        const double there = truth[static_cast<std::size_t>(v * side_px + u)];
+                for (int v = std::max(0, y - 1); v <= std::min(picture_side_px - 1, y + 1); ++v) {
+                    for (int u = std::max(0, x - 1); u <= std::min(picture_side_px - 1, x + 1); ++u) {
+                        const double there = truth[static_cast<std::size_t>(v * picture_side_px + u)];
                         near = near || agrees(m, there);
                         low = std::min(low, there);
                         high = std::max(high, there);
@@ -287,7 +287,7 @@ TEST_P(GridsTogether, AreWhatBruteForceFinds) {
                 near = near || (m >= low && m <= high);
                 if (!near && ++beyond <= 5)
                     std::printf("view %d, pixel %d, %d: drawn at %.3f m, truth %.3f m\n", i, x, y, m,
-                                truth[static_cast<std::size_t>(y * side_px + x)]);
+                                truth[static_cast<std::size_t>(y * picture_side_px + x)]);
             }
         }
     }

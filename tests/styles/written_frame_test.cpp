@@ -13,7 +13,7 @@
 namespace oro {
 namespace {
 
-double hills_m(int row, int column) {
+double written_hills_m(int row, int column) {
     return 1500.3 + 160.0 * std::sin(column / 19.0) + 130.0 * std::cos(row / 23.0);
 }
 
@@ -71,7 +71,7 @@ class WrittenFrame : public test::StyleTest {
 
 TEST_F(WrittenFrame, IsThePictureOfTheView) {
     Region region{std::vector<RegionGrid>(1)};
-    region.grids[0].field = test::square_field(46.5, 8.0, 30.0, 320, hills_m);
+    region.grids[0].field = test::square_field(46.5, 8.0, 30.0, 320, written_hills_m);
     const View view = view_with_names(region);
     const auto style = load_style(view, region.grids[0].field);
     ASSERT_TRUE(style.ok()) << style.error().line();

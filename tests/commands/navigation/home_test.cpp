@@ -12,7 +12,7 @@ namespace oro {
 namespace {
 
 // A degree around 46.5 N, 8.5 E.
-const GroundBox alps{{8.0, 46.0, 9.0, 47.0}, 200.0, 4500.0};
+const GroundBox home_ground{{8.0, 46.0, 9.0, 47.0}, 200.0, 4500.0};
 
 Camera looking(double lat_deg, double lon_deg, double h_m, double heading_deg, double pitch_deg) {
     Camera camera;
@@ -23,15 +23,15 @@ Camera looking(double lat_deg, double lon_deg, double h_m, double heading_deg, d
 }
 
 TEST(HomeArrow, IsNotThereWhereGroundIsInThePicture) {
-    EXPECT_FALSE(home_arrow(looking(46.5, 8.5, 3000.0, 0.0, -20.0), alps));
-    EXPECT_FALSE(home_arrow(looking(46.5, 8.5, 600.0, 90.0, -89.0), alps));  // a few metres of it
-    EXPECT_FALSE(home_arrow(looking(44.0, 8.5, 1e5, 0.0, -20.0), alps));
-    EXPECT_FALSE(home_arrow(looking(20.0, 8.5, 2e7, 0.0, -90.0), alps));
+    EXPECT_FALSE(home_arrow(looking(46.5, 8.5, 3000.0, 0.0, -20.0), home_ground));
+    EXPECT_FALSE(home_arrow(looking(46.5, 8.5, 600.0, 90.0, -89.0), home_ground));  // a few metres of it
+    EXPECT_FALSE(home_arrow(looking(44.0, 8.5, 1e5, 0.0, -20.0), home_ground));
+    EXPECT_FALSE(home_arrow(looking(20.0, 8.5, 2e7, 0.0, -90.0), home_ground));
 }
 
 // South of the region and looking south it is behind; looking east it is to the left; looking up, below.
 TEST(HomeArrow, PointsTheShortestWay) {
-    const auto left = home_arrow(looking(44.0, 8.5, 3000.0, 90.0, -5.0), alps);
+    const auto left = home_arrow(looking(44.0, 8.5, 3000.0, 90.0, -5.0), home_ground);
     ASSERT_TRUE(left);
     EXPECT_NEAR(left->point_px.x, 32.0, 1e-9);
     EXPECT_GT(left->clockwise_deg, 225.0);
@@ -39,14 +39,14 @@ TEST(HomeArrow, PointsTheShortestWay) {
     // 2.5 degrees of latitude: 277.9 km (111.13 km a degree around 45 N).
     EXPECT_NEAR(left->distance_m, 277850.0, 200.0);
     EXPECT_NEAR(left->bearing_deg, 0.0, 1e-9);
-    const auto right = home_arrow(looking(44.0, 8.5, 3000.0, 270.0, -5.0), alps);
+    const auto right = home_arrow(looking(44.0, 8.5, 3000.0, 270.0, -5.0), home_ground);
     ASSERT_TRUE(right);
     EXPECT_NEAR(right->point_px.x, 928.0, 1e-9);
-    const auto below = home_arrow(looking(46.5, 8.5, 9000.0, 0.0, 80.0), alps);
+    const auto below = home_arrow(looking(46.5, 8.5, 9000.0, 0.0, 80.0), home_ground);
     ASSERT_TRUE(below);
     EXPECT_NEAR(below->point_px.y, 568.0, 1e-9);
     EXPECT_NEAR(below->clockwise_deg, 180.0, 10.0);
-    const auto behind = home_arrow(looking(44.0, 8.5, 3000.0, 180.0, 0.0), alps);
+    const auto behind = home_arrow(looking(44.0, 8.5, 3000.0, 180.0, 0.0), home_ground);
     ASSERT_TRUE(behind);
 }
 
@@ -69,7 +69,7 @@ TEST(HomeArrow, AsksTheBoxOfTheRegionsGround) {
 
 // From the other side of the Earth, straight down: the region is before the eye, but the Earth hides it.
 TEST(HomeArrow, IsThereWhereTheEarthHidesTheRegion) {
-    const auto arrow = home_arrow(looking(-46.5, -171.5, 1e7, 0.0, -90.0), alps);
+    const auto arrow = home_arrow(looking(-46.5, -171.5, 1e7, 0.0, -90.0), home_ground);
     ASSERT_TRUE(arrow);
     EXPECT_NEAR(arrow->distance_m, 2.0e7, 1e5);
 }
@@ -78,7 +78,7 @@ TEST(HomeArrow, IsThereWhereTheEarthHidesTheRegion) {
 TEST(HomeArrow, LeadsHome) {
     Camera camera = looking(44.0, 8.5, 3000.0, 123.0, 10.0);
     int steps = 0;
-    while (const auto arrow = home_arrow(camera, alps)) {
+    while (const auto arrow = home_arrow(camera, home_ground)) {
         const double rad = radians_from_deg(arrow->clockwise_deg).rad;
         camera = turned(camera, 5.0 * std::sin(rad), 5.0 * std::cos(rad));
         ASSERT_LT(++steps, 40);
