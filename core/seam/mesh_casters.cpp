@@ -75,11 +75,11 @@ class CasterTree {
 
 }  // namespace
 
-MeshCasters mesh_casters_of(const std::vector<SeamPiece>& pieces) {
+MeshCasters mesh_casters_of(const Seam& seam) {
     MeshCasters casters;
     constexpr double infinite = std::numeric_limits<double>::infinity();
     glm::dvec3 low(infinite), high(-infinite);
-    for (const SeamPiece& piece : pieces) {
+    for (const SeamPiece& piece : seam.pieces) {
         if (!piece.two_sided) continue;
         for (const SeamCorner& corner : piece.corners)
             low = glm::min(low, corner.at.m), high = glm::max(high, corner.at.m);
@@ -88,11 +88,19 @@ MeshCasters mesh_casters_of(const std::vector<SeamPiece>& pieces) {
     casters.origin_m = 0.5 * (low + high);
     std::vector<Corners> triangles;
     std::vector<std::uint8_t> looks;
-    for (const SeamPiece& piece : pieces) {
-        if (!piece.two_sided) continue;
-        looks.push_back(static_cast<std::uint8_t>(piece.look));
-        Corners& at = triangles.emplace_back();
-        for (std::size_t i = 0; i < 3; ++i) at[i] = glm::vec3(piece.corners[i].at.m - casters.origin_m);
+    const auto add = [&](const SeamCorner& a, const SeamCorner& b, const SeamCorner& c, std::uint32_t look) {
+        looks.push_back(static_cast<std::uint8_t>(look));
+        triangles.push_back({glm::vec3(a.at.m - casters.origin_m), glm::vec3(b.at.m - casters.origin_m),
+                             glm::vec3(c.at.m - casters.origin_m)});
+    };
+    for (const SeamPiece& piece : seam.pieces)
+        if (piece.two_sided) add(piece.corners[0], piece.corners[1], piece.corners[2], piece.look);
+    for (const SeamSkirt& skirt : seam.skirts) {
+        if (!skirt.of_mesh) continue;
+        const std::array<SeamCorner, 2>&top = skirt.top, &foot = skirt.foot;
+        for (std::size_t end = 0; end < 2; ++end)
+            if (foot[end].at.m != top[end].at.m)
+                add(top[end], foot[end], end == 0 ? foot[1] : top[0], gpu::mesh_look_ground);
     }
     const CasterTree tree(std::move(triangles), looks, casters);
     return casters;

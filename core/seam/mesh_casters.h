@@ -17,9 +17,10 @@ struct MeshCasters {
     std::vector<std::uint8_t> looks;  // of each triangle: SeamPiece::look
 };
 
-// The tree of a seam's two-sided pieces, which are those of meshes; without nodes where there are none.
+// The tree of a seam's two-sided pieces and of its skirts beside meshes, without what these reach out by;
+// without nodes where there are no such pieces.
 // Places are float, from the origin: within 1 mm up to 16 km from it. At most gpu::mesh_tree_depth deep.
 // Takes some 0.5 us a triangle on one thread.
-MeshCasters mesh_casters_of(const std::vector<SeamPiece>& pieces);
+MeshCasters mesh_casters_of(const Seam& seam);
 
 }  // namespace oro

@@ -171,11 +171,11 @@ std::size_t nodes_of_page(std::span<const MeshNode> nodes) {
 
 }  // namespace
 
-Result<std::unique_ptr<RegionPages>> mesh_pages(const std::vector<SeamPiece>& pieces,
-                                                const UndulationField& undulation, const RegionShape& shape) {
+Result<std::unique_ptr<RegionPages>> mesh_pages(const Seam& seam, const UndulationField& undulation,
+                                                const RegionShape& shape) {
     std::vector<const SeamPiece*> of_meshes;
     std::vector<const SeamCorner*> corners;
-    for (const SeamPiece& piece : pieces) {
+    for (const SeamPiece& piece : seam.pieces) {
         if (!piece.two_sided) continue;
         of_meshes.push_back(&piece);
         for (const SeamCorner& corner : piece.corners) corners.push_back(&corner);
@@ -197,7 +197,7 @@ Result<std::unique_ptr<RegionPages>> mesh_pages(const std::vector<SeamPiece>& pi
     field.N_of_posts_m = N_of_net_m(*grid.net, undulation, thread_count());
     RegionFacts facts{std::move(grid), drawn_undulation(field), shape, of_meshes.size()};
     return std::unique_ptr<RegionPages>(
-        std::make_unique<MeshPages>(std::move(facts), std::move(pages), mesh_casters_of(pieces)));
+        std::make_unique<MeshPages>(std::move(facts), std::move(pages), mesh_casters_of(seam)));
 }
 
 Result<std::vector<std::unique_ptr<RegionPages>>> pages_beside(const Seam& seam,
@@ -206,7 +206,7 @@ Result<std::vector<std::unique_ptr<RegionPages>>> pages_beside(const Seam& seam,
     std::vector<std::unique_ptr<RegionPages>> all;
     ORO_TRY(std::unique_ptr<RegionPages> between, seam_pages(seam, undulation, shape));
     if (between) all.push_back(std::move(between));
-    ORO_TRY(std::unique_ptr<RegionPages> meshes, mesh_pages(seam.pieces, undulation, shape));
+    ORO_TRY(std::unique_ptr<RegionPages> meshes, mesh_pages(seam, undulation, shape));
     if (meshes) all.push_back(std::move(meshes));
     return all;
 }

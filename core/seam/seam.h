@@ -36,6 +36,7 @@ struct SeamSkirt {
     std::array<SeamCorner, 2> foot;
     glm::dvec3 up{};    // unit, ECEF
     glm::dvec3 side{};  // unit, level
+    bool of_mesh{};     // beside a mesh that terrain is cut out under: it casts the mesh's shadow
 };
 
 struct Seam {

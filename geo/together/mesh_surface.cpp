@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 
 #include "core/base/parallel.h"
 #include "core/terrain/page_on_net.h"
@@ -86,27 +87,64 @@ glm::dvec3 normal_at(const TrianglesAround& around, const std::vector<glm::dvec3
     return glm::normalize(sum);
 }
 
+glm::dvec3 up_at(const Ecef& at) {
+    return glm::normalize(at.m / glm::dvec3(1.0, 1.0, 1.0 - wgs84_e2));
+}
+
+// Of all triangles around a vertex, by their areas; upwards where they have none, or there are none.
+glm::dvec3 mean_normal_at(const TrianglesAround& around, const std::vector<glm::dvec3>& normals,
+                          std::uint32_t vertex, const Ecef& at) {
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = around.first[vertex]; i < around.first[vertex + 1]; ++i)
+        sum += normals[around.triangles[i]];
+    return glm::length(sum) > 0.0 ? glm::normalize(sum) : up_at(at);
+}
+
 double least_cosine_of(const PlacedMesh& mesh) {
     return std::cos(mesh.crease_deg * std::numbers::pi / 180.0);
 }
 
+// Where the surfaces on both sides of a wall change places: the share of the way along it; none where they do
+// not.
+std::optional<double> meeting_of(const RimWall& wall, const std::vector<SeamCorner>& corners) {
+    const double begin_m = corners[wall.over[0]].h_m - corners[wall.cut[0]].h_m,
+                 end_m = corners[wall.over[1]].h_m - corners[wall.cut[1]].h_m;
+    if (begin_m * end_m >= 0.0) return std::nullopt;
+    return begin_m / (begin_m - end_m);
+}
+
 // Upright ground between a mesh that the terrain is cut out under and what is left of that: it closes the
-// gaps that levels leave, too. What the wall's first side bounds lies on its right hand.
-SeamSkirt skirt_of(const RimWall& wall, const std::vector<SeamCorner>& corners) {
+// gaps that levels leave, too. By the corners of either side. What the wall's first side bounds lies on its
+// right hand.
+SeamSkirt skirt_of_wall(std::array<SeamCorner, 2> cut, std::array<SeamCorner, 2> over) {
     SeamSkirt skirt;
-    std::array<SeamCorner, 2> cut{}, over{};
-    for (std::size_t end = 0; end < 2; ++end)
-        cut[end] = corners[wall.cut[end]], over[end] = corners[wall.over[end]];
-    skirt.up = glm::normalize(cut[0].at.m / glm::dvec3(1.0, 1.0, 1.0 - wgs84_e2));
+    skirt.of_mesh = true;
+    skirt.up = up_at(cut[0].at);
     const glm::dvec3 left = glm::cross(skirt.up, cut[1].at.m - cut[0].at.m);
     skirt.side = glm::length(left) > 0.0 ? glm::normalize(left) : glm::dvec3(0.0);
     for (std::size_t end = 0; end < 2; ++end) {
-        cut[end].normal = over[end].normal = skirt.up;
         const bool is_higher = cut[end].h_m >= over[end].h_m;
         skirt.top[end] = is_higher ? cut[end] : over[end];
         skirt.foot[end] = is_higher ? over[end] : cut[end];
     }
     return skirt;
+}
+
+// corners: with the normals of the ground that they bound, by which a wall is lit that is no more than a
+// line.
+void add_skirts(const RimWall& wall, const std::vector<SeamCorner>& corners, std::vector<SeamSkirt>& skirts) {
+    const std::array cut{corners[wall.cut[0]], corners[wall.cut[1]]},
+        over{corners[wall.over[0]], corners[wall.over[1]]};
+    const auto share = meeting_of(wall, corners);
+    if (!share) {
+        skirts.push_back(skirt_of_wall(cut, over));
+        return;
+    }
+    const SeamCorner meeting{{glm::mix(cut[0].at.m, cut[1].at.m, *share)},
+                             std::lerp(cut[0].h_m, cut[1].h_m, *share),
+                             cut[0].normal};
+    skirts.push_back(skirt_of_wall({cut[0], meeting}, {over[0], meeting}));
+    skirts.push_back(skirt_of_wall({meeting, cut[1]}, {meeting, over[1]}));
 }
 
 // The same as sight lines meet it: two triangles, or where the surfaces change places between the ends one on
@@ -125,12 +163,13 @@ void add_rim_wall(const RimWall& wall, const std::vector<SeamCorner>& corners, s
         piece.mesh = number;
         pieces.push_back(piece);
     };
-    if (begin_m * end_m >= 0.0) {
+    const auto share = meeting_of(wall, corners);
+    if (!share) {
         add(a.at.m, b.at.m, over_b.at.m);
         add(a.at.m, over_b.at.m, over_a.at.m);
         return;
     }
-    const glm::dvec3 meeting = glm::mix(a.at.m, b.at.m, begin_m / (begin_m - end_m));
+    const glm::dvec3 meeting = glm::mix(a.at.m, b.at.m, *share);
     add(a.at.m, meeting, over_a.at.m);
     add(b.at.m, over_b.at.m, meeting);
 }
@@ -161,7 +200,7 @@ PlacedVertex vertex_on_lattice(const LatticeSteps& at, const UndulationField& un
 
 void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration, Seam& seam) {
     const TriangleLooks looks(mesh);
-    const std::vector<SeamCorner> corners = drawn_vertices(mesh, undulation, exaggeration);
+    std::vector<SeamCorner> corners = drawn_vertices(mesh, undulation, exaggeration);
     std::vector<glm::dvec3> vertices_m;
     vertices_m.reserve(corners.size());
     for (const SeamCorner& corner : corners) vertices_m.push_back(corner.at.m);
@@ -183,7 +222,10 @@ void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double 
         }
         seam.pieces.push_back(piece);
     }
-    for (const RimWall& wall : mesh.rim_walls) seam.skirts.push_back(skirt_of(wall, corners));
+    if (mesh.rim_walls.empty()) return;
+    for (std::uint32_t vertex = 0; vertex < corners.size(); ++vertex)
+        corners[vertex].normal = mean_normal_at(around, normals, vertex, corners[vertex].at);
+    for (const RimWall& wall : mesh.rim_walls) add_skirts(wall, corners, seam.skirts);
 }
 
 void add_mesh(const PlacedMesh& mesh, const UndulationField& undulation, double exaggeration,

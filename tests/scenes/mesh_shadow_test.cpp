@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geo/meshes/placed_mesh.h"
+#include "geo/together/mesh_cut.h"
 #include "tests/scenes/shadows_of_pictures.h"
 #include "tests/support/rough_terrain.h"
 
@@ -39,6 +40,7 @@ struct Town {
     Region region{std::vector<RegionGrid>(1)};
     double ground_H_m{};
     std::vector<double> roofs_H_m;
+    double pit_reach_m{};  // half a side of a pit, whose sides lie along the axes; 0: there is none
 };
 
 // A house, a tower beside it, and a slab that floats: what is below it lies in its shadow, too.
@@ -65,6 +67,38 @@ Town made_town() {
     add_box(mesh, -20.0, -70.0, 40.0, town.ground_H_m + 53.0, town.roofs_H_m.back());
     town.region.meshes = std::make_shared<const std::vector<PlacedMesh>>(1, mesh);
     return town;
+}
+
+// A pit with upright walls beside the ridge, which the terrain is cut out under.
+Town made_pit() {
+    Town town = made_town();
+    town.pit_reach_m = 110.0;
+    const double floor_H_m = town.ground_H_m - 30.0;
+    PlacedMesh mesh;
+    mesh.path = "pit.obj";
+    for (const auto& [x, y] : {std::pair{-1.0, -1.0}, {1.0, -1.0}, {1.0, 1.0}, {-1.0, 1.0}})
+        mesh.vertices.push_back({middle_lat_deg + y * town.pit_reach_m * north_deg_per_m,
+                                 middle_lon_deg + x * town.pit_reach_m * east_deg_per_m, floor_H_m});
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    mesh.in_file = mesh.not_added = mesh.triangles.size();
+    const auto cut = cut_under(town.region.grids[0].field, mesh);
+    EXPECT_TRUE(cut.ok()) << cut.error().line();
+    town.region.meshes = std::make_shared<const std::vector<PlacedMesh>>(1, mesh);
+    return town;
+}
+
+// What a line of sight meets: 1 terrain, 2 a mesh from above, 8 its walls.
+int shown_at(const Town& town, const Geodetic& at, bool is_mesh, double H_m) {
+    if (!is_mesh) return 1;
+    if (town.pit_reach_m > 0.0) {
+        const double east_m = std::abs(at.lon_deg - middle_lon_deg) / east_deg_per_m,
+                     north_m = std::abs(at.lat_deg - middle_lat_deg) / north_deg_per_m;
+        const double beyond_m = std::max(east_m, north_m) - town.pit_reach_m;
+        return std::abs(beyond_m) < 0.01 ? 8 : 2;
+    }
+    for (const double roof_H_m : town.roofs_H_m)
+        if (std::abs(H_m - roof_H_m) < 0.02) return 2;
+    return 8;
 }
 
 class MeshShadows : public test::ShadowsOfPictures {
@@ -95,10 +129,8 @@ class MeshShadows : public test::ShadowsOfPictures {
                 const auto hit = oracle.first_hit(camera.ecef_direction_at({x + 0.5, y + 0.5}), 1.0e6);
                 if (!hit) continue;
                 int& here = truth[static_cast<std::size_t>(y * camera.width_px + x)];
-                here = hit->mesh == 0 ? 1 : 8;
                 const double N_m = (*grounds)->ground().N_m(hit->point.lat_deg, hit->point.lon_deg);
-                for (const double roof_H_m : town.roofs_H_m)
-                    if (hit->mesh > 0 && std::abs(hit->point.h_m - N_m - roof_H_m) < 0.02) here = 2;
+                here = shown_at(town, hit->point, hit->mesh > 0, hit->point.h_m - N_m);
                 if (here == 8) continue;  // a wall: the side that is turned away has no share
                 const Ecef from =
                     ecef_from_geodetic({hit->point.lat_deg, hit->point.lon_deg, hit->point.h_m + 0.02});
@@ -161,6 +193,24 @@ TEST_F(MeshShadows, AreTheOracles) {
     EXPECT_GT(by_meshes, 600U) << "px in the shadow of meshes";
     EXPECT_GT(on_roofs, 40U) << "px of roofs in shadow";
     EXPECT_GT(all.asked, 20000U);
+    EXPECT_EQ(all.far, 0U) << "px differ that are not within 2 px of an edge";
+    EXPECT_LE(static_cast<double>(all.differ), 0.01 * static_cast<double>(all.asked));
+}
+
+// Light does not come through the walls of a cut's rim, and out between what is left of cut triangles and the
+// terrain.
+TEST_F(MeshShadows, DoNotLeakThroughTheRimOfACut) {
+    const Town town = made_pit();
+    const Camera from_south{
+        {middle_lat_deg - 380.0 * north_deg_per_m, middle_lon_deg, town.ground_H_m + 330.0},
+        {0.0, -42.0, 0.0},
+        40.0,
+        192,
+        160};
+    look_at_town(town, from_south, 120.0, 10.0, RasterPath::compute);
+    look_at_town(town, from_south, 40.0, 8.0, RasterPath::mesh);
+    look_at_town(town, from_south, 215.0, 14.0, RasterPath::compute);
+    EXPECT_GT(by_meshes, 2000U) << "px in the shadow of the rim";
     EXPECT_EQ(all.far, 0U) << "px differ that are not within 2 px of an edge";
     EXPECT_LE(static_cast<double>(all.differ), 0.01 * static_cast<double>(all.asked));
 }

@@ -116,7 +116,7 @@ TEST_P(OccludedScene, MeshesAreThoseWithout) {
         47.0 - middle_deg - 0.05, 47.0 - middle_deg + 0.05, 8.0 + middle_deg - 0.05, 8.0 + middle_deg + 0.07,
         [&](double lat_deg, double lon_deg) { return ground_h_m(field, lat_deg, lon_deg).value_or(0.0); }};
     Scene scene = scene_of(pages_in_memory(field, 1.0, 2));
-    auto pages = mesh_pages(triangles_over(field, where, 93).pieces, {}, region_shape(field, 1.0));
+    auto pages = mesh_pages(triangles_over(field, where, 93), {}, region_shape(field, 1.0));
     ASSERT_TRUE(pages.ok()) << pages.error().line();
     scene.add(scene_of(std::move(pages).value()));
     test::OcclusionPair renderers(*gpu_, GetParam(), width_px, height_px);

@@ -70,7 +70,7 @@ Result<void> put_houses(const Gpu& gpu, const Seam& seam, Scene& scene) {
         return {};
     }
     const RegionShape shape = scene.grids().front().pages().facts().shape;
-    ORO_TRY(std::unique_ptr<RegionPages> pages, mesh_pages(seam.pieces, {}, shape));
+    ORO_TRY(std::unique_ptr<RegionPages> pages, mesh_pages(seam, {}, shape));
     ORO_TRY(Scene between, Scene::create(gpu, std::move(pages)));
     scene.replace_between(std::move(between));
     return {};

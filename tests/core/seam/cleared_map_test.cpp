@@ -17,11 +17,11 @@ MeshCasters casters_of_houses(std::mt19937& random) {
     const glm::dmat3 axes = ecef_from_enu(47.0, 8.0);
     const glm::dvec3 middle = ecef_from_geodetic({47.0, 8.0, 500.0}).m;
     std::uniform_real_distribution<double> place(-300.0, 300.0);
-    std::vector<SeamPiece> pieces;
+    Seam seam;
     for (std::uint32_t house = 0; house < 12; ++house) {
         const glm::dvec2 at(place(random), place(random));
         for (const double turn : {1.0, -1.0}) {
-            SeamPiece& piece = pieces.emplace_back();
+            SeamPiece& piece = seam.pieces.emplace_back();
             piece.two_sided = true;
             piece.look = house % 3 == 0 ? gpu::mesh_look_ground : gpu::mesh_look_built;
             const glm::dvec2 corners[3] = {at, at + turn * glm::dvec2(10.0, 2.0),
@@ -30,7 +30,7 @@ MeshCasters casters_of_houses(std::mt19937& random) {
                 piece.corners[i].at.m = middle + axes * glm::dvec3(corners[i], 5.0);
         }
     }
-    return mesh_casters_of(pieces);
+    return mesh_casters_of(seam);
 }
 
 TEST(ClearedMap, DistancesAreThoseOfBruteForce) {
