@@ -12,9 +12,9 @@
 #include "apps/overlay/area_masks.h"
 #include "apps/text/inked_rows.h"
 #include "apps/text/text_face.h"
+#include "apps/view/trees_of_view.h"
 #include "core/base/parallel.h"
 #include "core/base/srgb.h"
-#include "core/growth/near_trees.h"
 #include "shaders/shared_growth.h"
 
 namespace oro {
@@ -143,14 +143,6 @@ RowSink written_rows(ViewWriting& writing, const Camera& camera, const RowSink& 
         std::make_shared<InkedRows>(camera.width_px, camera.height_px, std::move(writing.overlay.areas),
                                     [lined](std::span<const std::uint8_t> row) { return lined->take(row); });
     return [filled](std::span<const std::uint8_t> row) { return filled->take(row); };
-}
-
-// Whether an eye may stand among a style's trees.
-static bool may_stand_among_trees(const View& view, const TrueGround& ground, const Style& style) {
-    if ((style.frame.materials.on & gpu::materials_with_trees) == 0 || view.show) return false;
-    const Geodetic& eye = view.camera.eye;
-    const auto ground_h_m = ground.h_m(eye.lat_deg, eye.lon_deg);
-    return ground_h_m && eye.h_m - *ground_h_m < highest_tree_m * std::max(view.exaggeration, 1.0);
 }
 
 Result<LabelledPicture> render_labelled(const Gpu& gpu, Scene& scene, const View& view,

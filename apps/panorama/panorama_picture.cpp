@@ -12,6 +12,7 @@
 #include "apps/output/picture_file.h"
 #include "apps/overlay/overlay_in_view.h"
 #include "apps/report/region_json.h"
+#include "apps/view/trees_of_view.h"
 #include "apps/view/view_paths.h"
 #include "core/base/parallel.h"
 #include "geo/canopy/raised_region.h"
@@ -192,9 +193,10 @@ Result<CylinderPicture> draw_scene(const View& view, const Region& region, const
             if (stop.stop_requested()) return Error{ErrorKind::failed, "", "stopped"};
             return has_overlay ? draw_overlay(view, ground, tile, rgb) : Result<void>();
         };
-    ORO_TRY(CylinderPicture picture,
-            render_cylinder(gpu, scene, view.camera.eye, around, cut_of(style), style.frame,
-                            picture_options(view, path), extras, progress));
+    PictureOptions options = picture_options(view, path);
+    options.counts_near_trees = may_stand_among_trees(view, ground, style);
+    ORO_TRY(CylinderPicture picture, render_cylinder(gpu, scene, view.camera.eye, around, cut_of(style),
+                                                     style.frame, options, extras, progress));
     if (!gpu.validation_messages().empty())
         return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};
     if (!picture.report.settled) return lacks_gpu_memory(scene, "this panorama");

@@ -12,8 +12,7 @@ double near_trees_share(const PictureReport& report, const Camera& camera) {
            (static_cast<double>(camera.width_px) * static_cast<double>(camera.height_px));
 }
 
-std::string near_trees_note(const PictureReport& report, const Camera& camera) {
-    const double share = near_trees_share(report, camera);
+std::string near_trees_note(double share) {
     if (share < 0.5) return {};
     char text[160];
     std::snprintf(
@@ -24,10 +23,9 @@ std::string near_trees_note(const PictureReport& report, const Camera& camera) {
     return text;
 }
 
-nlohmann::ordered_json near_trees_json(const PictureReport& report, const Camera& camera) {
-    nlohmann::ordered_json json =
-        json_object("within_m", near_trees_m, "share", near_trees_share(report, camera));
-    if (const std::string note = near_trees_note(report, camera); !note.empty()) json["note"] = note;
+nlohmann::ordered_json near_trees_json(double share) {
+    nlohmann::ordered_json json = json_object("within_m", near_trees_m, "share", share);
+    if (const std::string note = near_trees_note(share); !note.empty()) json["note"] = note;
     return json;
 }
 

@@ -72,7 +72,7 @@ Result<void> write_picture_of(Viewer& viewer, const PictureChoice& choice) {
     ORO_TRY(const std::unique_ptr<Scene> measured, scene_of_picture(viewer, view));
     const auto written = write_with_poses(viewer, files, view, *ground, middle, strip, choice.poses,
                                           measured ? *measured : *viewer.scene);
-    const std::string hidden = written.ok() ? near_trees_note(*written, view.camera) : "";
+    const std::string hidden = written.ok() ? near_trees_note(near_trees_share(*written, view.camera)) : "";
     tell(viewer,
          written.ok() ? written_words(files.picture) + (hidden.empty() ? "" : "; " + hidden)
                       : written.error().line(),

@@ -23,6 +23,10 @@ std::uint64_t bytes_of_pages(const Scene& scene) {
     return bytes;
 }
 
+double area_of(int width_px, int height_px) {
+    return static_cast<double>(width_px) * height_px;
+}
+
 // Lets pages of columns that are drawn make room for those of the next; buffers stay.
 void let_go_of_pages(Scene& scene) {
     for (GridScene& grid : scene.grids()) {
@@ -73,6 +77,10 @@ Result<CylinderPicture> render_cylinder(const Gpu& gpu, Scene& scene, const Geod
                         if (progress) progress((done + share) / static_cast<double>(tiles.size()));
                     }));
         picture.report.add(report);
+        // Of all that the tile drew, a little more than what it is for.
+        picture.near_trees_share +=
+            report.near_tree_px * area_of(tile.width_px, tile.height_px) /
+            (area_of(part.width_px, part.height_px) * area_of(around.width_px, around.height_px()));
         if (extras.ridges)
             draw_ridges({renderer.depths(), tile.camera.width_px, tile.camera.height_px}, drawn,
                         thread_count());

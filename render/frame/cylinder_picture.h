@@ -26,6 +26,7 @@ struct CylinderPicture {
     PictureReport report;           // sums over all tiles
     std::vector<std::uint8_t> rgb;  // rows from the top, sRGB
     int tiles{};
+    double near_trees_share{};   // of its area, where a tree near the eye is shown (counts_near_trees)
     std::uint64_t page_bytes{};  // the most that buffers of pages took on the GPU
 };
 

@@ -17,6 +17,7 @@
 #include "apps/output/pose_files.h"
 #include "apps/report/figures.h"
 #include "apps/report/json_text.h"
+#include "apps/report/near_trees_words.h"
 #include "apps/report/progress_bar.h"
 #include "apps/report/region_json.h"
 #include "apps/report/summit_words.h"
@@ -134,6 +135,8 @@ Result<void> run_panorama(const PanoramaOptions& options) {
         ORO_TRY(const std::string nothing, nothing_in_view(view, report.region, options.view_file));
         say(options.quiet, "note: " + nothing);
     }
+    if (const std::string note = near_trees_note(report.scene.near_trees_share); !note.empty())
+        say(options.quiet, "note: " + note);
     bar.show(1.0, "writing");
     ORO_TRY(PanoramaFile written, write_panorama(options.out, options.overwrite, view, report.region, style,
                                                  report.laid, report.scene));

@@ -4,6 +4,7 @@
 #include "apps/detail/detail_words.h"
 #include "apps/report/json_object.h"
 #include "apps/report/json_text.h"
+#include "apps/report/near_trees_words.h"
 #include "apps/report/region_json.h"
 #include "apps/report/summit_words.h"
 #include "apps/styles/growth_json.h"
@@ -86,6 +87,8 @@ ordered_json panorama_json(const PanoramaReport& report, const std::string& file
             growth_json(style, view.trees ? why_without_trees(view) : "left out (--trees on draws them)");
         !growth.empty())
         json["growth"] = growth;
+    if (report.scene.near_trees_share > 0.0)
+        json["growth"]["near_eye"] = near_trees_json(report.scene.near_trees_share);
     json["models"] = models_json(view);
     json["light"] = light_json(view.model.air, view.camera.eye.h_m);
     json["tau_px"] = view.tau_px;

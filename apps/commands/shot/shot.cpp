@@ -188,7 +188,8 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
         say(options.quiet, "note: " + note);
     shot.view.fingerprints = picture.fingerprints;
     shot.times.draw_s = seconds_since(drawing);
-    if (const std::string note = near_trees_note(shot.picture, shot.view.camera); !note.empty())
+    if (const std::string note = near_trees_note(near_trees_share(shot.picture, shot.view.camera));
+        !note.empty())
         say(options.quiet, "note: " + note);
     if (shot.picture.ground_px == 0)
         say(options.quiet, "note: " + (nothing.ok() ? *nothing : nothing.error().what));

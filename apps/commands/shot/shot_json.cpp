@@ -161,7 +161,7 @@ void put_style(const ShotResult& shot, const Style& style, ordered_json& json) {
     if (const ordered_json growth = growth_json(style, why_without_trees(shot.view)); !growth.empty())
         json["growth"] = growth;
     if (shot.picture.near_tree_px > 0)
-        json["growth"]["near_eye"] = near_trees_json(shot.picture, shot.view.camera);
+        json["growth"]["near_eye"] = near_trees_json(near_trees_share(shot.picture, shot.view.camera));
     json["contour_interval_m"] = nullptr;
     if (style.frame.contours.interval_m > 0.0F) json["contour_interval_m"] = style.frame.contours.interval_m;
 }

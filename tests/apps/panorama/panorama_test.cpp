@@ -312,6 +312,37 @@ TEST_F(Panorama, HasTreesWhereTheyAreAskedFor) {
     EXPECT_LT(by_lines, by_trees / 10);
 }
 
+// A panorama from low inside a forest shows little but trees: found with not a word about it. A picture of
+// the middle of it says much the same.
+TEST_F(Panorama, SaysWhereTreesHideTheView) {
+    const auto taken = [&](const Words& more) {
+        Words all{"panorama", land,          "--at",     "36.52,-84.24", "--style",     "natural",
+                  "--width",  "160",         "--sector", "180,80",       "--elevation", "-20,20",
+                  "--json",   "--overwrite", "--out",    path("low.png")};
+        all.insert(all.end(), more.begin(), more.end());
+        return run_orograph(all);
+    };
+    const std::string said = "of the picture; --trees off shows the ground, and so does a greater --above";
+    const auto low = taken({"--above", "3", "--trees", "on"});
+    ASSERT_EQ(low.exit_code, 0) << low.err;
+    EXPECT_NE(low.err.find(said), std::string::npos) << low.err;
+    const json near_eye = json::parse(low.out).at("growth").value("near_eye", json::object());
+    ASSERT_TRUE(near_eye.contains("share")) << low.out;
+    EXPECT_EQ(near_eye["within_m"], 100.0);
+    EXPECT_NE(near_eye["note"].get<std::string>().find(said), std::string::npos);
+    const json shot = object_said_by({"shot", land, "--at", "36.52,-84.24", "--above", "3", "--heading",
+                                      "220", "--fov", "40", "--size", "160x80", "--style", "natural", "-q",
+                                      "--json", "--out", path("shot.png")});
+    EXPECT_NEAR(near_eye["share"].get<double>(), shot["growth"]["near_eye"]["share"].get<double>(), 0.08);
+    for (const Words& more : {Words{"--above", "3"}, Words{"--above", "3", "--trees", "off"},
+                              Words{"--above", "300", "--trees", "on"}}) {
+        const auto run = taken(more);
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_EQ(run.err.find(said), std::string::npos) << run.err;
+        EXPECT_EQ(run.out.find("near_eye"), std::string::npos);
+    }
+}
+
 // 2 m over a meadow lines of ridges leave the grass as it is.
 TEST_F(Panorama, HasGrassNearTheEye) {
     const auto seen = [&](const std::string& out, const std::string& ridges, const std::string& style) {
