@@ -11,6 +11,7 @@
 #include "apps/view/accuracy.h"
 #include "core/base/parallel.h"
 #include "geo/refined/refined_region.h"
+#include "geo/together/mesh_surface.h"
 
 namespace oro {
 namespace {
@@ -50,10 +51,27 @@ std::string table_line(const char* what, const ErrorSummary& of) {
     return line + "\n";
 }
 
+// Meshes as they are drawn, where the true ones would be.
+std::vector<TrueMesh> drawn_triangles(const std::vector<PlacedMesh>& meshes, const TrueGround& ground) {
+    std::vector<TrueMesh> all;
+    for (const PlacedMesh& mesh : meshes)
+        all.emplace_back(true_triangles(mesh, ground.surface(0).field().undulation, ground.exaggeration()),
+                         static_cast<std::uint32_t>(all.size() + 1), thread_count());
+    return all;
+}
+
+// Of meshes what stands in the table beside all ground.
+std::string mesh_lines(const MeshErrors& meshes) {
+    return table_line("  mesh drawn, m", meshes.drawn_m) + table_line("  mesh drawn, px", meshes.drawn_px) +
+           table_line("  mesh missed, m", meshes.missed_m) +
+           table_line("  mesh missed, px", meshes.missed_px);
+}
+
 }  // namespace
 
 Result<Verification> verify_view(const View& view, const TrueScene& truth, const Gpu& gpu, Scene& scene,
-                                 RasterPath path, const gpu::FrameStyle& style) {
+                                 RasterPath path, const gpu::FrameStyle& style,
+                                 const std::vector<PlacedMesh>* meshes) {
     Verification done;
     DepthPainter painter(gpu, path);
     DepthPictureOptions options;
@@ -64,13 +82,13 @@ Result<Verification> verify_view(const View& view, const TrueScene& truth, const
         return Error{ErrorKind::failed, "Vulkan validation", gpu.validation_messages().front()};
     if (!done.picture.settled) return lacks_gpu_memory(scene, "this view");
     const TruePicture true_picture(truth.ground(), truth.sight(), view.camera, thread_count());
-    measure(done, true_picture);
+    measure(done, true_picture, meshes ? drawn_triangles(*meshes, truth.ground()) : std::vector<TrueMesh>());
     return done;
 }
 
-void measure(Verification& done, const TruePicture& truth) {
+void measure(Verification& done, const TruePicture& truth, std::span<const TrueMesh> drawn) {
     done.true_skyline = truth.skyline();
-    done.errors = picture_errors(truth, done.picture.points, done.picture.skylines(), thread_count());
+    done.errors = picture_errors(truth, done.picture.points, done.picture.skylines(), thread_count(), drawn);
     done.slack_px = done.errors.slack_px;
 }
 
@@ -129,7 +147,9 @@ std::string verification_text(const Verification& verification, const View& view
         "Displacement: how far each pixel's ground is drawn from where it truly is. " +
         counted(ground.drawn, "pixel", "pixels") +
         if_any(ground.beyond_data, " of them where there are no data") +
-        if_any(ground.between, " of them on meshes or between grids, which Seen and Skyline measure") +
+        (ground.meshes
+             ? if_any(ground.between, " of them on meshes, or between grids: from the nearest place of these")
+             : if_any(ground.between, " of them between grids, which Seen and Skyline measure, too")) +
         ".\n"
         "Surface: how far the drawn ground is from the true surface, wherever along it.\n"
         "Seen: how far away on the picture the truth has what is drawn; what is missing or should be hidden "
@@ -148,7 +168,12 @@ std::string verification_text(const Verification& verification, const View& view
             table_line("  displacement, px", ground.summary_displacement_px) +
             table_line("  surface, m", ground.summary_surface_m) +
             table_line("  surface, px", ground.summary_surface_px) +
-            table_line("  seen, px", seen.summary_px) + table_line("  skyline, px", skyline.summary_px);
+            (ground.meshes ? mesh_lines(*ground.meshes) : "") + table_line("  seen, px", seen.summary_px) +
+            table_line("  skyline, px", skyline.summary_px);
+    if (ground.meshes)
+        text +=
+            "Mesh drawn: how far what is drawn of meshes is from them. Mesh missed: how far what is truly "
+            "seen of them is from what is drawn, or from the ground.\n";
     text += "99 %: 99 of 100 are off by no more than this.\n";
     if (ground.summary_displacement_px.at_least + ground.summary_surface_px.at_least +
             seen.summary_px.at_least >
@@ -171,6 +196,10 @@ ordered_json verification_json(const Verification& verification) {
     json["displacement_px"] = summary_json(ground.summary_displacement_px);
     json["surface_m"] = summary_json(ground.summary_surface_m);
     json["surface_px"] = summary_json(ground.summary_surface_px);
+    if (const auto& meshes = ground.meshes)
+        json["meshes"] = json_object(
+            "drawn_m", summary_json(meshes->drawn_m), "drawn_px", summary_json(meshes->drawn_px), "missed_m",
+            summary_json(meshes->missed_m), "missed_px", summary_json(meshes->missed_px));
     json["seen_px"] = summary_json(seen.summary_px);
     json["skyline_px"] = summary_json(skyline.summary_px);
     json["largest_px"] = verification.errors.largest_px();

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "apps/view/truth.h"
 #include "apps/view/view.h"
 #include "core/measure/picture_errors.h"
+#include "geo/meshes/placed_mesh.h"
 #include "render/frame/depth_picture.h"
 
 namespace oro {
@@ -33,15 +35,17 @@ struct Verification {
 
 // Draws a view as its picture is drawn, one sample a pixel and with depths, and measures it. Errors: those of
 // the device; a region that cannot be read; a scene that does not fit into --gpu-memory.
+// meshes: what is drawn in the place of the view's; null: they themselves.
 Result<Verification> verify_view(const View& view, const TrueScene& truth, const Gpu& gpu, Scene& scene,
-                                 RasterPath path, const gpu::FrameStyle& style);
+                                 RasterPath path, const gpu::FrameStyle& style,
+                                 const std::vector<PlacedMesh>* meshes);
 
 // Measures the invented ground of a picture that was drawn and measured, of a region with --detail; of others
 // nothing.
 void measure_invented(Verification& done, const View& view, const Region& region);
 
-// The measuring alone, of a picture that is drawn. `truth`: of the same camera.
-void measure(Verification& done, const TruePicture& truth);
+// The measuring alone, of a picture that is drawn. `truth`: of the same camera. drawn: as picture_errors().
+void measure(Verification& done, const TruePicture& truth, std::span<const TrueMesh> drawn = {});
 
 // For people: a table of some lines, each with its line end, and what the data cannot tell. view: that was
 // drawn.

@@ -138,7 +138,8 @@ Result<void> run_compare(const CompareOptions& options) {
             check_pixels(options, view, region, *ground, *gpu, scene, path, style, bar));
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(view, region, cuts));
     bar.show(0.0, "comparing");
-    ORO_TRY(Verification verification, verify_view(view, *truth, *gpu, scene, path, style.frame));
+    ORO_TRY(Verification verification, verify_view(view, *truth, *gpu, scene, path, style.frame,
+                                                   meshes ? meshes->cut.meshes.get() : nullptr));
     measure_invented(verification, view, region);
     ORO_TRY(const UnseenGround unseen, unseen_in(view, region, ceiling_m, truth.get()));
     if (verification.errors.ground.drawn == 0) {

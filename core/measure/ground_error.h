@@ -63,6 +63,10 @@ class GroundMeter {
     // which would exaggerate on walls.
     [[nodiscard]] Distance from_surface(const glm::dvec2& point_px, const DrawnPoint& point,
                                         const Distance& displacement) const;
+    // The same of any place, of one that is `so_far` from something else: the nearer of both. seen_m: where
+    // it is seen, from the eye. otherwise: the grid to ask where none is the ground there.
+    [[nodiscard]] Distance from_ground(const glm::dvec3& place_m, const glm::dvec3& seen_m,
+                                       std::size_t otherwise, const Distance& so_far) const;
 
   private:
     TrueGround ground_;
@@ -75,21 +79,39 @@ class GroundMeter {
     double pixels_per_tangent_;
 };
 
+// Of meshes, both ways, over the pixels that show one and those that truly show one
+// (core/measure/mesh_error.h).
+struct MeshErrors {
+    ErrorSummary drawn_m, drawn_px;    // what is drawn, from the meshes
+    ErrorSummary missed_m, missed_px;  // what is truly seen of them, from what is drawn
+};
+
 // The errors of all pixels, each at its centre, row by row; not_measured where nothing is drawn, or over no
-// data.
+// data. A pixel that shows a mesh is displaced, and off the surface, by how far that is from the meshes; one
+// that truly shows a mesh is displaced by no less than what is seen there is from what is drawn.
 struct GroundErrors {
     std::vector<float> displacement_m, displacement_px;
     std::vector<float> surface_m, surface_px;
     std::vector<std::uint8_t> displacement_at_least, surface_at_least;  // 1: the pixels are, Distance
     ErrorSummary summary_displacement_m, summary_displacement_px;
     ErrorSummary summary_surface_m, summary_surface_px;
-    std::uint64_t drawn{};        // pixels with ground
-    std::uint64_t beyond_data{};  // of them those whose ground point has no true height
-    std::uint64_t between{};      // of them those that are drawn between grids
+    std::uint64_t drawn{};               // pixels with ground
+    std::uint64_t beyond_data{};         // of them those whose ground point has no true height
+    std::uint64_t between{};             // of them those that are drawn between grids, or on meshes
+    std::optional<MeshErrors> meshes{};  // where there are meshes
 };
 enum class GroundMeasures { both, displacement };  // without the surface its values are not_measured
 GroundErrors ground_errors(const TrueGround& ground, const Sight& sight, const Camera& camera,
                            std::span<const DrawnPoint> points, int threads,
                            GroundMeasures measures = GroundMeasures::both);
+
+// What is measured of meshes beside that.
+struct MeshesMeasured {
+    // What is drawn in the place of the ground's meshes; empty: they themselves, of which nothing is missed.
+    std::span<const TrueMesh> drawn;
+    std::span<const std::optional<SightHit>> seen;  // what each pixel truly sees at its centre
+};
+GroundErrors ground_errors(const TrueGround& ground, const Sight& sight, const Camera& camera,
+                           std::span<const DrawnPoint> points, int threads, const MeshesMeasured& meshes);
 
 }  // namespace oro

@@ -28,9 +28,11 @@ bool PictureErrors::largest_px_at_least() const {
 }
 
 PictureErrors picture_errors(const TruePicture& truth, std::span<const DrawnPoint> points,
-                             std::span<const DrawnDepths> samples, int threads) {
+                             std::span<const DrawnDepths> samples, int threads,
+                             std::span<const TrueMesh> drawn) {
     PictureErrors errors;
-    errors.ground = ground_errors(truth.ground_, truth.sight_, truth.camera_, points, threads);
+    errors.ground = ground_errors(truth.ground_, truth.sight_, truth.camera_, points, threads,
+                                  MeshesMeasured{drawn, truth.hits_});
     errors.seen = seen_errors(truth.oracle_, {truth.ground_, truth.sight_, truth.camera_}, truth.hits_,
                               truth.camera_, points, threads);
     errors.skyline = skyline_error(truth.skyline_, truth.camera_, samples, &truth.oracle_);

@@ -25,7 +25,7 @@ class TruePicture {
 
   private:
     friend struct PictureErrors picture_errors(const TruePicture&, std::span<const DrawnPoint>,
-                                               std::span<const DrawnDepths>, int);
+                                               std::span<const DrawnDepths>, int, std::span<const TrueMesh>);
     TrueGround ground_;
     const Sight& sight_;
     Camera camera_;
@@ -47,9 +47,11 @@ struct PictureErrors {
     // Some of what that is of is only known to be no smaller than it says (ErrorSummary::at_least).
     [[nodiscard]] bool largest_px_at_least() const;
 };
-// samples: as skyline_error().
+// samples: as skyline_error(). drawn: the triangles that are drawn in the place of the ground's meshes;
+// empty: these themselves.
 PictureErrors picture_errors(const TruePicture& truth, std::span<const DrawnPoint> points,
-                             std::span<const DrawnDepths> samples, int threads);
+                             std::span<const DrawnDepths> samples, int threads,
+                             std::span<const TrueMesh> drawn = {});
 
 // What drawing may round off on a picture, besides what tau allows: 0.05 px; and near ground what is more
 // than that: half a step of the heights, 0.24 mm, and what a cell's flat triangles are off, 0.4 mm with posts

@@ -13,6 +13,7 @@
 #include "core/truth/box_walk.h"
 #include "core/truth/line_in_air.h"
 #include "core/truth/line_meets.h"
+#include "core/truth/nearest_place.h"
 #include "core/truth/true_mesh_parts.h"
 
 namespace oro {
@@ -175,6 +176,33 @@ std::optional<TrueMesh::Hit> TrueMesh::first_hit(const Ecef& eye, const Refracti
             if (!at_m || *at_m < 0.0 || *at_m >= most_m) continue;
             most_m = *at_m;
             nearest = Hit{most_m, order_[i], feature(order_[i])};
+        }
+    });
+    return nearest;
+}
+
+std::optional<glm::dvec3> TrueMesh::nearest_m(const glm::dvec3& at_m, double reach_m) const {
+    if (parts_) return parts_->nearest_m(at_m, reach_m);
+    if (nodes_.empty()) return std::nullopt;
+    const glm::dvec3 at = frame_from_ecef_ * (at_m - origin_m_);
+    std::optional<glm::dvec3> nearest;
+    double most_m = reach_m;
+    const auto begin_of = [&](std::uint32_t number) {
+        const Node& node = nodes_[number];
+        return box_away_m({node.low[0], node.low[1], node.low[2]}, {node.high[0], node.high[1], node.high[2]},
+                          at);
+    };
+    using Two = std::optional<std::pair<std::uint32_t, std::uint32_t>>;
+    const auto below_of = [&](std::uint32_t number) {
+        const Node& node = nodes_[number];
+        return node.count == 0 ? Two({number + 1, node.first}) : Two();
+    };
+    walk_boxes(most_m, begin_of, below_of, [&](std::uint32_t number) {
+        const Node& node = nodes_[number];
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            const glm::dvec3 place = nearest_place(corners_m(order_[i]), at_m);
+            if (const double away_m = glm::distance(place, at_m); away_m < most_m)
+                most_m = away_m, nearest = place;
         }
     });
     return nearest;

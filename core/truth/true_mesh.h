@@ -65,6 +65,10 @@ class TrueMesh {
                                                const glm::dvec3& start_m, const glm::dvec3& direction,
                                                double reach_m) const;
 
+    // The place of its triangles that is nearest to a point, as far as that is nearer than reach_m. ECEF,
+    // metres. Error: rounding of doubles.
+    [[nodiscard]] std::optional<glm::dvec3> nearest_m(const glm::dvec3& at_m, double reach_m) const;
+
   private:
     // A box from the origin in the frame, widened by what rounding takes from a line. Nodes lie in the order
     // of a walk: the first below a node is the next one.

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <limits>
 #include <utility>
 
 #include "core/truth/box_walk.h"
 #include "core/truth/line_in_air.h"
+#include "core/truth/nearest_place.h"
 
 namespace oro {
 namespace {
@@ -99,6 +101,27 @@ std::optional<TrueMesh::Hit> TrueMeshParts::first_hit(const Ecef& eye, const Ref
         most_m = hit->along_m;
         hit->triangle = one->numbers[hit->triangle];
         nearest = hit;
+    });
+    return nearest;
+}
+
+std::optional<glm::dvec3> TrueMeshParts::nearest_m(const glm::dvec3& at_m, double reach_m) const {
+    if (nodes_.empty()) return std::nullopt;
+    const glm::dvec3 at = at_m - origin_m_;
+    std::optional<glm::dvec3> nearest;
+    double most_m = reach_m;
+    const auto begin_of = [&](std::uint32_t number) {
+        return box_away_m(nodes_[number].low, nodes_[number].high, at);
+    };
+    using Two = std::optional<std::pair<std::uint32_t, std::uint32_t>>;
+    const auto below_of = [&](std::uint32_t number) {
+        return nodes_[number].second > 0 ? Two({number + 1, nodes_[number].second}) : Two();
+    };
+    walk_boxes(most_m, begin_of, below_of, [&](std::uint32_t number) {
+        const auto place = part(nodes_[number].part)->mesh->nearest_m(at_m, most_m);
+        if (!place) return;
+        most_m = glm::distance(*place, at_m);
+        nearest = place;
     });
     return nearest;
 }

@@ -47,6 +47,8 @@ class TrueMeshParts {
     [[nodiscard]] std::optional<TrueMesh::Hit> first_hit(const Ecef& eye, const Refraction& refraction,
                                                          const glm::dvec3& start_m,
                                                          const glm::dvec3& direction, double reach_m) const;
+    // As TrueMesh::nearest_m().
+    [[nodiscard]] std::optional<glm::dvec3> nearest_m(const glm::dvec3& at_m, double reach_m) const;
     // Reads all triangles when it is first asked; where they cannot be read it has none of them.
     [[nodiscard]] const TrueMesh& whole() const;
     // Errors: the first part that could not be read.

@@ -100,7 +100,8 @@ Result<WholeFile> verify_shot(const ShotOptions& options, const PictureFiles& fi
                               const Gpu& gpu, Scene& scene, const Style& style, ShotResult& shot) {
     const auto start = Clock::now();
     ORO_TRY(const std::unique_ptr<TrueScene> truth, TrueScene::of(shot.view, shot.region, ground.cuts));
-    ORO_TRY(shot.verification, verify_view(shot.view, *truth, gpu, scene, shot.picture.path, style.frame));
+    ORO_TRY(shot.verification, verify_view(shot.view, *truth, gpu, scene, shot.picture.path, style.frame,
+                                           shot.meshes ? shot.meshes->cut.meshes.get() : nullptr));
     measure_invented(*shot.verification, shot.view, shot.region);
     ORO_TRY(const std::vector<std::uint8_t> png,
             error_picture_png(*shot.verification, shot.view.tau_px, ErrorPanels::four));

@@ -2,6 +2,7 @@
 // those of the same file without its groups, which is read whole.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -68,10 +69,31 @@ class StreamedMeshes : public ::testing::Test {
   protected:
     void SetUp() override {
         write_bytes(mesh_, obj_of_hill());
-        const Outcome done = run_orograph(
-            {"bake", bundled(), "--mesh-file", mesh_, "--mesh-crs", "EPSG:4326", "--out", baked_, "-q"});
+        bake({"--mesh-file", mesh_, "--mesh-crs", "EPSG:4326"});
+    }
+    void bake(const Words& mesh) const {
+        const Outcome done = run_orograph(joined({"bake", bundled(), "--out", baked_, "-q"}, mesh));
         ASSERT_EQ(done.exit_code, 0) << done.err;
         write_without_groups(baked_, whole_);
+    }
+    // What is said of both files' pictures, taken in the same way.
+    [[nodiscard]] std::array<json, 2> said_of_both(const Words& how) const {
+        std::array<json, 2> said;
+        for (std::size_t i = 0; i < 2; ++i) {
+            const Outcome drawn = shot(i == 0 ? baked_ : whole_, i == 0 ? one_ : other_, how);
+            EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+            said[i] = drawn.exit_code == 0 ? json::parse(drawn.out) : json::object();
+        }
+        return said;
+    }
+    // Both files' pictures, and what is found of them.
+    void expect_same_pictures(const Words& how) const {
+        auto [a, b] = said_of_both(how);
+        ASSERT_TRUE(a.contains("meshes"));
+        for (json* const one : {&a, &b}) (*one)["meshes"].erase("graph_s");
+        for (const char* const key : {"meshes", "triangles", "destination", "eye"})
+            EXPECT_EQ(a[key], b[key]) << key;
+        EXPECT_EQ(oro::test::pixels_of(one_).rgb, oro::test::pixels_of(other_).rgb);
     }
     [[nodiscard]] Outcome shot(const std::string& data, const std::string& out, const Words& more) const {
         return run_orograph(
@@ -88,30 +110,26 @@ class StreamedMeshes : public ::testing::Test {
 TEST_F(StreamedMeshes, ArePicturesOfTheWholeMesh) {
     for (const Words& how :
          {Words{"--mesh", "clusters"}, Words{"--mesh", "clusters", "--tau", "4", "--pitch", "-20"},
-          Words{"--mesh-level", "2"}, Words{"--show", "groups", "--tau", "2"}}) {
-        const Outcome of_groups = shot(baked_, one_, how), of_whole = shot(whole_, other_, how);
-        ASSERT_EQ(of_groups.exit_code, 0) << of_groups.err;
-        ASSERT_EQ(of_whole.exit_code, 0) << of_whole.err;
-        json a = json::parse(of_groups.out), b = json::parse(of_whole.out);
-        for (json* const one : {&a, &b}) (*one)["meshes"].erase("graph_s");
-        for (const char* const key : {"meshes", "triangles", "destination", "eye"})
-            EXPECT_EQ(a[key], b[key]) << key;
-        EXPECT_TRUE(a.contains("meshes"));
-        EXPECT_EQ(oro::test::pixels_of(one_).rgb, oro::test::pixels_of(other_).rgb);
-    }
+          Words{"--mesh-level", "2"}, Words{"--show", "groups", "--tau", "2"}})
+        expect_same_pictures(how);
 }
 
-// What asks the true mesh reads where its lines may meet it: the same figures.
+// What asks the true mesh reads where its lines may meet it: the same figures. What is drawn of it is off by
+// no more than is said, both ways; and not by nothing.
 TEST_F(StreamedMeshes, AreMeasuredAsTheWholeMeshIs) {
-    const Words how{"--mesh", "clusters", "--tau", "2", "--verify"};
-    const Outcome of_groups = shot(baked_, one_, how), of_whole = shot(whole_, other_, how);
-    ASSERT_EQ(of_groups.exit_code, 0) << of_groups.err;
-    ASSERT_EQ(of_whole.exit_code, 0) << of_whole.err;
-    json a = json::parse(of_groups.out)["error"], b = json::parse(of_whole.out)["error"];
-    for (json* const one : {&a, &b})
-        for (const char* const key : {"file", "picture", "time_s"}) one->erase(key);
-    EXPECT_FALSE(a.is_null());
-    EXPECT_EQ(a, b);
+    auto said = said_of_both({"--mesh", "clusters", "--tau", "2", "--verify"});
+    for (json& one : said)
+        for (const char* const key : {"file", "picture", "time_s"}) one["error"].erase(key);
+    EXPECT_EQ(said[0]["error"], said[1]["error"]);
+    ASSERT_TRUE(said[0]["error"].contains("meshes")) << said[0]["error"];
+    const json &meshes = said[0]["error"]["meshes"], &cut = said[0]["meshes"];
+    for (const char* const way : {"drawn", "missed"}) {
+        const double largest_m = meshes[std::string(way) + "_m"]["max"],
+                     largest_px = meshes[std::string(way) + "_px"]["max"];
+        EXPECT_GT(largest_px, 0.2) << way;
+        EXPECT_LE(largest_m, cut["error_m"].get<double>() + 0.01) << way << ", m";
+        EXPECT_LE(largest_px, cut["error_px"].get<double>() + 0.06) << way << ", px";
+    }
 }
 
 // Level 0 is not drawn from so far; damaged, it is one line, and no picture, where it is.
@@ -173,22 +191,7 @@ class StreamedTown : public StreamedMeshes {
     void SetUp() override {
         const std::string houses = (folder_ / "houses.geojson").string();
         write_bytes(houses, geojson_of_town());
-        const Outcome done = run_orograph(
-            {"bake", bundled(), "--mesh-file", houses, "--building-height", "height", "--out", baked_, "-q"});
-        ASSERT_EQ(done.exit_code, 0) << done.err;
-        write_without_groups(baked_, whole_);
-    }
-    // Both files' pictures, and what is found of them.
-    void expect_same_pictures(const Words& how) const {
-        const Outcome of_groups = shot(baked_, one_, how), of_whole = shot(whole_, other_, how);
-        ASSERT_EQ(of_groups.exit_code, 0) << of_groups.err;
-        ASSERT_EQ(of_whole.exit_code, 0) << of_whole.err;
-        json a = json::parse(of_groups.out), b = json::parse(of_whole.out);
-        for (json* const one : {&a, &b}) (*one)["meshes"].erase("graph_s");
-        for (const char* const key : {"meshes", "triangles", "destination", "eye"})
-            EXPECT_EQ(a[key], b[key]) << key;
-        EXPECT_TRUE(a.contains("meshes"));
-        EXPECT_EQ(oro::test::pixels_of(one_).rgb, oro::test::pixels_of(other_).rgb);
+        bake({"--mesh-file", houses, "--building-height", "height"});
     }
 };
 
@@ -208,6 +211,16 @@ TEST_F(StreamedTown, IsDrawnAsTheWholeMeshIsInOtherWays) {
          {Words{"--mesh", "clusters"}, Words{"--mesh-level", "3"}, Words{"--show", "clusters", "--tau", "20"},
           Words{"--mesh", "clusters", "--exaggeration", "2"}})
         expect_same_pictures(how);
+}
+
+// Of houses that are on the ground, and are not drawn, what is missed is their distance from the ground.
+TEST_F(StreamedTown, IsMeasuredWhereItIsDroppedOntoTheGround) {
+    const Outcome drawn = shot(baked_, one_, {"--mesh-level", "5", "--pitch", "-15", "--verify"});
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    const json said = json::parse(drawn.out), &meshes = said["error"]["meshes"];
+    const double missed_m = meshes["missed_m"]["max"];
+    EXPECT_GT(missed_m, 4.0) << "m: half of the lowest house";
+    EXPECT_LE(missed_m, said["meshes"]["error_m"].get<double>() + 0.01) << "m";
 }
 
 // The cells of the ground are the last bytes of the records. Changed, with checksums made right: one line, or

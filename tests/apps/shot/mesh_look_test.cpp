@@ -89,9 +89,11 @@ TEST_F(MeshLook, APitIsSeenWhereTheTerrainIsCut) {
     EXPECT_FALSE(says(shot(on)["destination"].dump(), "pit.obj"));
     const json said = shot(joined(on, {"--cut-under", "--verify"}));
     EXPECT_TRUE(says(said["destination"].dump(), "pit.obj")) << said["destination"].dump();
-    // Walls along the rim reach out by a pixel (SeamSkirt): a few pixels there show what is beside it.
+    // Walls along the rim reach out by a pixel (SeamSkirt): a few pixels there show what is beside it, and the
+    // walls themselves are as far from the true ones.
     EXPECT_LT(said["error"]["seen_px"]["mean"].get<double>(), 0.05) << said["error"].dump();
-    EXPECT_LT(said["error"]["surface_px"]["max"].get<double>(), 0.05) << said["error"].dump();
+    EXPECT_LT(said["error"]["surface_px"]["mean"].get<double>(), 0.05) << said["error"].dump();
+    EXPECT_LT(said["error"]["surface_px"]["max"].get<double>(), 1.05) << said["error"].dump();
     const json view = json::parse(view_in(picture_));
     EXPECT_EQ(view["meshes"]["cut_under"], true);
     const std::string again = (folder_ / "again.png").string();

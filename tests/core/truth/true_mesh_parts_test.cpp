@@ -110,6 +110,24 @@ TEST(TrueMeshParts, LinesMeetWhatTheyMeetOfTheWhole) {
     EXPECT_TRUE(parts.health().ok());
 }
 
+TEST(TrueMeshParts, NearestPlacesAreThoseOfTheWhole) {
+    const auto source = std::make_shared<const SheetInParts>(40U);
+    const TrueMesh whole(source->all(), 1, 2), parts(source, 1, 2, 200000);
+    std::mt19937 random(12);
+    std::uniform_real_distribution<double> share(-0.002, 0.009), height(480.0, 700.0);
+    for (int i = 0; i < 500; ++i) {
+        const glm::dvec3 at =
+            ecef_from_geodetic({47.0 + share(random), 8.0 + share(random), height(random)}).m;
+        const auto a = whole.nearest_m(at, 300.0), b = parts.nearest_m(at, 300.0);
+        ASSERT_EQ(a.has_value(), b.has_value()) << "point " << i;
+        if (!a) continue;
+        EXPECT_NEAR(glm::distance(*a, at), glm::distance(*b, at), 1.0e-8) << "m";
+    }
+    const int before = source->reads;
+    EXPECT_FALSE(parts.nearest_m(glm::dvec3(0.0), 300.0));
+    EXPECT_EQ(source->reads, before) << "far away nothing is read";
+}
+
 // One line down reads the row that it meets, and perhaps those beside it; asked once more it reads none.
 TEST(TrueMeshParts, ALineReadsTheNearPartsAlone) {
     const auto source = std::make_shared<const SheetInParts>(40U);

@@ -165,10 +165,62 @@ TEST(TrueMesh, IsTheSameByAnyNumberOfThreads) {
     EXPECT_GT(met, 300);
 }
 
+// How far a point is from a triangle by the seven regions around it: no code of the tree.
+// Source: C. Ericson, Real-Time Collision Detection, 2005, 5.1.5.
+double away_m(const std::array<glm::dvec3, 3>& triangle, const glm::dvec3& at) {
+    const auto& [a, b, c] = triangle;
+    const glm::dvec3 ab = b - a, ac = c - a;
+    const double d1 = glm::dot(ab, at - a), d2 = glm::dot(ac, at - a), d3 = glm::dot(ab, at - b),
+                 d4 = glm::dot(ac, at - b), d5 = glm::dot(ab, at - c), d6 = glm::dot(ac, at - c);
+    if (d1 <= 0.0 && d2 <= 0.0) return glm::distance(a, at);
+    if (d3 >= 0.0 && d4 <= d3) return glm::distance(b, at);
+    if (d6 >= 0.0 && d5 <= d6) return glm::distance(c, at);
+    const double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
+    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return glm::distance(a + d1 / (d1 - d3) * ab, at);
+    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return glm::distance(a + d2 / (d2 - d6) * ac, at);
+    if (va <= 0.0 && d4 >= d3 && d5 >= d6)
+        return glm::distance(b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b), at);
+    return glm::distance(a + vb / (va + vb + vc) * ab + vc / (va + vb + vc) * ac, at);
+}
+
+TEST(TrueMesh, NearestPlacesAreThoseOfBruteForce) {
+    constexpr unsigned seed = 5232;
+    std::printf("seed %u\n", seed);
+    Random random(seed);
+    const MeshTriangles mesh = rough_sheet(16, random);
+    const TrueMesh tree(mesh, 1, 2);
+    double farthest_m = 0.0;
+    for (int i = 0; i < 2000; ++i) {
+        // On the mesh, near it and far from it.
+        const double off_m = i % 3 == 0 ? 0.0 : i % 3 == 1 ? 20.0 : 3000.0;
+        const auto corners = tree.corners_m(random() % tree.size());
+        const glm::dvec3 at = (corners[0] + corners[1] + corners[2]) / 3.0 +
+                              glm::dvec3(between(random, -off_m, off_m), between(random, -off_m, off_m),
+                                         between(random, -off_m, off_m));
+        double expected_m = 1.0e9;
+        for (std::size_t k = 0; k < tree.size(); ++k)
+            expected_m = std::min(expected_m, away_m(tree.corners_m(k), at));
+        const auto found = tree.nearest_m(at, 1.0e9);
+        ASSERT_TRUE(found);
+        ASSERT_NEAR(glm::distance(*found, at), expected_m, 1.0e-8) << "m, of point " << i;
+        farthest_m = std::max(farthest_m, expected_m);
+        if (expected_m > 1.0e-3) {
+            EXPECT_FALSE(tree.nearest_m(at, 0.999 * expected_m));
+        }
+    }
+    EXPECT_GT(farthest_m, 1000.0);
+    // Triangles without an area are lines, or points.
+    const TrueMesh line({{{0.0, 0.0, 0.0}, {4.0, 0.0, 0.0}, {2.0, 0.0, 0.0}}, {{0, 1, 2}, {2, 2, 2}}, {}}, 1,
+                        1);
+    EXPECT_EQ(line.nearest_m({3.0, 2.0, 0.0}, 9.0), glm::dvec3(3.0, 0.0, 0.0));
+    EXPECT_EQ(line.nearest_m({7.0, 4.0, 0.0}, 9.0), glm::dvec3(4.0, 0.0, 0.0));
+}
+
 TEST(TrueMesh, OfNothingMeetsNothing) {
     const TrueMesh none({}, 1, 4);
     EXPECT_EQ(none.size(), 0U);
     EXPECT_FALSE(none.first_hit({{7.0e6, 0.0, 0.0}}, {}, glm::dvec3(0.0), {-1.0, 0.0, 0.0}, 1.0e9));
+    EXPECT_FALSE(none.nearest_m({7.0e6, 0.0, 0.0}, 1.0e9));
 }
 
 }  // namespace
