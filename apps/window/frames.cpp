@@ -8,6 +8,7 @@
 
 #include "apps/accuracy/beyond_data.h"
 #include "apps/report/progress_bar.h"
+#include "apps/window/coming_scene.h"
 #include "apps/window/loading_picture.h"
 #include "apps/window/pictures.h"
 #include "apps/window/written_frame.h"
@@ -25,18 +26,15 @@ void say_waited(const Viewer& viewer, const char* what) {
 // What a coarse picture needs of the scene that comes: with that it takes the place of the one that is shown,
 // and the eye stays. Until then the window goes on. True once it has.
 Result<bool> swap_in_full_pyramid(Viewer& viewer) {
-    constexpr double first_tau_px = 4.0, longest_s = 10.0;
+    constexpr double first_tau_px = 4.0;
     Scene& scene = *viewer.coming;
     const Camera& camera = viewer.view.camera;
     scene.require_fields(viewer.style.frame);
     ORO_TRY(const FramePlan plan,
             scene.plan(
                 {camera, whole_tile(camera), std::max(first_tau_px, viewer.view.tau_px), viewer.view.model}));
-    // Where the GPU has no room for all of it, it never is whole.
-    if (!plan.is_settled() && seconds_since(viewer.coming_since) < longest_s) {
-        const Result<bool> advanced = scene.advance();
-        return advanced.ok() ? Result<bool>(false) : advanced;
-    }
+    ORO_TRY(const bool is_ready, has_what_fits(scene, plan, viewer.coming_since));
+    if (!is_ready) return false;
     ORO_CHECK(finish_frames(viewer));
     show_finer_scene(viewer);
     return true;
@@ -265,8 +263,7 @@ Result<void> refine(Viewer& viewer, bool& changed) {
 }
 
 bool lacks_what_may_come(const FramePlan& plan, bool lacks_memory) {
-    const auto lacks_clusters = [](const GridPlan& grid) { return grid.clusters.missing > 0; };
-    return lacks_memory ? std::ranges::any_of(plan.grids, lacks_clusters) : !plan.is_settled();
+    return lacks_memory ? lacks_clusters(plan) : !plan.is_settled();
 }
 
 bool lacks_memory_now(const Scene& scene, bool& known) {

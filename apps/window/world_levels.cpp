@@ -7,6 +7,7 @@
 
 #include "apps/drawing/known_pictures.h"
 #include "apps/navigation/view_history.h"
+#include "apps/window/coming_scene.h"
 #include "apps/window/frames.h"
 #include "apps/window/looking_around.h"
 #include "apps/window/viewer.h"
@@ -89,19 +90,16 @@ Result<void> take_measured(Viewer& viewer) {
     return {};
 }
 
-// Where the GPU has no room for all of it, it never is whole.
+// Once all of it is there, or all that the GPU has room for.
 Result<void> show_measured(Viewer& viewer, bool& changed) {
-    constexpr double longest_s = 10.0;
     WorldLevels& world = viewer.world;
     Scene& scene = *world.measured;
     const Camera& camera = viewer.view.camera;
     scene.require_fields(viewer.style.frame);
     ORO_TRY(const FramePlan plan,
             scene.plan({camera, whole_tile(camera), viewer.view.tau_px, viewer.view.model}));
-    if (!plan.is_settled() && seconds_since(world.measured_since) < longest_s) {
-        const Result<bool> advanced = scene.advance();
-        return advanced.ok() ? Result<void>() : advanced.error();
-    }
+    ORO_TRY(const bool is_ready, has_what_fits(scene, plan, world.measured_since));
+    if (!is_ready) return {};
     ORO_CHECK(finish_frames(viewer));
     world.by_bounds = std::exchange(viewer.scene, std::move(world.measured));
     viewer.certificates.forget();
