@@ -18,25 +18,44 @@ for try in $(seq 300); do
 done
 [ -n "$window" ] || fail "no window came"
 state() { sed -n 's/^state: //p' states.txt | tail -n 1; }
-# says NAME PATTERN: waits until the state holds the pattern.
-says() {
-  for try in $(seq 200); do
-    if state | grep -q "$2"; then printf '%s: %s\n' "$1" "$(state)"; return; fi
+eye() { state | grep -o '[0-9.-]*° [0-9.-]*°  [0-9.-]* m above sea level  heading [0-9.]*°' | tail -n 1; }
+# until_so WHAT COMMAND...: waits for what the window does next, however long its frames take beside other programs.
+until_so() {
+  what=$1; shift
+  for try in $(seq 600); do
+    if "$@"; then return; fi
+    kill -0 "$viewer" 2>/dev/null || break
     sleep 0.1
   done
-  fail "$1: the state stays '$(state)'"
+  fail "$what: the state stays '$(state)'"
 }
-# holds KEY...: for a while, as a hand does.
+holds_pattern() { state | grep -Eq "$1"; }
+lacks_pattern() { [ -n "$(state)" ] && ! holds_pattern "$1"; }
+still_holds() { lacks_pattern moving && holds_pattern "$1"; }
+elsewhere_holds() { still_holds "$1" && [ "$(eye)" != "$said_eye" ]; }
+tells() { printf '%s: %s\n' "$1" "$(state)"; said_eye=$(eye); }
+# says NAME PATTERN: once the state holds the pattern, and nothing moves. comes: and the eye is elsewhere than it was said last.
+says() { until_so "$1" still_holds "$2"; tells "$1"; }
+comes() { until_so "$1" elsewhere_holds "$2"; tells "$1"; }
+# holds KEY...: for a while, as a hand does, from when the window knows of them until it knows that they are let go.
 holds() {
   for key in "$@"; do xdotool keydown "$key"; done
+  until_so "$* is held" holds_pattern moving
   sleep 0.7
   for key in "$@"; do xdotool keyup "$key"; done
-  sleep 0.3
+  until_so "$* is let go" lacks_pattern moving
 }
-# picks NAME PATTERN X Y: clicks there, and closes the panel that tells of it.
+# picks NAME PATTERN X Y: clicks there once the picture is whole, and closes the panel that tells of it.
 picks() {
+  until_so "$1 is drawn" lacks_pattern 'moving|loading|drawing'
   xdotool mousemove --window "$window" "$3" "$4" click 3; says "$1" "$2"
   xdotool key Escape; sleep 0.2
+}
+# sizes WIDTH HEIGHT: what is asked for afterwards has that size, for a field opens and closes after the window has taken it.
+sizes() {
+  xdotool windowsize --sync "$window" "$1" "$2"
+  xdotool key g; until_so "$1 x $2" holds_pattern '^Go to'
+  xdotool key Escape; until_so "$1 x $2" lacks_pattern '^Go to'
 }
 
 says start 'heading 30'
@@ -47,8 +66,8 @@ holds ctrl Right; says turned 'heading'
 # What the left button takes hold of stays under the cursor, which comes from elsewhere.
 picks held 'from jacksboro.tif' 100 190
 xdotool mousemove --window "$window" 160 60; xdotool mousemove --window "$window" 100 190 mousedown 1; sleep 0.4
-xdotool mousemove_relative 20 0; sleep 0.2; xdotool mousemove_relative 20 -10; sleep 0.4; xdotool mouseup 1; sleep 0.5
-says dragged 'heading'
+xdotool mousemove_relative 20 0; sleep 0.2; xdotool mousemove_relative 20 -10; sleep 0.4; xdotool mouseup 1
+comes dragged 'heading'
 picks moved 'from jacksboro.tif' 140 180
 holds space; says risen 'heading'
 # A key that is held opens the field once, and is not typed into it.
@@ -61,15 +80,15 @@ xdotool key Return; says shown 'Enter stands on it'
 # What is looked at is in the middle of the picture.
 picks aimed 'from jacksboro.tif' 160 120
 xdotool key Return; says stood '^Backspace goes back'
-xdotool key BackSpace; sleep 1; says unstood '^[0-9]'
-xdotool key BackSpace; sleep 1; says returned '^[0-9]'
+xdotool key BackSpace; comes unstood '^[0-9]'
+xdotool key BackSpace; comes returned '^[0-9]'
 xdotool key g; xdotool type '36.5,-84.3'; xdotool key Return Return; says jumped '^Backspace goes back'
 holds f; holds f; says looked-down 'heading'
 for press in 1 2 3 4; do holds q; done; says sunk 'heading'
-xdotool windowsize --sync "$window" 400 200; sleep 1; says resized 'heading'
+sizes 400 200; says resized 'heading'
 xdotool key p; says pictured 'wrote orograph-'
 # An odd size has a pixel in its middle.
-xdotool windowsize --sync "$window" 401 201; sleep 1
+sizes 401 201
 picks picked 'from jacksboro.tif' 200 100
 [ "$(xdotool getwindowname "$window")" = "Orograph - $(basename "$data")" ] || fail "the title is another"
 xdotool key Escape; sleep 0.5
