@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -17,6 +16,7 @@
 
 #include "core/base/files_read.h"
 #include "geo/fetch/terrarium_tile.h"
+#include "geo/files/file_begin.h"
 #include "geo/files/raster_library.h"
 #include "geo/sources/hgt_source.h"
 #include "geo/sources/raster_source.h"
@@ -25,17 +25,11 @@ namespace oro {
 namespace {
 
 constexpr double most_offset_deg = 0.01;
+constexpr std::uint64_t most_begin_bytes = 512;
 
 struct CloseGzip {
     void operator()(gzFile_s* file) const { gzclose_r(file); }
 };
-
-std::string first_bytes(const std::string& file) {
-    std::array<char, 512> bytes{};
-    std::ifstream stream(file, std::ios::binary);
-    stream.read(bytes.data(), bytes.size());
-    return {bytes.data(), static_cast<std::size_t>(stream.gcount())};
-}
 
 // ", but a page of the web" and the like, of what servers send instead of files; or "".
 std::string instead_words(const std::string& begin) {
@@ -52,7 +46,7 @@ bool is_size_of_hgt(std::uint64_t bytes) {
 
 Result<void> check_hgt_gz(const std::string& file, const std::string& shown) {
     const auto wrong = [&](const std::string& what) { return Error{ErrorKind::failed, shown, what}; };
-    const std::string begin = first_bytes(file);
+    const std::string begin = begin_of_file(file, most_begin_bytes);
     if (!begin.starts_with("\x1f\x8b")) return wrong("is no gzip file" + instead_words(begin));
     const std::unique_ptr<gzFile_s, CloseGzip> packed(gzopen(file.c_str(), "rb"));
     if (!packed) return wrong("cannot be read");
@@ -123,7 +117,7 @@ Result<void> check_raster(const std::string& file, const std::string& shown, boo
     const char* const siblings[] = {"", nullptr};
     const Dataset dataset(
         GDALOpenEx(file.c_str(), GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR, driver, nullptr, siblings));
-    if (!dataset) return wrong("is no GeoTIFF" + instead_words(first_bytes(file)));
+    if (!dataset) return wrong("is no GeoTIFF" + instead_words(begin_of_file(file, most_begin_bytes)));
     if (GDALGetRasterCount(dataset.get()) != 1) return wrong("has not one band");
     if (!is_in_place(dataset.get())) return wrong("does not lie at " + place);
     const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);

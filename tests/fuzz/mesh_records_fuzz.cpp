@@ -5,58 +5,33 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
-#include <numbers>
 #include <vector>
 
 #include "core/cluster_frame/cluster_cut.h"
 #include "core/mesh_file/mesh_bytes.h"
 #include "core/streamed_mesh/mesh_records.h"
+#include "tests/fuzz/mesh_of_ball.h"
 
 namespace {
 
 using namespace oro;
-
-void expect(bool is_so) {
-    if (!is_so) std::abort();
-}
+using test::changed;
+using test::expect;
 
 // A ball of 264 triangles, with labels.
-StoredMesh ball() {
-    constexpr std::uint32_t n = 12, around = 12;
-    std::vector<LatticeSteps> places{{0, 0, 40000}, {0, 0, -40000}};
-    for (std::uint32_t i = 1; i < n; ++i)
-        for (std::uint32_t k = 0; k < around; ++k) {
-            const double a = std::numbers::pi * i / n, b = 2.0 * std::numbers::pi * k / around;
-            places.push_back({std::llround(40000.0 * std::sin(a) * std::cos(b)),
-                              std::llround(40000.0 * std::sin(a) * std::sin(b)),
-                              std::llround(40000.0 * std::cos(a))});
-        }
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-    const auto at = [&](std::uint32_t i, std::uint32_t k) { return 2 + i * around + k % around; };
-    for (std::uint32_t k = 0; k < around; ++k) {
-        triangles.push_back({0, at(0, k), at(0, k + 1)});
-        triangles.push_back({1, at(n - 2, k + 1), at(n - 2, k)});
-        for (std::uint32_t i = 0; i + 2 < n; ++i) {
-            triangles.push_back({at(i, k), at(i + 1, k), at(i, k + 1)});
-            triangles.push_back({at(i, k + 1), at(i + 1, k), at(i + 1, k + 1)});
-        }
-    }
-    std::vector<glm::dvec3> vertices;
-    for (const LatticeSteps& place : places)
-        vertices.push_back(glm::dvec3(place[0], place[1], place[2]) / lattice_steps_per_m);
+StoredMesh stored_ball() {
+    const test::MeshOfBall ball = test::mesh_of_ball(12);
     std::vector<std::uint32_t> labels;
-    for (std::uint32_t i = 0; i < triangles.size(); ++i) labels.push_back(i / 9 % 5);
-    const MeshGraph graph = build_mesh_graph(vertices, triangles, glm::dvec3(0.0));
+    for (std::uint32_t i = 0; i < ball.triangles.size(); ++i) labels.push_back(i / 9 % 5);
     StoredMesh mesh;
-    expect(!mesh_from_bytes(mesh_to_bytes({{}, places, labels, 5, graph}).value(), mesh));
+    expect(!mesh_from_bytes(mesh_to_bytes({{}, ball.places, labels, 5, ball.graph()}).value(), mesh));
     return mesh;
 }
 
 const StreamedBytes& true_streamed_bytes(bool is_town) {
     static const std::array<StreamedBytes, 2> bytes = [] {
         const GroundCells cells{46.0, 46.1, 8.0, 8.2, {{77, {{10, 20, 5}, {11, 19, 7}, {11, 40, 1}}}}};
-        StoredMesh mesh = ball();
+        StoredMesh mesh = stored_ball();
         const StreamedBytes alone = streamed_bytes_of(mesh, {}, 1);
         mesh.ground_fingerprint = 1;
         return std::array{alone, streamed_bytes_of(mesh, {}, 1, &cells)};
@@ -92,13 +67,6 @@ void use_as_payload(std::span<const std::byte> bytes, const MeshRecords& records
     expect(payload.triangles.size() == all && payload.labels.size() == all);
     for (const auto& triangle : payload.triangles)
         for (const std::uint16_t corner : triangle) expect(corner < payload.places.size());
-}
-
-std::vector<std::byte> changed(std::vector<std::byte> bytes, const std::uint8_t* data, std::size_t size) {
-    for (std::size_t i = 0; i + 2 < size && !bytes.empty(); i += 3)
-        bytes[(static_cast<std::size_t>(data[i]) << 8U | data[i + 1]) % bytes.size()] =
-            static_cast<std::byte>(data[i + 2]);
-    return bytes;
 }
 
 }  // namespace
