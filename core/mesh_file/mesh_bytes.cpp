@@ -15,13 +15,14 @@
 
 // The order of the bytes: MeshNumbers; the ground's fingerprint where there is one, which a bit of the
 // levels' count says; groups of each level, 4 bytes each; then, range coded, the leaves, each with its count,
-// its triangles and its user; and level by level the groups, each with the count of its clusters, its maps,
-// its error and its clusters' users.
+// its triangles, unless another bit of the levels' count says that they are elsewhere, and its user; and
+// level by level the groups, each with the count of its clusters, its maps, its error and its clusters'
+// users.
 namespace oro {
 namespace {
 
 constexpr std::uint32_t most_levels = 80, most_used_triangles = 4096;
-constexpr std::uint32_t has_ground = 1U << 31U;  // beside the number of levels
+constexpr std::uint32_t has_ground = 1U << 31U, leaves_elsewhere = 1U << 30U;  // beside the number of levels
 // After so many what lies in scratch files is out of memory: some 100,000 triangles.
 constexpr std::uint32_t window_leaves = 1024, window_groups = 64;
 
@@ -66,8 +67,11 @@ template <class Coder>
 class MeshBytesCode {
   public:
     MeshBytesCode(Coder& coder, const MeshNumbers& numbers, std::vector<std::uint32_t> groups,
-                  const MeshToStore* source, CodedMesh<Coder>& mesh, ScratchMemory* scratch)
+                  const MeshToStore* source, CodedMesh<Coder>& mesh, ScratchMemory* scratch,
+                  LeavesIn leaves_in, MeshLeaves* given_leaves)
         : coder_(coder),
+          leaves_in_(leaves_in),
+          given_leaves_(given_leaves),
           numbers_(numbers),
           groups_(std::move(groups)),
           source_(source),
@@ -116,6 +120,7 @@ class MeshBytesCode {
     void end_window() {
         if constexpr (Coder::writes) {
             const std::vector<std::byte> some = coder_.take();
+            static_cast<void>(aside_.take());
             mesh_.bytes.insert(mesh_.bytes.end(), some.begin(), some.end());
             if (scratch_ != nullptr) scratch_->drop_pages();
         }
@@ -128,6 +133,8 @@ class MeshBytesCode {
     }
     std::string leaves();
     std::string leaf(std::uint32_t number);
+    bool leaf_triangles(std::uint32_t count, const LeafSource& source);
+    std::string take_given_leaves();
     std::string used_by(std::size_t number, std::uint32_t groups_above, std::uint32_t first_above);
     std::string level(std::uint32_t number);
     void begin_groups(std::uint32_t number, std::uint32_t first_group);
@@ -150,6 +157,9 @@ class MeshBytesCode {
     }
 
     Coder& coder_;
+    LeavesIn leaves_in_;
+    MeshLeaves* given_leaves_;  // a decoder's, where leaves are elsewhere
+    RangeEncoder aside_;        // what becomes of an encoder's leaves there: nothing
     MeshNumbers numbers_;
     std::vector<std::uint32_t> groups_;  // by level
     const MeshToStore* source_;
@@ -203,6 +213,45 @@ std::string MeshBytesCode<Coder>::used_by(std::size_t number, std::uint32_t grou
     return "";
 }
 
+// False where a decoder's bytes tell none such.
+template <class Coder>
+bool MeshBytesCode<Coder>::leaf_triangles(std::uint32_t count, const LeafSource& source) {
+    if constexpr (Coder::writes) {
+        return leaf_.code(leaves_in_ == LeavesIn::payloads ? aside_ : coder_, count, source, source_->places,
+                          mesh_);
+    } else {
+        if (leaves_in_ != LeavesIn::payloads) return leaf_.code(coder_, count, source, {}, mesh_);
+        const std::size_t first = triangles().size();
+        const auto append = [&](auto& to, const auto& from) {
+            const auto begin = from.begin() + static_cast<std::ptrdiff_t>(first);
+            to.insert(to.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
+        };
+        append(triangles(), given_leaves_->triangles);
+        if (numbers_.labels > 0) append(mesh_.labels, given_leaves_->labels);
+        return true;
+    }
+}
+
+// What is wrong with leaves that a decoder is given; "" where all is well.
+template <class Coder>
+std::string MeshBytesCode<Coder>::take_given_leaves() {
+    if constexpr (!Coder::writes) {
+        if (leaves_in_ != LeavesIn::payloads) return "";
+        if (given_leaves_ == nullptr) return "has its triangles elsewhere";
+        MeshLeaves& given = *given_leaves_;
+        if (given.triangles.size() != numbers_.triangles || given.places.size() != numbers_.vertices)
+            return "has groups of " + std::to_string(given.triangles.size()) + " triangles and " +
+                   std::to_string(given.places.size()) + " vertices, expected " +
+                   std::to_string(numbers_.triangles) + " and " + std::to_string(numbers_.vertices);
+        const bool has_labels = numbers_.labels > 0;
+        if (given.labels.size() != (has_labels ? given.triangles.size() : 0) ||
+            std::ranges::any_of(given.labels, [&](std::uint32_t one) { return one >= numbers_.labels; }))
+            return "has groups of other features than it states";
+        mesh_.places = std::move(given.places);
+    }
+    return "";
+}
+
 template <class Coder>
 std::string MeshBytesCode<Coder>::leaf(std::uint32_t number) {
     LeafSource source;
@@ -223,9 +272,7 @@ std::string MeshBytesCode<Coder>::leaf(std::uint32_t number) {
     count = most - room;
     const auto first = static_cast<std::uint32_t>(triangles().size());
     if (count > numbers_.triangles - first) return "has more triangles in its leaves than it states";
-    std::span<const LatticeSteps> places;
-    if constexpr (Coder::writes) places = source_->places;
-    if (!leaf_.code(coder_, count, source, places, mesh_)) return "has a triangle that is none";
+    if (!leaf_triangles(count, source)) return "has a triangle that is none";
     for (std::uint32_t i = 0; i < count; ++i) originals().push_back(first + i);
     if constexpr (Coder::writes)
         for (std::uint32_t i = 0; i < count; ++i) {
@@ -244,6 +291,7 @@ std::string MeshBytesCode<Coder>::leaf(std::uint32_t number) {
 
 template <class Coder>
 std::string MeshBytesCode<Coder>::leaves() {
+    if (std::string wrong = take_given_leaves(); !wrong.empty()) return wrong;
     for (std::uint32_t i = 0; i < numbers_.leaves; ++i) {
         if (std::string wrong = leaf(i); !wrong.empty()) return wrong;
         if (is_cut_off()) return "is cut off in its leaves";
@@ -251,6 +299,7 @@ std::string MeshBytesCode<Coder>::leaves() {
     }
     std::pmr::vector<std::uint32_t> given_vertex = leaf_.end();
     if constexpr (Coder::writes) mesh_.given_vertex = std::move(given_vertex);
+    if (given_leaves_ != nullptr) *given_leaves_ = {};
     if (triangles().size() != numbers_.triangles || mesh_.places.size() != numbers_.vertices)
         return "has " + std::to_string(triangles().size()) + " triangles and " +
                std::to_string(mesh_.places.size()) + " vertices, expected " +
@@ -451,7 +500,7 @@ MeshNumbers numbers_of(const MeshToStore& mesh) {
 
 }  // namespace
 
-Result<WrittenMesh> write_mesh(const MeshToStore& mesh, ScratchMemory* scratch) {
+Result<WrittenMesh> write_mesh(const MeshToStore& mesh, ScratchMemory* scratch, LeavesIn leaves) {
     const MeshNumbers numbers = numbers_of(mesh);
     if (const std::string wrong = implausible(numbers); !wrong.empty())
         return Error{ErrorKind::failed, "", "the mesh " + wrong};
@@ -460,6 +509,7 @@ Result<WrittenMesh> write_mesh(const MeshToStore& mesh, ScratchMemory* scratch) 
     NumberWriter writer;
     MeshNumbers stated = numbers;
     if (mesh.ground_fingerprint != 0) stated.levels |= has_ground;
+    if (leaves == LeavesIn::payloads) stated.levels |= leaves_elsewhere;
     visit_numbers(writer, stated);
     if (mesh.ground_fingerprint != 0) writer(mesh.ground_fingerprint);
     for (const std::uint32_t count : groups) writer(count);
@@ -474,7 +524,7 @@ Result<WrittenMesh> write_mesh(const MeshToStore& mesh, ScratchMemory* scratch) 
     written.clusters.groups.reserve(mesh.graph.clusters.groups.size());
     written.clusters.members.reserve(mesh.graph.clusters.members.size());
     RangeEncoder coder;
-    MeshBytesCode<RangeEncoder> code(coder, numbers, groups, &mesh, written, scratch);
+    MeshBytesCode<RangeEncoder> code(coder, numbers, groups, &mesh, written, scratch, leaves, nullptr);
     if (const std::string wrong = code.code(); !wrong.empty())
         return Error{ErrorKind::failed, "", "the mesh " + wrong};
     const std::vector<std::byte> rest = coder.finish();
@@ -487,13 +537,24 @@ Result<std::vector<std::byte>> mesh_to_bytes(const MeshToStore& mesh) {
     return std::vector<std::byte>(written.bytes.begin(), written.bytes.end());
 }
 
-std::optional<std::string> mesh_from_bytes(std::span<const std::byte> bytes, StoredMesh& mesh) {
+bool has_leaves_elsewhere(std::span<const std::byte> bytes) {
+    NumberReader reader(bytes);
+    MeshNumbers numbers;
+    visit_numbers(reader, numbers);
+    return (numbers.levels & leaves_elsewhere) != 0;
+}
+
+std::optional<std::string> mesh_from_bytes(std::span<const std::byte> bytes, StoredMesh& mesh,
+                                           MeshLeaves* leaves) {
     mesh = {};
     NumberReader reader(bytes);
     MeshNumbers numbers;
     visit_numbers(reader, numbers);
     if ((numbers.levels & has_ground) != 0) reader(mesh.ground_fingerprint), numbers.levels &= ~has_ground;
     if (reader.rest().empty()) return "is cut off";
+    const LeavesIn leaves_in =
+        (numbers.levels & leaves_elsewhere) != 0 ? LeavesIn::payloads : LeavesIn::bytes;
+    numbers.levels &= ~leaves_elsewhere;
     if (std::string wrong = implausible(numbers); !wrong.empty()) return wrong;
     std::vector<std::uint32_t> groups(numbers.levels);
     for (std::uint32_t& count : groups) {
@@ -503,7 +564,7 @@ std::optional<std::string> mesh_from_bytes(std::span<const std::byte> bytes, Sto
     }
     mesh.origin = numbers.origin, mesh.label_count = numbers.labels;
     RangeDecoder coder(reader.rest());
-    MeshBytesCode<RangeDecoder> code(coder, numbers, groups, nullptr, mesh, nullptr);
+    MeshBytesCode<RangeDecoder> code(coder, numbers, groups, nullptr, mesh, nullptr, leaves_in, leaves);
     if (std::string wrong = code.code(); !wrong.empty()) return wrong;
     if (coder.is_wrong()) return "is cut off";
     if (!coder.at_end()) return "goes on after its last group";

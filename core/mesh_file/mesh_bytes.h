@@ -1,4 +1,4 @@
-// A mesh and its cluster graph as bytes: some 2 to 4 a triangle of the mesh, all levels.
+// A mesh and its cluster graph as bytes: some 2 to 5 a triangle of the mesh, all levels; a half where leaves are elsewhere.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +11,7 @@
 
 #include "core/base/result.h"
 #include "core/base/scratch_memory.h"
+#include "core/mesh_file/mesh_leaves.h"
 #include "core/mesh_file/stored_mesh.h"
 #include "core/mesh_file/written_mesh.h"
 #include "core/mesh_graph/grown_mesh_graph.h"
@@ -47,19 +48,31 @@ struct MeshToStore {
     std::uint64_t ground_fingerprint{};  // StoredMesh::ground_fingerprint
 };
 
+// Where the triangles of the leaves are told.
+enum class LeavesIn : std::uint8_t {
+    bytes,    // with their graph
+    payloads  // elsewhere in the file (core/streamed_mesh/mesh_records.h), once
+};
+
 // The same mesh gives the same bytes. Told are the mesh's triangles and places, and of each group which of
 // its vertices go to which neighbours, in which clusters the rest lies, and its error: so what is read has no
 // crack between groups, whatever the bytes say. Spheres are reckoned from these. scratch: where all that is
 // of the mesh's size lies, also of what comes out, which it outlives; null: in memory. Errors, in words: a
 // graph above the limits, or one that no builder makes.
-[[nodiscard]] Result<WrittenMesh> write_mesh(const MeshToStore& mesh, ScratchMemory* scratch);
+[[nodiscard]] Result<WrittenMesh> write_mesh(const MeshToStore& mesh, ScratchMemory* scratch,
+                                             LeavesIn leaves = LeavesIn::bytes);
 // Its bytes alone.
 [[nodiscard]] Result<std::vector<std::byte>> mesh_to_bytes(const MeshToStore& mesh);
 
 // The inverse, in one pass, a fortieth of the time that building takes. Any bytes may be given: nothing when
 // they are a mesh, else what is wrong with them, in words that follow "the mesh"; `mesh` is then of no use.
 // The mesh is that which was written, renumbered as StoredMesh says. Each error is at least that of the
-// groups below; that it is a bound is the writer's word (core/mesh_file/mesh_check.h measures it).
-[[nodiscard]] std::optional<std::string> mesh_from_bytes(std::span<const std::byte> bytes, StoredMesh& mesh);
+// groups below; that it is a bound is the writer's word (core/mesh_file/mesh_check.h measures it). leaves:
+// what the bytes do not tell where has_leaves_elsewhere(), with corners below the number of places; of no use
+// then.
+[[nodiscard]] std::optional<std::string> mesh_from_bytes(std::span<const std::byte> bytes, StoredMesh& mesh,
+                                                         MeshLeaves* leaves = nullptr);
+// Whether bytes say that leaves are LeavesIn::payloads.
+[[nodiscard]] bool has_leaves_elsewhere(std::span<const std::byte> bytes);
 
 }  // namespace oro

@@ -299,6 +299,14 @@ std::uint64_t MeshPayload::held_bytes() const {
            triangles.capacity() * sizeof(triangles[0]) + labels.capacity() * sizeof(labels[0]);
 }
 
+std::optional<std::string> wrong_with_triangles(const MeshPayload& payload,
+                                                std::span<const std::uint32_t> clusters) {
+    if (has_flat(payload)) return "has a triangle without an area";
+    if (is_too_full(payload, clusters))
+        return "has a cluster of more than " + std::to_string(most_cluster_vertices) + " vertices";
+    return std::nullopt;
+}
+
 std::vector<std::byte> payload_to_bytes(const PayloadShape& shape, const MeshPayload& payload) {
     RangeEncoder coder;
     MeshPayload coded;
@@ -314,9 +322,7 @@ std::optional<std::string> payload_from_bytes(std::span<const std::byte> bytes, 
         return "has a triangle that is none";
     if (coder.is_wrong()) return "is cut off";
     if (!coder.at_end()) return "goes on after its last triangle";
-    if (has_flat(payload)) return "has a triangle without an area";
-    if (is_too_full(payload, shape.clusters))
-        return "has a cluster of more than " + std::to_string(most_cluster_vertices) + " vertices";
+    if (auto wrong = wrong_with_triangles(payload, shape.clusters)) return wrong;
     payload.labels.shrink_to_fit(), payload.places.shrink_to_fit(), payload.colours.shrink_to_fit(),
         payload.triangles.shrink_to_fit();
     return std::nullopt;

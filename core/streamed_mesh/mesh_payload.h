@@ -43,4 +43,9 @@ struct PayloadShape {
 [[nodiscard]] std::optional<std::string> payload_from_bytes(std::span<const std::byte> bytes,
                                                             const PayloadShape& shape, MeshPayload& payload);
 
+// What is wrong with triangles that were read, in the same words: one without an area, a cluster that is too
+// full. clusters: as of PayloadShape.
+[[nodiscard]] std::optional<std::string> wrong_with_triangles(const MeshPayload& payload,
+                                                              std::span<const std::uint32_t> clusters);
+
 }  // namespace oro

@@ -9,15 +9,18 @@
 #include "core/base/little_endian.h"
 #include "core/base/parallel.h"
 #include "core/mesh_file/mesh_bytes.h"
+#include "core/streamed_mesh/made_payload.h"
 
 // The order of the bytes: RecordNumbers; groups of each level, 4 bytes each; of each leaf its triangles and
-// its user; of each group its error, its sphere, what it made and where its payloads are; of version 2 the
-// cells of the ground. Without ground the version is 1. Payloads of version 2 are those of a town.
+// its user; of each group its error, its sphere, what it made and where its payloads are; of versions 2 and 4
+// the cells of the ground. Without ground the version is 1 or 3. Payloads of versions 2 and 4 are those of a
+// town; those of 3 and 4 are told from below (PayloadForm).
 namespace oro {
 namespace {
 
-constexpr std::uint32_t records_version = 1, version_with_ground = 2, most_record_levels = 80,
-                        most_used = 4096;
+constexpr std::uint32_t records_version = 1, latest_version = 4, most_record_levels = 80, most_used = 4096;
+// What is added to the version.
+constexpr std::uint32_t of_ground = 1, of_payloads_from_below = 2;
 // Three new vertices, their colours and a label take less for each triangle.
 constexpr std::uint32_t most_payload_bytes = 256 * most_used;
 
@@ -60,8 +63,8 @@ void visit_payload(Visit& visit, auto& payload) {
 
 std::string implausible_numbers(const RecordNumbers& numbers) {
     constexpr std::int64_t most_steps = 6600000LL * 2048;  // the Earth and 100 km around it
-    if (numbers.version != records_version && numbers.version != version_with_ground)
-        return "has records of version " + std::to_string(numbers.version) + ", expected 1 or 2";
+    if (numbers.version < records_version || numbers.version > latest_version)
+        return "has records of version " + std::to_string(numbers.version) + ", expected 1 to 4";
     for (const LatticeSteps& at : {numbers.origin, numbers.least})
         for (const std::int64_t step : at)
             if (step < -2 * most_steps || step > most_steps) return "lies outside of the Earth";
@@ -267,6 +270,66 @@ MeshPayload payload_in(const StoredMeshView& mesh, std::span<const VertexColour>
     return payload;
 }
 
+// What a group made, told by what it uses.
+std::vector<std::byte> bytes_of_made(const StoredMeshView& mesh, const ClusterGroup& group) {
+    std::vector<std::uint32_t> vertices;
+    const auto members = mesh.clusters.members_of(group);
+    for (const std::uint32_t one : members)
+        for (const VertexTriangle& triangle : mesh.triangles_of(mesh.clusters.clusters[one]))
+            vertices.insert(vertices.end(), triangle.begin(), triangle.end());
+    std::ranges::sort(vertices);
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    const auto numbered = [&](const VertexTriangle& triangle) {
+        GroupMaps::Triangle here{};
+        for (std::size_t k = 0; k < 3; ++k)
+            here[k] = static_cast<std::uint32_t>(std::ranges::lower_bound(vertices, triangle[k]) -
+                                                 vertices.begin());
+        return here;
+    };
+    std::vector<GroupMaps::Triangle> used;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> numbers;  // in `used`, by the mesh's triangles
+    for (const std::uint32_t one : members) {
+        const Cluster& cluster = mesh.clusters.clusters[one];
+        for (std::uint32_t i = cluster.first_triangle; i < cluster.first_triangle + cluster.triangles; ++i) {
+            numbers.emplace_back(mesh.original_of[i], static_cast<std::uint32_t>(used.size()));
+            used.push_back(numbered(mesh.triangles[i]));
+        }
+    }
+    std::ranges::sort(numbers);
+    std::vector<GroupMaps::Left> left;
+    for (std::uint32_t made = 0; made < group.made; ++made) {
+        const Cluster& cluster = mesh.clusters.clusters[group.first_made + made];
+        for (std::uint32_t i = cluster.first_triangle; i < cluster.first_triangle + cluster.triangles; ++i) {
+            const auto found = std::ranges::lower_bound(numbers, std::pair{mesh.original_of[i], 0U});
+            if (found == numbers.end() || found->first != mesh.original_of[i]) return {};
+            left.push_back({found->second, numbered(mesh.triangles[i]), made});
+        }
+    }
+    std::ranges::sort(left, {}, &GroupMaps::Left::number);
+    return made_to_bytes(used, group.made, std::move(left));
+}
+
+std::vector<std::byte> bytes_of_payload(const StoredMeshView& mesh, std::span<const VertexColour> colours,
+                                        const MeshRecords& records, std::uint32_t number) {
+    if (records.levels_below(number) > 0) return bytes_of_made(mesh, records.group_around(number));
+    const std::vector<std::uint32_t> counts = triangles_of_clusters(records, number);
+    return payload_to_bytes(shape_of(records, counts),
+                            payload_in(mesh, colours, records.clusters_of(number)));
+}
+
+// What the group of a payload uses. sources: as sources_of() has them.
+MeshPayload used_for(const MeshRecords& records, std::uint32_t payload,
+                     std::span<const MeshPayload* const> sources) {
+    const std::vector<std::uint32_t> numbers = records.sources_of(payload);
+    JoinedPayload used;
+    for (const std::uint32_t one : records.graph.clusters.members_of(records.group_around(payload))) {
+        const Cluster& cluster = records.graph.clusters.clusters[one];
+        const auto at = std::ranges::lower_bound(numbers, records.payload_of(cluster)) - numbers.begin();
+        used.add(*sources[static_cast<std::size_t>(at)], records.first_in_payload(one), cluster.triangles);
+    }
+    return used.payload();
+}
+
 // A stored mesh's records, without where its payloads lie.
 MeshRecords records_of(const StoredMeshView& mesh, bool has_colours) {
     MeshRecords records;
@@ -291,7 +354,8 @@ std::vector<std::byte> bytes_of_records(const MeshRecords& records) {
     const ClusterGraph& graph = records.graph.clusters;
     RecordNumbers numbers;
     const bool has_cells = records.is_town();
-    if (has_cells) numbers.version = version_with_ground;
+    if (has_cells) numbers.version += of_ground;
+    if (records.form == PayloadForm::from_below) numbers.version += of_payloads_from_below;
     numbers.origin = records.origin, numbers.least = records.least;
     numbers.triangles = records.triangles, numbers.labels = records.label_count;
     numbers.colours = records.has_colours ? 1 : 0;
@@ -330,11 +394,32 @@ std::vector<std::uint32_t> MeshRecords::clusters_of(std::uint32_t payload) const
     return numbers;
 }
 
+std::size_t MeshRecords::first_in_payload(std::uint32_t cluster) const {
+    std::size_t first = 0;
+    for (const std::uint32_t one : clusters_of(payload_of(graph.clusters.clusters[cluster]))) {
+        if (one == cluster) break;
+        first += graph.clusters.clusters[one].triangles;
+    }
+    return first;
+}
+
+std::vector<std::uint32_t> MeshRecords::sources_of(std::uint32_t payload) const {
+    std::vector<std::uint32_t> sources;
+    if (levels_below(payload) == 0) return sources;
+    for (const std::uint32_t member : graph.clusters.members_of(group_around(payload)))
+        sources.push_back(payload_of(graph.clusters.clusters[member]));
+    std::ranges::sort(sources);
+    sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
+    return sources;
+}
+
 StreamedBytes streamed_bytes_of(const StoredMeshView& mesh, std::span<const VertexColour> colours,
-                                int threads, const GroundCells* cells, ScratchMemory* scratch) {
+                                int threads, const GroundCells* cells, ScratchMemory* scratch,
+                                PayloadForm form) {
     StreamedBytes bytes{{}, std::pmr::vector<std::byte>(array_memory(scratch))};
     MeshRecords records = records_of(mesh, !colours.empty());
     if (cells != nullptr) records.ground_cells = *cells;
+    records.form = form;
     const auto count = static_cast<std::uint32_t>(records.payloads.size());
     constexpr std::uint32_t at_a_time = 256;
     for (std::uint32_t first = 0; first < count; first += at_a_time) {
@@ -342,10 +427,7 @@ StreamedBytes streamed_bytes_of(const StoredMeshView& mesh, std::span<const Vert
         std::vector<std::vector<std::byte>> coded(some);
         in_parallel(static_cast<int>(some), threads, [&](int i) {
             const std::uint32_t number = first + static_cast<std::uint32_t>(i);
-            const std::vector<std::uint32_t> clusters = records.clusters_of(number);
-            const std::vector<std::uint32_t> counts = triangles_of_clusters(records, number);
-            coded[static_cast<std::size_t>(i)] =
-                payload_to_bytes(shape_of(records, counts), payload_in(mesh, colours, clusters));
+            coded[static_cast<std::size_t>(i)] = bytes_of_payload(mesh, colours, records, number);
         });
         for (std::uint32_t i = 0; i < some; ++i) {
             records.payloads[first + i] = {bytes.payloads.size(), static_cast<std::uint32_t>(coded[i].size()),
@@ -368,6 +450,9 @@ std::optional<std::string> records_from_bytes(std::span<const std::byte> bytes, 
     records.origin = numbers.origin, records.least = numbers.least;
     records.triangles = numbers.triangles, records.label_count = numbers.labels;
     records.has_colours = numbers.colours != 0, records.ground_fingerprint = numbers.ground_fingerprint;
+    records.form = ((numbers.version - records_version) & of_payloads_from_below) != 0
+                       ? PayloadForm::from_below
+                       : PayloadForm::alone;
     if (std::string wrong = RecordsReader(reader, numbers, records).read(); !wrong.empty()) return wrong;
     const ClusterGraph& graph = records.graph.clusters;
     const std::size_t count = graph.groups.size() + graph.levels.front().groups;
@@ -381,7 +466,7 @@ std::optional<std::string> records_from_bytes(std::span<const std::byte> bytes, 
         payload.offset = offset;
         offset += payload.bytes;
     }
-    const bool has_cells = numbers.version == version_with_ground;
+    const bool has_cells = ((numbers.version - records_version) & of_ground) != 0;
     if (has_cells != (numbers.ground_fingerprint != 0)) return "has ground without a place";
     if (has_cells) {
         if (auto wrong = ground_cells_from_bytes(reader.rest(), records.ground_cells)) return wrong;
@@ -395,7 +480,9 @@ std::optional<std::string> records_from_bytes(std::span<const std::byte> bytes, 
 }
 
 std::optional<std::string> payload_of_records(std::span<const std::byte> bytes, const MeshRecords& records,
-                                              std::uint32_t number, MeshPayload& payload) {
+                                              std::uint32_t number,
+                                              std::span<const MeshPayload* const> sources,
+                                              MeshPayload& payload) {
     const std::uint32_t leaves = records.leaf_payloads();
     const std::string name = number < leaves
                                  ? "level 0 below group " + std::to_string(number) + " of the mesh "
@@ -403,8 +490,10 @@ std::optional<std::string> payload_of_records(std::span<const std::byte> bytes, 
     if (xxh64(bytes, number) != records.payloads[number].checksum)
         return name + other_checksum(xxh64(bytes, number), records.payloads[number].checksum);
     const std::vector<std::uint32_t> counts = triangles_of_clusters(records, number);
-    if (const auto wrong = payload_from_bytes(bytes, shape_of(records, counts), payload))
-        return name + *wrong;
+    const auto wrong = records.levels_below(number) > 0
+                           ? made_from_bytes(bytes, used_for(records, number, sources), counts, payload)
+                           : payload_from_bytes(bytes, shape_of(records, counts), payload);
+    if (wrong) return name + *wrong;
     const ClusterGroup& group = records.group_around(number);
     constexpr double rounded_m = 1.0e-6;
     for (const LatticeSteps& at : payload.places) {

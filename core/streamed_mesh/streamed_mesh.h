@@ -7,10 +7,12 @@
 #include <memory>
 #include <mutex>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "core/base/container.h"
 #include "core/base/result.h"
+#include "core/mesh_file/mesh_leaves.h"
 #include "core/streamed_mesh/mesh_records.h"
 
 namespace oro {
@@ -31,10 +33,13 @@ class StreamedMesh {
     [[nodiscard]] const Container& container() const { return *container_; }
     [[nodiscard]] std::uint32_t number() const { return number_; }
 
-    // Payloads by their numbers (MeshRecords). The result, and the error of several, do not depend on
-    // `threads`. Errors: damage, with the file and the byte; those of reading.
+    // Payloads by their numbers (MeshRecords); those that they are told by are read for it, too. The result,
+    // and the error of several, do not depend on `threads`. Errors: damage, with the file and the byte; those
+    // of reading.
     [[nodiscard]] Result<std::vector<Payload>> read(std::span<const std::uint32_t> payloads,
                                                     int threads) const;
+    // The triangles of the mesh itself. Errors: as read().
+    [[nodiscard]] Result<MeshLeaves> leaves(int threads) const;
     // Bytes of memory that payloads may take between calls.
     void hold_at_most(std::uint64_t bytes) const;
 
@@ -56,7 +61,13 @@ class StreamedMesh {
         std::uint32_t number;
         Payload payload;
     };
-    [[nodiscard]] Result<Payload> read_one(std::uint32_t number) const;
+    // By their numbers.
+    using Payloads = std::unordered_map<std::uint32_t, Payload>;
+    [[nodiscard]] Result<Payload> read_one(std::uint32_t number, const Payloads& known) const;
+    [[nodiscard]] Result<void> read_into(Payloads& known, std::vector<std::uint32_t> missing,
+                                         int threads) const;
+    [[nodiscard]] std::vector<std::uint32_t> missing_below(std::span<const std::uint32_t> payloads,
+                                                           Payloads& known) const;
     [[nodiscard]] Payload find(std::uint32_t number) const;
     void keep(std::uint32_t number, const Payload& payload) const;
     void let_go() const;

@@ -164,9 +164,10 @@ struct BakedGround {
 
 // A mesh group by group. cells: of the ground that its graph was built over, if any.
 StreamedBytes groups_of(const StoredMeshView& stored, std::span<const VertexColour> colours,
-                        const GroundCells& cells, int threads, ScratchMemory* scratch = nullptr) {
+                        const GroundCells& cells, int threads, ScratchMemory* scratch = nullptr,
+                        PayloadForm form = PayloadForm::from_below) {
     return streamed_bytes_of(stored, colours, threads, stored.ground_fingerprint != 0 ? &cells : nullptr,
-                             scratch);
+                             scratch, form);
 }
 
 // Whether a file has a mesh group by group as these bytes have it.
@@ -198,14 +199,28 @@ Result<void> check_features(const Container& container, const Chunk& chunk, std:
                                                       std::to_string(mesh.features.size()));
 }
 
+// The mesh of that number with its graph; what its bytes do not tell is in its groups.
+Result<std::shared_ptr<StoredMesh>> read_stored_mesh(const Container& container, std::uint32_t number) {
+    ORO_TRY(const Chunk triangles_chunk, container.chunk(ChunkType::mesh_triangles, number));
+    ORO_TRY(const std::vector<std::byte> bytes, container.read(triangles_chunk, most_triangle_bytes));
+    MeshLeaves leaves;
+    if (has_leaves_elsewhere(bytes)) {
+        // It is not held beyond this.
+        const std::shared_ptr<const Container> not_owned(std::shared_ptr<const Container>(), &container);
+        ORO_TRY(const std::shared_ptr<const StreamedMesh> groups, StreamedMesh::open(not_owned, number));
+        ORO_TRY(leaves, groups->leaves(thread_count()));
+    }
+    auto stored = std::make_shared<StoredMesh>();
+    if (const auto wrong = mesh_from_bytes(bytes, *stored, &leaves))
+        return container.file().damaged(triangles_chunk.offset, "the mesh " + *wrong);
+    return stored;
+}
+
 Result<PlacedMesh> read_mesh_of(const Container& container, const Chunk& facts_chunk,
                                 const UndulationField& undulation) {
     ORO_TRY(const Chunk triangles_chunk, container.chunk(ChunkType::mesh_triangles, facts_chunk.grid));
     ORO_TRY(PlacedMesh mesh, read_facts(container, facts_chunk));
-    ORO_TRY(const std::vector<std::byte> bytes, container.read(triangles_chunk, most_triangle_bytes));
-    auto stored = std::make_shared<StoredMesh>();
-    if (const auto wrong = mesh_from_bytes(bytes, *stored))
-        return container.file().damaged(triangles_chunk.offset, "the mesh " + *wrong);
+    ORO_TRY(const std::shared_ptr<StoredMesh> stored, read_stored_mesh(container, facts_chunk.grid));
     ORO_CHECK(check_features(container, triangles_chunk, stored->label_count, mesh));
     if (!mesh.colours.empty() && mesh.colours.size() != stored->places.size())
         return container.file().damaged(
@@ -215,7 +230,7 @@ Result<PlacedMesh> read_mesh_of(const Container& container, const Chunk& facts_c
     for (const ChunkType type : {ChunkType::mesh_records, ChunkType::mesh_payloads})
         if (const Chunk* const chunk = container.find(type, facts_chunk.grid))
             ORO_CHECK(container.check(*chunk));
-    add_triangles(std::move(stored), undulation, mesh);
+    add_triangles(stored, undulation, mesh);
     return mesh;
 }
 
@@ -272,7 +287,7 @@ Result<WrittenMesh> MeshBaking::whole(MeshOnLattice& on_lattice, BakedMeshReport
     return write_mesh({lattice_point(lattice.origin_m).steps, on_lattice.places, labels,
                        static_cast<std::uint32_t>(mesh.features.size()), graph,
                        fingerprint_of(below.triangles, lattice.origin_m)},
-                      scratch);
+                      scratch, LeavesIn::payloads);
 }
 
 // As stored_colours().
@@ -337,9 +352,9 @@ std::optional<BakedMeshReport> mesh_baked_before(const std::string& path, const 
     const Chunk* const triangles_chunk = (*container)->find(ChunkType::mesh_triangles, 0);
     if (facts_chunk == nullptr || triangles_chunk == nullptr) return std::nullopt;
     const auto packed = (*container)->read(*facts_chunk, most_fact_bytes);
-    const auto bytes = (*container)->read(*triangles_chunk, most_triangle_bytes);
-    StoredMesh stored;
-    if (!packed.ok() || !bytes.ok() || mesh_from_bytes(*bytes, stored)) return std::nullopt;
+    const auto read = read_stored_mesh(**container, 0);
+    if (!packed.ok() || !read.ok()) return std::nullopt;
+    const StoredMesh& stored = **read;
     const MeshOnLattice now(mesh, undulation);
     if (stored.origin != lattice_point(now.lattice.origin_m).steps ||
         stored.label_count != mesh.features.size() || sum_of(stored) != now.sum(mesh))
@@ -357,7 +372,7 @@ std::optional<BakedMeshReport> mesh_baked_before(const std::string& path, const 
     report.triangles = now.lattice.triangles.size();
     report.graph_triangles = stored.graph.clusters.triangles.size();
     report.levels = stored.graph.clusters.levels.size();
-    report.bytes = bytes->size();
+    report.bytes = triangles_chunk->bytes;
     report.group_bytes = streamed.records.size() + streamed.payloads.size();
     report.fact_bytes = packed->size();
     report.was_there = true;
@@ -369,7 +384,10 @@ Result<void> check_streamed_mesh(const Container& container, std::uint32_t numbe
     if (!StreamedMesh::is_in(container, number)) return {};
     GroundCells cells;
     if (mesh.stored()->ground_fingerprint != 0) cells = ground_cells_below_parts(*mesh.stored(), region);
-    const StreamedBytes expected = groups_of(*mesh.stored(), mesh.colours, cells, thread_count());
+    const std::shared_ptr<const Container> not_owned(std::shared_ptr<const Container>(), &container);
+    ORO_TRY(const std::shared_ptr<const StreamedMesh> groups, StreamedMesh::open(not_owned, number));
+    const StreamedBytes expected =
+        groups_of(*mesh.stored(), mesh.colours, cells, thread_count(), nullptr, groups->records().form);
     if (has_streamed_bytes(container, number, expected)) return {};
     return container.file().damaged(container.find(ChunkType::mesh_records, number)->offset,
                                     "the groups of the mesh are not those of its triangles");

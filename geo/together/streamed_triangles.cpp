@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/streamed_mesh/place_hash.h"
 #include "core/streamed_mesh/streamed_mesh.h"
 #include "geo/together/baked_meshes.h"
 #include "geo/together/mesh_ground.h"
@@ -13,20 +14,6 @@
 
 namespace oro {
 namespace {
-
-struct PlaceHash {
-    std::size_t operator()(const LatticeSteps& at) const {
-        std::uint64_t sum = 0;
-        for (const std::int64_t step : at) {
-            // The finaliser of SplitMix64 (Steele, Lea and Flood, 2014).
-            sum += static_cast<std::uint64_t>(step) + 0x9e3779b97f4a7c15U;
-            sum = (sum ^ (sum >> 30U)) * 0xbf58476d1ce4e5b9U;
-            sum = (sum ^ (sum >> 27U)) * 0x94d049bb133111ebU;
-            sum ^= sum >> 31U;
-        }
-        return sum;
-    }
-};
 
 // Puts clusters into a mesh one after another. Vertices are told apart by their places.
 class CutOfPayloads {
@@ -64,16 +51,6 @@ class CutOfPayloads {
     std::vector<LatticeSteps> places_;
     std::unordered_map<LatticeSteps, std::uint32_t, PlaceHash> numbers_;
 };
-
-// Where a cluster's triangles begin in its payload.
-std::size_t first_in_payload(const MeshRecords& records, std::uint32_t payload, std::uint32_t cluster) {
-    std::size_t first = 0;
-    for (const std::uint32_t one : records.clusters_of(payload)) {
-        if (one == cluster) break;
-        first += records.graph.clusters.clusters[one].triangles;
-    }
-    return first;
-}
 
 class TrianglesOfStreamed final : public TriangleSource {
   public:
@@ -159,8 +136,7 @@ Result<PlacedMesh> streamed_cut(const PlacedMesh& mesh, const std::vector<std::u
             const Cluster& cluster = records.graph.clusters.clusters[one];
             const std::uint32_t payload = records.payload_of(cluster);
             const auto at = std::ranges::lower_bound(payloads, payload) - payloads.begin();
-            cut.add(*read[static_cast<std::size_t>(at)], first_in_payload(records, payload, one),
-                    cluster.triangles);
+            cut.add(*read[static_cast<std::size_t>(at)], records.first_in_payload(one), cluster.triangles);
         }
     }
     cut.place(undulation, threads);

@@ -1,6 +1,6 @@
 // Any bytes as a mesh with its graph. The first byte says how the others are taken: as the mesh's bytes, or
-// as changes of a true one's, three bytes each: where, and what is there instead. What is read must be a
-// graph, and its errors can be measured again.
+// as changes of a true one's, three bytes each: where, and what is there instead; its third bit, whether the
+// leaves are given apart from the bytes. What is read must be a graph, and its errors can be measured again.
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -15,13 +15,27 @@ namespace {
 using namespace oro;
 using test::expect;
 
-// Of a ball of 144 triangles.
-const std::vector<std::byte>& true_bytes() {
-    static const std::vector<std::byte> bytes = [] {
+struct TrueMesh {
+    std::vector<std::byte> bytes, apart;  // which have the leaves, and which do not
+    MeshLeaves leaves;
+};
+
+// A ball of 144 triangles.
+const TrueMesh& true_mesh() {
+    static const TrueMesh mesh = [] {
         const test::MeshOfBall ball = test::mesh_of_ball(7);
-        return mesh_to_bytes({{}, ball.places, {}, 0, ball.graph()}).value();
+        const MeshGraph graph = ball.graph();
+        const MeshToStore store{{}, ball.places, {}, 0, graph};
+        const WrittenMesh apart = write_mesh(store, nullptr, LeavesIn::payloads).value();
+        TrueMesh all{mesh_to_bytes(store).value(), {apart.bytes.begin(), apart.bytes.end()}, {}};
+        StoredMesh whole;
+        expect(!mesh_from_bytes(all.bytes, whole));
+        all.leaves.places = whole.places;
+        for (const VertexTriangle& triangle : whole.graph.clusters.triangles)
+            if (all.leaves.triangles.size() < ball.triangles.size()) all.leaves.triangles.push_back(triangle);
+        return all;
     }();
-    return bytes;
+    return mesh;
 }
 
 void use(const StoredMesh& mesh) {
@@ -47,13 +61,15 @@ void use(const StoredMesh& mesh) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (size == 0) return 0;
+    const bool is_apart = (data[0] & 4U) != 0;
     std::vector<std::byte> bytes;
     if (data[0] % 2 == 0) {
         for (std::size_t i = 1; i < size; ++i) bytes.push_back(static_cast<std::byte>(data[i]));
     } else {
-        bytes = test::changed(true_bytes(), data + 1, size - 1);
+        bytes = test::changed(is_apart ? true_mesh().apart : true_mesh().bytes, data + 1, size - 1);
     }
     StoredMesh mesh;
-    if (!mesh_from_bytes(bytes, mesh)) use(mesh);
+    MeshLeaves leaves = true_mesh().leaves;
+    if (!mesh_from_bytes(bytes, mesh, is_apart ? &leaves : nullptr)) use(mesh);
     return 0;
 }

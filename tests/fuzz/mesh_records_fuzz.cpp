@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/base/checksum.h"
 #include "core/cluster_frame/cluster_cut.h"
 #include "core/mesh_file/mesh_bytes.h"
 #include "core/streamed_mesh/mesh_records.h"
@@ -51,19 +52,37 @@ void use(const MeshRecords& records) {
             expect(records.payload_of(graph.clusters[one]) < records.payloads.size());
 }
 
-// The payload of that number by any bytes, but for its checksum.
-void use_as_payload(std::span<const std::byte> bytes, const MeshRecords& records, std::uint32_t number) {
-    std::vector<std::uint32_t> counts;
-    std::size_t all = 0;
-    for (const std::uint32_t one : records.clusters_of(number)) {
-        counts.push_back(records.graph.clusters.clusters[one].triangles);
-        all += counts.back();
+// What a payload is told by, out of all.
+std::vector<const MeshPayload*> sources_in(const std::vector<MeshPayload>& payloads,
+                                           const MeshRecords& records, std::uint32_t number) {
+    std::vector<const MeshPayload*> sources;
+    for (const std::uint32_t one : records.sources_of(number)) sources.push_back(&payloads[one]);
+    return sources;
+}
+
+// As they were written; read once.
+const std::vector<MeshPayload>& true_payloads(bool is_town, const MeshRecords& records) {
+    static std::array<std::vector<MeshPayload>, 2> all;
+    std::vector<MeshPayload>& payloads = all[is_town ? 1 : 0];
+    if (!payloads.empty()) return payloads;
+    payloads.resize(records.payloads.size());
+    for (std::uint32_t i = 0; i < payloads.size(); ++i) {
+        const auto bytes = std::span(true_streamed_bytes(is_town).payloads)
+                               .subspan(records.payloads[i].offset, records.payloads[i].bytes);
+        expect(!payload_of_records(bytes, records, i, sources_in(payloads, records, i), payloads[i]));
     }
+    return payloads;
+}
+
+// The payload of that number by any bytes, with the checksum that these have.
+void use_as_payload(std::span<const std::byte> bytes, MeshRecords& records, std::uint32_t number,
+                    const std::vector<MeshPayload>& payloads) {
+    std::size_t all = 0;
+    for (const std::uint32_t one : records.clusters_of(number))
+        all += records.graph.clusters.clusters[one].triangles;
+    records.payloads[number].checksum = xxh64(bytes, number);
     MeshPayload payload;
-    if (payload_from_bytes(
-            bytes, {records.least, records.label_count, records.has_colours, counts, records.is_town()},
-            payload))
-        return;
+    if (payload_of_records(bytes, records, number, sources_in(payloads, records, number), payload)) return;
     expect(payload.triangles.size() == all && payload.labels.size() == all);
     for (const auto& triangle : payload.triangles)
         for (const std::uint16_t corner : triangle) expect(corner < payload.places.size());
@@ -90,6 +109,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             whole.payloads.begin() + static_cast<std::ptrdiff_t>(records.payloads[payload].offset);
         bytes = changed({first, first + records.payloads[payload].bytes}, data + 2, size - 2);
     }
-    use_as_payload(bytes, records, payload);
+    use_as_payload(bytes, records, payload, true_payloads((data[0] & 8U) != 0, records));
     return 0;
 }

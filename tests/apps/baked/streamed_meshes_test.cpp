@@ -10,6 +10,7 @@
 #include "tests/apps/picture_pixels.h"
 #include "tests/apps/program.h"
 #include "tests/support/mended_container.h"
+#include "tests/support/older_mesh_file.h"
 #include "tests/support/test_data.h"
 
 namespace {
@@ -49,22 +50,6 @@ std::string obj_of_hill() {
     return text;
 }
 
-// The same file as a program wrote it that had no groups.
-void write_without_groups(const std::string& from, const std::string& to) {
-    const auto container = oro::Container::open(from).value();
-    oro::ChunkTable table;
-    std::string chunks;
-    for (const oro::Chunk& chunk : container->table().chunks) {
-        if (chunk.type == ChunkType::mesh_records || chunk.type == ChunkType::mesh_payloads) continue;
-        table.chunks.push_back(chunk);
-        const auto bytes = container->read(chunk, chunk.bytes).value();
-        chunks.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    }
-    table.file_bytes = table.place();
-    const auto front = table.to_bytes();
-    write_bytes(to, std::string(reinterpret_cast<const char*>(front.data()), front.size()) + chunks);
-}
-
 class StreamedMeshes : public ::testing::Test {
   protected:
     void SetUp() override {
@@ -74,7 +59,8 @@ class StreamedMeshes : public ::testing::Test {
     void bake(const Words& mesh) const {
         const Outcome done = run_orograph(joined({"bake", bundled(), "--out", baked_, "-q"}, mesh));
         ASSERT_EQ(done.exit_code, 0) << done.err;
-        write_without_groups(baked_, whole_);
+        write_bytes(whole_, oro::test::older_mesh_file(baked_, false));
+        write_bytes(older_, oro::test::older_mesh_file(baked_, true));
     }
     // What is said of both files' pictures, taken in the same way.
     [[nodiscard]] std::array<json, 2> said_of_both(const Words& how) const {
@@ -103,8 +89,8 @@ class StreamedMeshes : public ::testing::Test {
     }
     const fs::path folder_ = oro::test::scratch_folder();
     const std::string mesh_ = (folder_ / "hill.obj").string(), baked_ = (folder_ / "hill.oro").string(),
-                      whole_ = (folder_ / "whole.oro").string(), one_ = (folder_ / "one.png").string(),
-                      other_ = (folder_ / "other.png").string();
+                      whole_ = (folder_ / "whole.oro").string(), older_ = (folder_ / "older.oro").string(),
+                      one_ = (folder_ / "one.png").string(), other_ = (folder_ / "other.png").string();
 };
 
 TEST_F(StreamedMeshes, ArePicturesOfTheWholeMesh) {
@@ -112,6 +98,18 @@ TEST_F(StreamedMeshes, ArePicturesOfTheWholeMesh) {
          {Words{"--mesh", "clusters"}, Words{"--mesh", "clusters", "--tau", "4", "--pitch", "-20"},
           Words{"--mesh-level", "2"}, Words{"--show", "groups", "--tau", "2"}})
         expect_same_pictures(how);
+}
+
+// A file of an older program, whose groups are told each alone: the same pixels, and --check takes it.
+TEST_F(StreamedMeshes, OfAnOlderFileAreTheSamePictures) {
+    EXPECT_GT(fs::file_size(older_), fs::file_size(baked_) + 30000);
+    for (const Words& how : {Words{"--mesh", "clusters"}, Words{"--mesh-level", "2"}}) {
+        ASSERT_EQ(shot(baked_, one_, how).exit_code, 0);
+        ASSERT_EQ(shot(older_, other_, how).exit_code, 0);
+        EXPECT_EQ(oro::test::pixels_of(one_).rgb, oro::test::pixels_of(other_).rgb);
+    }
+    const Outcome checked = run_orograph({"info", older_, "--check"});
+    EXPECT_EQ(checked.exit_code, 0) << checked.err;
 }
 
 // What asks the true mesh reads where its lines may meet it: the same figures. What is drawn of it is off by

@@ -168,6 +168,47 @@ TEST(MeshBytes, AreReadAsTheyWereWritten) {
     }
 }
 
+// Bytes that do not tell the leaves, and these: the same mesh. With others, or without any: refused.
+TEST(MeshBytes, WithLeavesElsewhereAreReadWithThem) {
+    for (const SpaceMesh& mesh : {hilly_ball(24, 50.0), box_town(10), folded_sheet(30)}) {
+        const Packed packed = packed_of(mesh);
+        const MeshToStore store{origin, packed.places, packed.labels, 7, packed.graph};
+        const Result<WrittenMesh> written = write_mesh(store, nullptr, LeavesIn::payloads);
+        ASSERT_TRUE(written.ok());
+        EXPECT_TRUE(has_leaves_elsewhere(written->bytes));
+        EXPECT_FALSE(has_leaves_elsewhere(packed.bytes));
+        EXPECT_LT(2 * written->bytes.size(), packed.bytes.size());
+        StoredMesh whole, read;
+        ASSERT_FALSE(mesh_from_bytes(packed.bytes, whole));
+        EXPECT_EQ(mesh_from_bytes(written->bytes, read).value_or(""), "has its triangles elsewhere");
+        const std::span<const VertexTriangle> triangles = whole.graph.clusters.triangles;
+        const MeshLeaves leaves{
+            whole.places,
+            {triangles.begin(), triangles.begin() + static_cast<std::ptrdiff_t>(whole.labels.size())},
+            whole.labels};
+        MeshLeaves some = leaves;
+        ASSERT_FALSE(mesh_from_bytes(written->bytes, read, &some));
+        EXPECT_EQ(read.places, whole.places);
+        EXPECT_EQ(read.labels, whole.labels);
+        EXPECT_EQ(read.graph.original_of, whole.graph.original_of);
+        EXPECT_EQ(read.graph.clusters.triangles, whole.graph.clusters.triangles);
+        expect_same_groups(read.graph.clusters, whole.graph.clusters);
+        const auto refusal = [&](const auto& change) {
+            MeshLeaves other = leaves;
+            change(other);
+            return mesh_from_bytes(written->bytes, read, &other).value_or("");
+        };
+        EXPECT_NE(refusal([](MeshLeaves& other) { other.triangles.pop_back(); }).find("expected"),
+                  std::string::npos);
+        EXPECT_NE(refusal([](MeshLeaves& other) { other.places.pop_back(); }).find("expected"),
+                  std::string::npos);
+        EXPECT_EQ(refusal([](MeshLeaves& other) { other.labels.back() = 7; }),
+                  "has groups of other features than it states");
+        EXPECT_EQ(refusal([](MeshLeaves& other) { other.triangles[5][1] = other.triangles[5][0]; }),
+                  "has a triangle without an area");
+    }
+}
+
 TEST(MeshBytes, AreTheSameByAnyNumberOfThreads) {
     const std::vector<std::byte> one = packed_of(hilly_ball(16, 40.0), 1).bytes;
     EXPECT_EQ(one, packed_of(hilly_ball(16, 40.0), 3).bytes);

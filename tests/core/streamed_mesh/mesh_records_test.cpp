@@ -52,19 +52,38 @@ GroundCells some_cells() {
     return {46.0, 46.1, 8.0, 8.2, {{77, {{10, 20, 5}, {11, 19, 7}, {11, 40, 1}}}}};
 }
 
-// The payload of that number by any bytes, whatever its checksum is.
-std::optional<std::string> payload_of_any(std::span<const std::byte> bytes, const MeshRecords& records,
-                                          std::uint32_t number, MeshPayload& payload) {
-    std::vector<std::uint32_t> counts;
-    for (const std::uint32_t one : records.clusters_of(number))
-        counts.push_back(records.graph.clusters.clusters[one].triangles);
-    return payload_from_bytes(
-        bytes, {records.least, records.label_count, records.has_colours, counts, records.is_town()}, payload);
-}
-
 std::span<const std::byte> bytes_at(const StreamedBytes& bytes, const MeshRecords& records,
                                     std::uint32_t number) {
     return std::span(bytes.payloads).subspan(records.payloads[number].offset, records.payloads[number].bytes);
+}
+
+// What a payload is told by, out of all that are before it.
+std::vector<const MeshPayload*> sources_in(std::span<const MeshPayload> payloads, const MeshRecords& records,
+                                           std::uint32_t number) {
+    std::vector<const MeshPayload*> sources;
+    for (const std::uint32_t one : records.sources_of(number)) {
+        EXPECT_LT(one, number);
+        sources.push_back(&payloads[one]);
+    }
+    return sources;
+}
+
+std::vector<MeshPayload> payloads_of(const StreamedBytes& bytes, const MeshRecords& records) {
+    std::vector<MeshPayload> payloads(records.payloads.size());
+    for (std::uint32_t number = 0; number < payloads.size(); ++number) {
+        const auto wrong = payload_of_records(bytes_at(bytes, records, number), records, number,
+                                              sources_in(payloads, records, number), payloads[number]);
+        EXPECT_FALSE(wrong) << *wrong;
+    }
+    return payloads;
+}
+
+// The payload of that number by any bytes, whatever its checksum is.
+std::optional<std::string> payload_of_any(std::span<const std::byte> bytes, MeshRecords& records,
+                                          std::uint32_t number, std::span<const MeshPayload> payloads,
+                                          MeshPayload& payload) {
+    records.payloads[number].checksum = xxh64(bytes, number);
+    return payload_of_records(bytes, records, number, sources_in(payloads, records, number), payload);
 }
 
 // Each triangle of each cluster is that of the stored mesh, from the same corner on.
@@ -72,13 +91,13 @@ void expect_clusters_of(const StoredMesh& mesh, std::span<const VertexColour> co
                         const StreamedBytes& bytes, const MeshRecords& records) {
     const ClusterGraph& graph = mesh.graph.clusters;
     std::size_t triangles = 0;
-    for (std::uint32_t number = 0; number < records.payloads.size(); ++number) {
-        MeshPayload payload;
-        const auto wrong = payload_of_records(bytes_at(bytes, records, number), records, number, payload);
-        ASSERT_FALSE(wrong) << *wrong;
+    const std::vector<MeshPayload> payloads = payloads_of(bytes, records);
+    for (std::uint32_t number = 0; number < payloads.size(); ++number) {
+        const MeshPayload& payload = payloads[number];
         std::size_t at = 0;
         for (const std::uint32_t one : records.clusters_of(number)) {
             const Cluster& cluster = graph.clusters[one];
+            ASSERT_EQ(records.first_in_payload(one), at);
             ASSERT_EQ(records.payload_of(records.graph.clusters.clusters[one]), number);
             for (std::uint32_t i = cluster.first_triangle; i < cluster.first_triangle + cluster.triangles;
                  ++i, ++at) {
@@ -133,9 +152,9 @@ void expect_same_graph(const ClusterGraph& a, const ClusterGraph& b) {
 
 // Records and payloads of a mesh, and back.
 void expect_mesh_comes_back(StoredMesh mesh, std::size_t triangles, std::span<const VertexColour> colours,
-                            const GroundCells* cells) {
+                            const GroundCells* cells, PayloadForm form) {
     mesh.ground_fingerprint = cells != nullptr ? 52 : 0;
-    const StreamedBytes bytes = streamed_bytes_of(mesh, colours, 2, cells);
+    const StreamedBytes bytes = streamed_bytes_of(mesh, colours, 2, cells, nullptr, form);
     MeshRecords records;
     const auto wrong = records_from_bytes(bytes.records, bytes.payloads.size(), records);
     ASSERT_FALSE(wrong) << *wrong;
@@ -146,15 +165,20 @@ void expect_mesh_comes_back(StoredMesh mesh, std::size_t triangles, std::span<co
     EXPECT_EQ(records.ground_fingerprint, mesh.ground_fingerprint);
     EXPECT_EQ(records.ground_cells, cells != nullptr ? *cells : GroundCells());
     EXPECT_EQ(records.is_town(), cells != nullptr);
+    EXPECT_EQ(records.form, form);
     expect_same_graph(records.graph.clusters, mesh.graph.clusters);
     expect_clusters_of(mesh, colours, bytes, records);
     const auto of_all = static_cast<double>(mesh.graph.clusters.triangles.size());
-    std::printf("%zu triangles, %.0f of all levels%s: records %.2f, groups %.2f bytes a triangle of all\n",
+    std::printf("%zu triangles, %.0f of all levels%s%s: records %.2f, groups %.2f bytes a triangle of all\n",
                 triangles, of_all, records.is_town() ? ", as a town's" : "",
+                form == PayloadForm::alone ? ", each alone" : "",
                 static_cast<double>(bytes.records.size()) / of_all,
                 static_cast<double>(bytes.payloads.size()) / of_all);
     EXPECT_LT(static_cast<double>(bytes.records.size()), 1.0 * of_all);
-    EXPECT_LT(static_cast<double>(bytes.payloads.size()), (colours.empty() ? 7.0 : 9.0) * of_all);
+    const double most = form == PayloadForm::alone ? (colours.empty() ? 7.0 : 9.0)
+                        : colours.empty()          ? 4.0
+                                                   : 6.0;
+    EXPECT_LT(static_cast<double>(bytes.payloads.size()), most * of_all);
 }
 
 // A closed ball, a town of boxes, a sheet that lies over itself; each over ground, too.
@@ -164,7 +188,8 @@ TEST(MeshRecords, HaveOfEachGroupWhatTheWholeMeshHas) {
         const StoredMesh mesh = stored_mesh_of(made);
         for (const std::vector<VertexColour>& colours : {std::vector<VertexColour>(), colours_for(mesh)})
             for (const GroundCells* const ground : {static_cast<const GroundCells*>(nullptr), &cells})
-                expect_mesh_comes_back(mesh, made.triangles.size(), colours, ground);
+                for (const PayloadForm form : {PayloadForm::alone, PayloadForm::from_below})
+                    expect_mesh_comes_back(mesh, made.triangles.size(), colours, ground, form);
     }
 }
 
@@ -204,12 +229,14 @@ TEST(MeshRecords, TellDamageOfAPayload) {
     const StreamedBytes bytes = streamed_bytes_of(mesh, {}, 1);
     MeshRecords records;
     ASSERT_FALSE(records_from_bytes(bytes.records, bytes.payloads.size(), records));
+    const std::vector<MeshPayload> payloads = payloads_of(bytes, records);
     for (const std::uint32_t number : {0U, static_cast<std::uint32_t>(records.payloads.size()) - 1}) {
         const auto whole = bytes_at(bytes, records, number);
         std::vector<std::byte> changed(whole.begin(), whole.end());
         changed[changed.size() / 2] ^= std::byte{4};
         MeshPayload payload;
-        const auto wrong = payload_of_records(changed, records, number, payload);
+        const auto wrong =
+            payload_of_records(changed, records, number, sources_in(payloads, records, number), payload);
         ASSERT_TRUE(wrong);
         EXPECT_NE(wrong->find("of the mesh has checksum"), std::string::npos) << *wrong;
     }
@@ -264,9 +291,9 @@ TEST(MeshRecords, ThatPutAGroupElsewhereAreRefusedWhereItIsRead) {
     MeshRecords records;
     ASSERT_FALSE(records_from_bytes(bytes.records, bytes.payloads.size(), records));
     MeshPayload payload;
-    ASSERT_FALSE(payload_of_records(bytes_at(bytes, records, 0), records, 0, payload));
+    ASSERT_FALSE(payload_of_records(bytes_at(bytes, records, 0), records, 0, {}, payload));
     records.graph.clusters.groups[0].radius_m *= 0.7;
-    const auto wrong = payload_of_records(bytes_at(bytes, records, 0), records, 0, payload);
+    const auto wrong = payload_of_records(bytes_at(bytes, records, 0), records, 0, {}, payload);
     EXPECT_EQ(wrong.value_or(""), "level 0 below group 0 of the mesh lies outside of its sphere");
 }
 
@@ -308,6 +335,7 @@ void expect_any_payloads_are_sound(const StoredMesh& mesh, const GroundCells* ce
     const StreamedBytes bytes = streamed_bytes_of(mesh, colours_for(mesh), 1, cells);
     MeshRecords records;
     ASSERT_FALSE(records_from_bytes(bytes.records, bytes.payloads.size(), records));
+    const std::vector<MeshPayload> payloads = payloads_of(bytes, records);
     std::mt19937 random(53);
     int taken = 0;
     for (int i = 0; i < 4000; ++i) {
@@ -321,7 +349,7 @@ void expect_any_payloads_are_sound(const StoredMesh& mesh, const GroundCells* ce
         for (const std::uint32_t one : records.clusters_of(number))
             all += records.graph.clusters.clusters[one].triangles;
         MeshPayload payload;
-        if (payload_of_any(changed, records, number, payload)) continue;
+        if (payload_of_any(changed, records, number, payloads, payload)) continue;
         ++taken;
         ASSERT_EQ(payload.triangles.size(), all);
         ASSERT_EQ(payload.labels.size(), all);
@@ -336,6 +364,37 @@ void expect_any_payloads_are_sound(const StoredMesh& mesh, const GroundCells* ce
 
 TEST(MeshRecords, PayloadsOfAnyBytesAreTrianglesOrRefused) {
     expect_any_payloads_are_sound(stored_mesh_of(hilly_ball(20, 50.0)), nullptr);
+}
+
+// Bytes that tell a map, of another group's triangles: refused, or triangles that can be drawn.
+TEST(MeshRecords, MapsOfOtherTrianglesAreTrianglesOrRefused) {
+    const StoredMesh mesh = stored_mesh_of(hilly_ball(30, 50.0));
+    const StreamedBytes bytes = streamed_bytes_of(mesh, {}, 1);
+    MeshRecords records;
+    ASSERT_FALSE(records_from_bytes(bytes.records, bytes.payloads.size(), records));
+    const std::vector<MeshPayload> payloads = payloads_of(bytes, records);
+    int maps = 0, taken = 0;
+    for (std::uint32_t number = records.leaf_payloads(); number < payloads.size(); ++number) {
+        if (records.levels_below(number) == 0) continue;
+        std::vector<const MeshPayload*> sources = sources_in(payloads, records, number);
+        for (std::size_t i = 0; i < sources.size(); ++i) {
+            // The same triangles, with vertices in another order.
+            MeshPayload turned = *sources[i];
+            std::ranges::reverse(turned.triangles);
+            std::vector<const MeshPayload*> others = sources;
+            others[i] = &turned;
+            MeshPayload payload;
+            ++maps;
+            if (payload_of_records(bytes_at(bytes, records, number), records, number, others, payload))
+                continue;
+            ++taken;
+            for (const auto& triangle : payload.triangles)
+                for (const std::uint16_t corner : triangle) ASSERT_LT(corner, payload.places.size());
+        }
+    }
+    std::printf("%d of %d maps of other triangles left triangles\n", taken, maps);
+    EXPECT_GT(maps, 10);
+    EXPECT_LT(taken, maps);
 }
 
 TEST(MeshRecords, PayloadsOfATownOfAnyBytesAreTrianglesOrRefused) {

@@ -123,7 +123,8 @@ TEST_F(StreamedTriangles, OfABallOfTwoFeaturesAreThoseOfTheWholeMesh) {
     expect_same_cuts();
 }
 
-// How much is read is known: of a far eye a few groups, and of the same eye once more none.
+// How much is read is known: of a far eye a few groups with those that they are told by, and of the same eye
+// once more none.
 TEST_F(StreamedTriangles, ReadsTheGroupsOfTheCutAlone) {
     bake(coloured_sheet(90));
     EXPECT_EQ(done(streamed_).payloads, 0U);
@@ -147,12 +148,14 @@ TEST_F(StreamedTriangles, ReadsTheGroupsOfTheCutAlone) {
     EXPECT_EQ(done(streamed_).payloads, 0U);
     ASSERT_TRUE(detail->with_meshes(far).ok());
     const StreamedMesh::Done of_far = done(streamed_);
-    EXPECT_EQ(of_far.payloads, groups_of(far));
-    EXPECT_LT(of_far.triangles, 1000U);
+    EXPECT_GE(of_far.payloads, groups_of(far));
+    EXPECT_LE(of_far.payloads, groups_of(far) + 7);
+    EXPECT_LT(of_far.triangles, 3000U);
     ASSERT_TRUE(detail->with_meshes(far).ok());
     EXPECT_EQ(done(streamed_).payloads, of_far.payloads);
     ASSERT_TRUE(detail->with_meshes(near).ok());
-    EXPECT_LE(done(streamed_).payloads, of_far.payloads + groups_of(near));
+    const MeshRecords& records = mesh_of(streamed_).streamed()->records();
+    EXPECT_LE(done(streamed_).payloads, records.payloads.size());  // none twice
     EXPECT_GT(done(streamed_).payloads, of_far.payloads);
     std::printf("16,200 triangles: far %zu groups, near %zu\n", groups_of(far), groups_of(near));
     // No more is held than may be, and what is let go of is read once more.
