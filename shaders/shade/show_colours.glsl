@@ -11,11 +11,25 @@ ORO_FUNCTION vec3 one_of_eight(uint which) {
     return vec3(0.60f, 0.60f, 0.62f);
 }
 
-// By level: the finest blue, each next one apart from the one before; after eight the same darker, and darker again. No two below 32
-// look alike. A cluster graph has some 25.
+ORO_FUNCTION vec3 another_of_eight(uint which) {
+    if (which == 0u) return vec3(0.10f, 0.55f, 0.80f);
+    if (which == 1u) return vec3(0.16f, 0.66f, 0.38f);
+    if (which == 2u) return vec3(0.70f, 0.80f, 0.20f);
+    if (which == 3u) return vec3(0.95f, 0.70f, 0.14f);
+    if (which == 4u) return vec3(0.92f, 0.38f, 0.12f);
+    if (which == 5u) return vec3(0.80f, 0.24f, 0.46f);
+    if (which == 6u) return vec3(0.42f, 0.30f, 0.76f);
+    return vec3(0.52f, 0.42f, 0.26f);
+}
+
+// By level: the finest blue, each next one apart from the one before; after eight the hues between them, then all of these paler. No two
+// below 32 look alike, whatever light falls on them: none is another one in up to 0.7 of the light. A cluster graph has some 25.
 ORO_FUNCTION vec3 shown_level(uint level) {
     uint turn = level < 24u ? level / 8u : 3u;
-    return (1.0f - 0.24f * float(turn)) * one_of_eight(level % 8u);
+    vec3 colour = turn % 2u == 0u ? one_of_eight(level % 8u) : another_of_eight(level % 8u);
+    if (turn < 2u) return colour;
+    if (turn == 2u && level % 8u == 7u) return vec3(0.30f, 0.30f, 0.32f);
+    return 0.6f * colour + 0.4f * vec3(0.92f);
 }
 
 // Whether the rounds before the last one had drawn it.
