@@ -45,6 +45,7 @@
 #include "core/lod/ground_means.h"
 #include "core/terrain/ground.h"
 #include "geo/places/bounding_box.h"
+#include "geo/refined/refined_region.h"
 #include "geo/together/rim_diagonals.h"
 
 namespace oro {
@@ -74,19 +75,24 @@ void say_notes(const ShotOptions& options, const ShotResult& shot, ReportedNotes
     }
 }
 
+// What lies over the coarsest ground: files, or what --detail has invented.
+const char* ground_over_others(const Region& region) {
+    if (detail_of(region) == nullptr) return "finer ground";
+    return region.grids.size() == 2 ? "invented ground (--detail)" : "finer or invented ground";
+}
+
 // Where finer ground changes what coarser ground is beside it.
 void say_rims(const Region& region, const RegionCuts& cuts, bool quiet) {
     const std::vector<RegionGrid>& grids = region.grids;
     for (std::size_t i = 0; i < grids.size(); ++i) {
         const auto found = rim_diagonals(grids[i].field, cuts.grids[i]);
         if (!found) continue;
-        char text[200];
-        std::snprintf(
-            text, sizeof text,
-            ", within two posts of finer ground, is split along other diagonals than by itself: %s, up "
-            "to %.1f m apart (at %.6f %.6f)",
-            counted(found->cells, "cell", "cells").c_str(), found->most_m, found->place.lat_deg,
-            found->place.lon_deg);
+        char text[240];
+        std::snprintf(text, sizeof text,
+                      ", within two posts of %s, is split along other diagonals than by itself: %s, up "
+                      "to %.1f m apart (at %.6f %.6f)",
+                      ground_over_others(region), counted(found->cells, "cell", "cells").c_str(),
+                      found->most_m, found->place.lat_deg, found->place.lon_deg);
         const auto& sources = grids[i].sources;
         say(quiet, "note: the ground of " +
                        (sources.empty() ? std::string("a grid")

@@ -67,6 +67,18 @@ TEST_F(ShotDetail, IsDrawnAsItIsAndToldInMetres) {
     EXPECT_LE(error["invented"]["max_m"].get<double>(), detail["largest_m"].get<double>() + 0.01);
 }
 
+// The ground that lies over the data there was invented: no finer file was given.
+TEST_F(ShotDetail, IsNotCalledFinerGround) {
+    Words words = shot({"--detail", "2,3", "--trees", "off"}, "p.png");
+    std::erase(words, "--quiet");
+    const Outcome drawn = run_orograph(words);
+    ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+    EXPECT_NE(drawn.err.find("within two posts of invented ground (--detail), is split along"),
+              std::string::npos)
+        << drawn.err;
+    EXPECT_EQ(drawn.err.find("finer"), std::string::npos) << drawn.err;
+}
+
 TEST_F(ShotDetail, OfAPictureIsDrawnAgain) {
     ASSERT_EQ(run_orograph(shot({"--detail", "3,1", "--legend"}, "p.png")).exit_code, 0);
     const Outcome again =
