@@ -102,6 +102,20 @@ ColourKey key_of_materials(const gpu::MaterialTable& materials) {
     return key;
 }
 
+// Classes of one colour cannot be told apart in a picture: they share a square, while there is room for their
+// names.
+void add_class(ColourKey& key, const CoverClass& one) {
+    constexpr std::size_t longest_name = 60;  // bytes: a legend 320 px wide has room for so many
+    const StripColour colour{one.colour[0], one.colour[1], one.colour[2]};
+    for (ColourKey::Named& named : key.names) {
+        const std::string both = named.name + " / " + one.name;
+        if (named.colour != colour || both.size() > longest_name) continue;
+        named.name = both;
+        return;
+    }
+    key.names.push_back({colour, one.name});
+}
+
 // The classes that are shown, or where that is not known those that the files hold; then what a rule makes of
 // ground of which no file knows.
 ColourKey key_of_cover(const CoverMap& cover, const gpu::MaterialTable& materials, const ShownGround* shown) {
@@ -113,8 +127,7 @@ ColourKey key_of_cover(const CoverMap& cover, const gpu::MaterialTable& material
                                    [&](const CoverSource& source) { return source.codes.contains(code); });
     };
     for (const CoverClass& one : cover.table().classes)
-        if (std::ranges::any_of(one.codes, has))
-            key.names.push_back({StripColour{one.colour[0], one.colour[1], one.colour[2]}, one.name});
+        if (std::ranges::any_of(one.codes, has)) add_class(key, one);
     if (shown && !shown->by_rule) {
         key.title = "Land cover";
         return key.names.empty() ? ColourKey{} : key;

@@ -150,10 +150,10 @@ TEST(ExportedCover, AMadeOneInUtmHasGdalsClasses) {
                 codes[static_cast<std::size_t>((row / 5) * 7 + (column / 4) * 3) % codes.size()]);
         });
     // Source: data/cover/worldcover.json, "colour".
-    const ColoursOfClasses colours{{10, {0x46, 0x5d, 0x37}}, {20, {0x5f, 0x6c, 0x42}},
-                                   {30, {0x74, 0x7f, 0x4a}}, {40, {0x8c, 0x85, 0x50}},
-                                   {50, {0x8d, 0x86, 0x80}}, {60, {0x8f, 0x86, 0x74}},
-                                   {80, {0x0b, 0x2a, 0x3c}}, {90, {0x66, 0x70, 0x4f}}};
+    const ColoursOfClasses colours{{10, {0x46, 0x5d, 0x37}}, {20, {0x75, 0x6b, 0x39}},
+                                   {30, {0x74, 0x84, 0x41}}, {40, {0x98, 0x88, 0x52}},
+                                   {50, {0x8d, 0x86, 0x80}}, {60, {0xac, 0xa2, 0x8c}},
+                                   {80, {0x0b, 0x2a, 0x3c}}, {90, {0x4e, 0x6b, 0x62}}};
     const HeldToClasses held = held_to_classes(
         exported("", {(test::bundled_data() / "jacksboro.tif").string()}, cover), cover, 300.0, colours);
     EXPECT_EQ(held.others, 0U);
@@ -167,10 +167,10 @@ TEST(ExportedCover, ThatOfLiechtensteinHasGdalsClasses) {
     const auto ground = test::real_data("alps/N47E009.SRTMGL3.hgt.zip"),
                cover = test::real_data("cover/li_cover_osm_worldcover_codes.tif");
     if (!ground || !cover) GTEST_SKIP() << "needs alps and cover";
-    const ColoursOfClasses colours{{10, {0x46, 0x5d, 0x37}}, {20, {0x5f, 0x6c, 0x42}},
-                                   {30, {0x74, 0x7f, 0x4a}}, {40, {0x8c, 0x85, 0x50}},
-                                   {50, {0x8d, 0x86, 0x80}}, {60, {0x8f, 0x86, 0x74}},
-                                   {80, {0x0b, 0x2a, 0x3c}}, {90, {0x66, 0x70, 0x4f}}};
+    const ColoursOfClasses colours{{10, {0x46, 0x5d, 0x37}}, {20, {0x75, 0x6b, 0x39}},
+                                   {30, {0x74, 0x84, 0x41}}, {40, {0x98, 0x88, 0x52}},
+                                   {50, {0x8d, 0x86, 0x80}}, {60, {0xac, 0xa2, 0x8c}},
+                                   {80, {0x0b, 0x2a, 0x3c}}, {90, {0x4e, 0x6b, 0x62}}};
     const HeldToClasses held =
         held_to_classes(exported("9.47,47.05,9.64,47.27", {ground->string()}, cover->string()),
                         cover->string(), 6.2, colours);

@@ -86,8 +86,9 @@ TEST(ShownGround, IsUnderImagesWhereTheyHideAllOfIt) {
 
 TEST(ShownGround, IsWhatTheKeyNames) {
     CoverTable table{"few", "few", {0}, {}};
-    table.classes = {{.codes = {1}, .name = "wood", .materials = {Material::broad_forest}},
-                     {.codes = {2}, .name = "lake", .materials = {Material::water}}};
+    table.classes = {
+        {.codes = {1}, .name = "wood", .colour = {56, 77, 44}, .materials = {Material::broad_forest}},
+        {.codes = {2}, .name = "lake", .materials = {Material::water}}};
     CoverSource source;
     source.codes = {1, 2};
     auto cover = CoverMap::of({source}, {}, &table);
@@ -121,6 +122,35 @@ TEST(ShownGround, IsWhatTheKeyNames) {
     key = key_of(shown);
     EXPECT_EQ(key.title, "The ground has the colours of an image");
     EXPECT_TRUE(key.names.empty());
+}
+
+// Found: moss, lichens and sedge of NLCD had three squares of one colour.
+TEST(ShownGround, HasOneSquareForClassesOfOneColour) {
+    CoverTable table{"few", "few", {0}, {}};
+    table.classes = {
+        {.codes = {1}, .name = "moss", .colour = {125, 122, 88}, .materials = {Material::meadow}},
+        {.codes = {2}, .name = "lake", .colour = {11, 42, 60}, .materials = {Material::water}},
+        {.codes = {3}, .name = "sedge", .colour = {125, 122, 88}, .materials = {Material::meadow}},
+        {.codes = {4},
+         .name = std::string(60, 'l'),
+         .colour = {125, 122, 88},
+         .materials = {Material::meadow}}};
+    CoverSource source;
+    source.codes = {1, 2, 3, 4};
+    auto cover = CoverMap::of({source}, {}, &table);
+    ASSERT_TRUE(cover.ok());
+    View view = from_above(47.1, 9.5, 3000.0);
+    view.cover = *cover;
+    Style style{};
+    style.frame.colour_by = gpu::colour_by_cover;
+    ShownGround shown;
+    shown.codes = {1, 2, 3, 4};
+    const ColourKey key = colour_key(view, level_land(47.4, 9.2), style, 1, &shown);
+    ASSERT_EQ(key.names.size(), 3U);
+    EXPECT_EQ(key.names[0].name, "moss / sedge");
+    EXPECT_EQ(key.names[0].colour, (StripColour{125, 122, 88}));
+    EXPECT_EQ(key.names[1].name, "lake");
+    EXPECT_EQ(key.names[2].name.size(), 60U) << "there is no room for it in the first";
 }
 
 class ShownGrowth : public testing::Test {
