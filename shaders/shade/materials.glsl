@@ -116,6 +116,18 @@ void find_canopy(SurfacePoint point) {
     pixel_canopy_m = forest * away * (1.0 - point.water) * size_of_trees(point) * top_m;
 }
 
+// Wind has ruffled some water more than other, and waves of more than two pixels lean: both by the noise that the ground has, which is there
+// already. An octave of waves has a tenth of all variance; five are finer than crown_m.
+const float ruffled = 0.7, octave_of_waves = 0.1;
+void find_pixel_waves(SurfacePoint point, float facing_eye, float finest_m) {
+    float variance = FRAME.style.water.wave_variance * exp(ruffled * clamp(pixel_noise.border + 0.2 * pixel_noise.grain, -2.5, 2.5));
+    // Seen along the water waves are shorter than pixels.
+    float kept = smoothstep(0.03, 0.2, facing_eye), octaves = clamp(log2(crown_m / (2.5 * finest_m)) / 1.2, -2.0, 5.0);
+    float seen = kept * kept * octave_of_waves * (octaves > 0.0 ? 0.9 + octaves : 0.9 * exp2(octaves));
+    pixel_waves = kept * sqrt(octave_of_waves * variance / 0.32) * vec2(pixel_noise.crowns, pixel_noise.tops);
+    pixel_wave_variance = variance * (1.0 - seen);
+}
+
 void find_pixel_materials(SurfacePoint point, vec3 sun) {
     map_forest = seen_forest = vec2(0.0);
     vec3 to_eye = normalize(-point.view) * axes_at(point.view);
@@ -128,6 +140,7 @@ void find_pixel_materials(SurfacePoint point, vec3 sun) {
     float finest_m = foot_m * (1.0 - sharper * smoothstep(0.15, 0.6, facing_eye));
     // A part of a footprint has a few places for all the slopes and heights that are in it: sharp borders between these would be chance.
     pixel_noise = ground_noise(point.view, finest_m, point.parts > 0 ? 0.04 : 0.0005);
+    if (point.water > 0.0) find_pixel_waves(point, max(dot(point.normal, to_eye), 0.0), finest_m);
     pixel_slope_deg = slope_deg(point);
     float patches = clamp(pixel_noise.patches, -2.0, 2.0);
     // Beside the sun crowns show their lit and their shaded sides, and with the sun behind the eye lit ones alone.

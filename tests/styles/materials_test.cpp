@@ -292,6 +292,77 @@ TEST_F(MaterialPictures, DesertsHaveNoBorderAlongAParallel) {
     EXPECT_GT(km, 15.0);
 }
 
+// A lake, against the sun. Found: 17 % of the picture was one white, up to a hard edge.
+TEST_F(MaterialPictures, LakesGlitterInManyTones) {
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::square_field(46.5, 8.0, 60.0, 129, [](int, int) { return 400.0; });
+    gpu::FrameStyle style = natural(region, {0.0, 30.0});
+    style.water.on = 1;
+    Camera camera = down(region, 1.0);
+    camera.eye.lat_deg -= 1400.0 / test::metres_per_degree(46.5, 400.0).lat;
+    camera.eye.h_m = 400.0 + 700.0;
+    camera.attitude = {0.0, -28.0, 0.0};
+    camera.vertical_fov_deg = 40.0;
+    const auto seen = picture(region, camera, style);
+    double white = 0.0, bright = 0.0, rough = 0.0, count = 0.0;
+    int most = 0;
+    for (std::size_t i = 1; i + 16 < seen.size(); i += 4) {
+        most = std::max<int>(most, seen[i]);
+        white += seen[i] >= 253 ? 1.0 : 0.0;
+        if (seen[i] < 170) continue;
+        bright += 1.0;
+        // Four pixels on.
+        rough += std::pow(static_cast<double>(seen[i]) - seen[i + 16], 2);
+        count += 1.0;
+    }
+    const double pixels = picture_px * picture_px, rms = std::sqrt(rough / std::max(count, 1.0));
+    std::printf("green up to %d; white %.3f of all, bright %.3f, which differs by %.1f codes r.m.s.\n", most,
+                white / pixels, bright / pixels, rms);
+    EXPECT_GE(most, 190) << "or there is no path of light";
+    EXPECT_GT(bright / pixels, 0.02);
+    EXPECT_LT(white / pixels, 0.01);
+    EXPECT_GT(rms, 6.0) << "codes";
+}
+
+// Waves are no finer than pixels: between its pixels a picture of water is what they say, straight down and
+// along the water, towards the sun.
+TEST_F(MaterialPictures, HaveWavesThatAreSampledFinelyEnough) {
+    Region region{std::vector<RegionGrid>(1)};
+    region.grids[0].field = test::square_field(46.5, 8.0, 30.0, 129, [](int, int) { return 1200.0; });
+    for (const double px_m : {0.3, 1.0, 5.0, 0.0}) {
+        const bool along = px_m == 0.0;
+        gpu::FrameStyle style = natural(region, along ? SunDirection{0.0, 15.0} : SunDirection{180.0, 75.0});
+        style.water.on = 1;
+        Camera here = down(region, along ? 1.0 : px_m), there = here;
+        if (along) {
+            here.eye.h_m = 1230.0;
+            here.attitude = {0.0, -12.0, 0.0};
+            here.vertical_fov_deg = 15.0;
+            there = here;
+            there.attitude.heading_deg += 0.5 * 15.0 / picture_px;
+        } else {
+            there.eye.lon_deg += 0.5 * px_m / test::metres_per_degree(46.5, 1200.0).lon;
+        }
+        const auto one = picture(region, here, style), other = picture(region, there, style);
+        double sum = 0.0, count = 0.0;
+        for (int row = 8; row < picture_px - 8; ++row) {
+            for (int column = 8; column < picture_px - 8; ++column) {
+                for (int c = 0; c < 3; ++c) {
+                    const auto at = [&](int of) {
+                        return static_cast<std::size_t>(4 * (picture_px * row + of) + c);
+                    };
+                    sum += std::abs(other[at(column)] - 0.5 * (one[at(column)] + one[at(column + 1)]));
+                    count += 1.0;
+                }
+            }
+        }
+        std::printf("water, %s: half a pixel on %.2f codes, contrast %.1f\n",
+                    along ? "along it" : std::to_string(px_m).c_str(), sum / count, contrast(one));
+        EXPECT_LE(sum / count, 2.0) << "codes, " << px_m;
+        EXPECT_GT(contrast(one), 1.0) << "or there is nothing to see";
+    }
+}
+
 // Where a style has none, nothing is asked for.
 TEST_F(MaterialPictures, AreOfNaturalAlone) {
     const Region region = slope(30.0, 0.0);
