@@ -127,13 +127,22 @@ std::string invented_line(const InventedGround& invented) {
 
 std::string allowed_line(const Verification& verification, const View& view) {
     char line[160];
-    if (view.mesh_level)
+    if (view.mesh_level) {
         std::snprintf(line, sizeof line, "Allowed: a level of clusters (--mesh-level %d) promises nothing\n",
                       *view.mesh_level);
-    else
-        std::snprintf(line, sizeof line, "Allowed: %.3g px (--tau %g, and %.2g px that drawing rounds off)\n",
-                      view.tau_px + verification.slack_px, view.tau_px, verification.slack_px);
-    return line;
+        return line;
+    }
+    std::snprintf(line, sizeof line, "Allowed: %.3g px (--tau %g, and %.2g px that drawing rounds off)\n",
+                  view.tau_px + verification.slack_px, view.tau_px, verification.slack_px);
+    if (!verification.errors.ground.meshes || view.mesh != "clusters") return line;
+    // docs/MESHES.md, "Onto the ground".
+    std::string text = line;
+    std::snprintf(
+        line, sizeof line,
+        "A part of a mesh that is left out, as the ground is near enough: %.3g px, as that ground is "
+        "drawn within --tau for itself\n",
+        2.0 * view.tau_px + verification.slack_px);
+    return text + line;
 }
 
 }  // namespace
