@@ -286,6 +286,7 @@ set_tests_properties(
   Panorama.IsTheSameTwiceAndByItsView
   Panorama.RefusesWhatCannotBe
   Panorama.SaysTheSameInAllFormats
+  Panorama.SaysWhereTreesHideTheView
   PanoramaForests.MirrorWithoutSeams
   PanoramaPeaks.AreWhereGeographicLibHasThemAndNamedWhereTheyAreSeen
   Paths/DrawnChoiceLong.HasTheTrianglesOfTheProcessorsPlanAt150Eyes/compute
@@ -414,6 +415,7 @@ set_tests_properties(
   StreamedMeshes.ArePicturesOfTheWholeMesh
   StreamedMeshes.ThatLieAreRefused
   StreamedTown.IsDrawnAsTheWholeMeshIsInOtherWays
+  StreamedTown.IsMeasuredWhereItIsDroppedOntoTheGround
   StreamedTown.WhoseGroundLiesIsRefusedOrReadWhole
   SunCommand.NightIsNotHiddenByTerrain
   SunCommand.OverTerrain
