@@ -48,7 +48,7 @@ holds() {
 # picks NAME PATTERN X Y: clicks there once the picture is whole, and closes the panel that tells of it.
 picks() {
   until_so "$1 is drawn" lacks_pattern 'moving|loading|drawing'
-  xdotool mousemove --window "$window" "$3" "$4" click 3; says "$1" "$2"
+  xdotool mousemove --window "$window" "$3" "$4"; sleep 0.3; xdotool click 3; says "$1" "$2"
   xdotool key Escape; sleep 0.2
 }
 # sizes WIDTH HEIGHT: what is asked for afterwards has that size, for a field opens and closes after the window has taken it.
@@ -56,6 +56,7 @@ sizes() {
   xdotool windowsize --sync "$window" "$1" "$2"
   xdotool key g; until_so "$1 x $2" holds_pattern '^Go to'
   xdotool key Escape; until_so "$1 x $2" lacks_pattern '^Go to'
+  sleep 1  # a panel that has gone takes clicks until the window has been shown without it
 }
 
 says start 'heading 30'
