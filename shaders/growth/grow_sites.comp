@@ -53,7 +53,7 @@ Stands stands_of(MaterialShares shares) {
 }
 
 Stands stands_at(SitePlace place, SurfacePoint point) {
-    pixel_noise = ground_noise(point.view, foot_m, 0.0005);
+    pixel_noise = ground_noise(point.view, foot_m, 0.0005, true);
     // Crowns are wide: no tree stands beside a mesh, whatever a map says.
     if (mesh_distance_m(point.view).x < 9.0) return Stands(0.0, 0.0, 0.0);
     find_pixel_parcel(point, slope_deg(point), foot_m);

@@ -15,13 +15,13 @@ struct GroundNoise {
 // Crowns stand some 5 m apart; of larger areas, with their gaps and their ages, the mean differs less.
 const float crown_m = 6.0;
 
-// Of a place in view coordinates, as it is seen; foot_m: the side of a pixel on the ground; least: variance that borders have anyhow.
-GroundNoise ground_noise(vec3 view, float foot_m, float least) {
+// Of a place in view coordinates, as it is seen; foot_m: the side of a pixel on the ground; least: variance that borders have anyhow;
+// has_crowns: whether noise of crowns goes on below their size.
+GroundNoise ground_noise(vec3 view, float foot_m, float least, bool has_crowns) {
     if (FRAME.refraction_per_m != 0.0) view -= (0.5 * FRAME.refraction_per_m * squared_across(view)) * FRAME.up_view;
     vec3 at = (view * FRAME.view_from_ecef) / FRAME.noise[0].cell_m;
     GroundNoise noise = GroundNoise(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     vec2 left = vec2(1.0);  // variance
-    bool are_drawn = (FRAME.style.materials.on & materials_with_trees) != 0u;
     for (uint i = 0u; i < noise_octaves; ++i) {
         // From two to three pixels long it fades in.
         float kept = min(FRAME.noise[i].cell_m / foot_m - 2.0, 1.0);
@@ -37,7 +37,7 @@ GroundNoise ground_noise(vec3 view, float foot_m, float least) {
         noise.grain += FRAME.noise[i].grain * both.y;
         float crowns_wide = FRAME.noise[i].cell_m / crown_m;
         // Where no trees are drawn a forest is a smooth canopy, also from near: what is smaller than crowns fades out.
-        vec2 crowns = both * (crowns_wide > 1.0 ? inversesqrt(crowns_wide) : are_drawn ? 1.0 : crowns_wide);
+        vec2 crowns = both * (crowns_wide > 1.0 ? inversesqrt(crowns_wide) : has_crowns ? 1.0 : crowns_wide);
         noise.crowns += crowns.y;
         noise.tops += crowns.x;
         at = noise_lacunarity / 3.0 * vec3(2.0 * at.x - 2.0 * at.y + at.z, at.x + 2.0 * at.y + 2.0 * at.z, 2.0 * at.x + at.y - 2.0 * at.z);

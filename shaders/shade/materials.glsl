@@ -139,7 +139,9 @@ void find_pixel_materials(SurfacePoint point, vec3 sun) {
     float sharper = by_means ? mix(0.42, 0.1, smoothstep(0.4, 1.6, foot_m / point.post_m)) : 0.42;
     float finest_m = foot_m * (1.0 - sharper * smoothstep(0.15, 0.6, facing_eye));
     // A part of a footprint has a few places for all the slopes and heights that are in it: sharp borders between these would be chance.
-    pixel_noise = ground_noise(point.view, finest_m, point.parts > 0 ? 0.04 : 0.0005);
+    // Waves are as smooth as a canopy without drawn trees, whether or not there are any.
+    bool has_crowns = (FRAME.style.materials.on & materials_with_trees) != 0u && point.water == 0.0;
+    pixel_noise = ground_noise(point.view, finest_m, point.parts > 0 ? 0.04 : 0.0005, has_crowns);
     if (point.water > 0.0) find_pixel_waves(point, max(dot(point.normal, to_eye), 0.0), finest_m);
     pixel_slope_deg = slope_deg(point);
     float patches = clamp(pixel_noise.patches, -2.0, 2.0);

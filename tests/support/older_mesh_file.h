@@ -31,7 +31,8 @@ inline std::string older_mesh_file(const std::string& path, bool has_groups,
                                    std::span<const VertexColour> colours = {}) {
     const auto container = Container::open(path).value();
     const StoredMesh mesh = stored_mesh_in(container);
-    const MeshRecords& records = StreamedMesh::open(container, 0).value()->records();
+    const auto streamed = StreamedMesh::open(container, 0).value();
+    const MeshRecords& records = streamed->records();
     const StreamedBytes groups = streamed_bytes_of(
         mesh, colours, 1, records.is_town() ? &records.ground_cells : nullptr, nullptr, PayloadForm::alone);
     ChunkTable table;
