@@ -19,21 +19,27 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Me
 
 const float disc_rad = 0.00465;  // the sun's radius, as air.glsl has it
 
+// Of an angle below half a radian: its series. A GPU's sin() may be off by 4e-7, which is 2.5 m of an angle at the Earth's middle.
+float small_sin(float angle) {
+    float square = angle * angle;
+    return angle * (1.0 - square * (1.0 / 6.0) * (1.0 - square * (1.0 / 20.0) * (1.0 - square * (1.0 / 42.0))));
+}
+
 // From the eye to a place on the ellipsoid's normal, in the eye's meridian frame (out of the axis, east, north along it): differences
 // alone, so that no digit of the Earth's radius is lost.
 vec3 from_eye_m(CastPlace place) {
     EyePost eye = FRAME.eye_post;
-    float c0 = eye.latitude.x, s0 = eye.latitude.y, turn = place.from_eye_rad.x, half_turn = sin(0.5 * turn);
-    float sine = sin(turn), versine = 2.0 * half_turn * half_turn;
+    float c0 = eye.latitude.x, s0 = eye.latitude.y, turn = place.from_eye_rad.x, half_turn = small_sin(0.5 * turn);
+    float sine = small_sin(turn), versine = 2.0 * half_turn * half_turn;
     float fall = c0 * versine + s0 * sine;   // of the cosine of latitude
     float rise = c0 * sine - s0 * versine;   // of its sine
     float c = c0 - fall, s = s0 + rise, w0 = sqrt(1.0 - eye.e2 * s0 * s0), w = sqrt(1.0 - eye.e2 * s * s);
     float normal_m = eye.normal_m * w0 / w, more_m = eye.normal_m * eye.e2 * rise * (2.0 * s0 + rise) / (w * (w0 + w));
-    float higher_m = place.h_m - FRAME.eye_h_m, half_east = sin(0.5 * place.from_eye_rad.y);
+    float higher_m = place.h_m - FRAME.eye_h_m, half_east = small_sin(0.5 * place.from_eye_rad.y);
     float rho_m = (normal_m + place.h_m) * c;
     float out_m = (more_m + higher_m) * c - (eye.normal_m + FRAME.eye_h_m) * fall - rho_m * 2.0 * half_east * half_east;
     float north_m = (more_m * (1.0 - eye.e2) + higher_m) * s + (eye.normal_m * (1.0 - eye.e2) + FRAME.eye_h_m) * rise;
-    return vec3(out_m, rho_m * sin(place.from_eye_rad.y), north_m);
+    return vec3(out_m, rho_m * small_sin(place.from_eye_rad.y), north_m);
 }
 
 // Of a vector in the eye's meridian frame.

@@ -34,8 +34,8 @@ vec2 angles_of(vec3 view, float h_m) {
     float cosine = eye.latitude.x, sine = eye.latitude.y, rho_m = radius_m * cosine, out_m = rho_m + from_foot.x;
     float farther_m = (from_foot.x * (rho_m + out_m) + from_foot.y * from_foot.y) / (length(vec2(out_m, from_foot.y)) + rho_m);
     float higher_m = from_foot.z / k;
-    float north_rad = atan(higher_m * cosine - farther_m * sine, radius_m + farther_m * cosine + higher_m * sine);
-    return vec2(north_rad, atan(from_foot.y, out_m));
+    float north_rad = small_atan(higher_m * cosine - farther_m * sine, radius_m + farther_m * cosine + higher_m * sine);
+    return vec2(north_rad, small_atan(from_foot.y, out_m));
 }
 
 // From the numbers of posts, whatever Earth they are drawn on.
