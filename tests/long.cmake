@@ -413,6 +413,7 @@ set_tests_properties(
   SkyBands.AreBrokenUpByDither
   StreamedMeshes.AreMeasuredAsTheWholeMeshIs
   StreamedMeshes.ArePicturesOfTheWholeMesh
+  StreamedMeshes.OfAnOlderFileAreTheSamePictures
   StreamedMeshes.ThatLieAreRefused
   StreamedTown.IsDrawnAsTheWholeMeshIsInOtherWays
   StreamedTown.IsMeasuredWhereItIsDroppedOntoTheGround
