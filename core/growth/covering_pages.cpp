@@ -40,6 +40,7 @@ std::optional<gpu::GrowthTile> growth_tile(const PostGrid& grid, const CoveringP
     high += beyond;
     const glm::dvec2 end(grid.rows() - 1, grid.columns() - 1);
     if (!(high.x > 0.0 && high.y > 0.0 && low.x < end.x && low.y < end.y)) return {};
+    // Posts of the quads that it lies on.
     low = glm::max(low, glm::dvec2(0.0));
     high = glm::min(high, end - 0.5);
     const auto page = pages.find(glm::ivec2(low), glm::ivec2(high));

@@ -62,7 +62,6 @@ class DistanceCover {
     [[nodiscard]] double bound_m() const { return bound_m_; }
     // Of all that is added from now on.
     void begin_bound() { bound_m_ = 0.0; }
-    [[nodiscard]] double found_m() const { return found_m_; }
 
   private:
     struct Corner {

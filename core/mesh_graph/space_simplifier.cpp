@@ -456,12 +456,13 @@ void SpaceSimplifier::find_drops() {
         const std::vector<std::uint32_t>& part = parts_.triangles[i];
         parts_left_ += part.empty() ? 0 : 1;
         if (part.empty() || parts_.is_held[i] != 0) continue;
-        GroundDrop drop{0.0, i, {}, 0.0};
+        GroundDrop drop{0.0, i, 0.0};
+        PartBox box;
         for (const std::uint32_t triangle : part) {
-            for (const std::uint32_t corner : triangles_[triangle].corners) drop.box.add(at(corner));
-            for (const glm::dvec3& sample : triangles_[triangle].samples) drop.box.add(sample);
+            for (const std::uint32_t corner : triangles_[triangle].corners) box.add(at(corner));
+            for (const glm::dvec3& sample : triangles_[triangle].samples) box.add(sample);
         }
-        drop.least_m = share_of_diagonal * drop.box.diagonal_m();
+        drop.least_m = share_of_diagonal * box.diagonal_m();
         drop.cost_m = std::max(height_over_ground(part), drop.least_m);
         if (drop.cost_m < no_limit) drops_.push_back(drop);
     }

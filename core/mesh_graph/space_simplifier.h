@@ -92,7 +92,6 @@ class SpaceSimplifier {
     struct GroundDrop {
         double cost_m{};
         std::uint32_t part{};
-        PartBox box;
         double least_m{};  // error that it is to have, for its breadth
     };
     [[nodiscard]] Parts parts();

@@ -1,4 +1,4 @@
-// A walk through a tree of boxes along a line, nearer boxes first. Within core.
+// A walk through a tree of boxes along a line, or away from a place, nearer boxes first. Within core.
 #pragma once
 
 #include <array>
@@ -10,7 +10,8 @@
 
 namespace oro {
 
-// From node 0 on. begin_m(node): where the line meets its box, infinite where it does not. below(node): the
+// From node 0 on. begin_m(node): where the line meets its box, infinite where it does not; or how far the box
+// is from the place. below(node): the
 // two nodes below, nothing of a leaf. ask(leaf) may lessen most_m, beyond which nothing is asked.
 template <class Begin, class Below, class Ask>
 void walk_boxes(const double& most_m, const Begin& begin_m, const Below& below, const Ask& ask) {
@@ -36,6 +37,16 @@ void walk_boxes(const double& most_m, const Begin& begin_m, const Below& below, 
         if (count == 0) return;
         next = waiting[--count];
     }
+}
+
+// What walk_boxes() asks of a tree where the first node below another stands right behind it: second(number)
+// gives the other one, or 0 where none is below.
+template <class Second>
+auto below_in_order(const Second& second) {
+    return [second](std::uint32_t number) {
+        const std::uint32_t other = second(number);
+        return other > 0 ? std::optional(std::pair(number + 1, other)) : std::nullopt;
+    };
 }
 
 }  // namespace oro

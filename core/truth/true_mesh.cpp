@@ -162,11 +162,8 @@ std::optional<TrueMesh::Hit> TrueMesh::first_hit(const Ecef& eye, const Refracti
         return line.box_begin_m({node.low[0], node.low[1], node.low[2]},
                                 {node.high[0], node.high[1], node.high[2]}, most_m);
     };
-    using Two = std::optional<std::pair<std::uint32_t, std::uint32_t>>;
-    const auto below_of = [&](std::uint32_t number) {
-        const Node& node = nodes_[number];
-        return node.count == 0 ? Two({number + 1, node.first}) : Two();
-    };
+    const auto below_of = below_in_order(
+        [&](std::uint32_t number) { return nodes_[number].count == 0 ? nodes_[number].first : 0U; });
     walk_boxes(most_m, begin_of, below_of, [&](std::uint32_t number) {
         const Node& node = nodes_[number];
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
@@ -192,11 +189,8 @@ std::optional<glm::dvec3> TrueMesh::nearest_m(const glm::dvec3& at_m, double rea
         return box_away_m({node.low[0], node.low[1], node.low[2]}, {node.high[0], node.high[1], node.high[2]},
                           at);
     };
-    using Two = std::optional<std::pair<std::uint32_t, std::uint32_t>>;
-    const auto below_of = [&](std::uint32_t number) {
-        const Node& node = nodes_[number];
-        return node.count == 0 ? Two({number + 1, node.first}) : Two();
-    };
+    const auto below_of = below_in_order(
+        [&](std::uint32_t number) { return nodes_[number].count == 0 ? nodes_[number].first : 0U; });
     walk_boxes(most_m, begin_of, below_of, [&](std::uint32_t number) {
         const Node& node = nodes_[number];
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {

@@ -90,10 +90,7 @@ std::optional<TrueMesh::Hit> TrueMeshParts::first_hit(const Ecef& eye, const Ref
     const auto begin_of = [&](std::uint32_t number) {
         return line.box_begin_m(nodes_[number].low, nodes_[number].high, most_m);
     };
-    using Two = std::optional<std::pair<std::uint32_t, std::uint32_t>>;
-    const auto below_of = [&](std::uint32_t number) {
-        return nodes_[number].second > 0 ? Two({number + 1, nodes_[number].second}) : Two();
-    };
+    const auto below_of = below_in_order([&](std::uint32_t number) { return nodes_[number].second; });
     walk_boxes(most_m, begin_of, below_of, [&](std::uint32_t number) {
         const std::shared_ptr<const Held> one = part(nodes_[number].part);
         auto hit = one->mesh->first_hit(eye, refraction, start_m, direction, most_m);
@@ -113,10 +110,7 @@ std::optional<glm::dvec3> TrueMeshParts::nearest_m(const glm::dvec3& at_m, doubl
     const auto begin_of = [&](std::uint32_t number) {
         return box_away_m(nodes_[number].low, nodes_[number].high, at);
     };
-    using Two = std::optional<std::pair<std::uint32_t, std::uint32_t>>;
-    const auto below_of = [&](std::uint32_t number) {
-        return nodes_[number].second > 0 ? Two({number + 1, nodes_[number].second}) : Two();
-    };
+    const auto below_of = below_in_order([&](std::uint32_t number) { return nodes_[number].second; });
     walk_boxes(most_m, begin_of, below_of, [&](std::uint32_t number) {
         const auto place = part(nodes_[number].part)->mesh->nearest_m(at_m, most_m);
         if (!place) return;
