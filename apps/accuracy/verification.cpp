@@ -181,8 +181,8 @@ std::string verification_text(const Verification& verification, const View& view
             table_line("  skyline, px", skyline.summary_px);
     if (ground.meshes)
         text +=
-            "Mesh drawn: how far what is drawn of meshes is from them. Mesh missed: how far what is truly "
-            "seen of them is from what is drawn, or from the ground.\n";
+            "Mesh drawn: how far what is drawn of meshes, or of steps between grids, is from these. Mesh "
+            "missed: how far what is truly seen of meshes is from what is drawn, or from the ground.\n";
     text += "99 %: 99 of 100 are off by no more than this.\n";
     if (ground.summary_displacement_px.at_least + ground.summary_surface_px.at_least +
             seen.summary_px.at_least >
