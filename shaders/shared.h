@@ -194,6 +194,9 @@ ORO_CONST uint places_from_plane = 16u;  // see PagePlaces
 ORO_CONST uint cull_by_occlusion =
     32u;  // its nodes are left out where other ground hides them (choose/occlusion.glsl)
 ORO_CONST float least_gap_px = 0.05f;
+ORO_CONST uint contents_posts = 0u;   // of a grid's pages: posts of its own
+ORO_CONST uint contents_seam = 1u;    // ... what lies between grids (place/seam.glsl)
+ORO_CONST uint contents_meshes = 2u;  // ... triangles of meshes (shared_mesh_pages.h)
 ORO_CONST uint seam_stride = 3u;         // posts of a seam's page from a quad to the next
 ORO_CONST float seam_unit = 1048576.0f;  // a unit vector's length in the places of its pages
 
@@ -369,7 +372,7 @@ struct FrameConstants {
     NetMap net;
     DrapeTable drape;
     // Last, so that addresses before it stay at multiples of 8 bytes: it would cost 2 to 4 % of a frame.
-    uint is_seam;           // 1: what lies between grids (place/seam.glsl)
+    uint contents;          // contents_..., of its pages
     uint occlusion;         // 1: the frame is drawn in several rounds, see FrameRound
     uvec2 round_pages;      // LivePages of the pages that a round draws (mesh path)
     uvec2 round_live;       // uint[2 page_count]: as `live`, of a round

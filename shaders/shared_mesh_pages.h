@@ -9,8 +9,6 @@
 namespace oro::gpu {
 #endif
 
-ORO_CONST uint seam_of_meshes = 2u;  // FrameConstants.is_seam: of a grid whose pages hold these
-
 // A page has words in the place of PageBlock.heights: for each of its 256 nodes the first of its words, 0
 // where there is none; then the nodes. A node is two halves (shared_halves.h), each of which has vertices of
 // its own.

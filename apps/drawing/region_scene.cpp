@@ -168,7 +168,7 @@ Result<std::optional<Scene>> scene_between(const Gpu& gpu, GridPages pages,
     for (std::unique_ptr<RegionPages>& one : pages) {
         // What is between grids is small beside the rest, which it takes nothing from.
         SceneMemory memory;
-        if (one->is_mesh()) memory.shared = shared;
+        if (one->has_meshes()) memory.shared = shared;
         ORO_TRY(Scene made, Scene::create(gpu, std::move(one), memory));
         if (between)
             between->add(std::move(made));
@@ -237,7 +237,7 @@ Error lacks_gpu_memory(const Scene& scene, const std::string& what) {
 std::string note_of_missing_footprints(const gpu::FrameStyle& style, const RegionPagesList& grids) {
     if (!asks_for_means(style)) return "";
     for (std::size_t i = 0; i < grids.size(); ++i) {
-        if (grids[i].is_seam() || grids[i].knows_means()) continue;
+        if (!grids[i].has_posts() || grids[i].knows_means()) continue;
         return std::string("note: ") + (grids.size() == 1 ? "the region" : "a grid of the region") + " has " +
                grouped(grids[i].facts().grid.post_count()) +
                " posts, too many to colour pixels by the mean of the ground that they cover: each has the "

@@ -249,7 +249,7 @@ Result<std::vector<ShadowReceiver>> shadow_receivers(PlanMemory& memory, const F
     const RegionPages& pages = memory.pages();
     constexpr double rim_posts = 3.0;
     std::vector<ShadowReceiver> all;
-    if (pages.is_seam()) return all;
+    if (!pages.has_posts()) return all;
     const double rim_m = rim_posts * mean_radius_m * pages.facts().grid.row_step_rad();
     ORO_CHECK(look_for_quarters(memory, view, plan, [&](const SeenQuarter& quarter) {
         all.push_back(quarter.ground);

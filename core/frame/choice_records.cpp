@@ -100,7 +100,7 @@ gpu::ChoiceTerms choice_terms(const RegionPages& pages, const PageNumbers& numbe
     }
     put_axes(horizon.eye.direction, terms.horizon);
     terms.horizon_angle_rad = horizon.eye.angle_rad;
-    if (pages.is_seam())
+    if (!pages.has_posts())
         terms.gap_reach = 2.0 * std::max(levels.tau_px, gpu::least_gap_px) / levels.pixels_per_tangent;
     const auto corner = static_cast<double>(levels.corner_tangent);
     terms.corner_stretch = std::sqrt(1.0 + corner * corner);
@@ -112,7 +112,7 @@ gpu::ChoiceTerms choice_terms(const RegionPages& pages, const PageNumbers& numbe
     terms.pixels_per_tangent = levels.pixels_per_tangent;
     terms.corner_tangent = levels.corner_tangent;
     terms.tau_px = levels.tau_px;
-    if (!pages.is_seam())
+    if (pages.has_posts())
         terms.cull = gpu::cull_by_frustum | gpu::cull_by_occlusion |
                      (horizon.eye.angle_rad < std::numbers::pi ? gpu::cull_by_horizon : 0U);
     terms.page_count = numbers.page_count();

@@ -143,7 +143,7 @@ void PageChoice::want(KeptPage& page) {
     ViewSphere seen = model_.culls_nodes() ? model_.seen_at(page.centre_ecef_m, page.reach_m).sphere
                                            : model_.seen_page(pages_.facts().grid, record);
     // What closes gaps reaches out by pixels.
-    if (pages_.is_seam()) seen.radius_m += gap_reach_m(glm::length(seen.centre_m) + seen.radius_m);
+    if (!pages_.has_posts()) seen.radius_m += gap_reach_m(glm::length(seen.centre_m) + seen.radius_m);
     if (hidden(record.horizon, seen)) return;
     page.wanted = {.turn = turn_,
                    .distance_m = std::max(0.0, glm::length(seen.centre_m) - seen.radius_m),
@@ -346,9 +346,9 @@ void PageChoice::set_frame_page(KeptPage& page, bool by_device, gpu::FramePage& 
     // What closes gaps reaches out of its bounds; what lies between grids has no horizons.
     const bool is_skirt = pages_.is_skirt(summary.index);
     if (!model_.culls_nodes() || is_skirt) frame.cull = 0;
-    if (pages_.is_seam()) frame.cull &= ~gpu::cull_by_horizon;
+    if (!pages_.has_posts()) frame.cull &= ~gpu::cull_by_horizon;
     if (is_skirt) frame.cull |= gpu::is_skirt;
-    if (pages_.facts().grid.net && !pages_.is_seam() && reaches_far(summary))
+    if (pages_.facts().grid.net && pages_.has_posts() && reaches_far(summary))
         frame.cull |= gpu::places_from_plane;
     if (!model_.may_stand(page.record)) frame.cull |= gpu::never_coarsen;
     if (model_.culls_nodes() && !is_skirt) frame.cull |= gpu::cull_by_occlusion;

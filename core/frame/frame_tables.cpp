@@ -427,7 +427,7 @@ gpu::FrameConstants frame_constants(const RegionPages& pages, const Camera& came
     constants.undulation = undulation_table(region.grid, region.undulation);
     constants.eye_post = eye_post(region.grid, camera.eye, model.earth);
     if (region.grid.net) constants.net = net_map(*region.grid.net, lon);
-    constants.is_seam = pages.is_mesh() ? gpu::seam_of_meshes : pages.is_seam() ? 1U : 0U;
+    constants.contents = static_cast<gpu::uint>(pages.contents());
     set_ground_noise(model_eye_ecef(model.earth, camera.eye), constants);
     return constants;
 }

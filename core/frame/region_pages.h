@@ -26,6 +26,13 @@ struct RegionFacts {
     std::uint64_t triangles{};  // at full resolution
 };
 
+// What pages are made of.
+enum class PageContents : gpu::uint {
+    posts = gpu::contents_posts,
+    seam = gpu::contents_seam,      // what lies between grids (core/seam/seam_pages.h)
+    meshes = gpu::contents_meshes,  // triangles of meshes (core/seam/mesh_pages.h)
+};
+
 class CastMap;       // core/frame/cast_map.h
 struct MeshCasters;  // core/seam/mesh_casters.h
 struct MadeGround;   // core/made/made_ground.h
@@ -81,12 +88,13 @@ class RegionPages {
     // far.
     virtual Result<void> load_places(const PageIndex& page, const gpu::PageBlock& block,
                                      gpu::PagePlaces& places) const;
-    // Whether these are what lies between grids (core/seam), and whether a page of them closes gaps.
-    [[nodiscard]] virtual bool is_seam() const { return false; }
+    // What pages hold. Triangles of meshes lie in words of their own in the place of a block's heights.
+    [[nodiscard]] virtual PageContents contents() const { return PageContents::posts; }
+    [[nodiscard]] bool has_posts() const { return contents() == PageContents::posts; }
+    [[nodiscard]] bool has_meshes() const { return contents() == PageContents::meshes; }
+    // Whether a page of a seam closes gaps.
     [[nodiscard]] virtual bool is_skirt(const PageIndex&) const { return false; }
-    // Whether these are triangles of meshes (core/seam/mesh_pages.h), which lie in words of their own in the
-    // place of a block's heights; and those words of a page.
-    [[nodiscard]] virtual bool is_mesh() const { return false; }
+    // Those words of a page.
     virtual Result<void> load_words(const PageIndex& page, std::vector<std::uint32_t>& words) const;
     // Triangles of meshes among these, which cast shadows on all grids of a frame; null: there are none.
     [[nodiscard]] virtual const MeshCasters* mesh_casters() const { return nullptr; }

@@ -87,8 +87,7 @@ class MeshPages : public RegionPages {
         words = pages_[static_cast<std::size_t>(page.column)].words;
         return {};
     }
-    [[nodiscard]] bool is_seam() const override { return true; }
-    [[nodiscard]] bool is_mesh() const override { return true; }
+    [[nodiscard]] PageContents contents() const override { return PageContents::meshes; }
     [[nodiscard]] const MeshCasters* mesh_casters() const override { return &casters_; }
 
   private:

@@ -109,7 +109,7 @@ class SeamPages : public RegionPages {
     Result<void> load(const PageIndex& page, gpu::PageBlock& block) const override;
     Result<void> load_places(const PageIndex& page, const gpu::PageBlock& block,
                              gpu::PagePlaces& places) const override;
-    [[nodiscard]] bool is_seam() const override { return true; }
+    [[nodiscard]] PageContents contents() const override { return PageContents::seam; }
     [[nodiscard]] bool is_skirt(const PageIndex& page) const override {
         return static_cast<std::size_t>(page.column) >= piece_pages_;
     }

@@ -60,7 +60,7 @@ PipelineWants wants_of(const FrameRendererOptions& options, bool packed_heights,
 }
 
 bool has_meshes(const GridPlan& grid) {
-    return grid.constants.is_seam == gpu::seam_of_meshes;
+    return grid.constants.contents == gpu::contents_meshes;
 }
 
 bool has_packed_heights(const GridPlan& grid) {

@@ -30,7 +30,7 @@ std::unique_ptr<PageLoader> page_loader(const RegionPages& pages, int threads, s
             loaded.places = std::make_unique<gpu::PagePlaces>();
             ORO_CHECK(pages.load_places(page, *loaded.block, *loaded.places));
         }
-        if (pages.is_mesh()) {
+        if (pages.has_meshes()) {
             ORO_CHECK(pages.load_words(page, loaded.heights));
         } else if (packs) {
             loaded.heights = packed_heights(loaded.block->heights, pages.facts().shape.exaggeration);

@@ -101,12 +101,12 @@ Result<GridScene> GridScene::create(const Gpu& gpu, std::unique_ptr<RegionPages>
                                     const SceneMemory& memory, HeightStorage heights, bool means,
                                     HeightMaker maker) {
     const PageParts parts{means && pages->knows_means(),
-                          pages->facts().grid.net != nullptr && !pages->is_mesh()};
+                          pages->facts().grid.net != nullptr && !pages->has_meshes()};
     ORO_TRY(HeightQuantization coding, height_quantization(*pages, heights));
     // Their words take the place of packed heights.
-    if (pages->is_mesh()) coding = {.packed = true};
+    if (pages->has_meshes()) coding = {.packed = true};
     std::shared_ptr<MemoryBudget> budget = memory.shared ? memory.shared : page_budget(gpu, memory.gpu);
-    if (pages->is_mesh()) {
+    if (pages->has_meshes()) {
         ORO_TRY(const std::uint64_t bytes, bytes_of_meshes(*pages));
         budget = std::make_shared<MemoryBudget>(bytes);
     }
@@ -134,7 +134,7 @@ Result<GridScene> GridScene::create(const Gpu& gpu, std::unique_ptr<RegionPages>
         ORO_TRY(scene.mesh_casters_, create_mesh_casters(gpu, *casters));
         scene.cleared_ = std::make_shared<ClearedGround>(gpu, *casters);
     }
-    if (scene.pages_->is_mesh() && memory.shared)
+    if (scene.pages_->has_meshes() && memory.shared)
         scene.of_meshes_ = MemoryBudget::take(memory.shared, budget->bytes() + scene.mesh_casters_.size);
     return scene;
 }
@@ -460,7 +460,7 @@ void Scene::add(Scene other) {
 
 // What others hold that no frame uses makes room for them.
 void Scene::replace_between(std::optional<Scene> other) {
-    while (grids_.size() > 1 && grids_.back().pages_->is_seam()) grids_.pop_back();
+    while (grids_.size() > 1 && !grids_.back().pages_->has_posts()) grids_.pop_back();
     for (GridScene& grid : grids_) grid.cleared_.reset();
     if (other) add(std::move(*other));
     const std::shared_ptr<MemoryBudget>& shared = grids_.front().shared_memory();
@@ -481,7 +481,7 @@ void Scene::set_shadow_request(const ShadowRequest& request) {
     cast_ = request;
     // What lies between grids casts nothing: they do.
     for (GridScene& grid : grids_)
-        if (!grid.pages_->is_seam()) grid.cast_ = request;
+        if (grid.pages_->has_posts()) grid.cast_ = request;
 }
 
 void Scene::set_footprint_spacing(double spacing_px) {
@@ -491,11 +491,11 @@ void Scene::set_footprint_spacing(double spacing_px) {
 
 // What lies between grids is as wide as a gap: no tree stands there.
 void Scene::set_trees(bool on) {
-    for (GridScene& grid : grids_) grid.has_trees_ = on && !grid.pages_->is_seam();
+    for (GridScene& grid : grids_) grid.has_trees_ = on && grid.pages_->has_posts();
 }
 
 void Scene::set_grass(bool on) {
-    for (GridScene& grid : grids_) grid.has_grass_ = on && !grid.pages_->is_seam();
+    for (GridScene& grid : grids_) grid.has_grass_ = on && grid.pages_->has_posts();
 }
 
 void Scene::require_fields(const gpu::FrameStyle& style) {

@@ -176,7 +176,7 @@ class Scene {
                                 bool means = false, HeightMaker maker = HeightMaker::fastest);
     // Puts the grids of another scene behind its own, each with its own pages, memory and streaming.
     void add(Scene other);
-    // Puts grids in the place of what is drawn between those of posts (RegionPages::is_seam()), or nothing.
+    // Puts grids in the place of what is drawn between those of posts (RegionPages::has_posts()), or nothing.
     // No frame that shows what was there is under way.
     void replace_between(std::optional<Scene> other);
 

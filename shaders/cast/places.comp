@@ -81,8 +81,7 @@ void main() {
     SurfacePoint surface;
     surface.view = all.x * at[0] + all.y * at[1] + all.z * at[2];
     surface.post = place_on_page(page, triangle_of_id(id), posts, all);
-    bool is_seam = HAS_NET && FRAME.is_seam != 0u;
-    if (is_seam) {
+    if (!has_posts()) {
         hold_to_ground(page, posts, surface.view, heights_m, at);
         surface.view = all.x * at[0] + all.y * at[1] + all.z * at[2];
     }
@@ -91,7 +90,7 @@ void main() {
     place.distance_m = length(surface.view);
     if (HAS_NET) place.from_eye_rad = angles_of(surface.view, place.h_m);
     // What lies between grids casts nothing, and is drawn at full resolution.
-    if (!is_seam) {
+    if (has_posts()) {
         CastPoint point = cast_point(triangle_of_id(id), surface);
         if (!HAS_NET) place.from_eye_rad = angles_of_post(point);
         CastStart start;

@@ -30,6 +30,9 @@ layout(binding = 3, scalar) uniform Frame { FrameConstants frame; };
 #ifndef HAS_NET
 #define HAS_NET (FRAME.has_net != 0u)
 #endif
+
+// What has no posts lies on a net.
+bool has_posts() { return !HAS_NET || FRAME.contents == contents_posts; }
 FramePages frame_pages() { return FramePages(FRAME.pages); }
 
 // Triangle ids: page of this frame, meshlet of the page, triangle of the meshlet; 0 is the background. Where a frame draws several

@@ -10,7 +10,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer Me
 // Whether a frame may have pages of meshes: programs without the code for them take fewer registers.
 layout(constant_id = 105) const bool meshes_there = false;  // render/pipelines/pipeline_parts.cpp
 
-bool draws_meshes() { return meshes_there && HAS_NET && FRAME.is_seam == seam_of_meshes; }
+bool draws_meshes() { return meshes_there && HAS_NET && FRAME.contents == contents_meshes; }
 
 uint mesh_bits(MeshWords words, uint bit, uint count) {
     if (count == 0u) return 0u;

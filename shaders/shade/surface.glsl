@@ -209,7 +209,7 @@ vec2 shares_change(vec3 ray_step, vec3 first, vec3 edge_b, vec3 edge_c, vec2 sha
 // A place in a page (row, column, fractional) in the region, without the rounding that a large number would bring. Of a seam that of
 // region_place().
 void drape_place(FramePage page, vec2 post, vec2 region, out ivec2 whole, out vec2 part) {
-    if (HAS_NET && FRAME.is_seam != 0u) {
+    if (!has_posts()) {
         vec2 seam_post = floor(region);
         whole = ivec2(seam_post);
         part = region - seam_post;
@@ -238,7 +238,7 @@ vec2 met_shares(vec3 ray, vec3 at[3], out float scale) {
 
 // Of a seam: what stands in the page is no place in the region, and its normals are those of its corners.
 vec2 region_place(FramePage page, vec2 post, vec3 view) {
-    if (HAS_NET && FRAME.is_seam != 0u) return post_on_net(net_uv(angles_from_eye(view)));
+    if (!has_posts()) return post_on_net(net_uv(angles_from_eye(view)));
     return region_post(page, post);
 }
 vec2 pixel_look = vec2(0.0);  // of a pixel that shows a mesh: mesh_look_..., and the tone of its feature
@@ -344,17 +344,17 @@ SurfacePoint surface_at(uint id, vec3 ray) {
     if (draped || (!by_means && !shows_angle)) point.smooth_normal = normal_at(PageBlocks(page.block), page, post);
     if (!by_means && shows_angle) point.normal = horn_normal_at(PageBlocks(page.block), page, post);
     else if (!by_means) point.normal = point.smooth_normal;
-    if (HAS_NET && FRAME.is_seam != 0u) point.normal = point.smooth_normal = normal_of_seam(page, id, posts, vec3(share_a, share_b, share_c), heights_m, at);
+    if (!has_posts()) point.normal = point.smooth_normal = normal_of_seam(page, id, posts, vec3(share_a, share_b, share_c), heights_m, at);
     point.lat_deg = point.snow_line_m = point.hollow_m = 0.0;
     point.wide_level = 1.0;
     if ((as_map || in_air) && FRAME.style.colour_by == colour_by_cover) {
         RowTerms row = RowTable(FRAME.row_terms).at[page.row_terms + whole_number(floor(clamp(post.x, 0.0, float(page_quads))))];
         point.lat_deg = degrees(atan(row.S, row.C));
-        if (HAS_NET && FRAME.is_seam != 0u) point.lat_deg = degrees(atan(FRAME.eye_post.latitude.y, FRAME.eye_post.latitude.x) + angles_from_eye(point.view).x);
+        if (!has_posts()) point.lat_deg = degrees(atan(FRAME.eye_post.latitude.y, FRAME.eye_post.latitude.x) + angles_from_eye(point.view).x);
     }
     point.water = 0.0;
 #ifdef IN_AIR
-    bool has_water = FRAME.style.water.on == 1u && !(HAS_NET && FRAME.is_seam != 0u);
+    bool has_water = FRAME.style.water.on == 1u && has_posts();
     // Of near ground all but what may be water is left to the one program, and that to the other.
     if (parts_follow || (parts_alone && point.is_one_place)) point.is_left = (has_water && may_be_water(page, post)) == parts_follow;
     if (point.is_left) return point;

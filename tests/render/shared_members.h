@@ -330,7 +330,7 @@ inline const std::map<std::string, std::size_t>& offsets_in_memory() {
         ORO_MEMBER(FrameConstants, style),
         ORO_MEMBER(FrameConstants, eye_post),
         ORO_MEMBER(FrameConstants, drape),
-        ORO_MEMBER(FrameConstants, is_seam),
+        ORO_MEMBER(FrameConstants, contents),
         ORO_MEMBER(FrameConstants, occlusion),
         ORO_MEMBER(FrameConstants, round_pages),
         ORO_MEMBER(FrameConstants, round_live),

@@ -80,7 +80,7 @@ Result<void> put_houses(const Gpu& gpu, const Seam& seam, Scene& scene) {
 ordered_json mesh_json(const Scene& scene) {
     std::uint64_t triangles = 0, clusters = 0, pages = 0, bytes = 0;
     for (const GridScene& grid : scene.grids()) {
-        if (!grid.pages().is_mesh()) continue;
+        if (!grid.pages().has_meshes()) continue;
         for (int column = 0; column < grid.pages().layout(0).columns; ++column) {
             const auto record = grid.pages().record({0, column, 0});
             if (!record.ok()) continue;

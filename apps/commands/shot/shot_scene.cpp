@@ -129,7 +129,7 @@ Result<ShotScene> scene_of_shot(const ShotOptions& options, double ceiling_m, co
     shot.has_means = means && note.empty();
     if (!is_kept) ORO_CHECK(lay_images(shot.view, options.memory, gpu, scene, options.quiet));
     for (const GridScene& grid : scene.grids())
-        if (!grid.pages().is_seam()) shot.pages += grid.pages().layout(0).count();
+        if (grid.pages().has_posts()) shot.pages += grid.pages().layout(0).count();
     shot.triangles_at_full_resolution = whole->triangles;
     if (shot.meshes)
         shot.triangles_at_full_resolution += shot.meshes->cut.of_triangles - shot.meshes->cut.triangles;
