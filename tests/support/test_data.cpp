@@ -1,6 +1,7 @@
 #include "tests/support/test_data.h"
 
 #include <cstdlib>
+#include <mutex>
 #include <stdexcept>
 #include <vector>
 
@@ -19,6 +20,7 @@ std::optional<fs::path> real_data(const std::string& name) {
 
 fs::path scratch_folder() {
     struct Folders {
+        std::mutex mutex;
         std::vector<fs::path> made;
         ~Folders() {
             std::error_code ignored;
@@ -28,6 +30,7 @@ fs::path scratch_folder() {
     static Folders folders;
     std::string pattern = (fs::temp_directory_path() / "orograph-test-XXXXXX").string();
     if (!mkdtemp(pattern.data())) throw std::runtime_error("no scratch folder at " + pattern);
+    const std::lock_guard lock(folders.mutex);
     folders.made.emplace_back(pattern);
     return pattern;
 }
