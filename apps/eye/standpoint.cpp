@@ -85,7 +85,16 @@ Result<Place> place_at(const char* option, const std::string& text) {
     return place;
 }
 
-Result<Geodetic> standpoint(const Standing& standing, const HeightField& field, double exaggeration) {
+std::optional<double> standing_h_m(const Region& region, const HeightField& field, double exaggeration, double lat_deg,
+                                   double lon_deg) {
+    const std::optional<double> ground_m = ground_h_m(field, lat_deg, lon_deg, exaggeration);
+    if (ground_m || !region.meshes) return ground_m;
+    const auto top = MeshRoofs(region, exaggeration).at(lat_deg, lon_deg);
+    return top ? std::optional(top->h_m) : std::nullopt;
+}
+
+Result<Geodetic> standpoint(const Standing& standing, const Region& region, const HeightField& field,
+                            double exaggeration) {
     const std::string option = standing.place_option;
     ORO_TRY(const Place place, place_at(standing.place_option, standing.place));
     if (place.height_m) {
@@ -99,7 +108,8 @@ Result<Geodetic> standpoint(const Standing& standing, const HeightField& field, 
     if (standing.altitude_m)
         return Geodetic{place.lat_deg, place.lon_deg,
                         *standing.altitude_m + field.undulation.at_m(place.lat_deg, place.lon_deg)};
-    const std::optional<double> ground = ground_h_m(field, place.lat_deg, place.lon_deg, exaggeration);
+    const std::optional<double> ground =
+        standing_h_m(region, field, exaggeration, place.lat_deg, place.lon_deg);
     // Ground that could not be read is no ground to stand on, but that is not why there is none.
     if (!ground) ORO_CHECK(field.health());
     if (!ground)
@@ -179,7 +189,7 @@ Result<Standpoint> stand(const Standing& standing, const Region& region, double 
     ORO_TRY(const Place place, place_at(standing.place_option, standing.place));
     const HeightField& field = grid_at(region, place.lat_deg, place.lon_deg).field;
     if (!standing.on_summit) {
-        ORO_TRY(const Geodetic eye, standpoint(standing, field, exaggeration));
+        ORO_TRY(const Geodetic eye, standpoint(standing, region, field, exaggeration));
         if (place.height_m) return Standpoint{eye, {}, {}};
         ORO_TRY(const auto wall, wall_before(eye, region, exaggeration));
         return Standpoint{eye, {}, wall};
@@ -190,7 +200,7 @@ Result<Standpoint> stand(const Standing& standing, const Region& region, double 
     const MovedToSummit moved = moved_to_summit({place.lat_deg, place.lon_deg, 0.0}, region, exaggeration);
     ORO_CHECK(region.health());
     if (moved.moved_m == 0.0) {
-        ORO_TRY(const Geodetic eye, standpoint(standing, field, exaggeration));
+        ORO_TRY(const Geodetic eye, standpoint(standing, region, field, exaggeration));
         return Standpoint{eye, moved, {}};
     }
     Geodetic eye = moved.to;

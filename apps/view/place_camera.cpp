@@ -110,7 +110,7 @@ Result<Camera> camera_showing(const Camera& camera, const Place& place, const As
                               const Region& region, double exaggeration, const std::string& name) {
     if (is_framed(place, region)) return camera_framing(camera, place, asked, region, exaggeration, name);
     const HeightField& field = field_at(region, place.lat_deg, place.lon_deg);
-    const auto h_m = ground_h_m(field, place.lat_deg, place.lon_deg, exaggeration);
+    const auto h_m = standing_h_m(region, field, exaggeration, place.lat_deg, place.lon_deg);
     ORO_CHECK(field.health());
     if (!h_m) return no_ground(place, region, name, "there to look at");
     constexpr double least_m = 20.0, most_m = 2.0e6;

@@ -50,7 +50,8 @@ Result<void> show_place(View& view, const ViewOptions& options, const Place& pla
 Result<void> turn_to(View& view, const std::string& text, const Region& region) {
     ORO_TRY(const Place place, place_at("--look-at", text));
     const HeightField& field = grid_at(region, place.lat_deg, place.lon_deg).field;
-    const std::optional<double> ground = ground_h_m(field, place.lat_deg, place.lon_deg, view.exaggeration);
+    const std::optional<double> ground =
+        standing_h_m(region, field, view.exaggeration, place.lat_deg, place.lon_deg);
     if (!ground && !place.height_m)
         return Error{ErrorKind::no_data, "--look-at " + place_name(place.lat_deg, place.lon_deg),
                      "no elevation data there; give a heading and pitch, or geo:LAT,LON,HEIGHT" +

@@ -60,7 +60,7 @@ ORO_FUNCTION Tree tree_of_site(uint hash, uint kind, float size) {
     bool is_needle = kind == site_needle;
     tree.crown_m = tree.height_m * (is_needle ? 0.08f + 0.17f * low : 0.2f + 0.18f * low);
     // Of a small tree no more than its height allows: it is no cushion.
-    float radius_m = is_needle ? 0.85f + 0.105f * tree.height_m : 0.9f + 0.165f * tree.height_m, most_m = (is_needle ? 0.36f : 0.43f) * tree.height_m;
+    float radius_m = is_needle ? 0.85f + 0.105f * tree.height_m : 0.9f + 0.165f * tree.height_m, most_m = (is_needle ? 0.26f : 0.43f) * tree.height_m;
     tree.radius_m = wide * (radius_m < most_m ? radius_m : most_m);
     float leans = is_needle ? 0.025f : 0.07f;
     tree.lean = vec2(leans * (2.0f * site_number(hash, 6u) - 1.0f), leans * (2.0f * site_number(hash, 7u) - 1.0f));

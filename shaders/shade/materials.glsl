@@ -223,7 +223,9 @@ float dry_share(SurfacePoint point) {
 
 // Near meshes no forest grows, and beside buildings nothing is tilled: meadows and gardens, and much is paved.
 void make_open(inout MaterialShares shares, vec2 distance_m) {
-    float woods = 1.0 - broken(38.0 - distance_m.x, 9.0), fields = 1.0 - broken(22.0 - distance_m.y, 6.0);
+    // No circles: noise of all sizes moves the edge of a wood.
+    float ragged = pixel_noise.border + clamp(0.4 * pixel_noise.grain, -1.6, 1.6);
+    float woods = 1.0 - broken(38.0 - distance_m.x, 9.0, ragged, pixel_noise.border_sharp), fields = 1.0 - broken(22.0 - distance_m.y, 6.0);
     float before = shares.of[material_needle_forest] + shares.of[material_broad_forest] + shares.of[material_shrub] + shares.of[material_crops];
     shares.of[material_needle_forest] *= woods;
     shares.of[material_broad_forest] *= woods;

@@ -18,6 +18,7 @@
 #include "apps/drawing/drape.h"
 #include "apps/drawing/kept_drawing.h"
 #include "apps/drawing/mesh_choice.h"
+#include "apps/drawing/near_mesh_words.h"
 #include "apps/drawing/picking.h"
 #include "apps/drawing/pipeline_choice.h"
 #include "apps/drawing/region_scene.h"
@@ -198,6 +199,7 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
     if (const std::string note = near_trees_note(near_trees_share(shot.picture, shot.view.camera));
         !note.empty())
         say(options.quiet, "note: " + note);
+    if (const std::string note = near_mesh_note(shot.middle); !note.empty()) say(options.quiet, "note: " + note);
     if (shot.picture.ground_px == 0)
         say(options.quiet, "note: " + (nothing.ok() ? *nothing : nothing.error().what));
     for (const GridScene& grid : scene.grids()) {

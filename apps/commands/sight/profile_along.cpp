@@ -52,7 +52,7 @@ Result<void> follow_line(const ProfileOptions& options, const SightGround& groun
 
 Result<void> check_has_ground(const ProfileOptions& options, const SightGround& ground,
                               const Profile& profile) {
-    if (profile.sums.highest) return {};
+    if (profile.sums.highest || highest_top(profile)) return {};
     const LatLon& begin = profile.line.places.front();
     return Error{ErrorKind::no_data, "--along " + options.along,
                  "no elevation data along the line" +

@@ -15,7 +15,7 @@ Result<void> check_length(const ProfileOptions& options, const LineAlong& line);
 // it is. Errors: posts that cannot be read.
 Result<void> follow_line(const ProfileOptions& options, const SightGround& ground, Profile& profile,
                          const ProfileProgress& progress = {});
-// Errors (no_data): none of a profile's points has ground.
+// Errors (no_data): none of a profile's points has ground, nor a mesh.
 Result<void> check_has_ground(const ProfileOptions& options, const SightGround& ground,
                               const Profile& profile);
 

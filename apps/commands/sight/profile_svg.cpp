@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 #include "apps/commands/sight/profile_roofs.h"
 #include "apps/commands/sight/profile_text.h"
@@ -50,11 +51,16 @@ struct Axes {
 
 Axes axes_of(const Profile& profile) {
     Axes axes{{0.0, profile.length_m(), left_px, right_px}, {0.0, 1.0, bottom_px, top_px}};
-    if (!profile.sums.highest) return axes;
-    const auto top = highest_top(profile);
-    const double low = profile.points[*profile.sums.lowest].H_m,
-                 high = std::max(profile.points[*profile.sums.highest].H_m,
-                                 top ? profile.roofs[*top].H_m : profile.points[*profile.sums.highest].H_m);
+    double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+    const auto reach_to = [&](double H_m) {
+        low = std::min(low, H_m);
+        high = std::max(high, H_m);
+    };
+    for (const ProfilePoint& point : profile.points)
+        if (point.has_ground) reach_to(point.H_m);
+    for (const ProfileRoof& roof : profile.roofs)
+        if (roof.is_there) reach_to(roof.H_m);
+    if (low > high) return axes;
     // Level ground is drawn level, not its last millimetre.
     const double span = std::max(high - low, 10.0), middle = 0.5 * (low + high);
     axes.y.low = middle - 0.64 * span;
@@ -125,12 +131,19 @@ std::string run_path(const Profile& profile, const Axes& axes, std::size_t begin
     return path;
 }
 
+// What there is at a point; in a pit that is cut out of the terrain a mesh alone.
+enum class Drawn { nothing, ground, mesh };
+Drawn drawn_at(const Profile& profile, std::size_t i) {
+    if (profile.points[i].has_ground) return Drawn::ground;
+    return !profile.roofs.empty() && profile.roofs[i].is_there ? Drawn::mesh : Drawn::nothing;
+}
+
 std::string ground_text(const Profile& profile, const Axes& axes) {
     std::string svg;
     const std::vector<ProfilePoint>& points = profile.points;
     for (std::size_t begin = 0; begin < points.size();) {
         std::size_t end = begin;
-        while (end < points.size() && points[end].has_ground == points[begin].has_ground) ++end;
+        while (end < points.size() && drawn_at(profile, end) == drawn_at(profile, begin)) ++end;
         // From the last point before to the first one after it there is none.
         const double from_px = axes.x.px(points[begin].along_m);
         if (points[begin].has_ground && end - begin > 1) {
@@ -139,7 +152,7 @@ std::string ground_text(const Profile& profile, const Axes& axes) {
             svg += printed("<path class=\"ground\" d=\"M%.2f %.1fL", from_px, bottom_px) + path +
                    printed("L%.2f %.1fZ\"/>\n", to_px, bottom_px);
             svg += "<path class=\"surface\" d=\"M" + path + "\"/>\n";
-        } else if (!points[begin].has_ground) {
+        } else if (drawn_at(profile, begin) == Drawn::nothing) {
             const double left = begin > 0 ? axes.x.px(points[begin - 1].along_m) : from_px;
             const double right = axes.x.px(points[std::min(end, points.size() - 1)].along_m);
             svg += printed("<rect class=\"void\" x=\"%.2f\" y=\"%.1f\" width=\"%.2f\" height=\"%.1f\"/>\n",
@@ -153,7 +166,7 @@ std::string ground_text(const Profile& profile, const Axes& axes) {
     return svg;
 }
 
-// Meshes that stand over the ground: from it to their roofs.
+// Meshes that stand over the ground: from it to their roofs. Where there is no ground they are what one stands on.
 std::string roofs_text(const Profile& profile, const Axes& axes) {
     std::string svg;
     for (std::size_t begin = 0; begin < profile.roofs.size();) {
@@ -166,9 +179,8 @@ std::string roofs_text(const Profile& profile, const Axes& axes) {
                 path += printed("%s%.2f %.2f", path.empty() ? "M" : "L", axes.x.px(profile.points[i].along_m),
                                 axes.y.px(profile.roofs[i].H_m));
             for (std::size_t i = end; i-- > begin;) {
-                if (!profile.points[i].has_ground) continue;
-                path += printed("L%.2f %.2f", axes.x.px(profile.points[i].along_m),
-                                axes.y.px(profile.points[i].H_m));
+                const ProfilePoint& point = profile.points[i];
+                path += printed("L%.2f %.2f", axes.x.px(point.along_m), point.has_ground ? axes.y.px(point.H_m) : bottom_px);
             }
             svg += "<path class=\"top\" d=\"" + path + "Z\"/>\n";
         }

@@ -43,7 +43,8 @@ std::string profile_text(const Profile& profile) {
                   counted(profile.line.places.size(), "place", "places").c_str());
     std::string lines = "Line: " + ends_text(profile) + text;
     lines += "Heights at " + counted(profile.points.size(), "place", "places") + "\n";
-    if (!profile.sums.highest) return lines + "No data along the line\n";
+    const auto top = highest_top(profile);
+    if (!profile.sums.highest && !top) return lines + "No data along the line\n";
     lines += extreme_text("Begin: ", profile,
                           profile.points.front().has_ground ? std::optional<std::size_t>(0) : std::nullopt);
     lines += extreme_text(
@@ -57,7 +58,7 @@ std::string profile_text(const Profile& profile) {
     std::snprintf(text, sizeof text, "Every rise: %.1f m, every fall: %.1f m\n", profile.sums.ascent_m,
                   profile.sums.descent_m);
     lines += text;
-    if (const auto top = highest_top(profile)) {
+    if (top) {
         std::snprintf(text, sizeof text,
                       "Over meshes: %.1f m of the line; highest top H %.2f m, %.3f km along",
                       over_meshes_m(profile), profile.roofs[*top].H_m, profile.points[*top].along_m / 1000.0);
@@ -66,8 +67,8 @@ std::string profile_text(const Profile& profile) {
         lines += "No mesh under the line\n";
     }
     if (profile.sums.without_data_m > 0.0) {
-        std::snprintf(text, sizeof text, "Without data: %.3f km, left out of all sums\n",
-                      profile.sums.without_data_m / 1000.0);
+        std::snprintf(text, sizeof text, "Without %s: %.3f km, left out of all sums\n",
+                      profile.roofs.empty() ? "data" : "terrain", profile.sums.without_data_m / 1000.0);
         lines += text;
     }
     return lines;

@@ -102,6 +102,43 @@ TEST_F(MeshLook, APitIsSeenWhereTheTerrainIsCut) {
     EXPECT_EQ(json::parse(view_in(again))["fingerprints"]["pixels"], view["fingerprints"]["pixels"]);
 }
 
+// The floor is what there is to stand on, and to look at.
+TEST_F(MeshLook, APitIsStoodInAndLookedAt) {
+    const auto seen = [&](const Words& eye) {
+        const Outcome drawn = run_orograph(joined({"shot", bundled(), "--mesh-file", pit_, "--mesh-crs", "EPSG:4326", "--mesh-look",
+                                                   "ground", "--cut-under", "--size", "64x48", "--out", picture_, "--overwrite", "-q",
+                                                   "--json"},
+                                                  eye));
+        EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+        return drawn.exit_code == 0 ? json::parse(drawn.out) : json::object();
+    };
+    const json over = seen({"--at", "36.6045,-84.1785", "--above", "300", "--look-at", "36.605,-84.176"});
+    EXPECT_TRUE(says(over["destination"].dump(), "pit.obj")) << over["destination"].dump();
+    EXPECT_NEAR(over["destination"]["H_m"].get<double>(), 300.0, 0.01);
+    const json in = seen({"--at", "36.605,-84.176", "--above", "2", "--heading", "0"});
+    EXPECT_NEAR(in["eye"]["H_m"].get<double>(), 302.0, 0.01);
+}
+
+// A line across the pit, and one that stays in it: the floor is drawn where there is no terrain.
+TEST_F(MeshLook, ProfilesGoThroughThePit) {
+    const fs::path out = folder_ / "pit.svg";
+    const auto profile = [&](const char* line) {
+        return run_orograph({"profile", bundled(), "--mesh-file", pit_, "--mesh-crs", "EPSG:4326", "--mesh-look", "ground",
+                             "--cut-under", "--along", line, "--out", out.string(), "--overwrite", "-q"});
+    };
+    const Outcome across = profile("36.605,-84.178; 36.605,-84.174");
+    ASSERT_EQ(across.exit_code, 0) << across.err;
+    EXPECT_TRUE(says(across.out, "Over meshes: 149.1 m of the line")) << across.out;
+    EXPECT_TRUE(says(across.out, "Without terrain: 0.149 km, left out of all sums")) << across.out;
+    EXPECT_TRUE(says(oro::test::bytes_of(out), "class=\"top\" d=\"M"));
+    EXPECT_FALSE(says(oro::test::bytes_of(out), "class=\"void\""));
+    const Outcome within = profile("36.6045,-84.176; 36.6055,-84.176");
+    ASSERT_EQ(within.exit_code, 0) << within.err;
+    EXPECT_TRUE(says(within.out, "Over meshes: 111.0 m of the line; highest top H 300.00 m")) << within.out;
+    EXPECT_TRUE(says(oro::test::bytes_of(out), "class=\"top\" d=\"M"));
+    EXPECT_EQ(profile("36.5,-84.9; 36.51,-84.9").exit_code, oro::test::no_data);
+}
+
 // Out of the pit, whose floor is under the terrain: from 2 m over the floor past its rim, which is 44.7 m
 // away and some 50 m higher, to places 233 m away. What the first of them lacks, 31.8 m, the second one has.
 TEST_F(MeshLook, SightGoesOutOfThePit) {

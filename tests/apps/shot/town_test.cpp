@@ -114,6 +114,20 @@ TEST_F(Town, PickingNamesTheBuilding) {
     EXPECT_FALSE(shot({})["destination"].contains("feature"));
 }
 
+TEST_F(Town, AnEyeInABuildingIsSaid) {
+    const Words inside{"shot", bundled(), city_, "--at", "36.605,-84.17552", "--heading", "90", "--pitch", "0", "--size", "64x48",
+                       "--overwrite", "--out", (folder_ / "in.png").string()};
+    const std::string words = " before the eye, in the middle of the picture: --stand-on top stands on it";
+    const Outcome in = run_orograph(joined(inside, {"--above", "2"}));
+    EXPECT_EQ(in.exit_code, 0) << in.err;
+    EXPECT_TRUE(says(in.err, "note: BuildingPart big of h1 is 1.8 m" + words)) << in.err;
+    for (const Words& over : {Words{"--above", "200"}, Words{"--above", "2", "--stand-on", "top"}}) {
+        const Outcome out = run_orograph(joined(inside, over));
+        EXPECT_EQ(out.exit_code, 0) << out.err;
+        EXPECT_FALSE(says(out.err, words)) << out.err;
+    }
+}
+
 TEST_F(Town, ViewsKeepHowTheTownIsRead) {
     shot(raised_);
     const json view = json::parse(view_in(picture_));
