@@ -74,7 +74,7 @@ std::vector<std::byte> pack_corrections(const LatticeGeoreference::Stored& net) 
     for_each_number(
         net.corrections, table,
         [&](const auto& posts, std::size_t post, std::size_t axis, std::size_t number) {
-            const auto off =
+            const unsigned off =
                 static_cast<std::uint16_t>(posts[post][axis] - foretold(posts, table, post, axis));
             const auto folded = static_cast<std::uint16_t>((off << 1U) ^ (off >> 15U ? 0xffffU : 0U));
             planes[number] = static_cast<std::byte>(folded & 0xffU);

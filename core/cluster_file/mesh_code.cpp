@@ -120,7 +120,7 @@ bool MeshCode::code_first(Coder& coder, LocalTriangle& triangle) {
     while (least_untold_ < static_cast<int>(vertices) && walk_.is_coded(least_untold_)) ++least_untold_;
     const bool is_next = coder.bit(first_is_next_, triangle[0] == least_untold_);
     triangle[0] = is_next ? static_cast<std::uint8_t>(least_untold_) : any(triangle[0]);
-    for (const std::size_t corner : {1, 2}) triangle[corner] = any(triangle[corner]);
+    for (const std::size_t corner : {1U, 2U}) triangle[corner] = any(triangle[corner]);
     return triangle[0] < vertices && fits(triangle[0], triangle[1], triangle[2]);
 }
 

@@ -1,7 +1,7 @@
 #include "core/cluster_frame/cluster_offer.h"
 
 #include <algorithm>
-#include <ranges>
+#include <span>
 
 #include "core/base/radix_order.h"
 #include "core/cluster_frame/cluster_choice.h"
@@ -62,9 +62,9 @@ void OfferedCut::offer(std::vector<OfferFound>& found) {
 
 ClusterOffer OfferedCut::take(std::span<const std::uint32_t> opened) {
     // Where a group cannot stand none above it can.
-    for (const std::uint32_t group : opened | std::views::reverse) {
-        if (memory_.must_be_deselected[group] == 0) continue;
-        for (const Cluster& made : clusters_.read_part(group)->made)
+    for (auto group = opened.rbegin(); group != opened.rend(); ++group) {
+        if (memory_.must_be_deselected[*group] == 0) continue;
+        for (const Cluster& made : clusters_.read_part(*group)->made)
             if (made.used_by != no_group) deselect(made.used_by);
     }
     std::erase_if(coarser_, [&](const OfferFound& found) {
@@ -74,7 +74,7 @@ ClusterOffer OfferedCut::take(std::span<const std::uint32_t> opened) {
     offer(of_cut_);
     offer_.in_cut = offer_.clusters.size();
     offer(coarser_);
-    for (OfferedCluster& coarser : offer_.clusters | std::views::drop(offer_.in_cut))
+    for (OfferedCluster& coarser : std::span(offer_.clusters).subspan(offer_.in_cut))
         coarser.made_by = ask(coarser.group);
     offer_.rule = view_.cut_rule();
     return std::move(offer_);

@@ -246,8 +246,7 @@ Result<void> RegionClusters::reach_all(std::span<const std::uint32_t> clusters) 
         if (group != no_group) groups.push_back(group);
     }
     std::ranges::sort(groups);
-    const auto rest = std::ranges::unique(groups);
-    groups.erase(rest.begin(), rest.end());
+    groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
     ORO_CHECK(read(groups));
     std::vector<ClusterReach> found(missing.size());
     in_parallel(static_cast<int>(missing.size()), thread_count(), [&](int i) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <ranges>
+#include <span>
 #include <utility>
 
 namespace oro {
@@ -159,8 +159,7 @@ class StreamedCut {
         for (const Opened& group : kept_.opened)
             if (answer(group.group) == Answer::open) opened.push_back(group.group);
         choice_.offer = offered.take(opened);
-        for (const OfferedCluster& cluster :
-             choice_.offer.clusters | std::views::take(choice_.offer.in_cut)) {
+        for (const OfferedCluster& cluster : std::span(choice_.offer.clusters).first(choice_.offer.in_cut)) {
             choice_.drawn.clusters.push_back(cluster.cluster);
             choice_.drawn.groups.push_back(cluster.group);
         }
@@ -319,10 +318,11 @@ class StreamedCut {
         for (const Met* const met : hidden) add_wanted(*met);
         choice_.clusters_hidden = hidden.size();
         choice_.to_come_hidden = choice_.clusters_to_come.size() - to_come;
-        choice_.groups_hidden =
-            std::ranges::stable_partition(choice_.groups_wanted, [&](std::uint32_t group) {
-                return kept_.group_sights[group] != Sight::hidden;
-            }).size();
+        std::vector<std::uint32_t>& wanted = choice_.groups_wanted;
+        const auto seen_end = std::stable_partition(wanted.begin(), wanted.end(), [&](std::uint32_t group) {
+            return kept_.group_sights[group] != Sight::hidden;
+        });
+        choice_.groups_hidden = static_cast<std::size_t>(wanted.end() - seen_end);
         for (const std::uint32_t group : kept_.asked)
             choice_.missing += answer(group) == Answer::unread || answer(group) == Answer::closed ? 1U : 0U;
     }

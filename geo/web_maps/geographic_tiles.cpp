@@ -59,8 +59,7 @@ std::vector<GeographicTile> geographic_tiles(int zoom, std::span<const PostGrid*
                 tiles.push_back({zoom, (x % wide + wide) % wide, y});
     }
     std::ranges::sort(tiles);
-    const auto twice = std::ranges::unique(tiles);
-    tiles.erase(twice.begin(), twice.end());
+    tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
     return tiles;
 }
 

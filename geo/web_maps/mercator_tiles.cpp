@@ -64,8 +64,7 @@ std::vector<MercatorTile> mercator_tiles(int zoom, std::span<const PostGrid* con
                 tiles.push_back({zoom, (x % side + side) % side, y});
     }
     std::ranges::sort(tiles);
-    const auto twice = std::ranges::unique(tiles);
-    tiles.erase(twice.begin(), twice.end());
+    tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
     return tiles;
 }
 
