@@ -1,6 +1,6 @@
 #version 460
 // Softens the outlines of trees in a shaded picture of one sample: a pixel that shows another tree, or the ground, than one beside it takes
-// an eighth of that one's colour. Needs what shade_growth.comp has left in `sum`.
+// an eighth of that one's colour, and more where trees are hardly larger than pixels: there they would glitter. Needs what shade_growth.comp has left in `sum`.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/place/frame.glsl"
 #include "shaders/shared_growth.h"
@@ -27,14 +27,14 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), last = ivec2(FRAME.width_px, FRAME.height_px) - 1;
     if (any(greaterThan(pixel, last))) return;
     uint tree = tree_in(pixel);
-    vec4 own = imageLoad(shaded, pixel), colour = own;
-    bool is_outline = false;
+    vec4 own = imageLoad(shaded, pixel), beside_it = vec4(0.0);
+    float others = 0.0;
     for (int i = 0; i < 4; ++i) {
         ivec2 beside = clamp(pixel + ivec2(i == 0 ? 1 : i == 1 ? -1 : 0, i == 2 ? 1 : i == 3 ? -1 : 0), ivec2(0), last);
         if (tree_in(beside) == tree) continue;
-        colour += 0.125 * (imageLoad(shaded, beside) - own);
-        is_outline = true;
+        beside_it += imageLoad(shaded, beside) - own;
+        others += 1.0;
     }
     // Without an outline it is as it was shaded.
-    if (is_outline) keep(pixel, colour);
+    if (others > 0.0) keep(pixel, own + (others > 3.0 ? 0.2 : others > 2.0 ? 0.16 : 0.125) * beside_it);
 }
