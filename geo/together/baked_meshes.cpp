@@ -87,7 +87,7 @@ ScratchVector<VertexColour> stored_colours(const PlacedMesh& mesh, std::span<con
 struct TriangleSum {
     std::uint64_t count{}, one{}, other{};
     void add(std::array<LatticeSteps, 3> corners, std::uint32_t label) {
-        std::ranges::rotate(corners, std::ranges::min_element(corners));
+        std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
         const std::uint64_t labelled = xxh64(std::as_bytes(std::span(&label, 1)));
         ++count;
         one += xxh64(std::as_bytes(std::span(corners)), labelled);

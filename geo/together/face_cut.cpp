@@ -12,11 +12,11 @@ namespace oro {
 
 struct FaceCutter::Geos {
     struct Close {
-        void operator()(GEOSContextHandle_t context) const { GEOS_finish_r(context); }
+        void operator()(GEOSContextHandle_t handle) const { GEOS_finish_r(handle); }
     };
     struct Destroy {
-        GEOSContextHandle_t context;
-        void operator()(GEOSGeometry* geometry) const { GEOSGeom_destroy_r(context, geometry); }
+        GEOSContextHandle_t of;
+        void operator()(GEOSGeometry* geometry) const { GEOSGeom_destroy_r(of, geometry); }
     };
     using Geometry = std::unique_ptr<GEOSGeometry, Destroy>;
 
