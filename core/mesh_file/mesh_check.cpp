@@ -112,6 +112,7 @@ std::string ErrorCheck::group(std::size_t number, std::size_t first, std::size_t
         return std::max(0.0, std::min(as_much_m / 1.02, as_much_m - 0.001));
     };
     DistanceCover to_mesh(mesh_, begin_m(most_m));
+    to_mesh.end_above(most_m + slack_m);
     for (std::uint32_t i = 0; i < group.made; ++i) {
         const Cluster& cluster = graph_.clusters[group.first_made + i];
         for (std::uint32_t k = cluster.first_triangle; k < cluster.first_triangle + cluster.triangles; ++k) {
@@ -142,6 +143,7 @@ std::string ErrorCheck::group(std::size_t number, std::size_t first, std::size_t
         tree,
         begin_ == Begin::below ? largest_member_error_m(graph_, group) : begin_m(most_m - ground_off_m_),
         users);
+    from_mesh.end_above(most_m + slack_m - ground_off_m_);
     if (ground_) from_mesh.put_on_ground_first(*ground_);
     handed = hand_on(mesh_, pieces, from_mesh, {});
     const double found_m = handed.bound_m + ground_off_m_;

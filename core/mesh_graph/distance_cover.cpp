@@ -168,6 +168,7 @@ int DistanceCover::cover(Polygon& polygon, int depth, std::uint32_t triangle) {
         make_exact(polygon);
         best = best_of_corners(polygon);
     }
+    if (found_m_ > enough_m_) return accept(found_m_, best.place);
     if (best.distance2 <= accepted2()) return accept(std::sqrt(best.distance2), best.place);
     Best below{std::numeric_limits<double>::infinity(), 0, 0};
     if (ground_ != nullptr) below = best_on_ground(polygon);

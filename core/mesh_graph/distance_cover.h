@@ -45,6 +45,10 @@ class DistanceCover {
     // any that is near enough, so that what belongs together stays together. ground outlives this.
     void put_on_ground_first(const NearestTriangles& ground) { ground_ = &ground; }
 
+    // For who asks only whether a bound is above this: once a place is farther nothing is cut any more, and the bound
+    // is as far as that place.
+    void end_above(double enough_m) { enough_m_ = enough_m; }
+
     // Covers a polygon. Gives its user; or in_parts, when take(part, user) was called for each part.
     int cover(const OriginalPart& polygon);
     // The user of a ball with all that is in it, where it is accepted; else none, and nothing is covered.
@@ -116,6 +120,7 @@ class DistanceCover {
     std::span<const int> users_;
     const NearestTriangles* ground_{};
     double found_m_;
+    double enough_m_{std::numeric_limits<double>::infinity()};
     double bound_m_{};
     std::uint32_t hint_{NearestTriangles::nothing};
     glm::dvec3 marked_{};
