@@ -13,7 +13,8 @@ std::string near_mesh_note(const std::optional<SeenPlace>& middle) {
     std::snprintf(distance, sizeof distance, "%.1f", middle->seen_distance_m);
     const std::string feature = middle->feature ? words_of(*middle->feature) : "";
     return (feature.empty() ? "a mesh" : feature) + " is " + distance +
-           " m before the eye, in the middle of the picture: --stand-on top stands on it, and a greater --above "
+           " m before the eye, in the middle of the picture: --stand-on top stands on it, and a greater "
+           "--above "
            "looks over it";
 }
 

@@ -85,8 +85,8 @@ Result<Place> place_at(const char* option, const std::string& text) {
     return place;
 }
 
-std::optional<double> standing_h_m(const Region& region, const HeightField& field, double exaggeration, double lat_deg,
-                                   double lon_deg) {
+std::optional<double> standing_h_m(const Region& region, const HeightField& field, double exaggeration,
+                                   double lat_deg, double lon_deg) {
     const std::optional<double> ground_m = ground_h_m(field, lat_deg, lon_deg, exaggeration);
     if (ground_m || !region.meshes) return ground_m;
     const auto top = MeshRoofs(region, exaggeration).at(lat_deg, lon_deg);

@@ -52,11 +52,11 @@ Result<Standpoint> stand(const Standing& standing, const Region& region, double 
 Result<void> lift_onto_top(const Standing& standing, const Region& region, double exaggeration,
                            Geodetic& point);
 
-// What one stands on at a place: the ground's height above the ellipsoid; where the ground has none, the highest
-// place of a mesh there, as in a pit that is cut out of the terrain; nothing where there is neither. field: of the
-// grid that is the ground there.
-std::optional<double> standing_h_m(const Region& region, const HeightField& field, double exaggeration, double lat_deg,
-                                   double lon_deg);
+// What one stands on at a place: the ground's height above the ellipsoid; where the ground has none, the
+// highest place of a mesh there, as in a pit that is cut out of the terrain; nothing where there is neither.
+// field: of the grid that is the ground there.
+std::optional<double> standing_h_m(const Region& region, const HeightField& field, double exaggeration,
+                                   double lat_deg, double lon_deg);
 
 // Where that is, on the very place. A geo: place with a height has its own, above the ellipsoid. Errors: text
 // that is no place, two heights (usage); no ground to stand on (no_data), which names the data's box.

@@ -348,8 +348,8 @@ Result<std::unique_ptr<RegionClusters>> clusters_of_file(std::shared_ptr<const C
                                                          std::uint64_t fingerprint, const HeightField& field,
                                                          const HorizonOccluder& occluder) {
     const ClusterOutline& outline = file->outline();
-    if (outline.fingerprint != fingerprint ||
-        outline.posts.rows != field.grid.rows() || outline.posts.columns != field.grid.columns())
+    if (outline.fingerprint != fingerprint || outline.posts.rows != field.grid.rows() ||
+        outline.posts.columns != field.grid.columns())
         return Error{ErrorKind::failed, file->path(), "has clusters of another region's posts"};
     ORO_TRY(std::vector<ClusterGroup> groups, file->groups());
     Result<std::unique_ptr<RegionClusters>> region = RegionClusters::create(

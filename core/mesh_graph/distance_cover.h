@@ -45,8 +45,8 @@ class DistanceCover {
     // any that is near enough, so that what belongs together stays together. ground outlives this.
     void put_on_ground_first(const NearestTriangles& ground) { ground_ = &ground; }
 
-    // For who asks only whether a bound is above this: once a place is farther nothing is cut any more, and the bound
-    // is as far as that place.
+    // For who asks only whether a bound is above this: once a place is farther nothing is cut any more, and
+    // the bound is as far as that place.
     void end_above(double enough_m) { enough_m_ = enough_m; }
 
     // Covers a polygon. Gives its user; or in_parts, when take(part, user) was called for each part.

@@ -193,7 +193,8 @@ Result<void> SeamPages::load_places(const PageIndex& page, const gpu::PageBlock&
     for (std::size_t number = 0; number < quads.size(); ++number) {
         const SeamQuad& quad = quads[number];
         const auto [row, column] = first_posts[number];
-        const auto put = [&, row = row, column = column](const std::array<int, 2>& post, std::size_t axis, std::int64_t steps) {
+        const auto put = [&, row = row, column = column](const std::array<int, 2>& post, std::size_t axis,
+                                                         std::int64_t steps) {
             places.steps[static_cast<std::size_t>((row + post[0]) * posts + column + post[1]) * 3 + axis] =
                 static_cast<std::int32_t>(steps);
         };

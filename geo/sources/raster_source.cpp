@@ -122,7 +122,8 @@ std::string use_of_other_file(const SourcePath& path) {
     const bool is_of_vectors = is_geopackage_of_vectors(name, path.file);
     for (const char* const ending : {".gpx", ".geojson", ".topojson", ".kml", ".kmz", ".csv", ".shp", ".fgb"})
         if (is_of_vectors || name.ends_with(ending))
-            return "holds no elevation raster but tracks, points or areas: --overlay draws them, --names reads "
+            return "holds no elevation raster but tracks, points or areas: --overlay draws them, --names "
+                   "reads "
                    "names of places, --mesh-file puts surfaces and buildings on the terrain";
     return why_unread(name, path.file);
 }

@@ -15,8 +15,8 @@ struct FaceCutter::Geos {
         void operator()(GEOSContextHandle_t handle) const { GEOS_finish_r(handle); }
     };
     struct Destroy {
-        GEOSContextHandle_t of;
-        void operator()(GEOSGeometry* geometry) const { GEOSGeom_destroy_r(of, geometry); }
+        GEOSContextHandle_t handle;
+        void operator()(GEOSGeometry* geometry) const { GEOSGeom_destroy_r(handle, geometry); }
     };
     using Geometry = std::unique_ptr<GEOSGeometry, Destroy>;
 

@@ -199,7 +199,8 @@ Result<DrawnPicture> draw_shot(const ShotOptions& options, const PictureFiles& f
     if (const std::string note = near_trees_note(near_trees_share(shot.picture, shot.view.camera));
         !note.empty())
         say(options.quiet, "note: " + note);
-    if (const std::string note = near_mesh_note(shot.middle); !note.empty()) say(options.quiet, "note: " + note);
+    if (const std::string note = near_mesh_note(shot.middle); !note.empty())
+        say(options.quiet, "note: " + note);
     if (shot.picture.ground_px == 0)
         say(options.quiet, "note: " + (nothing.ok() ? *nothing : nothing.error().what));
     for (const GridScene& grid : scene.grids()) {

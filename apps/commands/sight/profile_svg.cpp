@@ -166,7 +166,8 @@ std::string ground_text(const Profile& profile, const Axes& axes) {
     return svg;
 }
 
-// Meshes that stand over the ground: from it to their roofs. Where there is no ground they are what one stands on.
+// Meshes that stand over the ground: from it to their roofs. Where there is no ground they are what one
+// stands on.
 std::string roofs_text(const Profile& profile, const Axes& axes) {
     std::string svg;
     for (std::size_t begin = 0; begin < profile.roofs.size();) {
@@ -180,7 +181,8 @@ std::string roofs_text(const Profile& profile, const Axes& axes) {
                                 axes.y.px(profile.roofs[i].H_m));
             for (std::size_t i = end; i-- > begin;) {
                 const ProfilePoint& point = profile.points[i];
-                path += printed("L%.2f %.2f", axes.x.px(point.along_m), point.has_ground ? axes.y.px(point.H_m) : bottom_px);
+                path += printed("L%.2f %.2f", axes.x.px(point.along_m),
+                                point.has_ground ? axes.y.px(point.H_m) : bottom_px);
             }
             svg += "<path class=\"top\" d=\"" + path + "Z\"/>\n";
         }

@@ -89,8 +89,8 @@ TEST_F(MeshLook, APitIsSeenWhereTheTerrainIsCut) {
     EXPECT_FALSE(says(shot(on)["destination"].dump(), "pit.obj"));
     const json said = shot(joined(on, {"--cut-under", "--verify"}));
     EXPECT_TRUE(says(said["destination"].dump(), "pit.obj")) << said["destination"].dump();
-    // Walls along the rim reach out by a pixel (SeamSkirt): a few pixels there show what is beside it, and the
-    // walls themselves are as far from the true ones.
+    // Walls along the rim reach out by a pixel (SeamSkirt): a few pixels there show what is beside it, and
+    // the walls themselves are as far from the true ones.
     EXPECT_LT(said["error"]["seen_px"]["mean"].get<double>(), 0.05) << said["error"].dump();
     EXPECT_LT(said["error"]["surface_px"]["mean"].get<double>(), 0.05) << said["error"].dump();
     EXPECT_LT(said["error"]["surface_px"]["max"].get<double>(), 1.05) << said["error"].dump();
@@ -105,10 +105,10 @@ TEST_F(MeshLook, APitIsSeenWhereTheTerrainIsCut) {
 // The floor is what there is to stand on, and to look at.
 TEST_F(MeshLook, APitIsStoodInAndLookedAt) {
     const auto seen = [&](const Words& eye) {
-        const Outcome drawn = run_orograph(joined({"shot", bundled(), "--mesh-file", pit_, "--mesh-crs", "EPSG:4326", "--mesh-look",
-                                                   "ground", "--cut-under", "--size", "64x48", "--out", picture_, "--overwrite", "-q",
-                                                   "--json"},
-                                                  eye));
+        const Outcome drawn = run_orograph(joined(
+            {"shot", bundled(), "--mesh-file", pit_, "--mesh-crs", "EPSG:4326", "--mesh-look", "ground",
+             "--cut-under", "--size", "64x48", "--out", picture_, "--overwrite", "-q", "--json"},
+            eye));
         EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
         return drawn.exit_code == 0 ? json::parse(drawn.out) : json::object();
     };
@@ -123,8 +123,9 @@ TEST_F(MeshLook, APitIsStoodInAndLookedAt) {
 TEST_F(MeshLook, ProfilesGoThroughThePit) {
     const fs::path out = folder_ / "pit.svg";
     const auto profile = [&](const char* line) {
-        return run_orograph({"profile", bundled(), "--mesh-file", pit_, "--mesh-crs", "EPSG:4326", "--mesh-look", "ground",
-                             "--cut-under", "--along", line, "--out", out.string(), "--overwrite", "-q"});
+        return run_orograph({"profile", bundled(), "--mesh-file", pit_, "--mesh-crs", "EPSG:4326",
+                             "--mesh-look", "ground", "--cut-under", "--along", line, "--out", out.string(),
+                             "--overwrite", "-q"});
     };
     const Outcome across = profile("36.605,-84.178; 36.605,-84.174");
     ASSERT_EQ(across.exit_code, 0) << across.err;

@@ -115,8 +115,20 @@ TEST_F(Town, PickingNamesTheBuilding) {
 }
 
 TEST_F(Town, AnEyeInABuildingIsSaid) {
-    const Words inside{"shot", bundled(), city_, "--at", "36.605,-84.17552", "--heading", "90", "--pitch", "0", "--size", "64x48",
-                       "--overwrite", "--out", (folder_ / "in.png").string()};
+    const Words inside{"shot",
+                       bundled(),
+                       city_,
+                       "--at",
+                       "36.605,-84.17552",
+                       "--heading",
+                       "90",
+                       "--pitch",
+                       "0",
+                       "--size",
+                       "64x48",
+                       "--overwrite",
+                       "--out",
+                       (folder_ / "in.png").string()};
     const std::string words = " before the eye, in the middle of the picture: --stand-on top stands on it";
     const Outcome in = run_orograph(joined(inside, {"--above", "2"}));
     EXPECT_EQ(in.exit_code, 0) << in.err;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/apps/csv_rows.h"
 #include "tests/apps/program.h"
 #include "tests/apps/said_json.h"
 #include "tests/support/test_data.h"
@@ -24,28 +25,13 @@ namespace fs = std::filesystem;
 
 const std::string line_of_three = "36.5,-84.2; 36.55,-84.35; 36.6,-84.3";
 
-// Rows of numbers of a .csv; a height that is not there is no number.
-std::vector<std::vector<double>> rows_of(const std::string& csv) {
-    std::vector<std::vector<double>> rows;
-    std::istringstream lines(csv);
-    std::string text;
-    std::getline(lines, text);
-    EXPECT_EQ(text, "distance_m,lat_deg,lon_deg,H_m,h_m");
-    while (std::getline(lines, text)) {
-        std::vector<double> row;
-        std::istringstream words(text + ",");
-        for (std::string word; std::getline(words, word, ',');)
-            row.push_back(word.empty() ? std::nan("") : std::stod(word));
-        rows.push_back(row);
-    }
-    return rows;
-}
+const std::string names_of_columns = "distance_m,lat_deg,lon_deg,H_m,h_m";
 
 TEST(ProfileCommand, ATableHasTheSumsThatAreTold) {
     const fs::path out = oro::test::scratch_folder() / "p.csv";
     const auto reported = object_said_by(
         {"profile", bundled(), "-q", "--json", "--along", line_of_three, "--out", out.string()});
-    const auto rows = rows_of(bytes_of(out));
+    const auto rows = oro::test::rows_of(bytes_of(out), names_of_columns);
     ASSERT_EQ(rows.size(), reported["points"].get<std::size_t>());
     double ascent_m = 0.0, descent_m = 0.0, highest_m = -1e9;
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -85,7 +71,7 @@ TEST(ProfileCommand, StepsAreAsAskedFor) {
     const fs::path out = oro::test::scratch_folder() / "p.csv";
     object_said_by({"profile", bundled(), "-q", "--json", "--along", line_of_three, "--out", out.string(),
                     "--step", "1000"});
-    const auto rows = rows_of(bytes_of(out));
+    const auto rows = oro::test::rows_of(bytes_of(out), names_of_columns);
     ASSERT_GT(rows.size(), 10U);
     for (std::size_t i = 0; i + 1 < rows.size(); ++i)
         EXPECT_NEAR(rows[i][0], 1000.0 * static_cast<double>(i), 1e-3);

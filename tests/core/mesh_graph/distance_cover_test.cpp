@@ -15,7 +15,8 @@ constexpr double waves_reach_m = 1000.0, high_m = 5.0;
 
 std::vector<std::array<glm::dvec3, 3>> waves() {
     const auto at = [](int i, int k) {
-        return glm::dvec3(waves_reach_m * i / waves_along, waves_reach_m * k / waves_along, (i + k) % 2 == 0 ? 0.0 : high_m);
+        return glm::dvec3(waves_reach_m * i / waves_along, waves_reach_m * k / waves_along,
+                          (i + k) % 2 == 0 ? 0.0 : high_m);
     };
     std::vector<std::array<glm::dvec3, 3>> triangles;
     for (int i = 0; i < waves_along; ++i)
